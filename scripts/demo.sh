@@ -1,7 +1,15 @@
 #!/usr/bin/env bash
 # The main job from nothing: installs, builds, starts a server on a free loopback port, submits
-# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents.
+# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents. Ends with the
+# address of the job in Studio, the web page of the service.
+# usage: scripts/demo.sh [--keep]   --keep: the server stays up until Ctrl-C
 set -euo pipefail
+keep=
+case "${1:-}" in
+  "") ;;
+  --keep) keep=1 ;;
+  *) echo "unknown argument $1; usage: scripts/demo.sh [--keep]" >&2; exit 2 ;;
+esac
 . "$(dirname "$0")/lib.sh"
 "$root/scripts/setup.sh"
 
@@ -43,3 +51,10 @@ ls -l "$out/archive.tar" | awk '{print $5 " bytes"}'
 mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
+
+if [ -n "$keep" ]; then
+  say "Studio: $url/jobs/$job (Ctrl-C ends the server)"
+  wait "$server"
+else
+  say "to see it in Studio, http://127.0.0.1:8080/jobs/$job: build/release/cli/throng serve --data build/demo/data"
+fi

@@ -18,6 +18,7 @@
 #include "server/file_answer.h"
 #include "server/http.h"
 #include "server/jobs_api.h"
+#include "server/keys_api.h"
 #include "server/requests.h"
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
@@ -81,6 +82,9 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
       Route{Method::remove, "/v1/scenarios/{path}", Scope::submit, &remove_scenarios},
       Route{Method::get, "/v1/people", Scope::read, &list_people},
+      Route{Method::post, "/v1/keys", Scope::admin, &create_key},
+      Route{Method::get, "/v1/keys", Scope::admin, &list_keys},
+      Route{Method::remove, "/v1/keys/{id}", Scope::admin, &revoke_key},
       Route{Method::post, "/v1/webhooks", Scope::admin, &create_webhook},
       Route{Method::get, "/v1/webhooks", Scope::admin, &list_webhooks},
       Route{Method::get, "/v1/webhooks/{id}", Scope::admin, &send_webhook},
@@ -231,7 +235,7 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& se
 
 }  // namespace
 
-Api::Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
+Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : server_(with_body_limits(options, keys, sessions_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {

@@ -24,7 +24,7 @@ class Api {
  public:
   /// Binds at once, to the address in `options`. Unless the address is loopback, requests may name
   /// any Host. Throws EnvironmentError.
-  Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options);
+  Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options);
 
   int port() const { return server_.port(); }
   /// Serves until stop().

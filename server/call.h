@@ -25,7 +25,7 @@ struct Call {
   const ConfinedChecks& confined;
   const ServiceFolders& folders;
   WebhookSender& hooks;
-  const Keys& keys;
+  Keys& keys;
   Sessions& sessions;
   const Caller& caller;
 };

@@ -1,7 +1,9 @@
 #include "server/requests.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -67,6 +69,24 @@ json json_body_of(const Request& request) {
     throw HttpError{400, "the body is not the JSON that can be read here", error.problems()};
   }
   if (!body.is_object()) throw HttpError{400, "the body is no JSON object"};
+  return body;
+}
+
+HttpError wrong_field(std::string_view what, const std::string& pointer, const std::string& found,
+                      const std::string& expected) {
+  return {400, fmt::format("the {} is wrong", what), {{"", pointer, found, expected}}};
+}
+
+json fields_of(const Request& request, std::string_view what,
+               std::initializer_list<std::string_view> known) {
+  require_json(request);
+  json body = json_body_of(request);
+  for (const auto& [name, value] : body.items()) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw wrong_field(what, "/" + name, fmt::format("unknown field \"{}\"", name),
+                        fmt::format("one of: {}", fmt::join(known, ", ")));
+    }
+  }
   return body;
 }
 

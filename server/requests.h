@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "server/call.h"
 #include "server/http_error.h"
@@ -31,6 +33,14 @@ void require_json(const httplib::Request& request);
 
 /// The body, which has to be a JSON object. Throws HttpError and InputError.
 nlohmann::json json_body_of(const httplib::Request& request);
+
+/// 400: a field of what was sent is wrong.
+HttpError wrong_field(std::string_view what, const std::string& pointer, const std::string& found,
+                      const std::string& expected);
+
+/// A JSON object with no other fields than these. Throws HttpError and InputError.
+nlohmann::json fields_of(const httplib::Request& request, std::string_view what,
+                         std::initializer_list<std::string_view> known);
 
 /// The job that the path names. Throws HttpError 404.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);

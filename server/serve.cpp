@@ -90,7 +90,7 @@ std::string url_of(const std::string& host, int port) {
 }  // namespace
 
 int serve(const ServeOptions& options) {
-  const Keys keys(options.data);
+  Keys keys(options.data);
   if (!options.insecure && !is_loopback(options.host) && !keys.are_needed()) {
     throw InputError(Problem{"--host", "", options.host,
                              "a loopback address such as 127.0.0.1; other addresses need keys "

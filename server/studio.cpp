@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* kAssetPath = "/assets/{name}";
 
-// Scripts and styles are files of this service. Images come as blobs, because a browser sends no
-// key with an <img>.
+// Scripts and styles are files of this service. Images are the API's, files that are chosen but not
+// sent yet (blob:), and marks of the text editor (data:).
 constexpr const char* kContentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
@@ -66,6 +66,8 @@ std::span<const Route> studio_routes() {
       Route{Method::get, "/compare", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs/{path}", Scope::anybody, &send_studio},
+      Route{Method::get, "/keys", Scope::anybody, &send_studio},
+      Route{Method::get, "/api", Scope::anybody, &send_studio},
       Route{Method::get, kAssetPath, Scope::anybody, &send_studio_asset},
   };
   return kRoutes;

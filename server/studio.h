@@ -1,6 +1,6 @@
 // Studio, the web page of the service (web/studio): its files are part of the program, compressed
-// by the build. The page is public, as are its scripts; whatever they show is fetched from the API
-// with the key of the person in front of it.
+// by the build. The page is public, as are its scripts; what they show is fetched from the API in
+// the session of the person in front of it (server/session_api.h).
 #pragma once
 
 #include <span>

@@ -19,6 +19,7 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char* kWebhookNoun = "webhook";
 constexpr std::size_t kMaxWebhooks = 32;  // each has a thread of its own
 constexpr std::size_t kMaxUrlLength = 2000;
 constexpr std::size_t kMaxEvents = 32;
@@ -58,7 +59,7 @@ Webhook find_webhook(const Call& call, const Request& request) {
 
 HttpError invalid_field(const std::string& pointer, const std::string& found,
                         const std::string& expected) {
-  return {400, "the webhook is wrong", {{"", pointer, found, expected}}};
+  return wrong_field(kWebhookNoun, pointer, found, expected);
 }
 
 /// A host, optionally a port and a path, no user or blank: what can be called.
@@ -95,22 +96,10 @@ std::vector<std::string> events_of(const json& body) {
   return list.get<std::vector<std::string>>();
 }
 
-json body_of(const Request& request, std::initializer_list<std::string_view> known) {
-  require_json(request);
-  json body = json_body_of(request);
-  for (const auto& [name, value] : body.items()) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw invalid_field("/" + name, fmt::format("unknown field \"{}\"", name),
-                          fmt::format("one of: {}", fmt::join(known, ", ")));
-    }
-  }
-  return body;
-}
-
 }  // namespace
 
 void create_webhook(const Call& call, const Request& request, Response& response) {
-  const json body = body_of(request, {"url", "events", "secret"});
+  const json body = fields_of(request, kWebhookNoun, {"url", "events", "secret"});
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
     throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
@@ -148,7 +137,7 @@ void send_webhook(const Call& call, const Request& request, Response& response) 
 
 void change_webhook(const Call& call, const Request& request, Response& response) {
   const std::string id = find_webhook(call, request).id;
-  const json body = body_of(request, {"enabled"});
+  const json body = fields_of(request, kWebhookNoun, {"enabled"});
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
     throw invalid_field("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }

@@ -1,4 +1,4 @@
-"""The part of the client that is about scenarios, calibrations, webhooks and the service itself."""
+"""The part of the client that is about scenarios, calibrations, keys, webhooks and the service itself."""
 
 # Answers are JSON, which openapi.json describes and api_types.py names; nothing checks them once more.
 # mypy: disable-error-code="no-any-return"
@@ -14,7 +14,18 @@ from typing import Any, Iterator, Literal, Mapping, Sequence
 from ._bundle import PathLike, bundle, json_bytes, path_of
 from ._http import BROKEN, Http, multipart, part
 from ._job_base import plain
-from .api_types import Calibration, CalibrationList, DeliveryList, Scenario, Session, Upload, Webhook, WebhookList
+from .api_types import (
+    Calibration,
+    CalibrationList,
+    DeliveryList,
+    Key,
+    KeyList,
+    Scenario,
+    Session,
+    Upload,
+    Webhook,
+    WebhookList,
+)
 from .errors import JobFailedError
 
 DEFAULT_URL = "http://127.0.0.1:8080"
@@ -115,6 +126,28 @@ class CatalogClient:
 
     def remove_calibration(self, calibration_id: str) -> None:
         self._remove(f"/v1/calibrations/{part(calibration_id)}")
+
+    # Keys (administrators).
+
+    def create_key(
+        self,
+        name: str,
+        scope: Literal["read", "submit", "admin"] = "submit",
+        *,
+        max_jobs: int | None = None,
+        max_bytes: int | None = None,
+        max_priority: int = 0,
+    ) -> Key:
+        """Makes a key; `key` of the answer is what callers send, and is shown once."""
+        limits = {"max_jobs": max_jobs, "max_bytes": max_bytes, "max_priority": max_priority}
+        return self._send("POST", "/v1/keys", {"name": name, "scope": scope, **limits})
+
+    def keys(self) -> list[Key]:
+        answer: KeyList = self._get("/v1/keys")
+        return answer["keys"]
+
+    def revoke_key(self, key_id: str) -> None:
+        self._remove(f"/v1/keys/{part(key_id)}")
 
     # Webhooks (administrators).
 

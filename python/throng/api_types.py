@@ -337,6 +337,32 @@ class Problem(TypedDict):
     errors: NotRequired[list[Mistake]]
 
 
+class Key(TypedDict):
+    """Key of the service."""
+
+    id: str
+    name: str
+    scope: Literal["read", "submit", "admin"]
+    max_jobs: int | None
+    """Jobs that may wait or run at once; null: any number."""
+    max_bytes: int | None
+    """Disk that all their jobs may take; null: any."""
+    max_priority: int
+    """Of their jobs, from -100 to 100."""
+    created_at: str | None
+    revoked_at: str | None
+    """Null: it is good."""
+    links: dict[str, str]
+    key: NotRequired[str]
+    """The text that callers send; in the answer to its creation only."""
+
+
+class KeyList(TypedDict):
+    """KeyList of the service."""
+
+    keys: list[Key]
+
+
 class Webhook(TypedDict):
     """Webhook of the service."""
 
@@ -424,6 +450,9 @@ OPERATIONS = (
     ("POST", "/v1/scenarios"),
     ("GET", "/v1/scenarios/{path}"),
     ("DELETE", "/v1/scenarios/{path}"),
+    ("POST", "/v1/keys"),
+    ("GET", "/v1/keys"),
+    ("DELETE", "/v1/keys/{id}"),
     ("POST", "/v1/webhooks"),
     ("GET", "/v1/webhooks"),
     ("GET", "/v1/webhooks/{id}"),

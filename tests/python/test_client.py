@@ -354,6 +354,19 @@ class WithService(unittest.TestCase):
             reader.submit(JOB)
         self.assertEqual(readers.exception.status, 403)
         self.assertNotIn(key, repr(reader))
+        made = subprocess.run(
+            [common.THRONG, "keys", "create", "admin", "--scope", "admin", "--data", self.base / "data"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        admin = Client(self.client._http.url, made.stdout.strip())
+        friend = admin.create_key("friend", "read", max_jobs=2)
+        self.assertEqual(Client(self.client._http.url, friend["key"]).job(self.done["id"])["id"], self.done["id"])
+        self.assertEqual([entry["name"] for entry in admin.keys()], ["reader", "admin", "friend"])
+        admin.revoke_key(friend["id"])
+        with self.assertRaises(throng.AccessError):
+            Client(self.client._http.url, friend["key"]).job(self.done["id"])
 
 
 class Parts(unittest.TestCase):

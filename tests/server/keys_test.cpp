@@ -42,6 +42,67 @@ TEST_F(KeysTest, WithoutKeysEverybodyMayAndFromTheFirstOnNobodyWithout) {
   EXPECT_TRUE(keys.are_needed()) << "the last key's end opens nothing";
 }
 
+TEST_F(KeysTest, AdministratorsMakeAndRevokeThemOverHttp) {
+  const auto made = [&](const std::string& token, const json& body) {
+    return client().Post("/v1/keys", with(token), body.dump(), "application/json");
+  };
+  // Nobody can lock the others out of a service without keys.
+  expect_problem(client().Post("/v1/keys", R"({"name": "me"})", "application/json"), 403);
+  EXPECT_FALSE(keys.are_needed());
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::string submitter = keys.create("submitter", Scope::submit);
+  expect_problem(made(submitter, {{"name", "friend"}}), 403);
+  expect_problem(get("/v1/keys", with(submitter)), 403);
+
+  const httplib::Result answer = made(admin, {{"name", "friend"},
+                                              {"scope", "read"},
+                                              {"max_jobs", 3},
+                                              {"max_bytes", 5},
+                                              {"max_priority", -2}});
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  const json key = json::parse(answer->body);
+  EXPECT_EQ(answer->get_header_value("Location"), "/v1/keys/" + key["id"].get<std::string>());
+  EXPECT_EQ(get("/v1/jobs", with(key["key"]))->status, 200);
+  const auto rows = keys.list();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].name, "friend");
+  EXPECT_EQ(rows[2].scope, Scope::read);
+  EXPECT_EQ(rows[2].max_active, 3);
+  EXPECT_EQ(rows[2].max_bytes, 5);
+  EXPECT_EQ(rows[2].max_priority, -2);
+
+  const httplib::Result list = get("/v1/keys", with(admin));
+  EXPECT_EQ(json::parse(list->body)["keys"].size(), 3U);
+  EXPECT_EQ(list->body.find(key["key"].get<std::string>()), std::string::npos);
+
+  const std::string path = "/v1/keys/" + key["id"].get<std::string>();
+  EXPECT_EQ(client().Delete(path, with(admin))->status, 200);
+  expect_problem(get("/v1/jobs", with(key["key"])), 401);
+  expect_problem(client().Delete(path, with(admin)), 409);
+  expect_problem(client().Delete("/v1/keys/aaaaaaaa", with(admin)), 404);
+  expect_problem(client().Delete("/v1/keys/" + admin.substr(7, 8), with(admin)), 409);
+}
+
+TEST_F(KeysTest, WrongFieldsOfAKeyAreNamed) {
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::pair<json, const char*> wrong[] = {
+      {json::object(), "/name"},
+      {{{"name", ""}}, "/name"},
+      {{{"name", "two\nlines"}}, "/name"},
+      {{{"name", "a"}, {"scope", "root"}}, "/scope"},
+      {{{"name", "a"}, {"scope", "anybody"}}, "/scope"},
+      {{{"name", "a"}, {"max_jobs", -1}}, "/max_jobs"},
+      {{{"name", "a"}, {"max_bytes", 1.5}}, "/max_bytes"},
+      {{{"name", "a"}, {"max_priority", 101}}, "/max_priority"},
+      {{{"name", "a"}, {"jobs", 1}}, "/jobs"}};
+  for (const auto& [body, pointer] : wrong) {
+    const auto answer = client().Post("/v1/keys", with(admin), body.dump(), "application/json");
+    expect_problem(answer, 400);
+    EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], pointer) << body;
+  }
+  EXPECT_EQ(keys.list().size(), 1U);
+}
+
 TEST_F(KeysTest, ScopesSayWhatAKeyMayDo) {
   const std::string reader = keys.create("reader", Scope::read);
   const std::string one = keys.create("one", Scope::submit);

@@ -189,6 +189,24 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   EXPECT_GT(described_.size(), 45U);
 }
 
+TEST_F(OpenApi, DescribesKeys) {
+  const httplib::Headers admin = {{"Authorization", "Bearer " + keys.create("me", Scope::admin)}};
+  const auto made = [&](const char* body) {
+    return client().Post("/v1/keys", admin, body, "application/json");
+  };
+  const httplib::Result key = made(R"({"name": "friend", "max_jobs": 3})");
+  expect_described("post", "/v1/keys", key);
+  expect_described("post", "/v1/keys", made("{}"));
+  const std::string path = json::parse(key->body)["links"]["self"];
+  for (int time = 0; time < 2; ++time) {
+    expect_described("delete", "/v1/keys/{id}", client().Delete(path, admin));
+  }
+  expect_described("get", "/v1/keys", get("/v1/keys", admin));
+  EXPECT_THAT(described_,
+              ::testing::IsSupersetOf({"post /v1/keys 201", "delete /v1/keys/{id} 200",
+                                       "delete /v1/keys/{id} 409", "get /v1/keys 200"}));
+}
+
 TEST_F(OpenApi, FilesAreThoseOfTheManifestInParts) {
   const std::string self = "/v1/jobs/" + submit_and_wait();
   const httplib::Result file = get(self + "/files/metrics.json");

@@ -12,6 +12,7 @@ let json;
 let schema;
 let footprint;
 let exits;
+let events;
 let statistics;
 let differences;
 
@@ -22,6 +23,7 @@ before(async () => {
   schema = await importStudio(packages, "form/schema.ts");
   statistics = await importStudio(packages, "compare/statistics.ts");
   ({ differencesOf: differences } = await importStudio(packages, "compare/differences.ts"));
+  events = await importStudio(packages, "run/events.ts");
   exits = await importStudio(packages, "run/exit_states.ts");
   ({ footprint } = await importStudio(packages, "form/footprint.ts"));
 });
@@ -268,4 +270,27 @@ test("jobs differ in the smallest parts that differ", () => {
   // Lists of different length are one value.
   assert.deepEqual(differences([{ drones: [{ id: "x" }] }, { drones: [{ id: "x" }, { id: "y" }] }]).map((entry) => entry.pointer), ["/drones"]);
   assert.deepEqual(differences([{ seed: 1 }, { seed: 1 }, { seed: 3 }]), [{ pointer: "/seed", values: [1, 1, 3] }]);
+});
+
+test("events of a run come in order, each with its kind", () => {
+  const drone = { id: "d1", falling_s: 12.5, landed_s: null, battery_flat_s: null, collisions: { person: 2, building: 1 } };
+  const metrics = {
+    alarm_s: 8,
+    by_person: { agent: [4, 17], hurt_s: [null, 13] },
+    drones: [drone, { ...drone, id: "d2", falling_s: null, collisions: {} }],
+    exits: [{ id: "gate", clogs: [{ from_s: 9, until_s: 11, ended: true }, { from_s: 30, until_s: 40, ended: false }] }, { id: "door", clogs: [] }],
+  };
+  assert.deepEqual(
+    events.eventsOf(metrics).map(({ time_s, kind, text }) => [time_s, kind, text]),
+    [
+      [8, "alarm", "alarm"],
+      [9, "clog", "clog at gate, until 11.0 s"],
+      [12.5, "drone", "drone d1 falls"],
+      [13, "hurt", "person 17 is hurt"],
+      [30, "clog", "clog at gate, not ended"],
+    ],
+  );
+  assert.equal(events.collisionText(metrics), "d1 with person 2×, d1 with building 1×");
+  assert.deepEqual(events.eventsOf({ alarm_s: null }), []);
+  assert.equal(events.collisionText({ alarm_s: null }), null);
 });

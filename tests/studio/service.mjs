@@ -18,14 +18,15 @@ export function packageFile(packages, name) {
 }
 
 export class TestService {
-  constructor(program) {
+  constructor(program, options = []) {
     this.program = program;
+    this.options = options;
     this.data = mkdtempSync(path.join(tmpdir(), "throng-studio-"));
   }
 
   /** Resolves when the service listens. */
   start() {
-    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", "0"], { stdio: ["ignore", "pipe", "pipe"] });
+    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", "0", ...this.options], { stdio: ["ignore", "pipe", "pipe"] });
     return new Promise((resolve, reject) => {
       let text = "";
       const read = (chunk) => {
@@ -48,6 +49,17 @@ export class TestService {
     const response = await fetch(this.address + address, init);
     if (!response.ok) throw new Error(`${address}: ${response.status} ${await response.text()}`);
     return response.json();
+  }
+
+  /** The id of a job that has succeeded. */
+  async finished(job) {
+    const { id } = await this.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(job) });
+    for (;;) {
+      const { state, error } = await this.json(`/v1/jobs/${id}`);
+      if (state === "succeeded") return id;
+      if (state !== "queued" && state !== "running") throw new Error(`the job is ${state}: ${error?.message}`);
+      await new Promise((resolve) => setTimeout(resolve, 500));
+    }
   }
 
   async remove(address) {

@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as nodeTest } from "node:test";
 import { pixelsOf } from "./masks.mjs";
-import { kOtherHost, launch, OtherSite, packageFile, TestService } from "./service.mjs";
+import { openPage, screenChecker, stepsOf } from "./page.mjs";
+import { kOtherHost, launch, OtherSite, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
-const kWidths = [360, 768, 1440];
 const kJobMs = 120_000; // a busy machine
 const kJob = {
   name: "studio test",
@@ -27,28 +27,12 @@ let page;
 const complaints = [];
 let job; // the id of the job that the form submits
 
-/** Each step begins where the last one ended: after a failure the rest is left out. */
-let isBroken = false;
-function test(name, step) {
-  nodeTest(name, async (context) => {
-    if (isBroken) return context.skip("an earlier step failed");
-    isBroken = true;
-    await step();
-    isBroken = false;
-  });
-}
+const test = stepsOf(nodeTest);
 
 before(async () => {
   await service.start();
   browser = await launch(packages);
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
-  page = await context.newPage();
-  page.setDefaultTimeout(20_000);
-  // Refused requests are expected answers; anything else on the console is a fault, a violated policy among them.
-  page.on("console", (message) => {
-    if (message.type() === "error" && !/Failed to load resource: .* (400|401|404|409)/.test(message.text())) complaints.push(message.text());
-  });
-  page.on("pageerror", (error) => complaints.push(error.message));
+  page = await openPage(browser, complaints);
 });
 
 after(async () => {
@@ -56,46 +40,17 @@ after(async () => {
   await service.stop();
 });
 
+const check = screenChecker(packages);
 const go = (address) => page.goto(service.address + address);
 
 async function type(label, text) {
   await page.getByLabel(label, { exact: true }).fill(text);
 }
 
-/** Findings of axe-core that keep people from using the screen. */
-async function checkAccess(name) {
-  await page.evaluate(readFileSync(packageFile(packages, "axe-core/axe.min.js"), "utf8"));
-  const found = await page.evaluate(async () => {
-    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
-    return violations
-      .filter((entry) => entry.impact === "serious" || entry.impact === "critical")
-      .map((entry) => `${entry.id}: ${entry.nodes.map((node) => node.target.join(" ")).slice(0, 3)}`);
-  });
-  assert.deepEqual(found, [], name);
-}
-
-/** No screen is wider than the window, whatever its width. */
-async function checkWidths(name) {
-  for (const width of kWidths) {
-    await page.setViewportSize({ width, height: 900 });
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(wide <= 0, `${name} is ${wide} px too wide at ${width}`);
-  }
-}
-
-async function checkScreen(name) {
-  for (const colorScheme of ["light", "dark"]) {
-    await page.emulateMedia({ colorScheme });
-    await checkAccess(`${name}, ${colorScheme}`);
-  }
-  await page.emulateMedia({ colorScheme: "light" });
-  await checkWidths(name);
-}
-
 test("the empty home leads to the form", async () => {
   await go("/");
   await page.getByText("No jobs yet").waitFor();
-  await checkScreen("home");
+  await check(page, "home");
   await page.getByRole("link", { name: "Make the first dataset" }).click();
   await page.getByRole("heading", { name: "New job" }).waitFor();
   assert.equal(new URL(page.url()).pathname, "/new");
@@ -109,18 +64,18 @@ test("a mistake is shown at its field and at its line", async () => {
   await page.locator("#field-runs-note", { hasText: 'found "none", expected an integer from 1 to 1000' }).waitFor();
   assert.equal(await field.getAttribute("aria-invalid"), "true");
   assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
-  await checkScreen("form");
+  await check(page, "form");
   await page.getByRole("tab", { name: /JSON/ }).click();
   const line = page.locator(".cm-line", { has: page.locator(".cm-lintRange-error") });
   await line.waitFor();
   assert.match(await line.innerText(), /"runs": "none"/);
-  await checkScreen("text");
+  await check(page, "text");
   await page.getByRole("tab", { name: "All fields" }).click();
   await page.getByPlaceholder("Search fields").fill("exposure");
   await page.getByLabel("Exposure: value").first().waitFor();
   assert.equal(await page.getByLabel("Name", { exact: true }).count(), 0);
   await page.getByPlaceholder("Search fields").fill("");
-  await checkScreen("all fields");
+  await check(page, "all fields");
   await type("Runs", "1");
   await page.getByText("4 images").waitFor();
 });
@@ -152,14 +107,14 @@ test("a submitted job is watched until it ends", async () => {
   assert.equal(stored.job.drones[1].start[0], 11);
   await page.locator("summary", { hasText: "Logs" }).click();
   await page.locator("pre.log", { hasText: /\w{4}/ }).waitFor();
-  await checkScreen("job");
+  await check(page, "job");
 });
 
 test("masks on the canvas are those of the annotations", async () => {
   await page.setViewportSize({ width: 1440, height: 900 });
   await page.getByRole("link", { name: "Browse images" }).click();
   await page.locator('canvas.image[data-drawn="yes"]').nth(3).waitFor();
-  await checkScreen("images");
+  await check(page, "images");
   const name = "images/run000/d2/000001.jpg";
   await go(`/jobs/${job}/images?image=${name}`);
   const coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
@@ -196,7 +151,7 @@ test("labels and images change by keyboard", async () => {
   await page.keyboard.press("ArrowUp");
   await page.getByText("run000 · d1 · 000000").waitFor();
   await page.locator('canvas.overlay[data-drawn$="masks,keypoints"]').waitFor();
-  await checkScreen("viewer");
+  await check(page, "viewer");
   await page.keyboard.press("Escape");
   await page.getByRole("heading", { name: /^Images of/ }).waitFor();
 });
@@ -214,7 +169,7 @@ test("a click names a person", async () => {
   const [x, y, width, height] = chosen.bbox;
   await canvas.click({ position: { x: (x + width / 2) * scale, y: (y + height / 2) * scale } });
   const record = page.getByLabel("Person", { exact: true });
-  await record.getByText(String(chosen.track_id), { exact: true }).waitFor();
+  await record.locator("dd").getByText(String(chosen.track_id), { exact: true }).waitFor();
   const track = coco.tracks.find((entry) => entry.id === chosen.track_id);
   await record.getByText(track.attributes.wears).waitFor();
 });
@@ -234,7 +189,7 @@ test("a run is shown over time", async () => {
   await page.getByRole("img", { name: `${people.size} people on the plan` }).waitFor();
   await page.getByRole("img", { name: /^States of the exits at 2.0 s: exit1 idle/ }).waitFor();
   assert.equal(await time.getAttribute("aria-valuetext"), "2.0 s");
-  await checkScreen("run");
+  await check(page, "run");
 });
 
 test("jobs are compared", async () => {
@@ -262,7 +217,7 @@ test("jobs are compared", async () => {
   await edge.fill("25");
   const upper = page.locator(".swipe .upper");
   assert.match(await upper.evaluate((image) => image.style.clipPath), /^inset\(0(px)? 0(px)? 0(px)? 25%\)$/);
-  await checkScreen("comparison");
+  await check(page, "comparison");
   await service.remove(`/v1/jobs/${other.id}`);
   await page.reload();
   await page.getByText(`there is no job ${other.id}`).waitFor();
@@ -277,7 +232,7 @@ test("jobs are filtered by the address and removed in bulk", async () => {
   const copy = await service.json(`/v1/jobs/${job}/clone?dry`, { method: "POST" });
   await go("/jobs?name=studio");
   await page.locator("tbody tr").nth(1).waitFor();
-  await checkScreen("jobs");
+  await check(page, "jobs");
   await page.getByLabel("Select all jobs of this page").check();
   await page.getByLabel(`Select ${kJob.name}`).last().uncheck();
   await page.getByRole("group", { name: "Selected jobs" }).getByRole("button", { name: "Delete" }).click();
@@ -354,7 +309,7 @@ test("a key is asked for, a wrong one is reported, and a right one becomes a coo
   const key = service.createKey("submit");
   await go(`/jobs/${job}`);
   await page.getByRole("heading", { name: "Key needed" }).waitFor();
-  await checkScreen("key");
+  await check(page, "key");
   await page.getByLabel("Key", { exact: true }).fill("throng_wrong");
   await page.getByRole("button", { name: "Use this key" }).click();
   await page.getByRole("alert").getByText("this key is not known, or was revoked").waitFor();

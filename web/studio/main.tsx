@@ -15,6 +15,9 @@ interface Screen {
   element: preact.JSX.Element;
 }
 
+const loadAccess = () => import("./access/access_screen").then((module) => module.AccessScreen);
+const loadReference = () => import("./reference/reference_screen").then((module) => module.ReferenceScreen);
+const loadDownloads = () => import("./downloads/downloads_screen").then((module) => module.DownloadsScreen);
 const loadNewJob = () => import("./screens/new_job").then((module) => module.NewJob);
 const loadBrowser = () => import("./dataset/browser").then((module) => module.Browser);
 const loadCompare = () => import("./compare/compare_screen").then((module) => module.Compare);
@@ -25,10 +28,13 @@ function screenOf(path: string): Screen {
   if (path === "/jobs") return { title: "Jobs", element: <Jobs /> };
   if (path === "/new") return { title: "New job", element: <Lazy load={loadNewJob} props={{}} /> };
   if (path === "/compare") return { title: "Compare", element: <Lazy load={loadCompare} props={{}} /> };
+  if (path === "/keys") return { title: "Keys and webhooks", element: <Lazy load={loadAccess} props={{}} /> };
+  if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
   const run = /^\/jobs\/([a-z0-9]+)\/runs\/(\d{1,4})\/?$/.exec(path);
   if (run) return { title: "Run", element: <Lazy key={path} load={loadRun} props={{ id: run[1]!, number: Number(run[2]) }} /> };
-  const job = /^\/jobs\/([a-z0-9]+)(\/images)?\/?$/.exec(path);
-  if (job && job[2]) return { title: "Images", element: <Lazy key={job[1]} load={loadBrowser} props={{ id: job[1]! }} /> };
+  const job = /^\/jobs\/([a-z0-9]+)(\/images|\/downloads)?\/?$/.exec(path);
+  if (job?.[2] === "/downloads") return { title: "Downloads", element: <Lazy key={path} load={loadDownloads} props={{ id: job[1]! }} /> };
+  if (job?.[2]) return { title: "Images", element: <Lazy key={job[1]} load={loadBrowser} props={{ id: job[1]! }} /> };
   if (job) return { title: "Job", element: <JobScreen key={job[1]} id={job[1]!} /> };
   const element = (
     <Empty title="There is nothing at this address.">

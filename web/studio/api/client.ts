@@ -51,6 +51,11 @@ export async function getRange(path: string, first: number, last: number): Promi
   return { text: new TextDecoder().decode(bytes), size: total ? Number(total[1]) : bytes.byteLength };
 }
 
+/** Whatever was thrown, as an error that screens show. */
+export function asApiError(error: unknown): ApiError {
+  return error instanceof ApiError ? error : new ApiError(0, messageOf(error));
+}
+
 /** The message of whatever was thrown. */
 export function messageOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);

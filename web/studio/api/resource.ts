@@ -1,6 +1,6 @@
 // Values of the service as hooks.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { ApiError, getJson } from "./client";
+import { type ApiError, asApiError, getJson } from "./client";
 import { useSession } from "./session";
 
 export interface Resource<T> {
@@ -24,7 +24,7 @@ export function useJson<T>(path: string | null): Resource<T> {
         setError(null);
       },
       (reason: unknown) => {
-        if (!controller.signal.aborted) setError(reason instanceof ApiError ? reason : new ApiError(0, String(reason)));
+        if (!controller.signal.aborted) setError(asApiError(reason));
       },
     );
     return () => controller.abort();

@@ -247,6 +247,28 @@ export interface Problem {
   errors?: Mistake[];
 }
 
+export interface Key {
+  id: string;
+  name: string;
+  scope: "read" | "submit" | "admin";
+  /** Jobs that may wait or run at once; null: any number. */
+  max_jobs: number | null;
+  /** Disk that all their jobs may take; null: any. */
+  max_bytes: number | null;
+  /** Of their jobs, from -100 to 100. */
+  max_priority: number;
+  created_at: string | null;
+  /** Null: it is good. */
+  revoked_at: string | null;
+  /** The text that callers send; in the answer to its creation only. */
+  key?: string;
+  links: Record<string, string>;
+}
+
+export interface KeyList {
+  keys: Key[];
+}
+
 export interface Webhook {
   id: string;
   url: string;

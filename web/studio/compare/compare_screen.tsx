@@ -1,6 +1,6 @@
 // Two to six jobs side by side: their fields, escape curves, figures and images.
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { ApiError, getJson, messageOf } from "../api/client";
+import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
 import { useSession } from "../api/session";
 import type { Job, JobList } from "../api/types";
@@ -35,7 +35,7 @@ function useJobs(ids: string[]) {
       setState({ ids: wanted, jobs, runs: metrics.map((entry) => entry.runs) });
       setError(null);
     };
-    load().catch((reason: unknown) => signal.aborted || setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason))));
+    load().catch((reason: unknown) => signal.aborted || setError(asApiError(reason)));
     return () => controller.abort();
   }, [wanted, round]);
   return { compared: state?.ids === wanted ? state : null, error };

@@ -1,11 +1,10 @@
 // Escape curves of several jobs: the median of their runs, and a band between the quartiles.
 import { useMemo } from "preact/hooks";
-import { kLeft, kRight, TimeFrame } from "../run/charts";
+import { ShareAxis, shareToY, TimeFrame } from "../run/charts";
 import type { Metrics } from "../run/metrics";
 import { bandOf } from "./statistics";
 
 const kHeight = 240;
-const kTop = 10;
 
 export interface Curve {
   name: string;
@@ -30,7 +29,7 @@ interface CurvesProps {
 export function Curves({ curves, time_s, onTime }: CurvesProps) {
   const bands = useMemo(() => curves.map((curve) => bandOf(curve.runs.map((run) => run.escape_curve.escaped_share))), [curves]);
   const end_s = Math.max(1, ...bands.map((band) => band.median.length - 1));
-  const toY = (share: number) => kTop + (kHeight - kTop) * (1 - share);
+  const toY = shareToY(kHeight);
   const now = bands.map((band, index) => `${curves[index]!.name} ${Math.round(100 * (band.median[Math.min(band.median.length - 1, Math.round(time_s))] ?? 0))} %`);
   return (
     <TimeFrame time_s={Math.min(time_s, end_s)} end_s={end_s} onTime={onTime} height={kHeight} label={`Median share of the people who have escaped at ${time_s.toFixed(1)} s: ${now.join(", ")}`}>
@@ -38,14 +37,7 @@ export function Curves({ curves, time_s, onTime }: CurvesProps) {
         const points = (shares: number[]) => shares.map((share, second) => `${toX(second)},${toY(share)}`);
         return (
           <>
-            {[0, 0.25, 0.5, 0.75, 1].map((share) => (
-              <g key={share}>
-                <line class="chart-grid" x1={kLeft} x2={width - kRight} y1={toY(share)} y2={toY(share)} />
-                <text x={kLeft - 8} y={toY(share) + 4} text-anchor="end">
-                  {100 * share} %
-                </text>
-              </g>
-            ))}
+            <ShareAxis width={width} toY={toY} />
             {bands.map((band, index) => (
               <polygon key={index} class={`series-band series-${index}`} points={[...points(band.high), ...points(band.low).reverse()].join(" ")} />
             ))}

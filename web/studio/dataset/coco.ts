@@ -2,6 +2,7 @@
 // ranges: its lines are ordered by section, and within one by run, frame and camera.
 import { ApiError, getJson, getRange } from "../api/client";
 import type { ImageList } from "../api/types";
+import type { CameraRecord } from "./camera";
 import { type Line, LineFile } from "./line_file";
 import type { Mask } from "./rle";
 
@@ -26,6 +27,7 @@ export interface Annotation {
   position: [number, number, number];
   velocity: [number, number];
   heading?: number;
+  box_3d?: [number, number, number, number, number, number];
   head?: [number, number] | null;
   keypoints?: number[];
   state?: string;
@@ -48,7 +50,7 @@ export interface ImageRecord {
   camera_id: string;
   frame: number;
   time_s: number;
-  camera?: { "centre": [number, number, number] };
+  camera?: CameraRecord;
   counts?: { all: number; visible: number; truncated: number };
   hidden?: { track_id: number; bbox_amodal: [number, number, number, number] }[];
   exits?: ExitRecord[];

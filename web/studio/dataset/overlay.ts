@@ -1,5 +1,6 @@
 // Labels of an image on a canvas over it.
 import type { Annotation, Labels } from "./coco";
+import { cornersOf, type Point2, type Point3, projectionOf } from "./camera";
 import { forEachRun } from "./rle";
 
 export interface Layer {
@@ -16,6 +17,10 @@ export const kLayers: Layer[] = [
   { id: "ids", key: "i", label: "Ids" },
   { id: "exits", key: "e", label: "Exits" },
   { id: "hidden", key: "h", label: "Hidden" },
+  { id: "boxes3d", key: "3", label: "3-D boxes" },
+  { id: "density", key: "d", label: "Density" },
+  { id: "depth", key: "x", label: "Depth" },
+  { id: "flow", key: "f", label: "Flow" },
 ];
 
 export const kColorings = ["track", "state", "visibility"] as const;
@@ -24,7 +29,7 @@ export type Coloring = (typeof kColorings)[number];
 export interface Drawing {
   layers: ReadonlySet<string>;
   coloring: Coloring;
-  opacity: number; ///< of masks
+  opacity: number; ///< of masks and values per pixel
   selected: number | null; ///< a track
 }
 
@@ -38,6 +43,7 @@ const kStateColors: Record<string, string> = {
   panicking: "#ff5a4f",
   lying: "#b8860b",
 };
+const kExitColors: Record<string, string> = { idle: "#c9d1d7", flowing: "#5bd184", congested: "#ffc24d", clogged: "#ff6b60", closed: "#9aa3aa" };
 /** Of COCO's 17 keypoints. */
 const kLimbs = [
   [15, 13], [13, 11], [16, 14], [14, 12], [11, 12], [5, 11], [6, 12], [5, 6], [5, 7], [6, 8], [7, 9], [8, 10], [1, 2], [0, 1], [0, 2],
@@ -86,6 +92,33 @@ function drawKeypoints(context: CanvasRenderingContext2D, points: number[], colo
   }
 }
 
+/** Pairs of the corners of camera.ts: the lower face, the upper one, and the edges between. */
+const kBoxEdges = [0, 1, 2, 3].flatMap((corner) => {
+  const next = (corner + 1) % 4;
+  return [[corner, next], [corner + 4, next + 4], [corner, corner + 4]] as const;
+});
+const kEdgeParts = 6; // straight edges of the world are bent by lenses
+
+/** Draws the edges of a body's box; the face ahead is crossed. */
+function drawBox3d(context: CanvasRenderingContext2D, { box_3d, heading = 0 }: Annotation, project: (point: Point3) => Point2 | null, scale: number): void {
+  if (!box_3d) return;
+  const corners = cornersOf(box_3d, heading);
+  const line = (from: Point3, to: Point3) => {
+    let isDrawn = false;
+    for (let part = 0; part <= kEdgeParts; ++part) {
+      const pixel = project([0, 1, 2].map((axis) => from[axis]! + ((to[axis]! - from[axis]!) * part) / kEdgeParts) as unknown as Point3);
+      if (pixel && isDrawn) context.lineTo(pixel[0] * scale, pixel[1] * scale);
+      else if (pixel) context.moveTo(pixel[0] * scale, pixel[1] * scale);
+      isDrawn = pixel !== null;
+    }
+  };
+  context.beginPath();
+  for (const [from, to] of kBoxEdges) line(corners[from]!, corners[to]!);
+  line(corners[0]!, corners[5]!);
+  line(corners[1]!, corners[4]!);
+  context.stroke();
+}
+
 function drawPolygon(context: CanvasRenderingContext2D, corners: [number, number][], scale: number): void {
   if (corners.length < 2) return;
   context.beginPath();
@@ -104,20 +137,30 @@ function drawText(context: CanvasRenderingContext2D, text: string, x: number, y:
 
 function drawExits(context: CanvasRenderingContext2D, labels: Labels, scale: number): void {
   for (const exit of labels.image.exits ?? []) {
-    context.strokeStyle = "#ffd166";
+    const color = kExitColors[exit.state] ?? "#ffffff";
+    context.strokeStyle = color;
     context.lineWidth = 2;
     drawPolygon(context, exit.zone, scale);
-    context.strokeStyle = "#ff3d81";
+    context.strokeStyle = "#ffffff";
     drawPolygon(context, exit.door, scale);
-    const first = exit.door[0];
-    if (first) drawText(context, `${exit.id}: ${exit.state}`, first[0] * scale, first[1] * scale - 4, "#ffd166");
+    const first = exit.door[0] ?? exit.zone[0];
+    const queue = exit.queue ? `, ${exit.queue} wait` : "";
+    if (first) drawText(context, `${exit.id}: ${exit.state}${queue}`, first[0] * scale, first[1] * scale - 4, color);
   }
+}
+
+/** Draws values per pixel over the whole canvas; pixels stay squares. */
+export function drawRasters(context: CanvasRenderingContext2D, images: CanvasImageSource[], opacity: number): void {
+  const { canvas } = context;
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  context.imageSmoothingEnabled = false;
+  context.globalAlpha = opacity;
+  for (const image of images) context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  context.globalAlpha = 1;
 }
 
 /** Draws the labels; `scale` are pixels of the canvas per pixel of the image. */
 export function drawLabels(context: CanvasRenderingContext2D, labels: Labels, drawing: Drawing, scale: number): void {
-  const { canvas } = context;
-  context.clearRect(0, 0, canvas.width, canvas.height);
   const has = (layer: string) => drawing.layers.has(layer);
   const line = Math.max(1.2, Math.min(2, scale));
   context.font = `600 ${Math.max(11, Math.round(5 * scale + 6))}px system-ui, sans-serif`;
@@ -130,6 +173,7 @@ export function drawLabels(context: CanvasRenderingContext2D, labels: Labels, dr
     for (const person of labels.image.hidden ?? []) drawBox(context, person.bbox_amodal, scale);
     context.setLineDash([]);
   }
+  const project = has("boxes3d") && labels.image.camera ? projectionOf(labels.image.camera) : null;
   for (const annotation of labels.annotations) {
     const isSelected = annotation.track_id === drawing.selected;
     const color = isSelected ? "#ffffff" : colorOf(annotation, drawing.coloring);
@@ -141,6 +185,7 @@ export function drawLabels(context: CanvasRenderingContext2D, labels: Labels, dr
       drawBox(context, annotation.bbox_amodal, scale);
       context.setLineDash([]);
     }
+    if (project) drawBox3d(context, annotation, project, scale);
     if (has("keypoints") && annotation.keypoints) drawKeypoints(context, annotation.keypoints, color, scale, Math.max(1.1, 0.8 * scale));
     if (has("ids")) drawText(context, String(annotation.track_id), annotation.bbox[0] * scale, annotation.bbox[1] * scale - 3, color);
   }

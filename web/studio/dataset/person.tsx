@@ -1,5 +1,6 @@
 // The record of one person in an image.
 import { useEffect, useState } from "preact/hooks";
+import { Figures } from "../parts/elements";
 import type { Annotation, Dataset, Track } from "./coco";
 
 const percent = (share: number) => `${Math.round(100 * share)} %`;
@@ -34,14 +35,5 @@ export function PersonRecord({ dataset, annotation }: { dataset: Dataset; annota
     );
     return () => void (isCurrent = false);
   }, [dataset, annotation.track_id]);
-  return (
-    <dl class="record">
-      {rowsOf(annotation, track?.id === annotation.track_id ? track : null).map(([name, value]) => (
-        <div key={name}>
-          <dt>{name}</dt>
-          <dd>{value}</dd>
-        </div>
-      ))}
-    </dl>
-  );
+  return <Figures className="record" list={rowsOf(annotation, track?.id === annotation.track_id ? track : null)} />;
 }

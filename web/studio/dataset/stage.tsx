@@ -1,10 +1,11 @@
 // A dataset and the labels of its images, fetched and drawn.
 import type { TargetedPointerEvent } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { ApiError, messageOf } from "../api/client";
+import { type ApiError, asApiError, messageOf } from "../api/client";
 import { useSession } from "../api/session";
 import { type Annotation, Dataset, type ImageName, type Labels } from "./coco";
-import { annotationAt, type Drawing, drawLabels } from "./overlay";
+import { annotationAt, type Drawing, drawLabels, drawRasters } from "./overlay";
+import type { DrawnRaster } from "./rasters";
 
 export function useDataset(id: string) {
   const [dataset, setDataset] = useState<Dataset | null>(null);
@@ -12,7 +13,7 @@ export function useDataset(id: string) {
   const { round } = useSession();
   useEffect(() => {
     setError(null);
-    Dataset.open(id).then(setDataset, (reason: unknown) => setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason))));
+    Dataset.open(id).then(setDataset, (reason: unknown) => setError(asApiError(reason)));
   }, [id, round]);
   return { dataset, error };
 }
@@ -32,15 +33,20 @@ export function useLabels(dataset: Dataset, image: ImageName) {
   return state.path === image.path ? state : { path: image.path, labels: null, error: null };
 }
 
+const kNoRasters: DrawnRaster[] = [];
+
 export interface LabelCanvasProps {
   labels: Labels | null;
   drawing: Drawing;
+  rasters?: DrawnRaster[];
   onHover?: (found: Annotation | null) => void;
+  /** The pointer's place in pixels of the image; null: it has left. */
+  onPoint?: (place: [x: number, y: number] | null) => void;
   onClick?: () => void;
 }
 
 /** A canvas over an image, of the size in which that is shown. */
-export function LabelCanvas({ labels, drawing, onHover, onClick }: LabelCanvasProps) {
+export function LabelCanvas({ labels, drawing, rasters = kNoRasters, onHover, onPoint, onClick }: LabelCanvasProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [width, setWidth] = useState(0);
   useEffect(() => {
@@ -50,17 +56,26 @@ export function LabelCanvas({ labels, drawing, onHover, onClick }: LabelCanvasPr
   }, []);
   useEffect(() => {
     const context = canvas.current!.getContext("2d")!;
-    const { image } = labels ?? {};
+    const image = labels?.image ?? rasters[0]?.raster;
     canvas.current!.width = width;
     canvas.current!.height = image ? Math.round((width * image.height) / image.width) : 1;
-    if (labels && image && width > 0) drawLabels(context, labels, drawing, width / image.width);
+    drawRasters(context, rasters.map((entry) => entry.image), drawing.opacity);
+    if (labels && width > 0) drawLabels(context, labels, drawing, width / labels.image.width);
     canvas.current!.dataset["drawn"] = labels ? `${labels.image.id} ${[...drawing.layers].join(",")}` : "";
-  }, [labels, drawing, width]);
+    canvas.current!.dataset["rasters"] = rasters.map((entry) => entry.raster.kind).join();
+  }, [labels, drawing, rasters, width]);
   const onMove = (event: TargetedPointerEvent<HTMLCanvasElement>) => {
-    if (!labels || !onHover) return;
+    const width = labels?.image.width ?? rasters[0]?.raster.width;
+    if (width === undefined) return;
     const box = event.currentTarget.getBoundingClientRect();
-    const scale = labels.image.width / box.width;
-    onHover(annotationAt(labels.annotations, (event.clientX - box.left) * scale, (event.clientY - box.top) * scale));
+    const scale = width / box.width;
+    const [x, y] = [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+    onPoint?.([x, y]);
+    if (labels) onHover?.(annotationAt(labels.annotations, x, y));
   };
-  return <canvas ref={canvas} class="overlay" onPointerMove={onMove} onPointerDown={onMove} onPointerLeave={() => onHover?.(null)} onClick={onClick} />;
+  const onLeave = () => {
+    onHover?.(null);
+    onPoint?.(null);
+  };
+  return <canvas ref={canvas} class="overlay" onPointerMove={onMove} onPointerDown={onMove} onPointerLeave={onLeave} onClick={onClick} />;
 }

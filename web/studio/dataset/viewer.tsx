@@ -1,11 +1,14 @@
 // One image with its labels; everything has a key.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { useInterval, useSource } from "../api/resource";
-import { countText } from "../parts/format";
 import type { Annotation, Dataset, ImageName } from "./coco";
-import { type Coloring, type Drawing, kColorings, kLayers } from "./overlay";
+import { Follow, sightingsAt } from "./follow";
+import { type Coloring, type Drawing, kLayers } from "./overlay";
 import { PersonRecord } from "./person";
+import { valueText } from "./raster";
+import { useRasters } from "./rasters";
 import { LabelCanvas, useLabels } from "./stage";
+import { Tools, ViewerHead } from "./tools";
 
 export interface ViewerProps {
   dataset: Dataset;
@@ -22,39 +25,6 @@ function storedLayers(): Set<string> {
   return new Set(stored === null ? ["boxes", "masks"] : stored.split(",").filter(Boolean));
 }
 
-interface ToolsProps {
-  layers: Set<string>;
-  coloring: Coloring;
-  opacity: number;
-  onToggle: (layer: string) => void;
-  onColoring: (coloring: Coloring) => void;
-  onOpacity: (opacity: number) => void;
-}
-
-function Tools({ layers, coloring, opacity, onToggle, onColoring, onOpacity }: ToolsProps) {
-  return (
-    <div class="row wrap tools" role="group" aria-label="Labels">
-      {kLayers.map((layer) => (
-        <button key={layer.id} type="button" class="chip" aria-pressed={layers.has(layer.id)} aria-keyshortcuts={layer.key} onClick={() => onToggle(layer.id)}>
-          {layer.label} <kbd>{layer.key.toUpperCase()}</kbd>
-        </button>
-      ))}
-      <label class="row">
-        Color by
-        <select value={coloring} onChange={(event) => onColoring(event.currentTarget.value as Coloring)}>
-          {kColorings.map((name) => (
-            <option key={name}>{name}</option>
-          ))}
-        </select>
-      </label>
-      <label class="row">
-        Mask opacity
-        <input type="range" min="0.1" max="1" step="0.1" value={opacity} onInput={(event) => onOpacity(Number(event.currentTarget.value))} />
-      </label>
-    </div>
-  );
-}
-
 export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
   const neighbor = (frames: number, cameras: number) => dataset.neighbor(image, frames, cameras);
   const source = useSource(dataset.address(image));
@@ -65,6 +35,8 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
   const [hovered, setHovered] = useState<Annotation | null>(null);
   const [selected, setSelected] = useState<number | null>(null);
   const [isPlaying, setPlaying] = useState(false);
+  const [point, setPoint] = useState<[number, number] | null>(null);
+  const rasters = useRasters(dataset, image, layers);
   const toggle = (layer: string) => {
     const next = new Set(layers);
     if (!next.delete(layer)) next.add(layer);
@@ -74,6 +46,13 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
   const go = (frames: number, cameras: number) => {
     const next = neighbor(frames, cameras);
     if (next) onSelect(next);
+    // A followed person out of this camera's sight is shown by another that sees them.
+    if (next && frames !== 0 && selected !== null && dataset.hasLabels) {
+      void sightingsAt(dataset, next, selected).then((found) => {
+        const seen = found.filter((sighting) => sighting.annotation);
+        if (seen.length > 0 && seen.every((sighting) => sighting.image.camera !== next.camera)) onSelect(seen[0]!.image);
+      }, () => {});
+    }
     return next !== null;
   };
   useInterval(() => go(1, 0) || setPlaying(false), isPlaying ? kPlayMs : 0);
@@ -98,38 +77,10 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
   }, []);
   const shown = hovered ?? labels?.annotations.find((entry) => entry.track_id === selected) ?? null;
   const drawing: Drawing = { layers, coloring, opacity, selected: shown?.track_id ?? selected };
-  const { counts } = labels?.image ?? {};
+  const values = point === null ? [] : rasters.list.map(({ raster }) => valueText(raster, ...point)).filter((text) => text !== null);
   return (
     <div class="viewer">
-      <div class="row wrap viewer-head">
-        <button type="button" class="button small" onClick={onClose}>
-          ← All images
-        </button>
-        <strong class="viewer-name">
-          {image.run} · {image.camera} · {String(image.frame).padStart(6, "0")}
-        </strong>
-        <span class="quiet-text grow">
-          {labels && `${labels.image.time_s} s`}
-          {counts && ` · ${countText(counts.visible, "person", "people")} visible of ${counts.all}`}
-        </span>
-        <div class="actions">
-          <button type="button" class="button small" aria-label="Previous frame" aria-keyshortcuts="ArrowLeft" disabled={!neighbor(-1, 0)} onClick={() => go(-1, 0)}>
-            ←
-          </button>
-          <button type="button" class="button small" aria-pressed={isPlaying} aria-keyshortcuts="Space" onClick={() => setPlaying(!isPlaying)}>
-            {isPlaying ? "Pause" : "Play"}
-          </button>
-          <button type="button" class="button small" aria-label="Next frame" aria-keyshortcuts="ArrowRight" disabled={!neighbor(1, 0)} onClick={() => go(1, 0)}>
-            →
-          </button>
-          <button type="button" class="button small" aria-label="Previous camera" aria-keyshortcuts="ArrowUp" disabled={!neighbor(0, -1)} onClick={() => go(0, -1)}>
-            ↑
-          </button>
-          <button type="button" class="button small" aria-label="Next camera" aria-keyshortcuts="ArrowDown" disabled={!neighbor(0, 1)} onClick={() => go(0, 1)}>
-            ↓
-          </button>
-        </div>
-      </div>
+      <ViewerHead {...{ image, labels, isPlaying, neighbor, onClose }} onGo={go} onPlay={() => setPlaying(!isPlaying)} />
       {dataset.hasLabels ? (
         <Tools {...{ layers, coloring, opacity }} onToggle={toggle} onColoring={setColoring} onOpacity={setOpacity} />
       ) : (
@@ -140,12 +91,24 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
           {error}
         </p>
       )}
+      {rasters.problems.map((problem) => (
+        <p key={problem} class="notice warn" role="status">
+          {problem}
+        </p>
+      ))}
+      {rasters.list.map(({ raster, legend }) => (
+        <p key={raster.kind} class="quiet-text">
+          {legend}
+        </p>
+      ))}
       <div class="viewer-body">
         <div class={`stage ${shown ? "pointing" : ""}`}>
           {source && <img src={source} alt={`${image.run}, camera ${image.camera}, frame ${image.frame}`} />}
-          <LabelCanvas labels={labels} drawing={drawing} onHover={setHovered} onClick={() => setSelected(hovered?.track_id ?? null)} />
+          <LabelCanvas labels={labels} drawing={drawing} rasters={rasters.list} onHover={setHovered} onPoint={setPoint} onClick={() => setSelected(hovered?.track_id ?? null)} />
         </div>
         <aside aria-label="Person" class="card person">
+          {values.length > 0 && <p class="pixel-values">{values.join(" · ")}</p>}
+          {selected !== null && <Follow dataset={dataset} image={image} track={selected} onSelect={onSelect} onEnd={() => setSelected(null)} />}
           {shown ? (
             <PersonRecord dataset={dataset} annotation={shown} />
           ) : (

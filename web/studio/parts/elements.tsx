@@ -116,6 +116,20 @@ export function Confirmation({ question, onClose }: { question: Question | null;
   );
 }
 
+/** Figures with their names: in a row, or as a record. */
+export function Figures({ list, className = "figures" }: { list: [name: string, value: string][]; className?: string }) {
+  return (
+    <dl class={className}>
+      {list.map(([name, value]) => (
+        <div key={name}>
+          <dt>{name}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
 export function Empty({ title, children }: { title: string; children?: ComponentChildren }) {
   return (
     <div class="empty">

@@ -83,10 +83,7 @@ export function Shell({ children }: { children: ComponentChildren }) {
         {children}
       </main>
       <footer class="footer">
-        <a href="/openapi.json" target="_blank" rel="noreferrer">
-          API description
-        </a>{" "}
-        ·{" "}
+        <a href="/keys">Keys and webhooks</a> · <a href="/api">API</a> ·{" "}
         <a href="/assets/notice.txt" target="_blank" rel="noreferrer">
           Licenses
         </a>

@@ -10,7 +10,8 @@ interface ChartProps {
 }
 
 export const kLeft = 74;
-export const kRight = 14;
+const kRight = 14;
+const kTop = 10;
 const kCurveHeight = 170;
 const kRowHeight = 22;
 const kAxisHeight = 26;
@@ -71,27 +72,37 @@ export function TimeFrame({ time_s, end_s, onTime, height, label, children }: Fr
   );
 }
 
+/** Places of shares from 0 to 1 in a chart of a height. */
+export const shareToY = (height: number) => (share: number) => kTop + (height - kTop) * (1 - share);
+
+export function ShareAxis({ width, toY }: { width: number; toY: (share: number) => number }) {
+  return (
+    <>
+      {[0, 0.25, 0.5, 0.75, 1].map((share) => (
+        <g key={share}>
+          <line class="chart-grid" x1={kLeft} x2={width - kRight} y1={toY(share)} y2={toY(share)} />
+          <text x={kLeft - 8} y={toY(share) + 4} text-anchor="end">
+            {100 * share} %
+          </text>
+        </g>
+      ))}
+    </>
+  );
+}
+
 interface CurveProps extends ChartProps {
   shares: number[]; ///< by 0, 1, 2, ... s
   alarm_s: number | null;
 }
 
 export function EscapeCurve({ shares, alarm_s, ...chart }: CurveProps) {
-  const kTop = 10;
-  const toY = (share: number) => kTop + (kCurveHeight - kTop) * (1 - share);
+  const toY = shareToY(kCurveHeight);
   const now = shares[Math.min(shares.length - 1, Math.round(chart.time_s))] ?? 0;
   return (
     <TimeFrame {...chart} height={kCurveHeight} label={`Share of the people who have escaped: ${Math.round(100 * now)} % at ${chart.time_s.toFixed(1)} s`}>
       {(toX, width) => (
         <>
-          {[0, 0.25, 0.5, 0.75, 1].map((share) => (
-            <g key={share}>
-              <line class="chart-grid" x1={kLeft} x2={width - kRight} y1={toY(share)} y2={toY(share)} />
-              <text x={kLeft - 8} y={toY(share) + 4} text-anchor="end">
-                {100 * share} %
-              </text>
-            </g>
-          ))}
+          <ShareAxis width={width} toY={toY} />
           {alarm_s !== null && alarm_s <= chart.end_s && (
             <>
               <line class="chart-mark" x1={toX(alarm_s)} x2={toX(alarm_s)} y1="0" y2={kCurveHeight} />

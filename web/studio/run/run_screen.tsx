@@ -6,9 +6,10 @@ import type { Job, Scenario } from "../api/types";
 import type { Dataset, ImageName, Labels } from "../dataset/coco";
 import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
-import { ErrorBox } from "../parts/elements";
+import { ErrorBox, Figures } from "../parts/elements";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { EscapeCurve, ExitChart } from "./charts";
+import { EventChart } from "./event_chart";
 import { type ExitHistory, historiesOf } from "./exit_states";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import type { Metrics } from "./metrics";
@@ -47,24 +48,14 @@ function useExits(address: string, end_s: number | undefined): ExitHistory[] {
   return histories;
 }
 
-function Figures({ metrics }: { metrics: Metrics }) {
+function figuresOf(metrics: Metrics): [string, string][] {
   const seconds = (value: number | null | undefined) => (value === null || value === undefined ? "–" : `${value.toFixed(1)} s`);
-  const figures: [string, string][] = [
+  return [
     ["people", String(metrics.people)],
     ["not escaped", String(metrics.not_escaped)],
     ["escape time, median", seconds(metrics.escape_time_percentiles["t50_s"])],
     ["90th percentile", seconds(metrics.escape_time_percentiles["t90_s"])],
   ];
-  return (
-    <dl class="figures">
-      {figures.map(([name, value]) => (
-        <div key={name}>
-          <dt>{name}</dt>
-          <dd>{value}</dd>
-        </div>
-      ))}
-    </dl>
-  );
 }
 
 interface TimelineProps {
@@ -134,8 +125,10 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
       {metrics.value && (
         <section class="card run-charts" aria-labelledby="escape">
           <h2 id="escape">Escaped by time</h2>
-          <Figures metrics={metrics.value} />
+          <Figures list={figuresOf(metrics.value)} />
           <EscapeCurve {...chart} shares={metrics.value.escape_curve.escaped_share} alarm_s={metrics.value.alarm_s} />
+          <h2>Events</h2>
+          <EventChart {...chart} metrics={metrics.value} />
           {exits.length > 0 && (
             <>
               <h2>Exits</h2>

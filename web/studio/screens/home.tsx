@@ -5,7 +5,7 @@ import { useEvents } from "../api/events";
 import { cancelJob, prioritize, shareDone, stageText } from "../api/jobs";
 import { useInterval, useJson } from "../api/resource";
 import type { Job, JobList, PreviewList } from "../api/types";
-import { Confirmation, Empty, ErrorBox, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
+import { Confirmation, Empty, ErrorBox, Figures, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
 import { agoText, bytesText, countText, durationText, secondsBetween } from "../parts/format";
 import { ConnectionNote } from "../parts/connection";
 
@@ -33,20 +33,13 @@ function RunningJob({ job }: { job: Job }) {
         </div>
         <p>{stageText(job.progress)}</p>
         <Progress done={Math.round(1000 * shareDone(job.progress))} total={1000} label={`progress of ${job.name}`} />
-        <dl class="figures">
-          <div>
-            <dt>speed</dt>
-            <dd>{rate > 0 ? `${rate.toFixed(1)} images/s` : "–"}</dd>
-          </div>
-          <div>
-            <dt>time left</dt>
-            <dd>{left === null ? "–" : durationText(left)}</dd>
-          </div>
-          <div>
-            <dt>running for</dt>
-            <dd>{durationText(secondsBetween(job.started_at, null))}</dd>
-          </div>
-        </dl>
+        <Figures
+          list={[
+            ["speed", rate > 0 ? `${rate.toFixed(1)} images/s` : "–"],
+            ["time left", left === null ? "–" : durationText(left)],
+            ["running for", durationText(secondsBetween(job.started_at, null))],
+          ]}
+        />
       </div>
     </article>
   );

@@ -6,11 +6,11 @@ import { cancelJob, canRetry, editCopy, hasDataset, isActive, keepJob, removeJob
 import { useJson } from "../api/resource";
 import type { Job, PreviewList, Progress as JobProgress } from "../api/types";
 import { ConnectionNote } from "../parts/connection";
-import { Confirmation, ErrorBox, Mistakes, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
+import { Confirmation, ErrorBox, Figures, Mistakes, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
 import { bytesText, durationText, secondsBetween, timeText } from "../parts/format";
 import { navigate } from "../parts/router";
-import { Downloads } from "./downloads";
 import { Logs } from "./logs";
+import { Results } from "./results";
 
 const kMaxPreviews = 12;
 
@@ -235,7 +235,7 @@ export function JobScreen({ id }: { id: string }) {
         <h2 id="previews">Previews</h2>
         <Previews job={job} />
       </section>
-      {hasDataset(job) && <Downloads job={job} />}
+      {hasDataset(job) && <Results job={job} />}
       <Logs job={job} />
       <details class="source">
         <summary>The job with all its fields</summary>
@@ -267,14 +267,7 @@ function Summary({ job }: { job: Job }) {
           <Progress done={Math.round(1000 * shareDone(job.progress))} total={1000} label="progress" />
         </>
       )}
-      <dl class="figures">
-        {figures.map(([name, value]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
+      <Figures list={figures} />
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // The form of a job: presets and copies, three views of one state, checked by the service as it is typed.
 import { useEffect, useMemo, useState } from "preact/hooks";
 import presets from "presets";
-import { ApiError, getJson, messageOf, sendJson } from "../api/client";
+import { type ApiError, asApiError, getJson, sendJson } from "../api/client";
 import { useJson } from "../api/resource";
 import type { Job, JobList } from "../api/types";
 import { AllFields } from "../form/all_fields";
@@ -64,7 +64,7 @@ function SubmitBar({ draft, check, onErrors }: SubmitBarProps) {
       forgetDraft();
       navigate(`/jobs/${job.id}`);
     } catch (reason) {
-      setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason)));
+      setError(asApiError(reason));
       setBusy(false);
     }
   };
@@ -214,7 +214,7 @@ export function NewJob() {
           navigate(withQuery(new URLSearchParams(location.search), { clone: null, preset: null }), { replace: true });
         }
       },
-      (reason: unknown) => setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason))),
+      (reason: unknown) => setError(asApiError(reason)),
     );
   }, [schema.value, source.trim()]);
   const href = useMemo(() => `data:application/json,${encodeURIComponent(draft?.text ?? "")}`, [draft?.text]);

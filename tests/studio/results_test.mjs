@@ -1,0 +1,207 @@
+// A dataset with all layers in a browser: downloads of its parts, values per pixel, 3-D boxes, a person who is followed.
+// usage: node results_test.mjs PROGRAM PACKAGES
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test as nodeTest } from "node:test";
+import { importStudio } from "./bundle.mjs";
+import { openPage, screenChecker, stepsOf } from "./page.mjs";
+import { launch, TestService } from "./service.mjs";
+
+const [program, packages] = process.argv.slice(2);
+const kJob = {
+  name: "all layers",
+  scenario: "city_square/emergency",
+  crowd: { agents: 120 },
+  runs: 2,
+  drones: [
+    { id: "d1", camera: { width: 320, height: 180, model: "brown_conrady", distortion: { k1: -0.15, k2: 0.02, p1: 0.001, p2: -0.002 } } },
+    { id: "d2", camera: { width: 320, height: 180 } },
+  ],
+  capture: { from_s: 2, to_s: 10, rate_hz: 0.25 },
+  outputs: { annotations: ["coco", "keypoints", "exits", "density", "depth"], formats: ["mot"], splits: { train: 0.5, val: 0.5 }, previews: 0 },
+};
+const kImage = "images/run000/d2/000001.jpg";
+
+const test = stepsOf(nodeTest);
+const check = screenChecker(packages);
+const complaints = [];
+const service = new TestService(program);
+let browser;
+let page;
+let job;
+let coco;
+
+before(async () => {
+  await service.start();
+  job = await service.finished(kJob);
+  coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
+  browser = await launch(packages);
+  page = await openPage(browser, complaints);
+});
+
+after(async () => {
+  await browser?.close();
+  await service.stop();
+});
+
+const go = (address) => page.goto(service.address + address);
+const peopleOf = (name) => {
+  const image = coco.images.find((entry) => entry.file_name === name);
+  return { image, people: coco.annotations.filter((entry) => entry.image_id === image.id) };
+};
+
+test("the size of a part is that of its archive", async () => {
+  await go(`/jobs/${job}`);
+  await page.getByRole("link", { name: "Parts, formats and code" }).click();
+  await page.getByRole("heading", { name: `Downloads of ${kJob.name}` }).waitFor();
+  await page.getByRole("link", { name: /^Download [\d.]+ .B$/ }).waitFor();
+  await page.getByLabel(/^depth /).check();
+  await page.getByLabel(/^mot /).check();
+  await page.getByLabel("Split").selectOption("val");
+  await page.getByLabel(/^Archive/).selectOption("zip");
+  const address = new URL(page.url());
+  assert.deepEqual(Object.fromEntries(address.searchParams), { format: "zip", include: "depth,mot", split: "val" });
+  const link = page.getByRole("link", { name: /^Download [\d.]+ .B$/ });
+  await link.waitFor();
+  const [download] = await Promise.all([page.waitForEvent("download"), link.click()]);
+  const bytes = readFileSync(await download.path());
+  assert.equal(bytes.subarray(0, 2).toString(), "PK");
+  const shown = /([\d.]+) (.)B/.exec(await link.innerText());
+  assert.ok(Math.abs(bytes.length / { k: 1e3, M: 1e6 }[shown[2]] - Number(shown[1])) < 1, "the size was said before");
+  const text = bytes.toString("latin1");
+  assert.ok(text.includes("/depth/run001/") && text.includes("/formats/mot/"));
+  assert.ok(!text.includes("/depth/run000/") && !text.includes("/images/"), "nothing else is in it");
+  await page.getByText(`THRONG_URL=${service.address} throng fetch ${job} --zip --include 'depth' 'mot' --split 'val'`).waitFor();
+  await page.getByRole("button", { name: "Python" }).click();
+  await page.getByText(`client.download("${job}", include=["depth","mot"], split="val", format="zip")`).waitFor();
+  await check(page, "downloads");
+});
+
+test("a wrong selection is named", async () => {
+  await page.getByLabel("Runs", { exact: true }).fill("7");
+  await page.keyboard.press("Tab");
+  await page.getByRole("alert").getByText("?runs").waitFor();
+});
+
+test("each format says how it is made and read", async () => {
+  const { formats } = await service.json("/v1/formats");
+  const list = page.getByRole("region", { name: "Formats", exact: true }).locator("details");
+  assert.equal(await list.count(), formats.length);
+  for (let index = 0; index < formats.length; ++index) await list.nth(index).locator("summary").click();
+  await page.getByLabel("read mot", { exact: true }).getByText("dataset/formats/mot/").waitFor();
+  await page.getByLabel("export to voc", { exact: true }).getByText("--formats voc").waitFor();
+  await page.getByText("Needs instances among the annotations").waitFor();
+  const without = formats.filter((format) => ["instances", "flow"].includes(format.needs)).length;
+  assert.equal(await list.locator('pre[aria-label^="read "]').count(), formats.length - without);
+});
+
+test("3-D boxes are projected as the dataset's keypoints are", async () => {
+  const { cornersOf, projectionOf } = await importStudio(packages, "dataset/camera.ts");
+  for (const camera of ["d1", "d2"]) {
+    const { image, people } = peopleOf(`images/run000/${camera}/000001.jpg`);
+    assert.equal(image.camera.model, camera === "d1" ? "brown_conrady" : "pinhole");
+    const project = projectionOf(image.camera);
+    let count = 0;
+    for (const person of people.filter((entry) => entry.keypoints)) {
+      person.keypoints_3d.forEach((point, index) => {
+        const [x, y, seen] = person.keypoints.slice(3 * index, 3 * index + 3);
+        if (seen === 0) return;
+        const [u, v] = project(point);
+        assert.ok(Math.hypot(u - x, v - y) < 0.1, `${u}, ${v} is not ${x}, ${y}`);
+        ++count;
+      });
+      const corners = cornersOf(person.box_3d, person.heading).map(project);
+      const [left, top, width, height] = person.bbox;
+      assert.ok(Math.min(...corners.map((corner) => corner[0])) < left + 1 && Math.max(...corners.map((corner) => corner[0])) > left + width - 1);
+      assert.ok(Math.min(...corners.map((corner) => corner[1])) < top + 1 && Math.max(...corners.map((corner) => corner[1])) > top + height - 1);
+    }
+    assert.ok(count > 50, `${count} keypoints`);
+  }
+});
+
+test("3-D boxes are drawn", async () => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await go(`/jobs/${job}/images?image=${kImage}`);
+  const { image } = peopleOf(kImage);
+  await page.locator(`canvas.overlay[data-drawn="${image.id} boxes,masks"]`).waitFor();
+  await page.keyboard.press("b");
+  await page.keyboard.press("m");
+  await page.keyboard.press("3");
+  const canvas = page.locator(`canvas.overlay[data-drawn="${image.id} boxes3d"]`);
+  await canvas.waitFor();
+  const painted = await canvas.evaluate((element) => element.getContext("2d").getImageData(0, 0, element.width, element.height).data.filter((value, index) => index % 4 === 3 && value > 0).length);
+  assert.ok(painted > 500, `${painted} pixels`);
+  await page.keyboard.press("3");
+});
+
+test("depth and density at the pointer are those of the files", async () => {
+  await page.keyboard.press("x");
+  await page.keyboard.press("d");
+  const canvas = page.locator('canvas.overlay[data-rasters="density,depth"]');
+  await canvas.waitFor();
+  await page.getByText(/^Depth: [\d.]+ m \(yellow\)/).waitFor();
+  const { image } = peopleOf(kImage);
+  const box = await canvas.boundingBox();
+  const scale = box.width / image.width;
+  await page.mouse.move(box.x + 160.5 * scale, box.y + 120.5 * scale);
+  const shown = await page.locator(".pixel-values").innerText();
+  // The ground: its depth follows from the camera alone. Rays are R's rows; the ground is z = 0.
+  const { K, R, t } = image.camera;
+  const ray = [(160.5 - 0.5 - K[0][2]) / K[0][0], (120.5 - 0.5 - K[1][2]) / K[1][1], 1];
+  const center = [0, 1, 2].map((axis) => -(R[0][axis] * t[0] + R[1][axis] * t[1] + R[2][axis] * t[2]));
+  const down = R[0][2] * ray[0] + R[1][2] * ray[1] + R[2][2] * ray[2];
+  const ground = -center[2] / down;
+  const depth = Number(/depth ([\d.]+) m/.exec(shown)[1]);
+  assert.ok(depth <= ground + 0.02 && depth > 0.7 * ground, `${depth} m, ground ${ground} m`);
+  const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${job}/files/${kImage.replace("images", "density").replace("jpg", "npy")}`)).arrayBuffer());
+  const value = npy.readFloatLE(10 + npy.readUInt16LE(8) + 4 * (120 * image.width + 160));
+  assert.ok(Math.abs(Number(/density ([\d.e-]+)/.exec(shown)[1]) - value) <= 0.005 * value + 1e-12, shown);
+  await check(page, "values per pixel");
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await page.keyboard.press("f");
+  await page.getByText("The dataset has no flow").waitFor();
+  for (const key of ["f", "x", "d", "b"]) await page.keyboard.press(key);
+});
+
+test("a person is followed over frames and cameras", async () => {
+  const { people } = peopleOf("images/run000/d1/000000.jpg");
+  const tracks = (name) => new Set(peopleOf(name).people.map((entry) => entry.track_id));
+  const other = tracks("images/run000/d2/000000.jpg");
+  const chosen = people.filter((entry) => other.has(entry.track_id)).reduce((best, entry) => (entry.area > best.area ? entry : best));
+  await go(`/jobs/${job}/images?image=images/run000/d1/000000.jpg`);
+  const { image } = peopleOf("images/run000/d1/000000.jpg");
+  const canvas = page.locator(`canvas.overlay[data-drawn^="${image.id} "]`);
+  await canvas.waitFor();
+  const box = await canvas.boundingBox();
+  const scale = box.width / image.width;
+  const [x, y, width, height] = chosen.bbox;
+  await canvas.click({ position: { x: (x + width / 2) * scale, y: (y + height / 2) * scale } });
+  const follow = page.getByRole("region", { name: "Followed person" });
+  await follow.getByText(String(chosen.track_id), { exact: true }).waitFor();
+  const seen = peopleOf("images/run000/d2/000000.jpg").people.find((entry) => entry.track_id === chosen.track_id);
+  await follow.locator("li", { has: page.getByRole("button", { name: "d2" }) }).getByText(`${Math.round(100 * seen.visibility)} % visible`).waitFor();
+  await follow.getByRole("button", { name: "d2" }).click();
+  await page.getByText("run000 · d2 · 000000").waitFor();
+  await follow.getByRole("button", { name: "Seen next" }).click();
+  const next = ["d2", "d1"].map((camera) => `images/run000/${camera}/000001.jpg`).find((name) => tracks(name).has(chosen.track_id));
+  if (next) await page.getByText(`run000 · ${next.split("/")[2]} · 000001`).waitFor();
+  else await follow.getByText("No camera sees them").or(page.getByText("000002")).waitFor();
+  await check(page, "followed");
+  await follow.getByRole("button", { name: "Stop" }).click();
+  await follow.waitFor({ state: "detached" });
+});
+
+test("events of a run lead to their time", async () => {
+  const metrics = await service.json(`/v1/jobs/${job}/runs/0/metrics`);
+  assert.equal(metrics.alarm_s, 8);
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await go(`/jobs/${job}/runs/0`);
+  await page.getByRole("img", { name: /events? of the run$/ }).waitFor();
+  const alarm = page.getByRole("listitem").filter({ hasText: "alarm" });
+  await alarm.getByRole("button", { name: "8.0 s" }).focus();
+  await page.keyboard.press("Enter");
+  await page.getByRole("slider", { name: "Time" }).and(page.locator('[aria-valuetext="10.0 s"]')).waitFor(); // the nearest image
+  await check(page, "run with events");
+});
+
+test("nothing was on the console", () => assert.deepEqual(complaints, []));

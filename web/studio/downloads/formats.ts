@@ -1,0 +1,76 @@
+// How each format is made and read. Paths are those of docs/formats.md.
+
+interface Reader {
+  /** Formats that are read alike. */
+  names: string[];
+  /** Python; FOLDER is the format's folder, SPLIT the first split. */
+  text: string;
+}
+
+const kReaders: Reader[] = [
+  { names: ["coco"], text: 'from pycocotools.coco import COCO\ncoco = COCO("FOLDER/annotations/instances_SPLIT.json")' },
+  { names: ["coco-keypoints"], text: 'from pycocotools.coco import COCO\ncoco = COCO("FOLDER/annotations/person_keypoints_SPLIT.json")' },
+  {
+    names: ["coco-panoptic"],
+    text: 'import json\npanoptic = json.load(open("FOLDER/annotations/panoptic_SPLIT.json"))\n# ids: red + 256 green + 65536 blue of FOLDER/panoptic_SPLIT/*.png',
+  },
+  { names: ["yolo-detect"], text: 'from ultralytics import YOLO\nYOLO("yolo11n.pt").train(data="FOLDER/data.yaml")' },
+  { names: ["yolo-segment"], text: 'from ultralytics import YOLO\nYOLO("yolo11n-seg.pt").train(data="FOLDER/data.yaml")' },
+  { names: ["yolo-pose"], text: 'from ultralytics import YOLO\nYOLO("yolo11n-pose.pt").train(data="FOLDER/data.yaml")' },
+  {
+    names: ["mot"],
+    text: 'import glob, numpy as np\nfor name in glob.glob("FOLDER/**/gt/gt.txt", recursive=True):\n    tracks = np.loadtxt(name, delimiter=",", ndmin=2)  # frame, id, left, top, width, height, ...',
+  },
+  {
+    names: ["shanghaitech", "shanghaitech-adaptive", "shanghaitech-perspective"],
+    text: 'import glob, h5py\nfor name in glob.glob("FOLDER/**/*.h5", recursive=True):\n    count = h5py.File(name)["density"][()].sum()',
+  },
+  {
+    names: ["voc"],
+    text: 'import glob, xml.etree.ElementTree as ET\nfor name in glob.glob("FOLDER/**/*.xml", recursive=True):\n    boxes = ET.parse(name).findall("object/bndbox")',
+  },
+  { names: ["cvat"], text: "# CVAT, task, Upload annotations, CVAT 1.1: the XML files of FOLDER" },
+  {
+    names: ["webdataset"],
+    text: 'import glob, webdataset\nshards = sorted(glob.glob("FOLDER/**/SPLIT-*.tar", recursive=True))\nimages = webdataset.WebDataset(shards, shardshuffle=False).decode("pil").to_tuple("jpg", "json")',
+  },
+  { names: ["imagefolder"], text: 'from datasets import load_dataset\nimages = load_dataset("imagefolder", data_dir="FOLDER")' },
+  {
+    names: ["depth-exr"],
+    text: 'import os, glob\nos.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"\nimport cv2\nfor name in glob.glob("FOLDER/**/*.exr", recursive=True):\n    depth_m = cv2.imread(name, cv2.IMREAD_UNCHANGED)',
+  },
+  { names: ["flow-flo"], text: 'import glob, cv2\nfor name in glob.glob("FOLDER/**/*.flo", recursive=True):\n    flow_px = cv2.readOpticalFlow(name)' },
+  { names: ["rosbag", "rosbag-lz4"], text: "rosbag info FOLDER/SPLIT/run000.bag" },
+  { names: ["table"], text: 'import glob, pandas\npeople = pandas.read_csv(glob.glob("FOLDER/**/people.csv", recursive=True)[0])' },
+];
+
+const kAnyTable = 'import glob\nfor name in glob.glob("FOLDER/**/*.txt", recursive=True):\n    lines = open(name).read().splitlines()';
+
+/** Reads a format from its folder. */
+export function readerOf(format: string, folder: string, split: string): string {
+  const text = kReaders.find((reader) => reader.names.includes(format))?.text ?? kAnyTable;
+  return text.replaceAll("FOLDER", folder).replaceAll("SPLIT", split);
+}
+
+/** Reads a kind of ground truth of the dataset itself. */
+const kTruthReaders: Record<string, string> = {
+  coco: "frame.people.boxes, frame.people.masks()",
+  keypoints: "frame.people.keypoints, frame.people.keypoints_3d",
+  amodal: "frame.people.masks(amodal=True)",
+  density: "frame.density()",
+  exits: 'dataset.exits("run000")',
+  fields: 'dataset.field("run000", 0)',
+  depth: "frame.depth()",
+  instances: "frame.instances()",
+  parts: "frame.parts()",
+  normals: "frame.normals()",
+  flow: "flow, known = frame.flow()",
+  semantic: "frame.semantic()",
+  sensors: 'dataset.sensors("run000", "d1")',
+};
+
+export function truthReaderOf(kind: string, dataset: string): string {
+  return `import throng\ndataset = throng.Dataset("${dataset}")\nframe = dataset[0]\n${kTruthReaders[kind]}`;
+}
+
+export const isTruth = (name: string) => name in kTruthReaders;
