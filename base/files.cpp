@@ -7,12 +7,13 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "base/error.h"
+#include "base/folders.h"
+#include "base/lack.h"
 
 namespace throng {
 
@@ -25,9 +26,8 @@ fs::path temporary_beside(const fs::path& path) {
   return fs::path(fmt::format("{}.tmp.{}.{}", path.string(), ::getpid(), count++));
 }
 
-[[noreturn]] void fail(std::string_view what, const fs::path& path) {
-  throw EnvironmentError(
-      fmt::format("cannot {} {}: {}", what, path.string(), std::strerror(errno)));
+[[noreturn]] void fail(std::string_view what, const fs::path& path, int error = errno) {
+  throw_environment_error(fmt::format("cannot {} {}", what, path.string()), error);
 }
 
 void sync_path(const fs::path& path) {
@@ -38,9 +38,12 @@ void sync_path(const fs::path& path) {
   if (result != 0) fail("sync", path);
 }
 
+// Files and the names of files are kept apart on a disk: each folder is synced, too.
 void sync_tree(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) sync_path(entry.path());
+    if (entry.is_regular_file() || (entry.is_directory() && !entry.is_symlink())) {
+      sync_path(entry.path());
+    }
   }
   sync_path(folder);
 }
@@ -51,11 +54,20 @@ fs::path parent_of(const fs::path& path) {
 
 }  // namespace
 
+void make_folders(const fs::path& folder) {
+  if (folder.empty() || fs::is_directory(folder)) return;
+  make_folders(folder.parent_path());
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) fail("create", folder, error.value());
+  sync_path(parent_of(folder));
+}
+
 std::string read_file(const fs::path& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file || fs::is_directory(path)) {
-    throw EnvironmentError(fmt::format("cannot read {}", path.string()));
-  }
+  if (!file) fail("read", path);
+  if (fs::is_directory(path)) fail("read", path, EISDIR);
   std::ostringstream text;
   text << file.rdbuf();
   return std::move(text).str();
@@ -80,12 +92,7 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 
 StagedFile::StagedFile(fs::path final_path)
     : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
-  std::error_code error;
-  fs::create_directories(parent_of(final_), error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot create {}: {}", parent_of(final_).string(), error.message()));
-  }
+  make_folders(parent_of(final_));
   file_.open(staging_, std::ios::binary);
   if (!file_) fail("write", staging_);
 }
@@ -112,19 +119,16 @@ void StagedFile::commit() {
   sync_path(staging_);
   std::error_code error;
   fs::rename(staging_, final_, error);
-  if (error) {
-    throw EnvironmentError(fmt::format("cannot write {}: {}", final_.string(), error.message()));
-  }
+  if (error) fail("write", final_, error.value());
   sync_path(parent_of(final_));
 }
 
 StagingFolder::StagingFolder(fs::path final_path)
     : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
+  make_folders(parent_of(final_));
   std::error_code error;
-  fs::create_directories(staging_, error);
-  if (error) {
-    throw EnvironmentError(fmt::format("cannot create {}: {}", staging_.string(), error.message()));
-  }
+  fs::create_directory(staging_, error);
+  if (error) fail("create", staging_, error.value());
 }
 
 StagingFolder::~StagingFolder() {

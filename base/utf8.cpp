@@ -1,6 +1,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace throng {
 
@@ -13,6 +14,15 @@ bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0x
 
 std::size_t character_count(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
+bool is_utf8(std::string_view text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());  // refuses other bytes
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+  return true;
 }
 
 std::string first_characters(std::string_view text, std::size_t count) {

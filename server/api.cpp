@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/lack.h"
 #include "server/answers.h"
 #include "server/calibration_api.h"
 #include "server/downloads_api.h"
@@ -99,6 +100,7 @@ std::span<const Route> routes() {
       Route{Method::post, kSession, Scope::anybody, &open_session},
       Route{Method::get, kSession, Scope::anybody, &send_session},
       Route{Method::remove, kSession, Scope::anybody, &close_session},
+      Route{Method::get, "/v1/access/submit", Scope::submit, &confirm_access},
       Route{Method::get, "/v1/version", Scope::anybody, &send_version},
       Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
       Route{Method::get, "/metrics", Scope::read, &send_figures},
@@ -153,7 +155,9 @@ void guarded(const ServiceFolders& folders, const Request& request, Response& re
     write_problem(response, {503, folders.without_paths(error.what())});
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
-    write_problem(response, {500, folders.without_paths(error.what())});
+    const bool may_pass = says_lack_of_resources(error);
+    if (may_pass) response.set_header("Retry-After", "10");
+    write_problem(response, {may_pass ? 503 : 500, folders.without_paths(error.what())});
   }
 }
 
@@ -225,30 +229,68 @@ std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& 
   return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
 }
 
-HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions) {
+void record(AuditLog& audit, const std::string& key, const Request& request, int status) {
+  audit.record({key, request.method, request.path, status, request.remote_addr,
+                request.get_header_value("X-Forwarded-For")});
+}
+
+bool is_audited(const std::string& method, int status) {
+  return (method != "GET" && method != "HEAD") || status == 401 || status == 403;
+}
+
+HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
+                             AuditLog& audit) {
   const bool loopback = is_loopback(options.host);
-  options.max_body_bytes = [&keys, &sessions, loopback](const Request& request) {
-    return max_body_bytes(keys, sessions, request, loopback);
+  options.max_body_bytes = [&keys, &sessions, &audit, loopback](const Request& request) {
+    try {
+      return max_body_bytes(keys, sessions, request, loopback);
+    } catch (const HttpError& error) {
+      if (error.status != 404) record(audit, "", request, error.status);
+      throw;
+    }
   };
   return options;
+}
+
+// Answers may hold what strangers have sent: no script in them runs as a part of the
+// service's page, nor is it shown within another site's. A report has scripts of its own.
+const char* content_policy_of(const Route& route) {
+  const bool is_report = route.handler == &send_report;
+  return is_report ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
+                     "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+                     "font-src data:; frame-ancestors 'none'"
+                   : "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
+                     "frame-ancestors 'none'";
 }
 
 }  // namespace
 
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
-    : server_(with_body_limits(options, keys, sessions_), &write_library_error) {
+    : audit_(service.folders().data()),
+      server_(with_body_limits(options, keys, sessions_, audit_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
     return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
                                                             Response& response) {
       forget_ranges(request);
+      std::string key;
       guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
+        key = caller.key_id;
         entry.handler({service.queue(), service.uploads(), service.calibrations(),
                        service.housekeeping(), service.datasets(), service.reports(),
                        service.confined(), service.folders(), hooks, keys, sessions_, caller},
                       request, response);
       });
+      if (is_audited(request.method, response.status)) {
+        record(audit_, key, request, response.status);
+      }
+      if (!response.has_header("Content-Security-Policy")) {
+        response.set_header("Content-Security-Policy", content_policy_of(entry));
+      }
+      if (!response.has_header("Cache-Control")) {
+        response.set_header("Cache-Control", "private, no-cache");
+      }
     };
   };
   httplib::Server& server = server_.routes();

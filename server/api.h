@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "server/audit_log.h"
 #include "server/http_server.h"
 #include "server/keys.h"
 #include "server/routes.h"
@@ -33,6 +34,7 @@ class Api {
 
  private:
   Sessions sessions_;
+  AuditLog audit_;
   HttpServer server_;
 };
 

@@ -85,8 +85,10 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
 void list_calibrations(const Call& call, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = call.queue.list(
-      {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
+  const std::vector<jobs::JobRow> rows = call.queue.list({.kind = jobs::JobKind::calibration,
+                                                          .after = after_of(request),
+                                                          .limit = limit,
+                                                          .visible_to = viewer_of(call.caller)});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
     list.push_back(calibration_json(row, call.housekeeping.retention()));
@@ -98,7 +100,7 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
 }
 
 void send_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
+  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
   json value = calibration_json(row, call.housekeeping.retention());
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
@@ -109,7 +111,7 @@ void send_calibration(const Call& call, const Request& request, Response& respon
 }
 
 void remove_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
+  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
   require_own(call, row);
   if (!call.housekeeping.remove(row.id)) {
     throw HttpError{404, "already removed"};
@@ -118,7 +120,7 @@ void remove_calibration(const Call& call, const Request& request, Response& resp
 }
 
 void send_calibration_result(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
+  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return name == entry.name; });

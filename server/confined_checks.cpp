@@ -43,8 +43,9 @@ jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path&
                                  {"subject", "a job and a scenario"},
                                  {"job", job_json},
                                  {"scenarios", scenarios.string()}});
-  jobs::ResolvedJob resolved = jobs::read_resolved_job(answer.at("job").dump(), "");
-  require_memory(jobs::TaskMemory(resolved.spec()).max_mib(), "/drones");
+  const jobs::ResolvedJob resolved(jobs::read_resolved_job(answer.at("job").dump(), "").spec(),
+                                   answer.value("people", 0));
+  require_memory(jobs::TaskMemory(resolved.spec(), resolved.people()).max_mib(), "/drones");
   return resolved;
 }
 

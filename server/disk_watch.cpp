@@ -2,32 +2,49 @@
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <sys/statvfs.h>
 
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 
 #include "base/error.h"
+#include "base/lack.h"
 
 namespace throng::server {
 
-DiskWatch::DiskWatch(FreeBytes free_bytes, std::int64_t min_bytes, OnChange on_change)
-    : free_bytes_(std::move(free_bytes)),
-      min_bytes_(min_bytes),
+namespace {
+
+// Without a limit: with less, not even a log can be written.
+constexpr std::int64_t kMinBytes = 1 << 20;
+
+}  // namespace
+
+DiskWatch::DiskWatch(Look look, std::int64_t min_bytes, OnChange on_change)
+    : look_(std::move(look)),
+      min_bytes_(min_bytes > 0 ? min_bytes : kMinBytes),
       on_change_(std::move(on_change)),
       thread_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 std::string DiskWatch::look() {
   constexpr std::int64_t kMib = 1 << 20;
   constexpr std::int64_t kSlackShare = 4;
-  const std::int64_t free = free_bytes_();
+  const DiskState disk = look_();
   const std::lock_guard lock(mutex_);
   const bool was_full = !reason_.empty();
-  const bool is_full = free < min_bytes_ + (was_full ? min_bytes_ / kSlackShare : 0);
-  if (is_full == was_full) return reason_;
-  reason_ = is_full ? fmt::format("the disk is full: {} MiB are free, {} MiB are needed",
-                                  free / kMib, min_bytes_ / kMib)
-                    : std::string();
+  const bool is_full = disk.free_bytes < min_bytes_ + (was_full ? min_bytes_ / kSlackShare : 0);
+  std::string reason;
+  if (disk.is_read_only) {
+    reason = "the disk is read-only";
+  } else if (is_full) {
+    // Of the two figures only one changes, and each change is an event.
+    reason = was_full ? reason_
+                      : fmt::format("the disk is full: {} MiB are free, {} MiB are needed",
+                                    disk.free_bytes / kMib, min_bytes_ / kMib);
+  }
+  if (reason == reason_) return reason_;
+  reason_ = std::move(reason);
   on_change_(reason_);
   return reason_;
 }
@@ -46,11 +63,11 @@ void DiskWatch::watch(const std::stop_token& stop) {
   } while (!ended.wait_for(lock, stop, kPause, [&] { return stop.stop_requested(); }));
 }
 
-std::int64_t free_bytes_of(const std::filesystem::path& folder) {
-  std::error_code error;
-  const auto space = std::filesystem::space(folder, error);
-  if (error) throw EnvironmentError(fmt::format("cannot ask the disk: {}", error.message()));
-  return static_cast<std::int64_t>(space.available);
+DiskState disk_of(const std::filesystem::path& folder) {
+  struct statvfs disk {};
+  if (::statvfs(folder.c_str(), &disk) != 0) throw_environment_error("cannot ask the disk", errno);
+  return {static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize),
+          (disk.f_flag & ST_RDONLY) != 0};
 }
 
 }  // namespace throng::server

@@ -1,4 +1,4 @@
-// Watches the free space of a disk.
+// Watches whether a disk can be written to.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,37 @@
 
 namespace throng::server {
 
+struct DiskState {
+  std::int64_t free_bytes = 0;
+  bool is_read_only = false;
+};
+
 class DiskWatch {
  public:
-  using FreeBytes = std::function<std::int64_t()>;
+  using Look = std::function<DiskState()>;
   /// Called with the reason why nothing more should be written, and with "" once there is free
   /// space again.
   using OnChange = std::function<void(const std::string& reason)>;
 
-  /// Checks twice a second. There is free space again when a quarter more than `least_bytes` is
-  /// free, so that it does not change with every file.
-  DiskWatch(FreeBytes free_bytes, std::int64_t min_bytes, OnChange on_change);
+  /// Checks twice a second. There is free space again when a quarter more than `min_bytes` (0:
+  /// 1 MiB) is free, so that it does not change with every file.
+  DiskWatch(Look look, std::int64_t min_bytes, OnChange on_change);
 
-  /// Checks now. The reason why there is no free space; "" when there is.
+  /// Checks now. The reason why nothing can be written; "" when it can.
   std::string look();
 
  private:
   void watch(const std::stop_token& stop);
 
-  FreeBytes free_bytes_;
+  Look look_;
   std::int64_t min_bytes_;
   OnChange on_change_;
   std::mutex mutex_;
-  std::string
-      reason_;  ///< the reason why there was no free space at the last check; guarded by mutex_
+  std::string reason_;   ///< look()'s last answer; guarded by mutex_
   std::jthread thread_;  ///< last: ends before what it uses
 };
 
-/// Free bytes where a folder lies. Throws EnvironmentError.
-std::int64_t free_bytes_of(const std::filesystem::path& folder);
+/// Of the disk where a folder lies. Throws EnvironmentError.
+DiskState disk_of(const std::filesystem::path& folder);
 
 }  // namespace throng::server

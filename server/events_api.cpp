@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -27,10 +28,31 @@ constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for
 constexpr auto kKeepAlive = 10s;
 constexpr std::int64_t kLastNumber = std::numeric_limits<std::int64_t>::max();
 
+/// Drops events of jobs that the caller does not see. Nobody but administrators learns of the
+/// removal of a job.
+std::vector<jobs::EventRow> visible(std::vector<jobs::EventRow> events, const JobQueue& queue,
+                                    const Caller& caller) {
+  if (sees_all(caller)) return events;
+  std::map<std::string, bool> known;
+  std::erase_if(events, [&](const jobs::EventRow& event) {
+    auto found = known.find(event.job);
+    if (found == known.end()) {
+      const auto row = queue.get(event.job);
+      found = known.emplace(event.job, row && is_visible(caller, *row)).first;
+    }
+    return !found->second;
+  });
+  return events;
+}
+
 class EventStream {
  public:
-  EventStream(JobQueue& queue, std::string job, std::int64_t after)
-      : watch_(queue.begin_watch(kMaxStreams)), queue_(queue), job_(std::move(job)), after_(after) {
+  EventStream(JobQueue& queue, Caller caller, std::string job, std::int64_t after)
+      : watch_(queue.begin_watch(kMaxStreams)),
+        queue_(queue),
+        caller_(std::move(caller)),
+        job_(std::move(job)),
+        after_(after) {
     if (watch_ != nullptr) return;
     throw HttpError{503, fmt::format("{} event streams are open: try again later, or use ?wait_s=",
                                      kMaxStreams)};
@@ -42,11 +64,11 @@ class EventStream {
     const auto row = job_.empty() ? std::nullopt : queue_.get(job_);
     const bool may_go_on = job_.empty() || (row && is_active(row->state));
     const auto events = queue_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
+    if (!events.empty()) after_ = events.back().seq;
     std::string text;
-    for (const jobs::EventRow& event : events) {
+    for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
       text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
                           text_of(event_json(event)));
-      after_ = event.seq;
     }
     if (row && row->state == jobs::JobState::running && row->progress_json != progress_) {
       progress_ = row->progress_json;
@@ -65,6 +87,7 @@ class EventStream {
  private:
   std::shared_ptr<void> watch_;
   const JobQueue& queue_;
+  Caller caller_;
   std::string job_;
   std::int64_t after_;
   std::string progress_;
@@ -90,10 +113,10 @@ void send_page(const Call& call, const Request& request, Response& response,
   const auto limit = static_cast<int>(number_of(request, "limit", 1, kPage, kPage));
   const std::chrono::seconds timeout(number_of(request, "wait_s", 0, kMaxWaitS, 0));
   json list = json::array();
-  std::int64_t next = after;
-  for (const jobs::EventRow& event : call.queue.events(job, after, limit, timeout)) {
+  const std::vector<jobs::EventRow> events = call.queue.events(job, after, limit, timeout);
+  const std::int64_t next = events.empty() ? after : events.back().seq;
+  for (const jobs::EventRow& event : visible(events, call.queue, call.caller)) {
     list.push_back(event_json(event));
-    next = event.seq;
   }
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
@@ -101,13 +124,12 @@ void send_page(const Call& call, const Request& request, Response& response,
 }  // namespace
 
 void send_events(const Call& call, const Request& request, Response& response) {
-  const std::string job = request.matches.size() > 1
-                              ? find_row(call.queue, request, jobs::JobKind::dataset).id
-                              : std::string();
+  const std::string job = request.matches.size() > 1 ? find_job(call, request).id : std::string();
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(call, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(call.queue, job, last_event_id(request));
+  const auto stream =
+      std::make_shared<EventStream>(call.queue, call.caller, job, last_event_id(request));
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(

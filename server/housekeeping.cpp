@@ -32,8 +32,7 @@ Housekeeping::Housekeeping(const ServiceFolders& folders, jobs::Store& store, Qu
       uploads_(uploads),
       options_(std::move(options)),
       disk_(
-          options_.free_bytes ? options_.free_bytes
-                              : [data = folders.data()] { return free_bytes_of(data); },
+          options_.disk ? options_.disk : [data = folders.data()] { return disk_of(data); },
           options_.min_free_bytes, [this](const std::string& reason) { state_.pause(reason); }) {
   tidy_data_folder(folders_.data(), store_);
   sweeper_ = std::jthread([this](const std::stop_token& stop) { sweep(stop); });
@@ -62,18 +61,18 @@ bool Housekeeping::remove(const std::string& id) {
 
 void Housekeeping::remove_expired() {
   constexpr int kMaxAtOnce = 1000;
-  const std::int64_t now_ms = store_.now_ms();
+  store_.save_service_clock();
   const Retention& retention = options_.retention;
   if (retention.max_wait_ms > 0 || retention.max_bytes > 0) {
-    store_.correct_ended(now_ms);
     for (const std::string& id :
-         expired(store_.ended(kMaxAtOnce), store_.total_bytes(), now_ms, retention)) {
+         expired(store_.ended(kMaxAtOnce), store_.total_bytes(), store_.service_ms(), retention)) {
       spdlog::info("job {}: has been kept for long enough", id);
       remove(id);
     }
   }
   store_.forget_events(
-      now_ms - std::chrono::duration_cast<std::chrono::milliseconds>(kMaxMemoryOfRemoved).count());
+      store_.now_ms() -
+      std::chrono::duration_cast<std::chrono::milliseconds>(kMaxMemoryOfRemoved).count());
 }
 
 void Housekeeping::sweep(const std::stop_token& stop) {

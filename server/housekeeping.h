@@ -18,7 +18,7 @@ namespace throng::server {
 struct HousekeepingOptions {
   Retention retention = {};
   std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue is paused
-  DiskWatch::FreeBytes free_bytes = {};       ///< default: of the data folder's disk
+  DiskWatch::Look disk = {};                  ///< default: of the data folder's disk
 };
 
 /// Safe to use from many threads.
@@ -38,7 +38,7 @@ class Housekeeping {
   /// Removes what has been kept for long enough. Done by itself every minute.
   void remove_expired();
 
-  /// The reason why the disk has no free space; "" when it has.
+  /// The reason why nothing can be written; "" when it can.
   std::string look_at_disk() { return disk_.look(); }
 
  private:

@@ -1,12 +1,16 @@
 #include "server/http_server.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <thread>
@@ -26,7 +30,8 @@ constexpr int kBacklog = 1024;
 constexpr std::size_t kRequestsPerConnection = 1'000'000;
 constexpr std::chrono::milliseconds kIdle(2'000);  // between requests
 constexpr int kIdleStepMs = 100;                   // bounds how long stop() takes
-constexpr std::size_t kSmallBody = 1 << 20;        // not worth to be counted
+constexpr std::chrono::milliseconds kPauseWithoutFiles(100);
+constexpr std::size_t kSmallBody = 1 << 20;  // not worth to be counted
 
 httplib::Request request_of(const RequestHead& head) {
   httplib::Request request;
@@ -61,6 +66,37 @@ class HttpServer::BoundedServer : public httplib::Server {
  public:
   BoundedServer(HttpOptions options, ErrorWriter write_error)
       : options_(std::move(options)), write_error_(std::move(write_error)) {}
+  ~BoundedServer() override {
+    if (listener_ >= 0) ::close(listener_);
+  }
+  BoundedServer(const BoundedServer&) = delete;
+  BoundedServer& operator=(const BoundedServer&) = delete;
+
+  /// Takes over the socket that the library has bound.
+  void own(int listener) { listener_ = listener; }
+
+  /// Serves until end(). Instead of the library's loop, which stops for good once the machine lacks
+  /// memory or files for a moment, and whose sockets are inherited by programs that are started.
+  void accept_all() {
+    httplib::ThreadPool threads(kThreads);
+    while (svr_sock_ != INVALID_SOCKET) {
+      pollfd wait{listener_, POLLIN, 0};
+      if (::poll(&wait, 1, kIdleStepMs) <= 0) continue;
+      const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+      if (socket >= 0) {
+        threads.enqueue([this, socket] { process_and_close_socket(socket); });
+      } else if (errno != EINTR && errno != ECONNABORTED && svr_sock_ != INVALID_SOCKET) {
+        spdlog::warn("connections wait: {}", std::strerror(errno));
+        std::this_thread::sleep_for(kPauseWithoutFiles);
+      }
+    }
+    threads.shutdown();
+  }
+
+  /// Makes accept_all() return, now or when it is only about to begin; open connections end.
+  void end() {
+    if (svr_sock_.exchange(INVALID_SOCKET) != INVALID_SOCKET) ::shutdown(listener_, SHUT_RDWR);
+  }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
@@ -156,6 +192,7 @@ class HttpServer::BoundedServer : public httplib::Server {
     return false;
   }
 
+  int listener_ = -1;
   const ConnectionLimits limits_;
   const HttpOptions options_;
   const ErrorWriter write_error_;
@@ -167,9 +204,9 @@ thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
 
 HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
     : server_(std::make_unique<BoundedServer>(options, write_error)) {
-  server_->new_task_queue = [] {
-    return std::make_unique<httplib::ThreadPool>(kThreads).release();
-  };
+  server_->set_default_headers({{"X-Content-Type-Options", "nosniff"},
+                                {"Referrer-Policy", "no-referrer"},
+                                {"Cross-Origin-Resource-Policy", "same-origin"}});
   server_->set_payload_max_length(std::numeric_limits<std::size_t>::max());
   server_->set_tcp_nodelay(true);
   int listener = -1;
@@ -177,6 +214,7 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
   server_->set_socket_options([&listener](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    ::fcntl(socket, F_SETFD, FD_CLOEXEC);
     listener = socket;
   });
   server_->set_error_handler(
@@ -193,6 +231,7 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
     throw EnvironmentError(
         fmt::format("cannot listen on {} port {}: is the port taken?", options.host, options.port));
   }
+  server_->own(listener);
   // The library's backlog is fixed at 5; a second listen() changes it.
   ::listen(listener, kBacklog);
 }
@@ -201,16 +240,8 @@ HttpServer::~HttpServer() = default;
 
 httplib::Server& HttpServer::routes() { return *server_; }
 
-void HttpServer::run() {
-  if (!stopping_) server_->listen_after_bind();
-}
+void HttpServer::run() { server_->accept_all(); }
 
-void HttpServer::stop() {
-  if (stopping_.exchange(true)) return;
-  // The library forgets a stop() that comes before it runs: give run() the moment it needs.
-  constexpr auto kStep = std::chrono::milliseconds(1);
-  for (int i = 0; i < 100 && !server_->is_running(); ++i) std::this_thread::sleep_for(kStep);
-  server_->stop();
-}
+void HttpServer::stop() { server_->end(); }
 
 }  // namespace throng::server

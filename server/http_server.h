@@ -4,7 +4,6 @@
 // loopback.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -58,7 +57,6 @@ class HttpServer {
   class BoundedServer;
   std::unique_ptr<BoundedServer> server_;
   int port_ = 0;
-  std::atomic<bool> stopping_ = false;
 };
 
 }  // namespace throng::server

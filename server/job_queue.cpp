@@ -48,7 +48,8 @@ jobs::Added JobQueue::submit(const Submission& submission) {
                                         .owner = submission.owner,
                                         .key = submission.key,
                                         .hash = sha256_hex(text_of(sent)),
-                                        .limits = {submission.max_active, submission.max_bytes}});
+                                        .limits = {submission.max_active, submission.max_bytes},
+                                        .people = resolved.people()});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lack.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
 #include "jobs/spec/task_memory.h"
@@ -160,6 +161,7 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     error = text_of(error_json("input", folders_.without_paths(failure.what()),
                                folders_.without_paths(failure.problems())));
   } catch (const std::exception& failure) {
+    if (says_lack_of_resources(failure)) throw;  // it is still "running", and taken up again
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
       return;  // still "running": it is resumed when there is free space
@@ -185,7 +187,7 @@ jobs::Share JobRunner::share_of(const JobRow& row) const {
 std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
                                                       const std::stop_token& stop) {
   const jobs::ResolvedJob job = jobs::read_resolved_job(row.spec_json, "");
-  const auto folder = jobs::JobFolder::create(folders_.job_folder(row.id), job);
+  const auto folder = jobs::JobFolder::restore(folders_.job_folder(row.id), job);
   Clock::time_point last_save;
   Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
   std::string stages;
@@ -205,7 +207,7 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
     next_bytes = now + std::max<Clock::duration>(kMinBytesInterval, kMaxPartOfTime * took);
   };
   jobs::Share share = share_of(row);
-  share.memory_mib = [memory = jobs::TaskMemory(job.spec())](const jobs::Task& task) {
+  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), row.people)](const jobs::Task& task) {
     return memory.mib_of(task);
   };
   return jobs::run_job(folder, job, executor_, on_progress, stop, share);

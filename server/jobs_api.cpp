@@ -181,6 +181,7 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
   filter.oldest_first = sort == "oldest";
   filter.after = after_of(request);
   filter.limit = limit_of(request);
+  filter.visible_to = viewer_of(call.caller);
   const std::vector<jobs::JobRow> rows = call.queue.list(filter);
   json jobs = json::array();
   for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.housekeeping.retention()));
@@ -191,6 +192,7 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
 
 void send_job(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
+  if (!sees_all(call.caller)) static_cast<void>(find_job(call, request));
   const auto text =
       jobs::is_job_id(id)
           ? call.queue.text_of_job(id,

@@ -5,12 +5,13 @@
 #include <openssl/crypto.h>
 
 #include <array>
-#include <chrono>
 
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/hash.h"
 #include "server/private_database.h"
 #include "server/random_text.h"
+#include "server/unix_time.h"
 
 namespace throng::server {
 
@@ -36,11 +37,6 @@ CREATE TABLE IF NOT EXISTS key (
 ) WITHOUT ROWID
 )";
 
-std::int64_t now_ms() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-}
-
 /// Takes as long whatever the difference.
 bool equals_in_constant_time(const std::string& a, const std::string& b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
@@ -53,8 +49,7 @@ Scope scope_of(const std::string& name) {
 }
 
 fs::path prepared(const fs::path& data) {
-  std::error_code error;
-  fs::create_directories(data, error);
+  make_folders(data);
   return data / "keys.sqlite";
 }
 
@@ -113,7 +108,7 @@ std::string Keys::create(const std::string& name, Scope scope, int max_active,
     insert.bind(3, sha256_hex(token));
     insert.bind(4, std::string(name_of(scope)));
     insert.bind(5, max_active);
-    insert.bind(6, now_ms());
+    insert.bind(6, unix_ms_now());
     insert.bind(7, max_bytes);
     insert.bind(8, max_priority);
     insert.exec();
@@ -142,7 +137,7 @@ bool Keys::revoke(const std::string& id) {
   return file_->with([&](SQLite::Database& database) {
     SQLite::Statement update(database,
                              "UPDATE key SET revoked_ms = ? WHERE id = ? AND revoked_ms = 0");
-    update.bind(1, now_ms());
+    update.bind(1, unix_ms_now());
     update.bind(2, id);
     return update.exec() > 0;
   });

@@ -98,8 +98,19 @@ std::string after_of(const Request& request) {
   return after;
 }
 
+bool sees_all(const Caller& caller) { return caller.scope >= Scope::admin; }
+
+bool is_visible(const Caller& caller, const jobs::JobRow& row) {
+  return sees_all(caller) || row.owner == caller.key_id ||
+         std::find(row.labels.begin(), row.labels.end(), jobs::kSharedLabel) != row.labels.end();
+}
+
+std::optional<std::string> viewer_of(const Caller& caller) {
+  return sees_all(caller) ? std::nullopt : std::optional(caller.key_id);
+}
+
 jobs::JobRow find_job(const Call& call, const Request& request) {
-  return find_row(call.queue, request, jobs::JobKind::dataset);
+  return find_row(call, request, jobs::JobKind::dataset);
 }
 
 void require_own(const Call& call, const jobs::JobRow& row) {
@@ -109,11 +120,11 @@ void require_own(const Call& call, const jobs::JobRow& row) {
                        row.kind == jobs::JobKind::dataset ? "job" : "calibration")};
 }
 
-jobs::JobRow find_row(const JobQueue& queue, const Request& request, jobs::JobKind kind) {
+jobs::JobRow find_row(const Call& call, const Request& request, jobs::JobKind kind) {
   const std::string id = request.matches[1];
   std::optional<jobs::JobRow> row;
-  if (jobs::is_job_id(id)) row = queue.get(id);
-  if (!row || row->kind != kind) {
+  if (jobs::is_job_id(id)) row = call.queue.get(id);
+  if (!row || row->kind != kind || !is_visible(call.caller, *row)) {
     throw HttpError{404, fmt::format("there is no {} {}",
                                      kind == jobs::JobKind::dataset ? "job" : "calibration", id)};
   }

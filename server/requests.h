@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -42,13 +43,20 @@ HttpError wrong_field(std::string_view what, const std::string& pointer, const s
 nlohmann::json fields_of(const httplib::Request& request, std::string_view what,
                          std::initializer_list<std::string_view> known);
 
-/// The job that the path names. Throws HttpError 404.
+/// Whether the caller may know of all jobs. Others know of their own, and of those with the label
+/// "shared".
+bool sees_all(const Caller& caller);
+bool is_visible(const Caller& caller, const jobs::JobRow& row);
+/// For JobFilter::visible_to.
+std::optional<std::string> viewer_of(const Caller& caller);
+
+/// The job that the path names. Throws HttpError 404, also for one that the caller does not see.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 
 /// Throws HttpError 403 unless the caller owns the job or calibration, or is an administrator.
 void require_own(const Call& call, const jobs::JobRow& row);
 
-/// The job or calibration that the path names. Throws HttpError 404.
-jobs::JobRow find_row(const JobQueue& queue, const httplib::Request& request, jobs::JobKind kind);
+/// Likewise the job or calibration.
+jobs::JobRow find_row(const Call& call, const httplib::Request& request, jobs::JobKind kind);
 
 }  // namespace throng::server

@@ -3,8 +3,8 @@
 namespace throng::server {
 
 std::optional<std::int64_t> expiry_ms(const jobs::JobRow& row, const Retention& retention) {
-  if (retention.max_wait_ms == 0 || row.ended_ms == 0 || row.keep) return std::nullopt;
-  return row.ended_ms + retention.max_wait_ms;
+  if (retention.max_wait_ms == 0 || row.kept_from_ms == 0 || row.keep) return std::nullopt;
+  return row.kept_from_ms + retention.max_wait_ms;
 }
 
 std::vector<std::string> expired(const std::vector<jobs::JobRow>& ended, std::int64_t total_bytes,

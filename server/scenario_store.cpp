@@ -4,13 +4,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "server/answers.h"
+#include "server/unix_time.h"
 
 namespace throng::server {
 
@@ -29,12 +30,6 @@ bool is_upload_name(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) {
            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
          });
-}
-
-std::int64_t unix_ms_now() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 std::string note_of(const ScenarioUpload& upload) {
@@ -91,7 +86,7 @@ ScenarioStore::ScenarioStore(const fs::path& data, const fs::path& shipped,
       links_(folder_in(data)),
       confined_(confined),
       limits_(limits) {
-  fs::create_directories(uploads_);
+  make_folders(uploads_);
   remove_temporaries(uploads_);
   remove_temporaries(data_);
   find_uploads();

@@ -18,6 +18,7 @@
 #include "jobs/queue/file_fence.h"
 #include "jobs/queue/local_processes.h"
 #include "jobs/queue/machine_memory.h"
+#include "jobs/queue/worker_limits.h"
 #include "server/api.h"
 #include "server/json_log.h"
 #include "server/keys.h"
@@ -96,6 +97,7 @@ int serve(const ServeOptions& options) {
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
+  jobs::protect_this_process();
   set_up_log(options.log_json);
   std::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = ending_signals();

@@ -25,9 +25,10 @@ struct ServiceOptions {
   jobs::ConfinedTask confined;      ///< checks of what users send
   UploadLimits uploads = {};
   HousekeepingOptions housekeeping = {};
-  int max_active_jobs = 16;       ///< worked on at once (server/job_runner.h)
-  std::int64_t max_task_mib = 0;  ///< memory for a task (server/confined_checks.h); 0: any
-  jobs::Store::Clock clock = {};  ///< default: the system's
+  int max_active_jobs = 16;        ///< worked on at once (server/job_runner.h)
+  std::int64_t max_task_mib = 0;   ///< memory for a task (server/confined_checks.h); 0: any
+  jobs::Store::Clock clock = {};   ///< default: the system's
+  jobs::Store::Clock steady = {};  ///< of jobs::ServiceClock
 };
 
 /// The parts are safe to use from many threads.

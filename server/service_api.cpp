@@ -11,6 +11,7 @@
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
+#include "server/session_api.h"
 
 namespace throng::embedded {
 extern const std::string_view kOpenApi;
@@ -33,7 +34,7 @@ std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-std::int64_t free_bytes(const Call& call) { return free_bytes_of(call.folders.data()); }
+std::int64_t free_bytes(const Call& call) { return disk_of(call.folders.data()).free_bytes; }
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
 json schema_at(const char* pointer) { return jobs::job_schema().at(json::json_pointer(pointer)); }
@@ -44,13 +45,18 @@ void send_health(const Call&, const Request&, Response& response) {
   write_json(response, 200, {{"status", "ok"}});
 }
 
-void send_readiness(const Call& call, const Request&, Response& response) {
+void send_readiness(const Call& call, const Request& request, Response& response) {
   static_cast<void>(call.queue.count());  // throws when the store cannot be read
   call.queue.check_store();
+  // Strangers learn no figures of the machine.
+  const bool is_known = caller_in(call.keys, call.sessions, request).has_value();
   if (const std::string reason = call.queue.paused(); !reason.empty()) {
-    throw HttpError{503, fmt::format("the queue is paused: {}", reason)};
+    throw HttpError{503, is_known ? fmt::format("the queue is paused: {}", reason)
+                                  : std::string("the queue is paused")};
   }
-  write_json(response, 200, {{"status", "ready"}, {"free_bytes", free_bytes(call)}});
+  json ready = {{"status", "ready"}};
+  if (is_known) ready["free_bytes"] = free_bytes(call);
+  write_json(response, 200, ready);
 }
 
 void send_figures(const Call& call, const Request&, Response& response) {

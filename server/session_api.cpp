@@ -82,6 +82,11 @@ bool has_credentials(const Request& request) {
   return request.has_header(kAuthorization) || !token_in(request).empty();
 }
 
+void confirm_access(const Call&, const Request&, Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  response.status = 204;
+}
+
 void open_session(const Call& call, const Request& request, Response& response) {
   require_json(request);
   const json body = json_body_of(request);

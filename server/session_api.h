@@ -17,6 +17,9 @@ std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions,
 /// Whether a request came with a key or a session, good or not.
 bool has_credentials(const httplib::Request& request);
 
+/// 204: for proxies that ask before they read a body (docker/nginx.conf). The route refuses others.
+void confirm_access(const Call& call, const httplib::Request& request, httplib::Response& response);
+
 void open_session(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_session(const Call& call, const httplib::Request& request, httplib::Response& response);
 void close_session(const Call& call, const httplib::Request& request, httplib::Response& response);

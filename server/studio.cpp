@@ -39,8 +39,6 @@ void send_bytes(const Request& request, Response& response, const StudioFile& fi
   response.set_header("Cache-Control", caching);
   response.set_header("ETag", std::string(file.etag));
   response.set_header("Vary", "Accept-Encoding");
-  response.set_header("X-Content-Type-Options", "nosniff");
-  response.set_header("Cross-Origin-Resource-Policy", "same-origin");
   const std::string known = request.get_header_value("If-None-Match");
   if (response.status != 404 && known.find(file.etag) != std::string::npos) {
     response.status = 304;
@@ -81,7 +79,6 @@ bool is_for_studio(const Request& request) {
 
 void write_studio(const Request& request, Response& response) {
   response.set_header("Content-Security-Policy", kContentPolicy);
-  response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Cross-Origin-Opener-Policy", "same-origin");
   send_bytes(request, response, *find_file("index.html"), "no-cache");
 }

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/json_text.h"
 #include "server/private_database.h"
 
@@ -101,8 +102,7 @@ struct Webhooks::File : PrivateDatabase {
 };
 
 Webhooks::Webhooks(const fs::path& data) {
-  std::error_code error;
-  fs::create_directories(data, error);
+  make_folders(data);
   try {
     file_ = std::make_unique<File>(data / "webhooks.sqlite", "webhooks",
                                    [](SQLite::Database& database) {

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
+#include "base/read_only_file.h"
+#include "base/utf8.h"
 #include "world/hdf5_file.h"
 #include "world/trace.h"
 #include "world/trace_layout.h"
@@ -25,22 +26,14 @@ constexpr double kMaxImpulseNs = 1e6;
   throw InputError(Problem{source, where, found, expected});
 }
 
-// Names and ids end up in JSON, whose writer refuses other bytes.
-bool is_utf8(const std::string& text) {
-  try {
-    static_cast<void>(nlohmann::json(text).dump());
-  } catch (const nlohmann::json::type_error&) {
-    return false;
-  }
-  return true;
-}
-
 class Reader {
  public:
   explicit Reader(const fs::path& path) : source_(path.string()) {
     if (!fs::is_regular_file(path)) {
       throw EnvironmentError(fmt::format("cannot read {}", source_));
     }
+    // The library does not say why it cannot open a file.
+    static_cast<void>(ReadOnlyFile(path));
     try {
       root_ = hdf5::open_file(source_);
     } catch (const hdf5::Failure&) {
@@ -240,6 +233,7 @@ class Reader {
     return values;
   }
 
+  // Names and ids end up in JSON, whose writer refuses other bytes.
   void require_utf8(const std::string& value, const char* name) {
     if (is_utf8(value)) return;
     reject(source_, name, "bytes that are not UTF-8", "text");

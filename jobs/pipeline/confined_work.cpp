@@ -34,9 +34,8 @@ std::string text_at(const json& request, const char* key) {
 json check_bundle(const json& request) { return check_scenarios(text_at(request, "folder")); }
 
 json check_job(const json& request) {
-  return {
-      {"job",
-       to_json(resolve_job(text_at(request, "job"), "", text_at(request, "scenarios")).spec())}};
+  const ResolvedJob job = resolve_job(text_at(request, "job"), "", text_at(request, "scenarios"));
+  return {{"job", to_json(job.spec())}, {"people", job.people()}};
 }
 
 json draw_scenario(const json& request) {

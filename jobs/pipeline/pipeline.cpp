@@ -7,12 +7,14 @@
 
 #include "annotate/png.h"
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/redact.h"
 #include "camera/files.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/run_writers.h"
 #include "jobs/queue/publication.h"
+#include "jobs/queue/trace_seal.h"
 #include "jobs/spec/environment.h"
 #include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
@@ -51,12 +53,13 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
 void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run,
                   const OnTaskProgress& on_progress, const std::stop_token& stop) {
   const fs::path trace = folder.output_of({Task::Kind::simulate, run});
-  fs::create_directories(trace.parent_path());
+  make_folders(trace.parent_path());
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
   const std::vector<Problem> warnings =
       sim::simulate(scenario_of(job, scenarios), run_spec(job, run), trace, progress, stop);
+  seal_trace(trace);
   if (run > 0) return;  // all runs read the same files
   for (const Problem& warning : warnings) {
     fmt::print(stderr, "warning: {}\n",

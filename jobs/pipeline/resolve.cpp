@@ -148,6 +148,17 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   }
 }
 
+/// That the scenario has if the job does not say how many; 0 where they cannot be counted, which
+/// the simulation will explain.
+int people_of(const JobSpec& job, const world::Scenario& scenario) {
+  if (job.agents || job.recorded) return 0;
+  try {
+    return static_cast<int>(sim::load_crowd(scenario, job.seed, job.crowd).agent_count());
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
 // Errors of the airframe would only be found again.
 bool has_own_airframe(const JobSpec& job) {
   return std::any_of(job.drones.begin(), job.drones.end(),
@@ -194,7 +205,8 @@ ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::st
     if (problem.source.empty()) problem.source = source;
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return ResolvedJob(std::move(job));
+  const int people = people_of(job, scenario);
+  return ResolvedJob(std::move(job), people);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 
 #include "base/error.h"
+#include "base/lack.h"
 
 namespace throng::jobs {
 
@@ -67,7 +67,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
   std::filesystem::create_directories(log.parent_path());
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
-    throw EnvironmentError(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
+    throw_environment_error("cannot create a pipe", errno);
   }
   const auto [read_end, write_end] = pipe_ends;
   ::fcntl(read_end, F_SETFL, O_NONBLOCK);
@@ -82,6 +82,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
   constexpr int kLogMode = 0644;
   posix_spawn_file_actions_addopen(&settings.actions, STDERR_FILENO, log.c_str(),
                                    O_WRONLY | O_CREAT | O_APPEND, kLogMode);
+  // Libraries open sockets and files without a word: a child gets none of a client's connection.
+  posix_spawn_file_actions_addclosefrom_np(&settings.actions, STDERR_FILENO + 1);
   // A server blocks and ignores signals that a worker must obey.
   sigset_t none;
   sigset_t all;
@@ -101,7 +103,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
   ::close(write_end);
   if (error != 0) {
     ::close(read_end);
-    throw EnvironmentError(fmt::format("cannot start {}: {}", command[0], std::strerror(error)));
+    throw_environment_error(fmt::format("cannot start {}", command[0]), error);
   }
   output_ = read_end;
 }

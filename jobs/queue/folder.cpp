@@ -64,6 +64,16 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
   return folder;
 }
 
+JobFolder JobFolder::restore(fs::path path, const ResolvedJob& resolved) {
+  JobFolder folder(std::move(path));
+  const std::string text = to_json(resolved.spec()).dump(kJsonIndent) + "\n";
+  const fs::path file = folder.job_file();
+  if (!fs::exists(file) || !is_same_job(read_file(file), text, file)) {
+    write_file_atomically(file, text);
+  }
+  return create(folder.path(), resolved);
+}
+
 ResolvedJob JobFolder::read_job() const {
   return read_resolved_job(read_file(job_file()), job_file().string());
 }

@@ -2,7 +2,7 @@
 //
 //   job.json                  the job as it was resolved, with all defaults
 //   recorded/                 the trajectories that the job replays, if it does
-//   work/run000/trace.h5      published by the task run000/trace
+//   work/run000/trace.h5      published by the task run000/trace; its hash in trace.h5.sha256
 //   work/run000/metrics/      metrics.json, exits.csv
 //   work/run000/shard0003/    images, density maps, previews, records of its frames
 //   failed_runs.json          runs that the dataset lacks, if any
@@ -25,6 +25,10 @@ class JobFolder {
   /// it holds is taken up). Throws InputError when it holds another job or other files, and
   /// EnvironmentError.
   static JobFolder create(std::filesystem::path path, const ResolvedJob& resolved);
+
+  /// Likewise for a folder that is named after the job, so that it can hold no other: a job.json
+  /// that is gone or damaged is written again.
+  static JobFolder restore(std::filesystem::path path, const ResolvedJob& resolved);
 
   /// Reads job.json, which was checked when the folder was made. Throws EnvironmentError and
   /// InputError.

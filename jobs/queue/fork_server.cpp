@@ -22,6 +22,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lack.h"
+#include "jobs/queue/worker_limits.h"
 
 namespace throng::jobs {
 
@@ -70,7 +72,7 @@ Answer parse_answer(std::string_view text) {
 std::pair<int, int> socket_pair() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw EnvironmentError(fmt::format("cannot create a socket: {}", std::strerror(errno)));
+    throw_environment_error("cannot create a socket", errno);
   }
   return {ends[0], ends[1]};
 }
@@ -224,6 +226,7 @@ void report_ended(std::map<pid_t, std::string>& running) {
 }  // namespace
 
 int run_fork_server(const std::function<int(const fs::path&)>& work) {
+  protect_this_process();
   // Not PR_SET_PDEATHSIG: that looks at the thread that started this process, which may end before
   // its process does. The end of the client closes the socket.
   sigset_t ends;

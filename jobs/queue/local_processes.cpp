@@ -13,6 +13,7 @@
 #include <optional>
 #include <thread>
 
+#include "base/lack.h"
 #include "base/resources.h"
 #include "jobs/queue/child_process.h"
 #include "jobs/queue/machine_memory.h"
@@ -107,6 +108,12 @@ class Batch {
       running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
                                                   variables_of(attempt, memory_mib),
                                                   folder_.log_of(tasks_[task])));
+      lacks_.clear();
+    } catch (const LacksResources& error) {
+      // Nothing that the job could have caused: it waits for as long as it takes.
+      --results_[task].attempts;
+      waiting_.push_back({task, after(options_.rest_s)});
+      lacks_ = error.what();
     } catch (const EnvironmentError& error) {
       fail(task, {Outcome::environment_error, 0, error.what(), {}});
     }
@@ -114,10 +121,13 @@ class Batch {
   }
 
   void say_why_nothing_runs() {
-    const bool lacks_memory = running_.empty() && !waiting_.empty() && claimant_.waits_for_memory();
-    if (lacks_memory == lacks_memory_) return;
-    lacks_memory_ = lacks_memory;
-    share_.on_wait(lacks_memory ? "there is not enough free memory" : "");
+    std::string reason;
+    if (running_.empty() && !waiting_.empty()) {
+      reason = claimant_.waits_for_memory() ? "there is not enough free memory" : lacks_;
+    }
+    if (reason == reason_) return;
+    reason_ = reason;
+    share_.on_wait(reason);
   }
 
   ChildProcess::Variables variables_of(int attempt, std::int64_t memory_mib) const {
@@ -239,7 +249,8 @@ class Batch {
   Admission& admission_;
   const Share& share_;
   Admission::Claimant claimant_;
-  bool lacks_memory_ = false;
+  std::string lacks_;   ///< why no worker could be started when that was last tried; "" if one was
+  std::string reason_;  ///< that was last given to share_.on_wait
   const JobFolder& folder_;
   std::span<const Task> tasks_;
   const Executor::OnProgress& on_progress_;

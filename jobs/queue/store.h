@@ -35,10 +35,12 @@ struct JobRow {
   std::int64_t ended_ms = 0;    ///< 0: not yet
   int priority = 0;             ///< higher values start first
   std::vector<std::string> labels = {};
-  std::string owner = {};        ///< of whom it is; "" for nobody in particular
-  std::int64_t bytes = 0;        ///< that its files take on disk, as last measured
-  bool keep = false;             ///< never to be removed for its age
-  std::string waiting_for = {};  ///< not stored: why nobody works on it although it is its turn
+  std::string owner = {};         ///< of whom it is; "" for nobody in particular
+  std::int64_t bytes = 0;         ///< that its files take on disk, as last measured
+  bool keep = false;              ///< never to be removed for its age
+  std::int64_t kept_from_ms = 0;  ///< its end by Store::service_ms(); 0: not yet
+  int people = 0;                 ///< ResolvedJob::people()
+  std::string waiting_for = {};   ///< not stored: why nobody works on it although it is its turn
   /// Not stored: its state in the store is none. It counts as failed and can only be removed.
   bool is_damaged = false;
 };
@@ -69,6 +71,7 @@ struct NewJob {
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
   OwnerLimits limits = {};  ///< of the owner, before this job
+  int people = 0;           ///< ResolvedJob::people()
 };
 
 /// A job that was queued again.
@@ -84,6 +87,9 @@ struct Added {
   std::string over_quota = {};  ///< why nothing was queued: the owner has as much as they may
 };
 
+/// Jobs with this label are seen by all keys.
+inline constexpr const char* kSharedLabel = "shared";
+
 /// Which jobs to list.
 struct JobFilter {
   JobKind kind = JobKind::dataset;
@@ -93,6 +99,7 @@ struct JobFilter {
   bool oldest_first = false;          ///< else newest first
   std::string after = {};             ///< the id that the last page ended with; "": from the start
   int limit = 50;
+  std::optional<std::string> visible_to = {};  ///< an owner: their own and shared ones only
 };
 
 /// Something that happened to a job. Numbers rise over all jobs and are never used twice.
@@ -112,7 +119,8 @@ class Store {
 
   /// Opens or creates the store in `folder`. Throws EnvironmentError when another process has it
   /// open, or when it cannot be read or was written by a newer throng.
-  explicit Store(const std::filesystem::path& folder, Clock clock = {});
+  /// `steady` is that of ServiceClock.
+  explicit Store(const std::filesystem::path& folder, Clock clock = {}, Clock steady = {});
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
@@ -144,8 +152,6 @@ class Store {
 
   /// Jobs of any kind that have ended and need not be kept, those that ended first before others.
   std::vector<JobRow> ended(int limit) const;
-  /// Jobs that ended in the future ended now: the clock has been put back since.
-  void correct_ended(std::int64_t now_ms);
   /// Of all jobs.
   std::int64_t total_bytes() const;
   /// Forgets events of removed jobs that are older than this. Returns how many.
@@ -165,6 +171,10 @@ class Store {
 
   /// The time by the store's clock.
   std::int64_t now_ms() const { return clock_(); }
+  /// The time by which jobs are kept (jobs/queue/service_clock.h).
+  std::int64_t service_ms() const;
+  /// Saves that time for the next process. Call it every minute or so.
+  void save_service_clock();
 
   /// Throws EnvironmentError if the store's files were removed or replaced: changes are refused.
   void check_files() const;

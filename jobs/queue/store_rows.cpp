@@ -46,6 +46,8 @@ JobRow row_of(SQLite::Statement& query) {
   row.owner = query.getColumn(13).getString();
   row.bytes = query.getColumn(14);
   row.keep = query.getColumn(15).getInt() != 0;
+  row.kept_from_ms = query.getColumn(16);
+  row.people = query.getColumn(17);
   if (row.is_damaged) {
     const nlohmann::json error = {
         {"kind", "environment"},
@@ -67,11 +69,78 @@ std::optional<JobRow> first_of(SQLite::Statement& query) {
   return row_of(query);
 }
 
+std::optional<JobRow> find_job(SQLite::Database& database, const std::string& id) {
+  SQLite::Statement query(database, fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
+  query.bind(1, id);
+  return first_of(query);
+}
+
+std::optional<JobRow> find_submission(SQLite::Database& database, const std::string& owner,
+                                      const std::string& key) {
+  SQLite::Statement query(
+      database, fmt::format("SELECT {} FROM job WHERE owner = ? AND submission_key = ?", kColumns));
+  query.bind(1, owner);
+  query.bind(2, key);
+  return first_of(query);
+}
+
+void write_event(SQLite::Database& database, const std::string& job, std::int64_t at_ms,
+                 const std::string& type, const std::string& data_json) {
+  SQLite::Statement insert(database,
+                           "INSERT INTO event (job, at_ms, type, data) VALUES (?, ?, ?, ?)");
+  insert.bind(1, job);
+  insert.bind(2, at_ms);
+  insert.bind(3, type);
+  insert.bind(4, data_json);
+  insert.exec();
+}
+
+std::optional<JobRow> move_to(SQLite::Database& database, JobState next, const JobRow& row,
+                              JobEvent event, const std::string& error_json, const ClockMark& now) {
+  JobRow changed = row;
+  changed.state = next;
+  changed.attempt += event == JobEvent::start || event == JobEvent::resume ? 1 : 0;
+  if (event == JobEvent::start) changed.started_ms = now.wall_ms;
+  changed.ended_ms = is_active(next) ? 0 : now.wall_ms;
+  changed.kept_from_ms = is_active(next) ? 0 : now.service_ms;
+  changed.error_json = error_json;
+  SQLite::Statement update(database,
+                           "UPDATE job SET state = ?, attempt = ?, error = ?, started_ms = ?, "
+                           "ended_ms = ?, kept_from_ms = ? WHERE id = ? AND state = ? AND "
+                           "attempt = ?");
+  update.bind(1, std::string(name_of(changed.state)));
+  update.bind(2, changed.attempt);
+  update.bind(3, changed.error_json);
+  update.bind(4, changed.started_ms);
+  update.bind(5, changed.ended_ms);
+  update.bind(6, changed.kept_from_ms);
+  update.bind(7, row.id);
+  update.bind(8, std::string(name_of(row.state)));
+  update.bind(9, row.attempt);
+  if (update.exec() == 0) return std::nullopt;
+  const nlohmann::json data = {{"state", name_of(next)}, {"attempt", changed.attempt}};
+  write_event(database, row.id, now.wall_ms, std::string(name_of(event)), data.dump());
+  return changed;
+}
+
+std::optional<ClockMark> clock_mark(SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT service_ms, wall_ms FROM clock_mark");
+  if (!query.executeStep()) return std::nullopt;
+  return ClockMark{query.getColumn(0), query.getColumn(1)};
+}
+
+void save_mark(SQLite::Database& database, const ClockMark& mark) {
+  SQLite::Statement save(database, "INSERT OR REPLACE INTO clock_mark VALUES (1, ?, ?)");
+  save.bind(1, mark.service_ms);
+  save.bind(2, mark.wall_ms);
+  save.exec();
+}
+
 void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job) {
   SQLite::Statement insert(
       database,
       "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash, owner) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?)");
+      "submission_hash, owner, people) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, row.id);
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
@@ -82,6 +151,7 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   if (!job.key.empty()) insert.bind(8, job.key);
   insert.bind(9, job.hash);
   insert.bind(10, row.owner);
+  insert.bind(11, row.people);
   insert.exec();
 }
 

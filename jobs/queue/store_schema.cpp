@@ -92,6 +92,53 @@ CREATE INDEX job_by_owner ON job (owner, state);
 CREATE INDEX job_by_end ON job (ended_ms) WHERE ended_ms > 0;
 CREATE UNIQUE INDEX job_by_submission_key ON job (owner, submission_key)
   WHERE submission_key IS NOT NULL;
+)",
+    // Indexes of states, labels and names, by all of their parts of three characters; all follow
+    // the table by themselves. Numbers have the order of the ids. Since when jobs are kept, and how
+    // many people their scenarios have.
+    R"(
+CREATE TABLE clock_mark (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  service_ms INTEGER NOT NULL,
+  wall_ms INTEGER NOT NULL
+);
+ALTER TABLE job ADD COLUMN kept_from_ms INTEGER NOT NULL DEFAULT 0;
+UPDATE job SET kept_from_ms = min(ended_ms, 1000 * CAST(strftime('%s', 'now') AS INTEGER))
+  WHERE ended_ms > 0;
+DROP INDEX job_by_end;
+CREATE INDEX job_by_end ON job (kept_from_ms) WHERE kept_from_ms > 0;
+ALTER TABLE job ADD COLUMN people INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN number INTEGER;
+UPDATE job SET number = ranked.number
+  FROM (SELECT id, row_number() OVER (ORDER BY id) AS number FROM job) AS ranked
+  WHERE ranked.id = job.id;
+CREATE UNIQUE INDEX job_by_number ON job (number);
+CREATE INDEX job_by_kind_and_state ON job (kind, state, id);
+CREATE VIRTUAL TABLE job_name USING fts5(name, tokenize = 'trigram');
+INSERT INTO job_name (rowid, name) SELECT number, name FROM job;
+CREATE TABLE job_label (
+  label TEXT NOT NULL,
+  job TEXT NOT NULL,
+  PRIMARY KEY (label, job)
+) WITHOUT ROWID;
+CREATE INDEX label_by_job ON job_label (job);
+INSERT OR IGNORE INTO job_label SELECT label.value, job.id
+  FROM job, json_each(CASE WHEN json_valid(labels) THEN labels ELSE '[]' END) AS label;
+CREATE TRIGGER job_added AFTER INSERT ON job BEGIN
+  UPDATE job SET number = (SELECT coalesce(max(number), 0) + 1 FROM job) WHERE id = new.id;
+  INSERT INTO job_name (rowid, name) SELECT number, name FROM job WHERE id = new.id;
+  INSERT OR IGNORE INTO job_label SELECT value, new.id
+    FROM json_each(CASE WHEN json_valid(new.labels) THEN new.labels ELSE '[]' END);
+END;
+CREATE TRIGGER job_labeled AFTER UPDATE OF labels ON job BEGIN
+  DELETE FROM job_label WHERE job = new.id;
+  INSERT OR IGNORE INTO job_label SELECT value, new.id
+    FROM json_each(CASE WHEN json_valid(new.labels) THEN new.labels ELSE '[]' END);
+END;
+CREATE TRIGGER job_removed AFTER DELETE ON job BEGIN
+  DELETE FROM job_name WHERE rowid = old.number;
+  DELETE FROM job_label WHERE job = old.id;
+END;
 )"};
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "jobs/queue/failed_runs.h"
 #include "jobs/queue/folder_lock.h"
+#include "jobs/queue/trace_seal.h"
 
 namespace throng::jobs {
 
@@ -67,12 +68,9 @@ class Supervision {
       for (const RunProgress& run : progress_.runs) {
         share_.later_tasks += tasks_of_frames(run.run).size();
       }
-      do_tasks(tasks_of_all_runs([](int run) {
-        return std::vector<Task>{{Task::Kind::simulate, run}};
-      }));
+      simulate();
       share_.later_tasks = 1;
-      do_tasks(tasks_of_all_runs([this](int run) { return tasks_of_frames(run); }));
-      note_failures();
+      make_frames();
       share_.later_tasks = 0;
       do_task(dataset);
     }
@@ -106,6 +104,24 @@ class Supervision {
       tasks.push_back({Task::Kind::render, run, shard.index});
     }
     return tasks;
+  }
+
+  void simulate() {
+    for (const RunProgress& run : progress_.runs) {
+      const std::vector<Task> frames = tasks_of_frames(run.run);
+      const bool is_needed = std::any_of(frames.begin(), frames.end(), [this](const Task& task) {
+        return !folder_.is_done(task);
+      });
+      if (is_needed) remove_if_damaged(folder_.output_of({Task::Kind::simulate, run.run}));
+    }
+    do_tasks(tasks_of_all_runs([](int run) {
+      return std::vector<Task>{{Task::Kind::simulate, run}};
+    }));
+  }
+
+  void make_frames() {
+    do_tasks(tasks_of_all_runs([this](int run) { return tasks_of_frames(run); }));
+    note_failures();
   }
 
   // The tasks must not depend on each other.
@@ -153,11 +169,8 @@ class Supervision {
     if (stop_.stop_requested()) throw Cancelled();
     if (result.outcome == Outcome::environment_error && lacks_output()) {
       // It has removed output that was damaged.
-      do_tasks(tasks_of_all_runs([](int run) {
-        return std::vector<Task>{{Task::Kind::simulate, run}};
-      }));
-      do_tasks(tasks_of_all_runs([this](int run) { return tasks_of_frames(run); }));
-      note_failures();
+      simulate();
+      make_frames();
       result = execute(tasks, {})[0];
       if (stop_.stop_requested()) throw Cancelled();
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <seccomp.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 
@@ -59,6 +60,8 @@ int refuse_calls() {
 
 }  // namespace
 
+void protect_this_process() { ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }
+
 std::string limit_this_process() {
   std::string refused;
   const auto add_refused = [&](const char* what, int error) {
@@ -67,7 +70,10 @@ std::string limit_this_process() {
   const rlimit no_core{0, 0};
   if (::setrlimit(RLIMIT_CORE, &no_core) != 0) add_refused("core dumps", errno);
   // Rather than the server, which may have become larger in months.
+  // A protected process may not write it.
+  ::prctl(PR_SET_DUMPABLE, 1, 0, 0, 0);
   std::ofstream("/proc/self/oom_score_adj") << kOomScore;
+  protect_this_process();
   const auto limit_memory = [&](decltype(RLIMIT_AS) kind, const char* variable) {
     const char* text = std::getenv(variable);
     constexpr rlim_t kMib = 1 << 20;

@@ -11,6 +11,11 @@ inline constexpr const char* kMemoryVariable = "THRONG_WORKER_MEMORY_MIB";
 /// Likewise of private writable memory, which reserved addresses are not.
 inline constexpr const char* kDataVariable = "THRONG_WORKER_DATA_MIB";
 
+/// From now on other processes of the same user cannot read or change this process's memory, nor
+/// read its environment (/proc/PID): workers run code over files of strangers, and the service has
+/// everybody's keys. Children that it forks are protected, programs that it starts are not.
+void protect_this_process();
+
 /// From now on this process and its children connect to nothing, trace no process, write no core
 /// dumps, gain no privileges, are ended first when memory runs out, and use no more memory than
 /// $THRONG_WORKER_MEMORY_MIB and $THRONG_WORKER_DATA_MIB. Returns what the kernel does not allow to

@@ -14,12 +14,15 @@ namespace throng::jobs {
 class ResolvedJob {
  public:
   /// The caller vouches for the job.
-  explicit ResolvedJob(JobSpec spec) : spec_(std::move(spec)) {}
+  explicit ResolvedJob(JobSpec spec, int people = 0) : spec_(std::move(spec)), people_(people) {}
 
   const JobSpec& spec() const { return spec_; }
+  /// That the scenario has if the job does not say how many; 0: not known.
+  int people() const { return people_; }
 
  private:
   JobSpec spec_;
+  int people_;
 };
 
 /// Reads back the JSON of a resolved job. `source` is its file, beside which a recording lies, or a

@@ -1,4 +1,4 @@
-// How much memory a worker needs for a task, estimated from the job alone: no more tasks are begun
+// How much memory a worker needs for a task, estimated before it runs: no more tasks are begun
 // at once than the machine has memory for, and a job that it can never run is refused.
 #pragma once
 
@@ -14,7 +14,8 @@ namespace throng::jobs {
 /// the software renderer (docs/service.md): images dominate, people take a few KiB each.
 class TaskMemory {
  public:
-  explicit TaskMemory(const JobSpec& job);
+  /// `people` are in each run if the job does not say how many.
+  explicit TaskMemory(const JobSpec& job, int people = 0);
 
   /// Any task of the job.
   std::int64_t mib_of(const Task& task) const;

@@ -9,6 +9,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -130,6 +131,30 @@ class DamagedTraces(unittest.TestCase):
             self.assertFalse((self.folder / "rendered").exists())
             second = throng("metrics", self.sound, "--without-guides", file)
             self.assertTrue(self.check(name, file, second))
+
+    def test_a_job_makes_its_own_trace_again(self):
+        """The trace of a run that was interrupted is damaged, also in ways at which the library crashes."""
+        job = self.folder / "small.job.json"
+        small = {"drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120}}],
+                 "outputs": {"annotations": ["coco"]}}
+        job.write_text(json.dumps({**JOB, "capture": {"rate_hz": 1, "from_s": 0, "to_s": 2}, **small}))
+        output = self.folder / "run"
+        done = throng("run", job, "-o", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        manifest = (output / "dataset" / "manifest.json").read_bytes()
+        trace = output / "work" / "run000" / "trace.h5"
+        sound = trace.read_bytes()
+        structure = sound.find(b"TREE", 1000)
+        place = sound.find(structure.to_bytes(8, "little"))
+        damages = [sound[:place] + b"\xff" * 8 + sound[place + 8 :], sound[: len(sound) // 2], b"", sound + b"x"]
+        for damaged in damages:
+            for left in (output / "dataset", *trace.parent.glob("shard*")):
+                shutil.rmtree(left)
+            trace.write_bytes(damaged)
+            done = throng("run", job, "-o", output)
+            self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+            self.assertEqual(trace.read_bytes(), sound)
+            self.assertEqual((output / "dataset" / "manifest.json").read_bytes(), manifest)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 """Hostile clients at the bare port and through nginx (docker/nginx.conf), and what nginx lets through."""
 import json
 import pathlib
+import socket
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -67,6 +69,27 @@ class Front(unittest.TestCase):
         self.assertEqual(self.refusal(front, "/v1/jobs", headers={"Authorization": "Bearer x"}), 401)
         self.throng.stop()
         self.assertEqual(self.refusal(front, "/v1/version"), 503)
+
+    def test_nginx_keeps_no_bodies_of_strangers(self):
+        front = self.through_nginx()
+        body = b"x" * (50 << 20)
+        kept = []
+        with front.context.wrap_socket(socket.create_connection(("127.0.0.1", front.port)), server_hostname="localhost") as client:
+            client.sendall(b"POST /v1/scenarios?name=x HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/zip\r\n"
+                           b"Content-Length: %d\r\n\r\n" % len(body))
+            for start in range(0, 8 << 20, 1 << 20):
+                try:
+                    client.sendall(body[start : start + (1 << 20)])
+                except OSError:
+                    break
+                kept += [path for path in pathlib.Path(self.folder).glob("nginx-bodies/**/*") if path.is_file()]
+            self.assertIn(b" 401 ", client.recv(4096).split(b"\r\n")[0])
+        self.assertEqual(kept, [])
+        reader = subprocess.run([THRONG, "keys", "create", "reader", "--data", f"{self.folder}/data", "--scope", "read"],
+                                check=True, capture_output=True, text=True).stdout.split()[-1]
+        for key, status in (("", 401), ("throng_wrong", 401), (reader, 403)):
+            headers = {"Content-Type": "application/zip", "Authorization": f"Bearer {key}"}
+            self.assertEqual(self.refusal(front, "/v1/scenarios?name=x", body=body[: 1 << 20], headers=headers), status)
 
 
 if __name__ == "__main__":

@@ -182,7 +182,8 @@ class Attacks:
                 head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\nContent-Encoding: "
                         + coding + b"\r\nAuthorization: Bearer " + key + b"\r\nContent-Length: %d\r\n\r\n" % len(bomb))
                 answers = exchange(self.front, head + bomb)
-                self.assertEqual(statuses(answers), [415], head)
+                # nginx may refuse a stranger before it looks at all fields.
+                self.assertIn(statuses(answers), ([415],) if key else ([415], [401]), head)
         # A part of a form may contain any headers: they are ignored (RFC 7578, 4.8).
         part = (b"--B\r\nContent-Disposition: form-data; name=\"job\"\r\nContent-Encoding: gzip\r\n\r\n" + bomb + b"\r\n--B--\r\n")
         head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: multipart/form-data; boundary=B\r\nConnection: close\r\n"

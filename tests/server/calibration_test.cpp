@@ -321,8 +321,8 @@ TEST_F(CalibrationApi, BelongToTheKeyThatSentThem) {
   };
   ASSERT_TRUE(wait_until([&] { return state() == "succeeded"; }));
   EXPECT_EQ(json::parse(client().Get(path, as(admin))->body)["owner"], owner.substr(7, 8));
-  EXPECT_EQ(client().Get(path, as(other))->status, 200);
-  EXPECT_EQ(client().Delete(path, as(other))->status, 403);
+  EXPECT_EQ(client().Get(path, as(other))->status, 404);
+  EXPECT_EQ(client().Delete(path, as(other))->status, 404);
   EXPECT_EQ(client().Get(path, as(owner))->status, 200);
   EXPECT_EQ(client().Delete(path, as(owner))->status, 204);
   const std::string next = client().Post(kRoute, as(owner), items)->get_header_value("Location");

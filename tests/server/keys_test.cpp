@@ -115,7 +115,10 @@ TEST_F(KeysTest, ScopesSayWhatAKeyMayDo) {
   const json job = json::parse(answer->body);
   EXPECT_EQ(job["owner"], one.substr(7, 8));
   const std::string path = "/v1/jobs/" + job["id"].get<std::string>();
-  EXPECT_EQ(get(path, with(other))->status, 200);
+  EXPECT_EQ(get(path, with(other))->status, 404);
+  EXPECT_EQ(posted(path + "/cancel", other), 404) << "it does not see the job";
+  const std::string shared = R"({"labels": ["shared"]})";
+  EXPECT_EQ(client().Patch(path, with(one), shared, "application/json")->status, 200);
   EXPECT_EQ(posted(path + "/cancel", other), 403);
   EXPECT_EQ(client().Delete(path, with(other))->status, 403);
   EXPECT_EQ(client().Patch(path, with(other), "{}", "application/json")->status, 403);

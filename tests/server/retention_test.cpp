@@ -10,7 +10,7 @@ using Ids = std::vector<std::string>;
 jobs::JobRow ended(const std::string& id, std::int64_t ended_ms, std::int64_t bytes = 0) {
   jobs::JobRow row;
   row.id = id;
-  row.ended_ms = ended_ms;
+  row.kept_from_ms = ended_ms;
   row.bytes = bytes;
   return row;
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/lack.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
@@ -284,7 +285,7 @@ TEST_F(SeveralJobs, AllGoOnAfterAFullDiskAndAfterARestart) {
   std::vector<std::string> ids;
   {
     ServiceOptions limited = with_active(3);
-    limited.housekeeping.free_bytes = [&] { return free_bytes.load(); };
+    limited.housekeeping.disk = [&] { return DiskState{free_bytes.load()}; };
     limited.housekeeping.min_free_bytes = 100;
     Service service(limited, executor);
     for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({kJob}).row.id);
@@ -347,7 +348,7 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
 TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
   ServiceOptions limited = options();
-  limited.housekeeping.free_bytes = [&] { return free.load(); };
+  limited.housekeeping.disk = [&] { return DiskState{free.load()}; };
   limited.housekeeping.min_free_bytes = 100;
   // Fails like a worker that cannot write, once there is no free space.
   executor.before = [&](const Task& task) {
@@ -373,10 +374,77 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   EXPECT_EQ(service.queue().get(id)->waiting_for, "");
 }
 
+TEST_F(ServiceTest, AReadOnlyOrFullDiskLetsTheQueueRestWithoutALimitToo) {
+  std::atomic<bool> is_read_only = false;
+  std::atomic<std::int64_t> free = 1LL << 30;
+  ServiceOptions limited = options();
+  limited.housekeeping.disk = [&] { return DiskState{free.load(), is_read_only.load()}; };
+  limited.housekeeping.min_free_bytes = 0;
+  std::atomic<bool> was_read_only = false;
+  executor.before = [&](const Task& task) {
+    if (task.kind == Task::Kind::render && !was_read_only.exchange(true)) is_read_only = true;
+    return is_read_only ? TaskResult{Outcome::environment_error, 3, "read-only file system", {}}
+                        : TaskResult{};
+  };
+  Service service(limited, executor);
+  const std::string id = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(wait_until([&] { return service.queue().paused() == "the disk is read-only"; }));
+  EXPECT_EQ(service.queue().get(id)->state, JobState::running) << "nothing has failed";
+  free = 0;
+  is_read_only = false;
+  const auto is_full = [&] { return service.queue().paused().starts_with("the disk is full"); };
+  ASSERT_TRUE(wait_until(is_full));
+  EXPECT_TRUE(service.queue().get(id)->waiting_for.starts_with("the disk is full"));
+  free = 1LL << 30;
+  ASSERT_TRUE(reaches(service, id, JobState::succeeded));
+}
+
+TEST_F(ServiceTest, RetryHealsAJobWhoseFilesWereDeletedOrDamaged) {
+  namespace fs = std::filesystem;
+  std::atomic<bool> fails = true;
+  executor.before = [&](const Task& task) {
+    return fails && task.kind == Task::Kind::collect
+               ? TaskResult{Outcome::environment_error, 3, "broken", {}}
+               : TaskResult{};
+  };
+  Service service(options(), executor);
+  const auto damages = {
+      +[](const fs::path& job) { fs::remove_all(job); },
+      +[](const fs::path& job) { fs::remove_all(job / "work"); },
+      +[](const fs::path& job) { fs::remove(job / "job.json"); },
+      +[](const fs::path& job) { write_file_atomically(job / "job.json", "{\"scen"); },
+      +[](const fs::path& job) {
+        for (const auto& run : fs::directory_iterator(job / "work")) fs::remove_all(run);
+      }};
+  for (const auto& damage : damages) {
+    fails = true;
+    const std::string id = service.queue().submit({kJob}).row.id;
+    ASSERT_TRUE(reaches(service, id, JobState::failed));
+    damage(service.folders().job_folder(id));
+    fails = false;
+    ASSERT_TRUE(service.queue().retry(id, {}));
+    EXPECT_TRUE(reaches(service, id, JobState::succeeded)) << service.queue().get(id)->error_json;
+  }
+}
+
+TEST_F(ServiceTest, AJobIsTakenUpAgainAfterTheMachineLackedFiles) {
+  std::atomic<int> lacks = 2;
+  executor.before = [&](const Task& task) {
+    if (task.kind == Task::Kind::render && lacks-- > 0) {
+      throw LacksResources("cannot create a pipe: Too many open files");
+    }
+    return TaskResult{};
+  };
+  Service service(options(), executor);
+  const std::string id = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, id, JobState::succeeded)) << service.queue().get(id)->error_json;
+}
+
 TEST_F(ServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
   std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
   ServiceOptions keeping = options();
   keeping.clock = [&] { return now_ms.load(); };
+  keeping.steady = keeping.clock;
   keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
   const std::string old = service.queue().submit({kJob}).row.id;
@@ -396,22 +464,30 @@ TEST_F(ServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
   EXPECT_TRUE(service.queue().get(fresh));
 }
 
-TEST_F(ServiceTest, AJobThatEndedBeforeTheClockWasPutBackIsRemovedInTime) {
+TEST_F(ServiceTest, JobsAreKeptAsLongWhateverTheClockIsSetTo) {
   constexpr std::int64_t kYearMs = 31'536'000'000;
-  std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
+  std::atomic<std::int64_t> wall_ms = 1'700'000'000'000;
+  std::atomic<std::int64_t> steady_ms = 5'000;
   ServiceOptions keeping = options();
-  keeping.clock = [&] { return now_ms.load(); };
+  keeping.clock = [&] { return wall_ms.load(); };
+  keeping.steady = [&] { return steady_ms.load(); };
   keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
-  const std::string id = service.queue().submit({kJob}).row.id;
-  ASSERT_TRUE(reaches(service, id, JobState::succeeded));
-  now_ms -= 10 * kYearMs;
+  const std::string a = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, a, JobState::succeeded));
+  for (const std::int64_t jump : {10 * kYearMs, -20 * kYearMs}) {
+    wall_ms += jump;
+    service.housekeeping().remove_expired();
+    ASSERT_TRUE(service.queue().get(a));
+  }
+  wall_ms += 20 * kYearMs;
+  const std::string b = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, b, JobState::succeeded));
+  wall_ms -= 15 * kYearMs;
+  steady_ms += 1000;
   service.housekeeping().remove_expired();
-  ASSERT_TRUE(service.queue().get(id));
-  EXPECT_EQ(service.queue().get(id)->ended_ms, now_ms);
-  now_ms += 1000;
-  service.housekeeping().remove_expired();
-  EXPECT_FALSE(service.queue().get(id));
+  EXPECT_FALSE(service.queue().get(a));
+  EXPECT_FALSE(service.queue().get(b));
 }
 
 TEST_F(ServiceTest, NothingIsAcceptedOnceTheStoreWasRemoved) {

@@ -2,12 +2,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <thread>
 
 #include "tests/jobs/yard.h"
@@ -75,6 +80,57 @@ TEST_F(LocalProcessesTest, ACrashIsRetriedAndForgotten) {
   const auto results = run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 3 ] || kill -9 $$");
   EXPECT_EQ(results[0].outcome, Outcome::succeeded);
   EXPECT_EQ(results[0].attempts, 3);
+}
+
+/// Lowers a limit of this process for as long as it exists.
+class Lowered {
+ public:
+  Lowered(decltype(RLIMIT_NOFILE) what, rlim_t value) : what_(what) {
+    ::getrlimit(what_, &before_);
+    const rlimit lower{value, before_.rlim_max};
+    ::setrlimit(what_, &lower);
+  }
+  ~Lowered() { ::setrlimit(what_, &before_); }
+  Lowered(const Lowered&) = delete;
+  Lowered& operator=(const Lowered&) = delete;
+
+ private:
+  decltype(RLIMIT_NOFILE) what_;
+  rlimit before_{};
+};
+
+TEST_F(LocalProcessesTest, ATaskWaitsAsLongAsTheMachineHasNoRoomForItsWorker) {
+  std::vector<std::string> reasons;
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "echo x >> $2/ran", "worker"};
+  options.rest_s = 0.05;
+  LocalProcesses processes(options);
+  auto lowered = std::make_unique<Lowered>(RLIMIT_NOFILE, 0);  // no further file can be opened
+  std::jthread helper([&] {
+    std::this_thread::sleep_for(600ms);
+    lowered.reset();
+  });
+  Share share;
+  share.on_wait = [&](const std::string& reason) { reasons.push_back(reason); };
+  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
+  const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {}, share);
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded) << results[0].message;
+  EXPECT_EQ(results[0].attempts, 1) << "only what was begun counts";
+  EXPECT_EQ(count_lines("ran"), 1);
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_THAT(reasons[0], HasSubstr("Too many open files"));
+  EXPECT_EQ(reasons[1], "");
+}
+
+TEST_F(LocalProcessesTest, AWorkerInheritsNoOpenFile) {
+  std::array<int, 2> pair{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, pair.data()), 0);  // as a library's
+  const auto results = run("ls /proc/self/fd > $job/open");
+  ::close(pair[0]);
+  ::close(pair[1]);
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  std::ifstream file(folder.path() / "open");
+  for (int number = 0; file >> number;) EXPECT_LE(number, 3);  // 3 is the folder that ls reads
 }
 
 TEST_F(LocalProcessesTest, ThreeCrashesAreFinalAndSayWhy) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "jobs/queue/store_rows.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -67,6 +68,7 @@ TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
     ASSERT_EQ(store.list({}).size(), 1U);
     EXPECT_EQ(store.startable().at(0).name, "old");
     EXPECT_EQ(store.startable().at(0).kind, JobKind::dataset);
+    EXPECT_EQ(store.list({.name_part = "old"}).size(), 1U);
   }
 }
 
@@ -186,6 +188,145 @@ TEST_F(StoreTest, ListsAreFiltered) {
   EXPECT_EQ(store.count().at(JobState::running), 0);
 }
 
+TEST_F(StoreTest, PartsOfNamesAreFoundAsTheyStandThere) {
+  Store store(folder.path(), clock());
+  for (const char* name : {"a \"quoted\" name",
+                           "Stra\xC3\x9F"
+                           "e am See",
+                           "AND OR NOT", "100%_"}) {
+    store.add({.name = name});
+  }
+  const auto found = [&](const std::string& part) {
+    std::vector<std::string> names;
+    for (const JobRow& row : store.list({.name_part = part})) names.push_back(row.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(found("\"quo"), Names{"a \"quoted\" name"});
+  EXPECT_EQ(found("ra\xC3\x9F"
+                  "e"),
+            Names{"Stra\xC3\x9F"
+                  "e am See"});
+  EXPECT_EQ(found("D or n"), Names{"AND OR NOT"});
+  EXPECT_EQ(found("0%_"), Names{"100%_"});
+  EXPECT_EQ(found("%%%"), Names{});
+  EXPECT_EQ(found("***"), Names{});
+  EXPECT_EQ(found("ee"), Names{"Stra\xC3\x9F"
+                               "e am See"})
+      << "too short for the index";
+  EXPECT_EQ(found(std::string("na\0me", 5)), Names{});
+  EXPECT_EQ(found("\xff\xfe\xfd\xfc"), Names{});
+}
+
+TEST_F(StoreTest, ListsOfLabelsAndNamesHavePagesInBothOrders) {
+  Store store(folder.path(), clock());
+  std::vector<std::string> ids;
+  for (int i = 0; i < 7; ++i) {
+    ids.push_back(store.add({.name = i % 2 == 0 ? "even one" : "odd one", .labels = {"x"}}).row.id);
+  }
+  store.remove(ids[2]);
+  const auto pages = [&](JobFilter filter) {
+    filter.limit = 2;
+    std::vector<std::string> found;
+    for (auto rows = store.list(filter); !rows.empty(); rows = store.list(filter)) {
+      for (const JobRow& row : rows) found.push_back(row.id);
+      filter.after = rows.back().id;
+    }
+    return found;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(pages({.label = "x"}), (Ids{ids[6], ids[5], ids[4], ids[3], ids[1], ids[0]}));
+  EXPECT_EQ(pages({.name_part = "even"}), (Ids{ids[6], ids[4], ids[0]}));
+  EXPECT_EQ(pages({.name_part = "even", .oldest_first = true}), (Ids{ids[0], ids[4], ids[6]}));
+  EXPECT_EQ(pages({.label = "x", .name_part = "one", .oldest_first = true}).size(), 6U);
+  EXPECT_EQ(store.list({.name_part = "even", .after = ids[2]}).size(), 1U) << "which is removed";
+  store.change(ids[4], {.labels = {"y", "y"}});
+  EXPECT_EQ(store.list({.label = "y"}).size(), 1U);
+  EXPECT_EQ(store.list({.label = "x"}).size(), 5U);
+  EXPECT_EQ(store.list({.label = "x", .name_part = "even"}).size(), 2U);
+}
+
+TEST_F(StoreTest, LabelsAndNamesAreFoundByAnIndex) {
+  const Store store(folder.path(), clock());
+  SQLite::Database file(folder.path() / "jobs.sqlite");
+  const auto plan_of = [&](const JobFilter& filter) {
+    SQLite::Statement query(file, "EXPLAIN QUERY PLAN " + list_query(filter));
+    std::string plan;
+    while (query.executeStep()) plan += query.getColumn(3).getString() + "\n";
+    return plan;
+  };
+  for (const JobFilter& filter :
+       {JobFilter{.label = "x"}, JobFilter{.label = "x", .after = "j"},
+        JobFilter{.states = {JobState::failed}, .label = "x", .oldest_first = true}}) {
+    const std::string plan = plan_of(filter);
+    EXPECT_NE(plan.find("SEARCH job_label USING PRIMARY KEY (label="), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("SCAN"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("TEMP B-TREE"), std::string::npos) << plan;
+  }
+  for (const JobFilter& filter :
+       {JobFilter{.name_part = "abc"}, JobFilter{.name_part = "abc", .after = "j"},
+        JobFilter{.label = "x", .name_part = "abc", .oldest_first = true}}) {
+    const std::string plan = plan_of(filter);
+    EXPECT_NE(plan.find("SCAN job_name VIRTUAL TABLE INDEX"), std::string::npos) << plan;
+    EXPECT_NE(plan.find("SEARCH job USING INDEX job_by_number (number=?)"), std::string::npos)
+        << plan;
+    EXPECT_EQ(plan.find("SCAN job\n"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("TEMP B-TREE"), std::string::npos) << plan;
+  }
+}
+
+TEST_F(StoreTest, StatesAndOwnersAreFoundByAnIndex) {
+  const Store store(folder.path(), clock());
+  SQLite::Database file(folder.path() / "jobs.sqlite");
+  for (const JobFilter& filter :
+       {JobFilter{.states = {JobState::failed}},
+        JobFilter{.states = {JobState::queued, JobState::running}},
+        JobFilter{.states = {JobState::queued, JobState::running}, .visible_to = "k"},
+        JobFilter{.visible_to = "k"}}) {
+    SQLite::Statement query(file, "EXPLAIN QUERY PLAN " + list_query(filter));
+    std::string plan;
+    while (query.executeStep()) plan += query.getColumn(3).getString() + "\n";
+    EXPECT_EQ(plan.find("SCAN"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("USE TEMP B-TREE FOR ORDER BY"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("SEARCH job USING INDEX job_by_kind (kind=?)\n"), std::string::npos)
+        << plan;
+  }
+}
+
+TEST_F(StoreTest, TheTimeByWhichJobsAreKeptNeverJumps) {
+  constexpr std::int64_t kDayMs = 86'400'000;
+  std::int64_t steady_ms = 7;
+  const Store::Clock steady = [&] { return steady_ms; };
+  {
+    Store store(folder.path(), clock(), steady);
+    EXPECT_EQ(store.service_ms(), now_ms);
+    now_ms += 100 * kDayMs;
+    steady_ms += 5;
+    EXPECT_EQ(store.service_ms(), 1'000'005);
+    const JobRow row = store.add({.name = "a"}).row;
+    const JobRow ended = store.apply(row, JobEvent::cancel).value();
+    EXPECT_EQ(ended.kept_from_ms, 1'000'005);
+    EXPECT_EQ(ended.ended_ms, now_ms);
+    EXPECT_EQ(store.apply(ended, JobEvent::retry)->kept_from_ms, 0);
+    store.save_service_clock();
+  }
+  steady_ms = 0;  // the machine was started again
+  now_ms += 3000;
+  {
+    Store store(folder.path(), clock(), steady);
+    EXPECT_EQ(store.service_ms(), 1'003'005);
+    store.save_service_clock();
+  }
+  now_ms += 100 * kDayMs;  // set while the service was away
+  {
+    Store store(folder.path(), clock(), steady);
+    EXPECT_EQ(store.service_ms(), 1'003'005 + kDayMs);
+    store.save_service_clock();
+  }
+  now_ms -= 200 * kDayMs;
+  EXPECT_EQ(Store(folder.path(), clock(), steady).service_ms(), 1'003'005 + kDayMs);
+}
+
 TEST_F(StoreTest, WhatHappensIsRecordedWithTheChangeItself) {
   Store store(folder.path(), clock());
   const JobRow queued = store.add({.name = "a"}).row;
@@ -249,7 +390,7 @@ TEST_F(StoreTest, LimitsOfAnOwnerHoldForRetriesToo) {
 }
 
 TEST_F(StoreTest, WhatHasEndedIsListedInTheOrderOfEndingButWhatIsKept) {
-  Store store(folder.path(), clock());
+  Store store(folder.path(), clock(), clock());
   const JobRow a = store.add({.name = "a"}).row;
   const JobRow b = store.add({.name = "b"}).row;
   const JobRow c = store.add({.name = "c"}).row;

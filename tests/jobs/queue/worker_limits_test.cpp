@@ -1,15 +1,19 @@
 #include "jobs/queue/worker_limits.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
 namespace throng::jobs {
 namespace {
@@ -50,6 +54,42 @@ TEST(WorkerLimits, WaysAroundTheSocketAreRefused) {
               testing::ExitedWithCode(0), "");
 }
 
+/// Of another process of the same user, who is not root.
+bool can_read(pid_t other, const char* name) {
+  const std::string file = "/proc/" + std::to_string(other) + "/" + name;
+  const int descriptor = ::open(file.c_str(), O_RDONLY);
+  if (descriptor >= 0) ::close(descriptor);
+  return descriptor >= 0;
+}
+
+/// In a process that is not root, as a program that was just started.
+bool is_protected_from_others() {
+  constexpr uid_t kNobody = 65534;
+  if (::geteuid() == 0 && ::setresuid(kNobody, kNobody, kNobody) != 0) return false;
+  ::prctl(PR_SET_DUMPABLE, 1, 0, 0, 0);
+  const pid_t parent = ::getpid();
+  std::array<int, 2> ready{};
+  if (::pipe(ready.data()) != 0) return false;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const bool before = can_read(parent, "environ") && can_read(parent, "mem");
+    char byte = 0;
+    if (::read(ready[0], &byte, 1) != 1) leave(false);
+    // Nothing to see if the system forbids it to all (Yama).
+    leave(!before || (!can_read(parent, "environ") && !can_read(parent, "mem")));
+  }
+  constexpr useconds_t kUntilLooked = 200'000;
+  ::usleep(kUntilLooked);
+  protect_this_process();
+  int status = 1;
+  if (::write(ready[1], "x", 1) != 1 || ::waitpid(child, &status, 0) != child) return false;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST(WorkerLimits, OthersOfTheSameUserReadNeitherMemoryNorEnvironment) {
+  EXPECT_EXIT(leave(is_protected_from_others()), testing::ExitedWithCode(0), "");
+}
+
 TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
 #if defined(THRONG_SANITIZE_ADDRESS) || defined(THRONG_SANITIZE_THREAD)
   GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
@@ -67,8 +107,8 @@ TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
         std::ifstream("/proc/self/oom_score_adj") >> score;
         rlimit core{};
         ::getrlimit(RLIMIT_CORE, &core);
-        leave(limit.rlim_cur == 3000ULL << 20U && data.rlim_cur == 2000ULL << 20U &&
-              core.rlim_cur == 0 && score == 500);
+        leave(::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0) == 0 && limit.rlim_cur == 3000ULL << 20U &&
+              data.rlim_cur == 2000ULL << 20U && core.rlim_cur == 0 && score == 500);
       },
       testing::ExitedWithCode(0), "");
 }

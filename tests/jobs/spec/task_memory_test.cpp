@@ -60,6 +60,9 @@ TEST(TaskMemory, RunsThatAreSampledCountAsTheyAre) {
 }
 
 TEST(TaskMemory, PeopleCount) {
+  const std::string job_text = R"(, "seed": 1)";
+  EXPECT_GT(TaskMemory(job_of("{}", job_text), 20'000).max_mib(),
+            TaskMemory(job_of("{}", job_text)).max_mib() + 100);
   const std::int64_t few = TaskMemory(job_of("{}", R"(, "crowd": {"agents": 10})")).max_mib();
   const TaskMemory many(job_of("{}", R"(, "crowd": {"agents": 1000000})"));
   EXPECT_GT(many.max_mib(), few + 5000);

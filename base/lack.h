@@ -1,0 +1,25 @@
+// Errors that say that the machine lacks something for the moment: open files, processes, memory.
+// Nobody's job is wrong, and no attempt counts.
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "base/error.h"
+
+namespace throng {
+
+class LacksResources : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
+};
+
+/// Throws LacksResources if the errno says so, else EnvironmentError; the message gets the errno's
+/// text.
+[[noreturn]] void throw_environment_error(const std::string& message, int error);
+
+/// Whether this is LacksResources, std::bad_alloc, or an error of threads or files with such an
+/// errno.
+bool says_lack_of_resources(const std::exception& error);
+
+}  // namespace throng

@@ -1,0 +1,29 @@
+#include "jobs/queue/trace_seal.h"
+
+#include "base/files.h"
+#include "base/hash.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path seal_of(const fs::path& trace) { return trace.string() + ".sha256"; }
+
+std::string text_of_seal(const fs::path& trace) { return sha256_hex_of_file(trace) + "\n"; }
+
+}  // namespace
+
+void seal_trace(const fs::path& trace) {
+  write_file_atomically(seal_of(trace), text_of_seal(trace));
+}
+
+void remove_if_damaged(const fs::path& trace) {
+  if (!fs::exists(trace) || !fs::exists(seal_of(trace))) return;
+  if (read_file(seal_of(trace)) == text_of_seal(trace)) return;
+  fs::remove(trace);
+  fs::remove(seal_of(trace));
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,15 @@
+// The machine's clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace throng::server {
+
+/// Milliseconds of Unix time.
+inline std::int64_t unix_ms_now() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+}  // namespace throng::server
