@@ -3,6 +3,7 @@
 # scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
+say "installing and building: about ten minutes on two cores the first time, then a minute for the job"
 "$root/scripts/setup.sh"
 
 out="$root/build/demo"
@@ -43,3 +44,14 @@ ls -l "$out/archive.tar" | awk '{print $5 " bytes"}'
 mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
+
+say "done"
+image="$(find "$out/dataset/previews" -name '*.jpg' | sort | head -1)"
+cat <<END
+image with labels:  ${image#"$root/"}
+web page:           build/release/cli/throng serve --data build/demo/data
+                    then open http://127.0.0.1:8080
+try next:           build/release/cli/throng help
+                    build/release/cli/throng run scenarios/bridge/demo.job.json -o out
+                    build/release/cli/throng scenario plan city_square/emergency -o plan.svg
+END
