@@ -1,9 +1,15 @@
 """Documentation: links and anchors lead somewhere, every page is on the start page, commands and variables exist."""
+import json
+import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
+import time
 import unittest
+import urllib.error
+import urllib.request
 
 THRONG = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -90,6 +96,32 @@ class Docs(unittest.TestCase):
                     if option not in helps[command] and option != "--help":
                         wrong.append(f"{page.name}: no {option} in: {line.strip()}")
         self.assertEqual(wrong, [])
+
+    def test_every_recipe_is_a_job_that_can_be_done(self):
+        recipes = re.findall(r"^```json\n(.*?)^```", (ROOT / "docs" / "recipes.md").read_text(), re.M | re.S)
+        self.assertGreater(len(recipes), 8)
+        with tempfile.TemporaryDirectory() as folder:
+            port_file = pathlib.Path(folder) / "port"
+            server = subprocess.Popen(
+                [THRONG, "serve", "--data", f"{folder}/data", "--port", "0", "--port-file", port_file],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                env={**os.environ, "THRONG_SCENARIOS": str(ROOT / "scenarios")},
+            )
+            try:
+                while not (port_file.exists() and port_file.read_text().strip()):
+                    time.sleep(0.05)
+                url = f"http://127.0.0.1:{port_file.read_text().strip()}/v1/jobs?dry_run"
+                for recipe in recipes:
+                    request = urllib.request.Request(url, recipe.encode(), {"Content-Type": "application/json"})
+                    try:
+                        with urllib.request.urlopen(request, timeout=120) as answer:
+                            self.assertTrue(json.load(answer)["valid"])
+                    except urllib.error.HTTPError as error:
+                        self.fail(f"{recipe}\n{error.read().decode()}")
+            finally:
+                server.terminate()
+                server.wait(30)
 
     def test_the_notice_names_every_linked_library(self):
         needed = re.findall(
