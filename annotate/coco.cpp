@@ -10,6 +10,7 @@
 
 #include "annotate/coco_records.h"
 #include "annotate/keypoints.h"
+#include "annotate/spec/license.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
@@ -252,8 +253,8 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
   if (wanted.drones) {
     categories.push_back({{"id", kDroneCategory}, {"name", "drone"}, {"supercategory", "vehicle"}});
   }
-  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"tracks\":[",
-                           info.dump(), categories.dump()));
+  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"tracks\":[",
+                           info.dump(), kCocoLicenses, categories.dump()));
   merge_tracks(merged, shard_folders, counts);
   merged.write("\n],\n\"images\":[");
   merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);

@@ -98,6 +98,8 @@ const httplib::Response& checked(const httplib::Result& result, const std::strin
   if (result->status >= kServersFault) {
     throw EnvironmentError(problems_in(*result, url + path).front().text());
   }
+  constexpr int kNotFound = 404;
+  if (result->status == kNotFound) throw NotFound(problems_in(*result, url));
   throw InputError(problems_in(*result, url));
 }
 

@@ -17,6 +17,11 @@ namespace throng::cli {
 /// Mistakes as the API lists them: [{"pointer", "found", "expected", "source"?}].
 std::vector<Problem> problems_of(const nlohmann::json& list);
 
+/// The server has no such resource (404).
+struct NotFound : InputError {
+  using InputError::InputError;
+};
+
 /// Answers that are no success are thrown: InputError for errors that the server finds in the
 /// request, EnvironmentError when the server cannot be reached or has failed.
 class ApiClient {

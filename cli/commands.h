@@ -10,6 +10,7 @@ namespace throng::cli {
 // Each adds its subcommand with a callback that does the work. Callbacks throw InputError,
 // EnvironmentError or Cancelled; main() turns these into messages and exit codes.
 void add_run(CLI::App& app);
+void add_check(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_study(CLI::App& app);
 void add_render(CLI::App& app);
@@ -29,6 +30,7 @@ void add_export(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
 void add_calibrate(CLI::App& app);
+void add_manual(CLI::App& app);  // completion, manual
 
 // Subcommands of `throng people` with files of their own.
 void add_people_import(CLI::App& people);

@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "calibrate/spec/camera_file.h"
+#include "cli/document_kind.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "jobs/pipeline/resolve.h"
@@ -61,20 +63,19 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
                    "Print a profile of rendering, labeling and writing");
 }
 
-jobs::ResolvedJob read_job_file(const std::string& path) {
-  std::string text;
-  try {
-    text = read_file(path);
-  } catch (const EnvironmentError& error) {
-    throw InputError({path, "", "no readable file", "a job file"});
-  }
+std::string read_job_text(const std::string& path) {
+  const std::string text = read_input_file(path, "a job file");
+  require_kind(DocumentKind::job, text, path);
   // A calibration is a file, named from where the job's file is.
   const auto camera_in = [&](const std::string& name) {
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
     return calibrate::to_json(calibrate::read_camera_file(file));
   };
-  return jobs::resolve_job(jobs::with_calibrations(text, camera_in), path,
-                           world::scenarios_folder());
+  return jobs::with_calibrations(text, camera_in);
+}
+
+jobs::ResolvedJob read_job_file(const std::string& path) {
+  return jobs::resolve_job(read_job_text(path), path, world::scenarios_folder());
 }
 
 void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,

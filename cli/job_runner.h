@@ -20,6 +20,10 @@ struct JobArguments {
 /// The options JOB, --output, --workers and --profile.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
+/// The job file's text, with the cameras of the calibration files that it names. Throws InputError
+/// if there is no such file, or it holds something else.
+std::string read_job_text(const std::string& path);
+
 /// Reads the job file and resolves the job. Throws InputError (also when there is no such file).
 jobs::ResolvedJob read_job_file(const std::string& path);
 

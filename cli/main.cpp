@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/parse_error.h"
 
 namespace {
 
@@ -17,13 +18,13 @@ namespace cli = throng::cli;
 using throng::Cancelled;
 using throng::InputError;
 
-constexpr std::array kCommands = {cli::add_run,         cli::add_simulate,       cli::add_render,
-                                  cli::add_crowd,       cli::add_serve,          cli::add_keys,
-                                  cli::add_remote_jobs, cli::add_worker,         cli::add_confined,
-                                  cli::add_people,      cli::add_scenarios,      cli::add_scenario,
-                                  cli::add_airframes,   cli::add_study,          cli::add_export,
-                                  cli::add_validate,    cli::add_validate_crowd, cli::add_metrics,
-                                  cli::add_report,      cli::add_calibrate};
+constexpr std::array kCommands = {
+    cli::add_run,       cli::add_check,          cli::add_simulate, cli::add_render,
+    cli::add_crowd,     cli::add_serve,          cli::add_keys,     cli::add_remote_jobs,
+    cli::add_worker,    cli::add_confined,       cli::add_people,   cli::add_scenarios,
+    cli::add_scenario,  cli::add_airframes,      cli::add_study,    cli::add_export,
+    cli::add_validate,  cli::add_validate_crowd, cli::add_metrics,  cli::add_report,
+    cli::add_calibrate, cli::add_manual};
 
 int run(int argc, char** argv) {
   CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};
@@ -40,8 +41,12 @@ int run(int argc, char** argv) {
   cli::check_commands(app, line.words());
   try {
     app.parse(line.count(), line.pointers());
+  } catch (const CLI::Success& answer) {  // help, version
+    return app.exit(answer);
+  } catch (const CLI::RuntimeError& error) {  // of a command that has reported it
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::exit_ok : cli::exit_input;
+    throw InputError(cli::parse_problem(app, error));
   }
   return cli::exit_ok;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -11,11 +12,14 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/suggest.h"
 #include "cli/api_client.h"
 #include "cli/bundle.h"
 #include "cli/commands.h"
+#include "cli/document_kind.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
+#include "cli/job_summary.h"
 #include "cli/progress_bar.h"
 
 namespace throng::cli {
@@ -27,6 +31,22 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string path_of(const std::string& id) { return "/v1/jobs/" + encoded(id); }
+
+/// Does something with a job; one that the server does not have is reported with the nearest id.
+template <typename Work>
+auto with_job(ApiClient& api, const std::string& id, const Work& work) {
+  try {
+    return work();
+  } catch (const NotFound& error) {
+    std::vector<std::string> ids;
+    for (const json& job : api.get("/v1/jobs?limit=500")["jobs"]) ids.push_back(job["id"]);
+    if (std::find(ids.begin(), ids.end(), id) != ids.end()) throw;  // it lacks something
+    const auto nearest = closest(id, std::vector<std::string_view>(ids.begin(), ids.end()));
+    throw InputError(
+        {"", "", fmt::format("unknown job \"{}\" on {}", id, api.url()),
+         nearest ? fmt::format("\"{}\"", *nearest) : "an id that `throng jobs` lists"});
+  }
+}
 
 bool has_ended(const json& job) { return job["state"] != "queued" && job["state"] != "running"; }
 
@@ -154,12 +174,8 @@ struct SubmitArguments {
 
 void submit(const SubmitArguments& arguments) {
   ApiClient api;
-  std::string text;
-  try {
-    text = read_file(arguments.job_file);
-  } catch (const EnvironmentError&) {
-    throw InputError({arguments.job_file, "", "no readable file", "a job file"});
-  }
+  const std::string text = read_input_file(arguments.job_file, "a job file");
+  require_kind(DocumentKind::job, text, arguments.job_file);
   std::string query = fmt::format("?priority={}", arguments.priority);
   for (const std::string& label : arguments.labels) query += "&label=" + encoded(label);
   const auto post = [&](const std::string& path,
@@ -172,13 +188,7 @@ void submit(const SubmitArguments& arguments) {
         header);
   };
   if (arguments.dry_run) {
-    const json answer = post("/v1/jobs?dry_run");
-    const auto count = [&](const char* key, std::string_view noun) {
-      return fmt::format("{} {}{}", answer[key].dump(), noun, answer[key] == 1 ? "" : "s");
-    };
-    fmt::print("valid: {}, {}, {}\n", count("runs", "run"), count("shards", "shard"),
-               count("frames", "frame"));
-    return;
+    return print_job_summary(post("/v1/jobs?dry_run"), arguments.job_file, 1);
   }
   const std::pair<std::string, std::string> header =
       arguments.key.empty() ? std::pair<std::string, std::string>()
@@ -220,14 +230,16 @@ void list(const ListArguments& arguments) {
 
 void logs(const std::string& id, const std::string& name) {
   ApiClient api;
-  if (!name.empty()) {
-    std::cout << api.get_text(path_of(id) + "/logs/" + encoded(name));
-    return;
-  }
-  const json all = api.get(path_of(id) + "/logs");
-  for (const json& log : all["logs"]) {
-    fmt::print("{:>10}  {}\n", log["bytes"].dump(), log["name"].get<std::string>());
-  }
+  with_job(api, id, [&] {
+    if (!name.empty()) {
+      std::cout << api.get_text(path_of(id) + "/logs/" + encoded(name));
+      return;
+    }
+    const json all = api.get(path_of(id) + "/logs");
+    for (const json& log : all["logs"]) {
+      fmt::print("{:>10}  {}\n", log["bytes"].dump(), log["name"].get<std::string>());
+    }
+  });
 }
 
 /// A subcommand whose one argument is a job's id.
@@ -284,7 +296,7 @@ void add_fetch(CLI::App& app) {
   command->add_option("--split", arguments->split, "Only files of this split's runs");
   command->callback([arguments] {
     ApiClient api;
-    fetch(api, *arguments);
+    with_job(api, arguments->id, [&] { fetch(api, *arguments); });
   });
 }
 
@@ -296,15 +308,20 @@ void add_remote_jobs(CLI::App& app) {
   const auto id = std::make_shared<std::string>();
   add_for_id(app, "watch", "Follow a job to its end", id)->callback([id] {
     ApiClient api;
-    require_success(watched(api, *id));
+    require_success(with_job(api, *id, [&] { return watched(api, *id); }));
   });
   add_for_id(app, "cancel", "Cancel a job; finished work is kept for a retry", id)->callback([id] {
-    ApiClient().post(path_of(*id) + "/cancel");
+    ApiClient api;
+    with_job(api, *id, [&] { api.post(path_of(*id) + "/cancel"); });
   });
   add_for_id(app, "retry", "Queue a failed, partly failed or cancelled job again", id)
-      ->callback([id] { ApiClient().post(path_of(*id) + "/retry"); });
+      ->callback([id] {
+        ApiClient api;
+        with_job(api, *id, [&] { api.post(path_of(*id) + "/retry"); });
+      });
   add_for_id(app, "remove", "Cancel a job and delete its files", id)->callback([id] {
-    ApiClient().remove(path_of(*id));
+    ApiClient api;
+    with_job(api, *id, [&] { api.remove(path_of(*id)); });
   });
   auto* show_logs = add_for_id(app, "logs", "Print the logs of a job's workers", id);
   const auto name = std::make_shared<std::string>();

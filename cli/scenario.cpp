@@ -13,10 +13,13 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "cli/commands.h"
+#include "cli/document_kind.h"
+#include "cli/input_file.h"
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
 #include "cli/trace_file.h"
+#include "cli/words.h"
 #include "drawing/drawing.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
@@ -35,6 +38,9 @@ namespace fs = std::filesystem;
 
 /// An existing path, else the file of a shipped scenario's id.
 fs::path scenario_path(const std::string& name) {
+  if (fs::is_regular_file(name)) {
+    require_kind(DocumentKind::scenario, read_input_file(name, "a scenario"), name);
+  }
   if (fs::exists(name)) return name;
   if (fs::path(name).extension() == ".json") {
     throw InputError({name, "", "no such file", "a scenario file, a folder or a scenario id"});
@@ -42,7 +48,7 @@ fs::path scenario_path(const std::string& name) {
   return world::scenarios_folder() / (name + ".json");
 }
 
-void add_check(CLI::App& scenario) {
+void add_scenario_check(CLI::App& scenario) {
   auto* command = scenario.add_subcommand("check",
                                           "Check a scenario file, a folder of scenarios or a "
                                           "scenario id; exit code 2 if there are errors");
@@ -55,7 +61,7 @@ void add_check(CLI::App& scenario) {
       fmt::print("{}\n", finding.text());
       if (finding.severity == places::Severity::error) ++errors;
     }
-    fmt::print("{} errors, {} warnings\n", errors, findings.size() - errors);
+    fmt::print("{}, {}\n", counted(errors, "error"), counted(findings.size() - errors, "warning"));
     if (errors > 0) throw CLI::RuntimeError(exit_input);
   });
 }
@@ -109,6 +115,7 @@ void add_make(CLI::App& scenario) {
   command->add_option("blueprint", *file, "ID.place.json (docs/blueprint.md)")->required();
   command->add_option("-o,--output", *folder, "Folder for ID.json and its Menge files");
   command->callback([file, folder] {
+    require_kind(DocumentKind::blueprint, read_input_file(*file, "a blueprint"), *file);
     const std::string id = file->stem().stem().string();
     const fs::path made =
         places::make_scenario(places::load_blueprint(*file), file->string(), *folder, id);
@@ -172,7 +179,7 @@ void add_scenario(CLI::App& app) {
   auto* command =
       app.add_subcommand("scenario", "Make, generate, check, plot and import scenarios");
   command->require_subcommand(1);
-  add_check(*command);
+  add_scenario_check(*command);
   add_plan(*command);
   add_make(*command);
   add_generate(*command);

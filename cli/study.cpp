@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/document_kind.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "study/report.h"
@@ -22,6 +24,8 @@ struct StudyArguments {
 };
 
 void run_study(const StudyArguments& arguments) {
+  require_kind(DocumentKind::study, read_input_file(arguments.file, "a study file"),
+               arguments.file);
   study::Study study = study::load_study(arguments.file, world::scenarios_folder());
   if (arguments.runs > 0) study.runs = std::min(arguments.runs, study.runs);
   study::Outcomes outcomes;

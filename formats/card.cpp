@@ -1,4 +1,5 @@
 #include "formats/card.h"
+#include "annotate/spec/license.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,7 +187,8 @@ json DatasetCard::description() const {
         {"world", "right-handed, meters, z up, the ground is z = 0"},
         {"camera", "x right, y down, z forward"},
         {"time", "seconds since the run began; label and image are of the same instant"}}},
-      {"licence", {{"people", kPeopleLicense}, {"place", kPlaceLicense}}},
+      {"licence",
+       {{"images", annotate::kImageLicense}, {"people", kPeopleLicense}, {"place", kPlaceLicense}}},
       {"people", manifest_.value("people", json::object())},
       {"job", manifest_.at("job")}};
 }
@@ -211,9 +213,9 @@ std::string DatasetCard::readme() const {
   if (info_.has(annotate::GroundTruth::density)) text += kDensitySnippet;
   text += kProjectionSnippet;
   text += fmt::format(
-      "\n## Splits\n\nWhole runs: {}.\n\n## License\n\nThe people that are drawn: {}. Everything "
-      "else is made by {}.\n",
-      card.at("splits").dump(), kPeopleLicense, info_.generator);
+      "\n## Splits\n\nWhole runs: {}.\n\n## License\n\nImages and labels: {}. People: {}. Place: "
+      "{}.\n",
+      card.at("splits").dump(), annotate::kImageLicense, kPeopleLicense, kPlaceLicense);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "annotate/keypoints.h"
+#include "annotate/spec/license.h"
 #include "formats/makers.h"
 #include "formats/mask.h"
 
@@ -55,8 +56,8 @@ class CocoFile {
   void begin(const DatasetInfo& info, const json& categories) {
     const json head = {
         {"description", info.name}, {"version", "1"}, {"contributor", info.generator}};
-    final_.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"images\":[",
-                             head.dump(), categories.dump()));
+    final_.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"images\":[",
+                             head.dump(), annotate::kCocoLicenses, categories.dump()));
   }
   void add_image(const json& record) {
     final_.write(images_++ == 0 ? "\n" : ",\n");

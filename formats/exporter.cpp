@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 namespace throng::formats {
 
@@ -24,7 +25,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
       std::vector<std::string_view> known;
       known.reserve(all_formats().size());
       for (const Format& other : all_formats()) known.push_back(other.name);
-      problems.push_back({"", place, names[i], fmt::format("one of: {}", fmt::join(known, ", "))});
+      problems.push_back(unknown_name("", place, "format", names[i], known));
       continue;
     }
     if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "annotate/spec/license.h"
 #include "formats/instances.h"
 #include "formats/makers.h"
 #include "formats/raster_files.h"
@@ -64,8 +65,8 @@ class PanopticExporter : public Exporter {
     for (const Split split : info_.splits()) {
       OutputStream file = output_.open(annotations_path(split));
       const json head = {{"description", info_.name}, {"version", "1"}};
-      file.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"images\":[",
-                             head.dump(), categories().dump()));
+      file.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"images\":[",
+                             head.dump(), annotate::kCocoLicenses, categories().dump()));
       take_over(file, split, images_.at(split), ".images");
       file.write("\n],\n\"annotations\":[");
       take_over(file, split, segments_.at(split), ".annotations");

@@ -11,6 +11,7 @@ case "${1:-}" in
   *) echo "unknown argument $1; usage: scripts/demo.sh [--keep]" >&2; exit 2 ;;
 esac
 . "$(dirname "$0")/lib.sh"
+say "installing and building: about ten minutes on two cores the first time, then a minute for the job"
 "$root/scripts/setup.sh"
 
 out="$root/build/demo"
@@ -52,6 +53,13 @@ mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
 
+image="$(find "$out/dataset/previews" -name '*.jpg' | sort | head -1)"
+cat <<END
+image with labels:  ${image#"$root/"}
+try next:           build/release/cli/throng help
+                    build/release/cli/throng run scenarios/bridge/demo.job.json -o out
+                    build/release/cli/throng scenario plan city_square/emergency -o plan.svg
+END
 if [ -n "$keep" ]; then
   say "Studio: $url/jobs/$job (Ctrl-C ends the server)"
   wait "$server"

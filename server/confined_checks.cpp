@@ -49,6 +49,15 @@ jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path&
   return resolved;
 }
 
+json ConfinedChecks::dry_run(std::string_view job_json, const fs::path& scenarios) const {
+  json answer = answer_to({{"task", "dry_run"},
+                           {"subject", "a job and a scenario"},
+                           {"job", job_json},
+                           {"scenarios", scenarios.string()}});
+  require_memory(answer.at("estimate").at("memory_mib").get<std::int64_t>(), "/drones");
+  return answer;
+}
+
 std::string ConfinedChecks::scenario_plan(const std::string& id, const fs::path& scenarios) const {
   return answer_to({{"task", "scenario_plan"}, {"id", id}, {"scenarios", scenarios.string()}})
       .at("svg");

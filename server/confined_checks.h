@@ -30,6 +30,9 @@ class ConfinedChecks {
   /// The job, resolved with the scenarios in a folder. Violations of the schema are refused before
   /// a child is started.
   jobs::ResolvedJob job(std::string_view job_json, const std::filesystem::path& scenarios) const;
+  /// Checks and estimates of a job before it runs (jobs/pipeline/job_check.h), as JSON. Violations
+  /// of the schema are reported with all other mistakes.
+  nlohmann::json dry_run(std::string_view job_json, const std::filesystem::path& scenarios) const;
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;

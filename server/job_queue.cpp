@@ -29,14 +29,18 @@ JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState
       calibrations_(calibrations),
       confined_(confined) {}
 
-jobs::ResolvedJob JobQueue::checked(std::string_view job_json) const {
-  const std::string text = jobs::with_calibrations(
+std::string JobQueue::with_cameras(std::string_view job_json) const {
+  return jobs::with_calibrations(
       job_json, [this](const std::string& id) { return calibrations_.camera_of(id); });
-  return confined_.job(text, folders_.scenarios());
+}
+
+json JobQueue::dry_run(std::string_view job_json) const {
+  return confined_.dry_run(with_cameras(job_json), folders_.scenarios());
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {
-  const jobs::ResolvedJob resolved = checked(submission.job_json);
+  const jobs::ResolvedJob resolved =
+      confined_.job(with_cameras(submission.job_json), folders_.scenarios());
   const jobs::JobSpec& job = resolved.spec();
   const auto lock = uploads_.hold();
   require_scenario(job);
@@ -69,11 +73,10 @@ jobs::Added JobQueue::submit_with_bundle(const Submission& submission, std::stri
   return added;
 }
 
-jobs::ResolvedJob JobQueue::checked_with_bundle(std::string_view job_json,
-                                                std::string_view bundle) {
+json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view bundle) {
   const std::string job = naming_bundle(bundle, job_json);
   const Uploads::Pinned pinned(uploads_, bundle, "");
-  return checked(job);
+  return dry_run(job);
 }
 
 void JobQueue::require_scenario(const jobs::JobSpec& job) const {

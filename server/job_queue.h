@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,10 +44,11 @@ class JobQueue {
   JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState& state, Uploads& uploads,
            const Calibrations& calibrations, const ConfinedChecks& confined);
 
-  /// Resolves a job in a confined child. Throws InputError.
-  jobs::ResolvedJob checked(std::string_view job_json) const;
+  /// Checks and estimates of a job before it runs (ConfinedChecks::dry_run()); queues nothing.
+  /// Throws InputError.
+  nlohmann::json dry_run(std::string_view job_json) const;
   /// Likewise with a bundle, as submit_with_bundle().
-  jobs::ResolvedJob checked_with_bundle(std::string_view job_json, std::string_view bundle);
+  nlohmann::json dry_run_with_bundle(std::string_view job_json, std::string_view bundle);
 
   /// Queues the job if it can be done; durable when it returns. Throws InputError and QuotaError.
   jobs::Added submit(const Submission& submission);
@@ -89,6 +91,8 @@ class JobQueue {
   int watchers() const { return *watchers_; }
 
  private:
+  /// The text with the cameras of the calibrations that it names.
+  std::string with_cameras(std::string_view job_json) const;
   void require_scenario(const jobs::JobSpec& job) const;
 
   const ServiceFolders& folders_;

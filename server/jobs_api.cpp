@@ -118,20 +118,6 @@ void queue(const Call& call, Submission submission, Response& response,
              job_json(added.row, call.housekeeping.retention()));
 }
 
-/// Dry run: resolves a job without queueing it.
-void answer_dry_run(const jobs::ResolvedJob& resolved, Response& response) {
-  const jobs::JobSpec& job = resolved.spec();
-  const auto cameras = static_cast<std::int64_t>(job.drones.size());
-  std::size_t shards = 0;
-  for (int run = 0; run < job.runs; ++run) shards += jobs::plan_shards(job, run).size();
-  write_json(response, 200,
-             {{"valid", true},
-              {"runs", job.runs},
-              {"shards", shards},
-              {"frames", job.runs * job.frames_per_camera() * cameras},
-              {"job", to_json(job)}});
-}
-
 std::vector<jobs::JobState> states_of(const Request& request) {
   std::vector<jobs::JobState> states;
   for (const std::string& name : all_of(request, "state")) {
@@ -161,9 +147,10 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   check_labels(submission.labels, "?label");
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
-    return answer_dry_run(
-        has_bundle ? call.queue.checked_with_bundle(job, *form->bundle) : call.queue.checked(job),
-        response);
+    json answer =
+        has_bundle ? call.queue.dry_run_with_bundle(job, *form->bundle) : call.queue.dry_run(job);
+    answer["valid"] = true;
+    return write_json(response, 200, answer);
   }
   submission.key = key_of(request);
   queue(call, std::move(submission), response, form ? form->bundle : nullptr);

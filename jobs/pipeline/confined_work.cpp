@@ -11,6 +11,7 @@
 #include "calibrate/request.h"
 #include "drawing/drawing.h"
 #include "jobs/pipeline/catalog.h"
+#include "jobs/pipeline/job_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/pipeline/resolve.h"
@@ -33,9 +34,13 @@ std::string text_at(const json& request, const char* key) {
 
 json check_bundle(const json& request) { return check_scenarios(text_at(request, "folder")); }
 
-json check_job(const json& request) {
+json resolve_text(const json& request) {
   const ResolvedJob job = resolve_job(text_at(request, "job"), "", text_at(request, "scenarios"));
   return {{"job", to_json(job.spec())}, {"people", job.people()}};
+}
+
+json dry_run(const json& request) {
+  return to_json(check_job(text_at(request, "job"), "", text_at(request, "scenarios")));
 }
 
 json draw_scenario(const json& request) {
@@ -60,7 +65,8 @@ json check_calibration(const json& request) {
 using Work = std::pair<const char*, json (*)(const json&)>;
 constexpr std::array kWork = {
     Work{"scenarios", &check_bundle},
-    Work{"job", &check_job},
+    Work{"job", &resolve_text},
+    Work{"dry_run", &dry_run},
     Work{"scenario_plan", &draw_scenario},
     Work{"job_plan", &draw_job},
     Work{"calibration", &check_calibration},

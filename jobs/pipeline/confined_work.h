@@ -9,6 +9,7 @@ namespace throng::jobs {
 /// Carries out a request by its "task":
 ///   scenarios      checks those in "folder": CheckedScenarios
 ///   job            resolves the text "job" with the scenarios in "scenarios": {"job": ...}
+///   dry_run        checks it likewise and says what it will take (jobs/pipeline/job_check.h)
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg": ...}
 ///   job_plan       likewise of the resolved job "job", with the paths of its drones: {"svg": ...}
 ///   calibration    checks the calibration "request", whose files lie in "files":

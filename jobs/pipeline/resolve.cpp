@@ -14,6 +14,7 @@
 #include "jobs/pipeline/lens_check.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
 #include "sim/people/participants.h"
 #include "sim/planning/plan.h"
@@ -215,12 +216,41 @@ ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::str
   return resolved(std::move(job), scenario, source, {}, DefaultDrones::of_scenario);
 }
 
-ResolvedJob resolve_job(std::string_view text, const std::string& source,
-                        const std::filesystem::path& scenarios, DefaultDrones default_drones) {
+namespace {
+
+ResolvedJob resolve_sound(std::string_view text, const std::string& source,
+                          const std::filesystem::path& scenarios, DefaultDrones default_drones) {
   std::vector<Problem> problems;
   JobSpec job = parse_job(text, source, problems);
-  const world::Scenario scenario = scenario_of(job, scenarios, source);
+  world::Scenario scenario;
+  try {
+    scenario = scenario_of(job, scenarios, source);
+  } catch (const InputError& error) {
+    check_formats(job.outputs, problems);
+    for (Problem& problem : problems) problem.source = source;
+    add(error, problems);
+    throw InputError(std::move(problems));
+  }
   return resolved(std::move(job), scenario, source, std::move(problems), default_drones);
+}
+
+}  // namespace
+
+ResolvedJob resolve_job(std::string_view text, const std::string& source,
+                        const std::filesystem::path& scenarios, DefaultDrones default_drones) {
+  const SchemaProblems of_schema(text, source);
+  if (of_schema.problems().empty()) return resolve_sound(text, source, scenarios, default_drones);
+  std::vector<Problem> problems = of_schema.problems();
+  if (const auto rest = of_schema.text_without()) {
+    try {
+      static_cast<void>(resolve_sound(*rest, source, scenarios, default_drones));
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) {
+        if (!of_schema.may_cause(problem)) problems.push_back(problem);
+      }
+    }
+  }
+  throw InputError(std::move(problems));
 }
 
 }  // namespace throng::jobs

@@ -19,8 +19,9 @@ ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::str
 /// simulations that are not rendered.
 enum class DefaultDrones { of_scenario, none };
 
-/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. Problems of
-/// the text that the schema does not show are reported together with those of the scenario.
+/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. All
+/// problems are reported together: where the text breaks the schema, the rest of it is checked,
+/// too.
 ResolvedJob resolve_job(std::string_view json, const std::string& source,
                         const std::filesystem::path& scenarios,
                         DefaultDrones default_drones = DefaultDrones::of_scenario);

@@ -1,13 +1,13 @@
 #include "jobs/spec/camera_spec.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "base/json_text.h"
+#include "base/suggest.h"
 #include "jobs/spec/camera_fields.h"
 
 namespace throng::embedded {
@@ -80,8 +80,9 @@ CameraSpec read_camera(const json& value, const std::string& pointer,
   if (!spec.preset.empty()) {
     const auto found = presets().find(spec.preset);
     if (found == presets().end()) {
-      problems.push_back({"", pointer + "/preset", fmt::format("\"{}\"", spec.preset),
-                          fmt::format("one of: {}", fmt::join(camera_presets(), ", "))});
+      const std::vector<std::string> names = camera_presets();
+      problems.push_back(unknown_name("", pointer + "/preset", "preset", spec.preset,
+                                      std::vector<std::string_view>(names.begin(), names.end())));
       return spec;
     }
     given = found->at("camera");

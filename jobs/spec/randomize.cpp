@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/suggest.h"
 #include "jobs/spec/schema.h"
 #include "world/json_reader.h"
 
@@ -109,6 +110,28 @@ void add_paths(const json& rules, const std::string& path, std::vector<std::stri
   }
 }
 
+/// The problem of a path that no field has, with the nearest that one has. `value` may be an object
+/// of fields: paths are dotted, not nested.
+Problem unknown_path(const std::string& path, const json& value) {
+  const std::vector<std::string> paths = random_paths();
+  std::string asked = path;
+  if (value.is_object()) {
+    for (const auto& field : value.items()) {
+      const std::string nested = fmt::format("{}.{}", path, field.key());
+      if (std::find(paths.begin(), paths.end(), nested) != paths.end()) asked = nested;
+    }
+  }
+  Problem problem = unknown_name("", "/randomize/" + path, "path", asked,
+                                 std::vector<std::string_view>(paths.begin(), paths.end()));
+  problem.found = fmt::format("unknown path \"{}\"", path);
+  if (!problem.expected.starts_with('"')) {
+    problem.expected =
+        "the dotted path of a field that may be sampled, for example "
+        "\"environment.time_of_day\" or \"drones.0.camera.pitch_deg\"";
+  }
+  return problem;
+}
+
 }  // namespace
 
 json RandomField::draw(std::uint64_t run_seed) const {
@@ -124,9 +147,7 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
     const std::string place = fmt::format("/randomize/{}", path);
     const json* rules = rules_at(words);
     if (rules == nullptr) {
-      problems.push_back({"", place, fmt::format("\"{}\"", path),
-                          "the dotted path of a field that may be sampled, for example "
-                          "\"environment.time_of_day\" or \"drones.0.camera.pitch_deg\""});
+      problems.push_back(unknown_path(path, value));
       continue;
     }
     if (!is_there(job, words, rules->contains(kInPlace))) {

@@ -34,7 +34,7 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
 void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
   if (capture.to_s >= capture.from_s) return;
   problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
-                      fmt::format("a time not before from_s, which is {}", capture.from_s)});
+                      fmt::format("at least from_s, which is {}", capture.from_s)});
 }
 
 json parse_with_schema(std::string_view text, const std::string& source) {

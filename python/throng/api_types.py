@@ -120,7 +120,34 @@ class DryRun(TypedDict):
     shards: int
     frames: int
     """Of all cameras."""
+    people: int
+    """In the first run, arrivals included."""
+    estimate: JobEstimate
+    views: list[CameraView]
+    """Of the first run's cameras whose path does not depend on the people they see."""
+    warnings: list[Mistake]
+    """Parts of the job that work and are probably not meant."""
     job: dict[str, Any]
+
+
+class JobEstimate(TypedDict):
+    """JobEstimate of the service."""
+
+    cpu_s: float
+    """Seconds of one core, with the software renderer; right within a factor of about two."""
+    disk_bytes: int
+    memory_mib: int
+    """Of the largest task."""
+
+
+class CameraView(TypedDict):
+    """CameraView of the service."""
+
+    drone: str
+    max_area_share: float
+    """Largest share of the scenario's area in one image, 0 to 1."""
+    max_person_px: float
+    """Largest height of a person in an image; 0: nobody is in any."""
 
 
 class Event(TypedDict):

@@ -60,8 +60,8 @@ class Client(CatalogClient):
         )
 
     def dry_run(self, job: JobLike, *, scenario: PathLike | None = None) -> DryRun:
-        """Only checks the job: runs, shards, frames, and the job with all defaults. InvalidRequestError names what is
-        wrong."""
+        """Only checks the job: runs, shards, frames, estimates, warnings, and the job with all defaults.
+        InvalidRequestError names all mistakes."""
         return self._submit(job, scenario, {"dry_run": True}, {})
 
     def _submit(

@@ -306,7 +306,9 @@ class Dataset(Sequence[Frame]):
         categories = {c["id"]: c for source in self._sources for c in source.labels.categories}
         return {
             "info": {"description": self.name, "version": "1"},
-            "licenses": [],
+            "licenses": [
+                {"id": 1, "name": "CC0-1.0", "url": "https://creativecommons.org/publicdomain/zero/1.0/"}
+            ],
             "categories": list(categories.values()),
             "images": images,
             "annotations": annotations,

@@ -36,7 +36,7 @@ std::vector<AgentRole> choose_roles(const std::string& scenario,
   if (!people) return roles;
   if (*people < 0 || static_cast<std::size_t>(*people) > tickets.size()) {
     problems.push_back({"", "/crowd/agents", std::to_string(*people),
-                        fmt::format("0 to {}, the people in the scenario", tickets.size())});
+                        fmt::format("1 to {}, the people in the scenario", tickets.size())});
     return roles;
   }
   std::sort(tickets.begin(), tickets.end());

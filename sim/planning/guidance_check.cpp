@@ -1,10 +1,13 @@
 #include "sim/planning/guidance_check.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
+
+#include "base/suggest.h"
 
 namespace throng::sim {
 
@@ -50,10 +53,9 @@ void check_exits(const DroneMission& mission, const world::Scenario& scenario,
                                     [&](const world::Exit& exit) { return exit.id == id; });
     const std::string where = fmt::format("{}/exits/{}", pointer, i);
     if (known == scenario.exits.end()) {
-      std::vector<std::string> ids;
+      std::vector<std::string_view> ids;
       for (const world::Exit& exit : scenario.exits) ids.push_back(exit.id);
-      problems.push_back(
-          {"", where, fmt::format("\"{}\"", id), fmt::format("one of: {}", fmt::join(ids, ", "))});
+      problems.push_back(unknown_name("", where, "exit", id, ids));
     } else if (!known->open) {
       problems.push_back({"", where, fmt::format("\"{}\", which is closed", id), "an open exit"});
     }

@@ -1,11 +1,11 @@
 #include "sim/planning/plan.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/suggest.h"
 #include "geometry/polygon.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"
@@ -68,13 +68,13 @@ class MissionCheck {
 
   Airframe airframe_from(const std::vector<Airframe>& airframes) {
     if (mission_.own_airframe) return *mission_.own_airframe;
-    std::vector<std::string> names;
+    std::vector<std::string_view> names;
     for (const Airframe& frame : airframes) {
       if (frame.name == mission_.airframe) return frame;
       names.push_back(frame.name);
     }
-    add("/airframe", fmt::format("\"{}\"", mission_.airframe),
-        fmt::format("one of: {}", fmt::join(names, ", ")));
+    problems_.push_back(
+        unknown_name("", pointer_ + "/airframe", "airframe", mission_.airframe, names));
     return {};
   }
 
@@ -83,8 +83,8 @@ class MissionCheck {
     if (entry == nullptr) {
       std::vector<std::string_view> names;
       for (const PolicyEntry& known : policies()) names.push_back(known.name);
-      add("/guidance/policy", fmt::format("\"{}\"", mission_.policy),
-          fmt::format("one of: {}", fmt::join(names, ", ")));
+      problems_.push_back(
+          unknown_name("", pointer_ + "/guidance/policy", "policy", mission_.policy, names));
     } else {
       check_guidance(*entry, mission_, scenario_, pointer_ + "/guidance", problems_);
     }

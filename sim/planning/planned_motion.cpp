@@ -4,7 +4,8 @@ namespace throng::sim {
 
 PlannedMotion::PlannedMotion(const PlannedDrone& drone)
     : policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad, FlightLimits{},
-                                  drone.scenario, drone.index})) {
+                                  drone.scenario, drone.index})),
+      yaw_rad_(drone.yaw_rad) {
   state_.position = drone.start;
 }
 
@@ -12,6 +13,7 @@ const Eigen::Vector3d& PlannedMotion::advance(double dt_s) {
   const Setpoint wanted = policy_->next(state_, dt_s);
   state_.position = wanted.position;
   state_.velocity = wanted.velocity;
+  yaw_rad_ = wanted.yaw_rad;
   return state_.position;
 }
 

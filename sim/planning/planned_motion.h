@@ -21,10 +21,13 @@ class PlannedMotion {
 
   /// Set-point of the drone `dt_s` later, m.
   const Eigen::Vector3d& advance(double dt_s);
+  /// Heading of the last set-point.
+  double yaw_rad() const { return yaw_rad_; }
 
  private:
   std::unique_ptr<Policy> policy_;
   FlightState state_;
+  double yaw_rad_;
 };
 
 }  // namespace throng::sim

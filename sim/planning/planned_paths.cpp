@@ -7,27 +7,55 @@ namespace throng::sim {
 
 namespace {
 
+constexpr double kPathStepS = 0.05;
+
 world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
-  constexpr double kStepS = 0.05;
   world::DronePath path{drone.mission.id, {drone.start}};
   if (goes_by_people(*drone.policy)) return path;
   PlannedMotion motion(drone);
-  const int steps = static_cast<int>(duration_s / kStepS);
-  for (int i = 0; i < steps; ++i) path.add(motion.advance(kStepS));
+  const int steps = static_cast<int>(duration_s / kPathStepS);
+  for (int i = 0; i < steps; ++i) path.add(motion.advance(kPathStepS));
   return path;
+}
+
+std::vector<PlannedPose> poses_of(const PlannedDrone& drone, std::span<const double> times_s) {
+  std::vector<PlannedPose> poses;
+  if (goes_by_people(*drone.policy)) return poses;
+  PlannedMotion motion(drone);
+  PlannedPose pose{drone.start, drone.yaw_rad};
+  int step = 0;
+  for (const double time_s : times_s) {
+    for (; step * kPathStepS < time_s; ++step) pose = {motion.advance(kPathStepS), motion.yaw_rad()};
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+std::vector<PlannedDrone> checked_drones(const world::Scenario& scenario, const RunSpec& run) {
+  std::vector<Problem> problems;
+  std::vector<PlannedDrone> drones = plan_drones(scenario, run.drones, run.duration_s, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return drones;
 }
 
 }  // namespace
 
 std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run) {
-  std::vector<Problem> problems;
-  const std::vector<PlannedDrone> drones =
-      plan_drones(scenario, run.drones, run.duration_s, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
+  const std::vector<PlannedDrone> drones = checked_drones(scenario, run);
   std::vector<world::DronePath> paths;
   paths.reserve(drones.size());
   for (const PlannedDrone& drone : drones) paths.push_back(path_of(drone, run.duration_s));
   return paths;
+}
+
+std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scenario,
+                                                    const RunSpec& run,
+                                                    std::span<const double> times_s) {
+  std::vector<std::vector<PlannedPose>> poses;
+  for (const PlannedDrone& drone : checked_drones(scenario, run)) {
+    poses.push_back(poses_of(drone, times_s));
+  }
+  return poses;
 }
 
 }  // namespace throng::sim

@@ -62,7 +62,7 @@ class Client(unittest.TestCase):
         return done.stdout if code == 0 else done.stderr
 
     def test_submit_watch_and_fetch(self):
-        self.assertIn("1 run,", self.throng("submit", self.job, "--dry-run"))
+        self.assertRegex(self.throng("submit", self.job, "--dry-run"), r"valid[^$]*, 1 run\n *images ")
         archive = self.base / "out.tar"
         id_ = self.throng("submit", self.job, "--label", "a b", "--key", "k", "--fetch", archive).split()[0]
         with tarfile.open(archive) as tar:
@@ -120,7 +120,7 @@ class Client(unittest.TestCase):
     def test_mistakes_and_missing_servers_have_their_exit_codes(self):
         self.job.write_text(json.dumps({**JOB, "runs": 0}))
         self.assertIn("/runs", self.throng("submit", self.job, code=2))
-        self.assertIn("no readable file", self.throng("submit", self.base / "none.json", code=2))
+        self.assertIn("no such file", self.throng("submit", self.base / "none.json", code=2))
         self.assertIn("jnosuchjob000000", self.throng("cancel", "jnosuchjob000000", code=2))
         self.environment["THRONG_URL"] = "127.0.0.1"
         self.assertIn("THRONG_URL", self.throng("jobs", code=2))

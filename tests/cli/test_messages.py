@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 THRONG = sys.argv.pop(1)
@@ -39,7 +40,7 @@ class Messages(unittest.TestCase):
         self.refused('unknown command "exprot"; did you mean "export"?', "exprot")
         self.refused('unknown command "chek"; did you mean "check"?', "scenario", "chek", "x")
         self.refused('unknown command "bulid"; did you mean "build"?', "people", "bulid")
-        self.refused('unknown command "abracadabra"; expected one of: run, simulate,', "abracadabra")
+        self.refused('unknown command "abracadabra"; expected one of: run, check, simulate,', "abracadabra")
         self.refused('unknown command "runn"; did you mean "run"?', "help", "runn")
 
     def test_help_is_a_command(self):
@@ -91,6 +92,69 @@ class Messages(unittest.TestCase):
             "scenarios",
             THRONG_SCENARIOS=str(self.folder / "nowhere"),
         )
+
+    def run_job(self, expected, **fields):
+        self.refused(expected, "run", self.job(**fields), "-o", self.folder / "out")
+
+    def test_unknown_names_in_jobs_are_answered_with_the_nearest_one(self):
+        def drone(**fields):
+            return [{"id": "d1", **fields}]
+
+        self.run_job('/outputs/formats/0: unknown format "yolo-detct"; did you mean "yolo-detect"?', outputs={"formats": ["yolo-detct"]})
+        self.run_job('/outputs/formats/0: unknown format "xyz"; expected one of: coco,', outputs={"formats": ["xyz"]})
+        self.run_job('unknown airframe "f45"; did you mean "f450"?', drones=drone(airframe="f45"))
+        self.run_job('unknown scenario "city_square/nearest_exti"; did you mean', scenario="city_square/nearest_exti")
+        self.run_job('unknown path "crowd.agent"; did you mean "crowd.agents"?', randomize={"crowd.agent": {"uniform": [1, 2]}})
+        self.run_job('unknown path "crowd"; did you mean "crowd.agents"?', randomize={"crowd": {"agents": {"uniform": [1, 2]}}})
+
+    def test_limits_are_named(self):
+        self.run_job("/capture/to_s: found 5, expected at least from_s, which is 10", capture={"from_s": 10, "to_s": 5})
+        self.run_job("/crowd/agents: found 5000, expected 1 to 260, the people", crowd={"agents": 5000})
+
+    def test_another_kind_of_file_is_recognized(self):
+        place = self.folder / "yard.place.json"
+        place.write_text('{"name": "Yard", "people": {}}')
+        self.refused("found a blueprint, expected a job; a blueprint is for `throng scenario make`", "run", place, "-o", "x")
+        self.refused("found a blueprint, expected a scenario", "scenario", "check", place)
+        self.refused("found a job, expected a study; a job is for `throng run`", "study", self.job(), "-o", "x")
+        self.refused("found a job, expected a blueprint", "scenario", "make", self.job())
+        study = self.folder / "s.json"
+        study.write_text('{"cases": [], "policies": []}')
+        self.refused("found a study, expected a job; a study is for `throng study`", "run", study, "-o", "x")
+        self.refused(f"{self.folder}: found a folder, expected a job file", "run", self.folder, "-o", "x")
+
+    def test_options_and_arguments(self):
+        job = self.job()
+        self.refused('throng run: unknown option "--outptu"; did you mean "--output"?', "run", job, "--outptu", "x")
+        self.refused("throng run: missing JOB (`throng run --help`)", "run")
+        self.refused("throng run: missing --output (`throng run --help`)", "run", job)
+        self.refused("throng serve: --port: found 99999, expected 0 to 65535", "serve", "--port", "99999")
+        self.refused('one more argument, "check"', "scenarios", "check")
+        self.refused("throng keys: found no command, expected one of: ", "keys")
+        self.refused("--classes: found x, expected one of: ", "export", "d", "--classes", "x")
+
+    def test_counts_agree_with_their_nouns(self):
+        done = throng("scenario", "check", "city_square/nearest_exit")
+        self.assertRegex(done.stdout, r"\b(1 error|0 errors|\d\d* errors), (1 warning|[02-9]\d* warnings|\d\d+ warnings)\n$")
+
+    def test_a_job_that_is_not_there_is_answered_with_the_nearest_one(self):
+        port_file = self.folder / "port"
+        server = subprocess.Popen(
+            [THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        self.addCleanup(server.wait, 30)
+        self.addCleanup(server.terminate)
+        while not (port_file.exists() and port_file.read_text().strip()):
+            time.sleep(0.05)
+        url = f"http://127.0.0.1:{port_file.read_text().strip()}"
+        for command in ("watch", "cancel", "retry", "remove", "logs", "fetch"):
+            self.refused(f'unknown job "nope" on {url}; expected an id that `throng jobs` lists', command, "nope", THRONG_URL=url)
+        done = throng("submit", self.job(capture={"to_s": 1}), THRONG_URL=url)
+        job = done.stdout.strip()
+        self.refused(f'unknown job "{job[:-1]}" on {url}; did you mean "{job}"?', "watch", job[:-1], THRONG_URL=url)
+        throng("cancel", job, THRONG_URL=url)
 
     def test_a_server_that_is_not_there_is_named(self):
         with socket.socket() as free:

@@ -106,10 +106,10 @@ TEST_F(ServiceFixture, WhatTheSchemaRefusesStartsNoChild) {
     return check_lightly(request);
   };
   Service service(counting, executor);
-  EXPECT_THROW(service.queue().checked("{"), InputError);
-  EXPECT_THROW(service.queue().checked(R"({"scenario": "yard", "runs": 0})"), InputError);
+  EXPECT_THROW(service.queue().submit({"{"}), InputError);
+  EXPECT_THROW(service.queue().submit({R"({"scenario": "yard", "runs": 0})"}), InputError);
   EXPECT_EQ(children, 0);
-  service.queue().checked(kJob);
+  service.queue().submit({kJob});
   EXPECT_EQ(children, 1);
 }
 

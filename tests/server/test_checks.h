@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "jobs/queue/checked_scenarios.h"
 #include "jobs/queue/confined_task.h"
+#include "jobs/spec/job_cost.h"
 #include "jobs/spec/scenario_summary.h"
 #include "jobs/spec/spec.h"
 #include "world/scenario.h"
@@ -50,9 +51,26 @@ inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
   return {{"job", to_json(job)}};
 }
 
+/// A dry run without views and warnings.
+inline nlohmann::json dry_run_lightly(const nlohmann::json& request) {
+  nlohmann::json answer = resolve_lightly(request);
+  constexpr int kPeople = 2;
+  const jobs::JobCost cost =
+      jobs::estimate_cost(jobs::parse_job(answer.at("job").dump(), ""), kPeople);
+  answer.update({{"runs", cost.runs},
+                 {"shards", cost.shards},
+                 {"frames", cost.images},
+                 {"people", kPeople},
+                 {"estimate", jobs::estimate_json(cost)},
+                 {"views", nlohmann::json::array()},
+                 {"warnings", nlohmann::json::array()}});
+  return answer;
+}
+
 inline nlohmann::json check_lightly(const nlohmann::json& request) {
   const std::string task = request.at("task");
   if (task == "job") return resolve_lightly(request);
+  if (task == "dry_run") return dry_run_lightly(request);
   if (task == "catalog") {
     return {{"airframes", nlohmann::json::array()},
             {"formats", nlohmann::json::array()},

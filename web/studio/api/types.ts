@@ -89,7 +89,30 @@ export interface DryRun {
   shards: number;
   /** Of all cameras. */
   frames: number;
+  /** In the first run, arrivals included. */
+  people: number;
+  estimate: JobEstimate;
+  /** Of the first run's cameras whose path does not depend on the people they see. */
+  views: CameraView[];
+  /** Parts of the job that work and are probably not meant. */
+  warnings: Mistake[];
   job: Record<string, unknown>;
+}
+
+export interface JobEstimate {
+  /** Seconds of one core, with the software renderer; right within a factor of about two. */
+  cpu_s: number;
+  disk_bytes: number;
+  /** Of the largest task. */
+  memory_mib: number;
+}
+
+export interface CameraView {
+  drone: string;
+  /** Largest share of the scenario's area in one image, 0 to 1. */
+  max_area_share: number;
+  /** Largest height of a person in an image; 0: nobody is in any. */
+  max_person_px: number;
 }
 
 export interface Event {

@@ -78,6 +78,12 @@ function SubmitBar({ draft, check, onErrors }: SubmitBarProps) {
             <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast images={plan.frames} />
           </>
         )}
+        {plan && plan.warnings.length > 0 && (
+          <details>
+            <summary>{countText(plan.warnings.length, "warning")}</summary>
+            <Mistakes list={plan.warnings} onSelect={onErrors} />
+          </details>
+        )}
         {errors.length > 0 && (
           <details>
             <summary class="field-error">{countText(errors.length, "error")}</summary>

@@ -1,0 +1,119 @@
+#include "jobs/spec/job_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "jobs/spec/plan.h"
+#include "jobs/spec/spec.h"
+#include "jobs/spec/task_memory.h"
+
+namespace throng::jobs {
+
+namespace {
+
+constexpr double kPerMegapixel = 1e6;
+
+/// Seconds of one core, from the tables of docs/rendering.md and docs/places.md.
+struct RenderCost {
+  double per_megapixel_s;
+  double per_person_s;  ///< in view; people small enough to be far away cost less
+};
+constexpr std::array kRenderCosts = {RenderCost{0.012, 0.000037}, RenderCost{0.051, 0.000076},
+                                     RenderCost{0.345, 0.00086}};
+constexpr double kSimulatedPersonSecond = 60e-6;
+constexpr double kSimulatedDroneSecond = 0.01;
+constexpr double kLoadedPerson = 0.0003;
+constexpr double kWorkerStartS = 0.6;     ///< of a shard: driver, character library, place
+constexpr double kLensMapS = 2;           ///< of a shard, per megapixel of a lens that distorts
+constexpr double kLensMegapixelS = 0.08;  ///< of an image
+constexpr double kShutterFactor = 2.5;    ///< motion blur or a rolling shutter
+
+/// Bytes of the dataset.
+constexpr double kJpegBytesPerPixel = 0.33;  ///< at quality 95
+constexpr double kJpegOctave = 12;           ///< steps of quality that double the bytes
+constexpr double kJpegQuality = 95;
+constexpr double kAnnotationBytes = 1100;  ///< of a person in an image
+constexpr double kTraceBytes = 14;         ///< of a person at a step of 0.1 s
+constexpr double kStepsPerSecond = 10;
+
+struct KindBytes {
+  std::string_view kind;
+  double per_pixel;
+};
+constexpr std::array kKindBytes = {KindBytes{"density", 4},     KindBytes{"depth", 0.9},
+                                   KindBytes{"instances", 0.1}, KindBytes{"parts", 0.05},
+                                   KindBytes{"normals", 1},     KindBytes{"flow", 1.5},
+                                   KindBytes{"semantic", 0.05}};
+
+/// Share of the people that an image shows; unknown before the simulation.
+constexpr double kShareInView = 0.5;
+
+double bytes_per_pixel(const OutputSpec& outputs) {
+  double bytes =
+      kJpegBytesPerPixel * std::exp2((outputs.image_quality - kJpegQuality) / kJpegOctave);
+  for (const KindBytes& kind : kKindBytes) {
+    const auto& names = outputs.annotations;
+    if (std::find(names.begin(), names.end(), kind.kind) != names.end()) bytes += kind.per_pixel;
+  }
+  return bytes;
+}
+
+double render_cpu_s(const JobSpec& job, const camera::CameraSpec& camera, double images,
+                    double shards, double in_view) {
+  const double megapixels = static_cast<double>(camera.width) * camera.height / kPerMegapixel;
+  const RenderCost& cost = kRenderCosts.at(static_cast<std::size_t>(job.quality));
+  double image_s = megapixels * cost.per_megapixel_s + in_view * cost.per_person_s;
+  if (camera.exposure.exposure_s > 0 || camera.exposure.readout_s > 0) image_s *= kShutterFactor;
+  double shard_s = 0;
+  if (camera.lens.model != camera::LensModel::pinhole || camera.calibrated) {
+    image_s += megapixels * kLensMegapixelS;
+    shard_s += megapixels * kLensMapS;
+  }
+  return images * image_s + shards * shard_s;
+}
+
+void add_run(const JobSpec& job, const RunPlan& run, double people, JobCost& cost) {
+  const double duration_s = job.capture.to_s;
+  const auto frames = static_cast<double>(job.frames_per_camera());
+  const auto shards = static_cast<double>(plan_shards(job, run.index).size());
+  const double in_view = kShareInView * people;
+  double bytes = people * duration_s * kStepsPerSecond * kTraceBytes;
+  cost.cpu_s += people * (kLoadedPerson + duration_s * kSimulatedPersonSecond) +
+                static_cast<double>(job.drones.size()) * duration_s * kSimulatedDroneSecond +
+                shards * kWorkerStartS;
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const auto camera = camera_of_run(job.drones[i].camera, run.seed, camera_pointer(i));
+    cost.cpu_s += render_cpu_s(job, camera, frames, shards, in_view);
+    bytes +=
+        frames * (static_cast<double>(camera.width) * camera.height * bytes_per_pixel(job.outputs) +
+                  in_view * kAnnotationBytes);
+  }
+  cost.disk_bytes += static_cast<std::int64_t>(bytes);
+  cost.shards += static_cast<std::int64_t>(shards);
+  cost.images += job.frames_per_camera() * static_cast<std::int64_t>(job.drones.size());
+}
+
+}  // namespace
+
+JobCost estimate_cost(const JobSpec& job, std::int64_t people) {
+  JobCost cost;
+  cost.runs = job.runs;
+  for (const RunPlan& run : plan_runs(job)) {
+    const JobSpec of_run = job.randomize.empty() ? job : job_of_run(job, run.index);
+    add_run(of_run, run, static_cast<double>(of_run.agents.value_or(static_cast<int>(people))),
+            cost);
+  }
+  cost.memory_mib = TaskMemory(job).max_mib();
+  return cost;
+}
+
+nlohmann::json estimate_json(const JobCost& cost) {
+  return {{"cpu_s", std::round(10 * cost.cpu_s) / 10},
+          {"disk_bytes", cost.disk_bytes},
+          {"memory_mib", cost.memory_mib}};
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,146 @@
+"""throng check: every mistake at once, estimates, and warnings for jobs that succeed without effect."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+THRONG = sys.argv.pop(1)
+SQUARE = {"scenario": "city_square/nearest_exit", "capture": {"to_s": 5}}
+
+
+class Check(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, job):
+        file = self.folder / "my.job.json"
+        file.write_text(json.dumps(job))
+        return file
+
+    def check(self, job, *options):
+        return subprocess.run(
+            [THRONG, "check", str(self.write(job)), *options], capture_output=True, text=True, timeout=120
+        )
+
+    def answer(self, **fields):
+        done = self.check({**SQUARE, **fields}, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def warned(self, **fields):
+        return {warning["pointer"]: warning["found"] for warning in self.answer(**fields)["warnings"]}
+
+    def test_all_mistakes_at_once(self):
+        done = self.check(
+            {
+                "scenario": "city_square/nearest_exti",
+                "drone": [],
+                "runs": 0,
+                "capture": {"to_s": "soon"},
+                "outputs": {"formats": ["yolo"]},
+            }
+        )
+        self.assertEqual(done.returncode, 2)
+        for expected in (
+            '/drone: unknown field "drone"; did you mean "drones"?',
+            "/runs: found 0, expected ",
+            '/capture/to_s: found "soon"',
+            'unknown scenario "city_square/nearest_exti"; did you mean "city_square/nearest_exit"?',
+            '/outputs/formats/0: unknown format "yolo"',
+        ):
+            self.assertIn(expected, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 5, done.stderr)
+
+    def test_a_mistake_is_reported_once(self):
+        """Not again as what its absence would mean."""
+        done = self.check({**SQUARE, "drones": [{"id": "d1", "guidance": {"policy": "orbit", "radius_m": "wide"}}]})
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("/drones/0/guidance/radius_m", done.stderr)
+
+    def test_counts_and_estimates(self):
+        answer = self.answer(runs=2, capture={"rate_hz": 2, "from_s": 1, "to_s": 5}, crowd={"agents": 20})
+        cameras = len(answer["job"]["drones"])
+        self.assertEqual(answer["runs"], 2)
+        self.assertEqual(answer["people"], 20)
+        self.assertEqual(answer["frames"], 2 * 9 * cameras)
+        self.assertGreater(answer["estimate"]["memory_mib"], 500)
+        more = self.answer(runs=4, capture={"rate_hz": 2, "from_s": 1, "to_s": 5}, crowd={"agents": 20})
+        self.assertAlmostEqual(more["estimate"]["cpu_s"] / answer["estimate"]["cpu_s"], 2, delta=0.1)
+        self.assertGreater(self.answer(quality="high")["estimate"]["cpu_s"], self.answer(quality="draft")["estimate"]["cpu_s"])
+
+    def test_the_estimates_are_those_of_a_run(self):
+        job = {**SQUARE, "drones": [{"id": "d1", "camera": {"width": 640, "height": 360}}]}
+        answer = json.loads(self.check(job, "--json").stdout)
+        done = subprocess.run(
+            [THRONG, "run", self.write(job), "-o", self.folder / "out"], capture_output=True, text=True, timeout=300
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        files = [file for file in (self.folder / "out/dataset").rglob("*") if file.is_file()]
+        images = [file for file in files if file.parts[-4] == "images"]
+        self.assertEqual(len(images), answer["frames"])
+        size = sum(file.stat().st_size for file in files)
+        self.assertLess(abs(size / answer["estimate"]["disk_bytes"] - 1), 1, (size, answer["estimate"]))
+
+    def test_text(self):
+        done = self.check({**SQUARE, "environment": {"rain_mm_per_h": 20}})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"my.job.json: valid, 1 warning\n")
+        self.assertRegex(done.stdout, r"\n  images +\d+ in \d+ shards?\n")
+        self.assertRegex(done.stdout, r"\n  time +about \d+ (s|min) on \d+ cores?\n")
+        self.assertRegex(done.stdout, r"\n  disk +about [\d.]+ [kMG]B\n")
+        self.assertRegex(done.stdout, r"shows up to \d+ % of the area")
+        self.assertIn("warning: ", done.stdout)
+
+    def test_a_sound_job_has_no_warning(self):
+        self.assertEqual(self.warned(), {})
+
+    def test_settings_without_effect(self):
+        self.assertIn("rain in no run", self.warned(environment={"rain_mm_per_h": 20})["/environment/rain_mm_per_h"])
+        self.assertEqual(self.warned(environment={"rain_mm_per_h": 20, "weather": "rain"}), {})
+        self.assertIn("coco", self.warned(outputs={"annotations": ["keypoints"]})["/outputs/annotations/0"])
+        self.assertEqual(self.warned(outputs={"annotations": ["keypoints", "coco"]}), {})
+        self.assertIn("no run of 1", self.warned(outputs={"splits": {"val": 0.2}})["/outputs/splits/val"])
+        self.assertEqual(self.warned(outputs={"splits": {"val": 0.5}}, runs=2), {})
+
+    def test_smoke_needs_a_hazard(self):
+        everyday = {"scenario": "city_square/everyday", "environment": {"smoke": 0.5}}
+        self.assertIn("/environment/smoke", self.warned(**everyday))
+        self.assertNotIn("/environment/smoke", self.warned(scenario="city_square/emergency", environment={"smoke": 0.5}))
+
+    def test_cameras_that_see_nobody(self):
+        up = [{"id": "d1", "start": [0, 0, 30], "camera": {"pitch_deg": 30}}]
+        self.assertIn("nobody in any image", self.warned(drones=up)["/drones/0/camera"])
+        away = [{"id": "d1", "start": [1000, 0, 30]}]
+        warned = self.warned(drones=away)
+        self.assertIn("m beyond the scenario's ground", warned["/drones/0"])
+        self.assertIn("nobody in any image", warned["/drones/0/camera"])
+        high = [{"id": "d1", "start": [0, 0, 900], "camera": {"pitch_deg": -90, "width": 320, "height": 240}}]
+        self.assertRegex(self.warned(drones=high)["/drones/0/camera"], r"people of at most \d px")
+
+    def test_the_dry_run_of_the_service_says_the_same(self):
+        port_file = self.folder / "port"
+        server = subprocess.Popen(
+            [THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        self.addCleanup(server.wait, 30)
+        self.addCleanup(server.terminate)
+        while not (port_file.exists() and port_file.read_text().strip()):
+            time.sleep(0.05)
+        url = f"http://127.0.0.1:{port_file.read_text().strip()}/v1/jobs?dry_run"
+        job = {**SQUARE, "environment": {"rain_mm_per_h": 20}}
+        request = urllib.request.Request(url, json.dumps(job).encode(), {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=60) as response:
+            answer = json.loads(response.read())
+        self.assertTrue(answer.pop("valid"))
+        self.assertEqual(answer, json.loads(self.check(job, "--json").stdout))
+
+
+unittest.main()

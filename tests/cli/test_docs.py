@@ -1,0 +1,147 @@
+"""Documentation: links and anchors lead somewhere, every page is on the start page, commands and variables exist."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+THRONG = sys.argv.pop(1)
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "python").glob("*.md")])
+CODE = re.compile(r"^(```|~~~).*?^\1\s*$", re.M | re.S)
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def text_of(page):
+    """Without blocks and spans of code."""
+    return re.sub(r"`[^`\n]*`", "`code`", CODE.sub("", page.read_text()))
+
+
+def anchor(heading):
+    """As GitHub makes it."""
+    heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def anchors_of(page):
+    return {anchor(line.lstrip("#")) for line in CODE.sub("", page.read_text()).splitlines() if line.startswith("#")}
+
+
+def shell_lines(page):
+    for block in re.findall(r"^```(?:sh|bash)?\n(.*?)^```", page.read_text(), re.M | re.S):
+        yield from block.replace("\\\n", " ").splitlines()
+
+
+class Docs(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        broken = []
+        for page in PAGES:
+            for target in LINK.findall(text_of(page)):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                name, _, place = target.partition("#")
+                file = (page.parent / name).resolve() if name else page
+                if not file.exists():
+                    broken.append(f"{page.relative_to(ROOT)}: no file {target}")
+                elif place and file.suffix == ".md" and place not in anchors_of(file):
+                    broken.append(f"{page.relative_to(ROOT)}: no heading {target}")
+        self.assertEqual(broken, [])
+
+    def test_the_start_page_names_every_page(self):
+        start = (ROOT / "docs" / "README.md").read_text()
+        named = {link.partition("#")[0] for link in LINK.findall(start)}
+        pages = {page.name for page in (ROOT / "docs").glob("*.md")} - {"README.md"}
+        self.assertEqual(pages - named, set())
+
+    def test_every_variable_is_in_the_table(self):
+        table = (ROOT / "docs" / "troubleshooting.md").read_text()
+        folders = ["base", "cli", "crowd", "jobs", "render", "server", "sim", "skinning", "world", "python/throng", "scripts"]
+        used = set()
+        for folder in folders:
+            for file in (ROOT / folder).rglob("*"):
+                if file.suffix in {".cpp", ".h", ".py", ".sh"}:
+                    text = file.read_text()
+                    used.update(re.findall(r"\"(THRONG_[A-Z_]+)\"", text), re.findall(r"\$\{?(THRONG_[A-Z_]+)", text))
+        self.assertEqual({name for name in used if f"`{name}`" not in table}, set())
+
+    def test_commands_in_the_docs_exist(self):
+        """Each `throng COMMAND` of a shell block has help, and so has each of its long options."""
+        helps = {}
+        wrong = []
+        for page in PAGES:
+            if page.name == "CHANGELOG.md":
+                continue
+            for line in shell_lines(page):
+                found = re.search(r"(?:^|.*[\s/;|])throng +((?:[a-z][a-z-]* *)+)(.*)", line.split("#")[0])
+                if not found:
+                    continue
+                words = found[1].split()
+                for count in (2, 1):
+                    command = tuple(words[:count])
+                    if command not in helps:
+                        done = subprocess.run([THRONG, "help", *command], capture_output=True, text=True, timeout=60)
+                        helps[command] = done.stdout if done.returncode == 0 else None
+                    if helps[command] is not None:
+                        break
+                if helps[command] is None:
+                    wrong.append(f"{page.name}: no command in: {line.strip()}")
+                    continue
+                for option in re.findall(r"(?<!\S)(--[a-z-]+)", found[2].split("|")[0].split(";")[0]):
+                    if option not in helps[command] and option != "--help":
+                        wrong.append(f"{page.name}: no {option} in: {line.strip()}")
+        self.assertEqual(wrong, [])
+
+    def test_every_recipe_is_a_job_that_can_be_done(self):
+        recipes = re.findall(r"^```json\n(.*?)^```", (ROOT / "docs" / "recipes.md").read_text(), re.M | re.S)
+        self.assertGreater(len(recipes), 8)
+        with tempfile.TemporaryDirectory() as folder:
+            port_file = pathlib.Path(folder) / "port"
+            server = subprocess.Popen(
+                [THRONG, "serve", "--data", f"{folder}/data", "--port", "0", "--port-file", port_file],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                env={**os.environ, "THRONG_SCENARIOS": str(ROOT / "scenarios")},
+            )
+            try:
+                while not (port_file.exists() and port_file.read_text().strip()):
+                    time.sleep(0.05)
+                url = f"http://127.0.0.1:{port_file.read_text().strip()}/v1/jobs?dry_run"
+                for recipe in recipes:
+                    request = urllib.request.Request(url, recipe.encode(), {"Content-Type": "application/json"})
+                    try:
+                        with urllib.request.urlopen(request, timeout=120) as answer:
+                            self.assertTrue(json.load(answer)["valid"])
+                    except urllib.error.HTTPError as error:
+                        self.fail(f"{recipe}\n{error.read().decode()}")
+            finally:
+                server.terminate()
+                server.wait(30)
+
+    def test_the_notice_names_every_linked_library(self):
+        needed = re.findall(
+            r"NEEDED.*\[(.*)\]", subprocess.run(["readelf", "-d", THRONG], capture_output=True, text=True).stdout
+        )
+        places = dict(
+            re.findall(r"(\S+) => (/\S+)", subprocess.run(["ldd", THRONG], capture_output=True, text=True).stdout)
+        )
+        notice = (ROOT / "NOTICE").read_text()
+        missing = set()
+        for library in needed:
+            place = str(pathlib.Path(places[library]).resolve())
+            for file in (place, place.removeprefix("/usr")):
+                owner = subprocess.run(["dpkg-query", "-S", file], capture_output=True, text=True)
+                if owner.returncode == 0:
+                    package = owner.stdout.split(":")[0]
+                    if not re.search(rf"^  {re.escape(package)} ", notice, re.M):
+                        missing.add(package)
+                    break
+        self.assertEqual(missing, set())
+
+
+unittest.main()

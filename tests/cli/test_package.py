@@ -1,0 +1,88 @@
+"""Install, Debian package, manual page, completion, uninstall."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
+BUILD = THRONG.parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def run(*command, **more):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=300, **more)
+    if done.returncode != 0:
+        raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done.stdout
+
+
+def commands():
+    """Names that `throng help` lists."""
+    text = run(THRONG, "help").split("Subcommands:")[1]
+    return re.findall(r"^  ([a-z][a-z-]*)\s", text, re.M)
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def complete(self, *words):
+        script = self.folder / "throng.bash"
+        script.write_text(run(THRONG, "completion", "bash"))
+        quoted = " ".join(f"'{word}'" for word in ("throng", *words))
+        return run(
+            "bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _throng; echo ${{COMPREPLY[@]}}"
+        ).split()
+
+    def test_completion(self):
+        self.assertEqual(self.complete("scen"), ["scenarios", "scenario"])
+        self.assertEqual(self.complete("scenario", "ch"), ["check"])
+        self.assertIn("--output", self.complete("run", "job.json", "--o"))
+        self.assertNotIn("confined", self.complete(""))
+        self.assertEqual(set(self.complete("")) - {"--help", "--version"}, set(commands()))
+
+    def test_the_manual_page_has_every_command_and_is_sound(self):
+        page = run(THRONG, "manual")
+        for command in commands():
+            self.assertIn(f".SS throng {command}\n".replace("-", "\\-"), page)
+        if shutil.which("groff"):
+            done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_install_and_uninstall(self):
+        prefix = self.folder / "usr"
+        build = self.folder / "build"
+        build.mkdir()
+        run("cmake", "--install", BUILD, "--prefix", prefix, "--component", "program")
+        clean = {name: value for name, value in os.environ.items() if not name.startswith("THRONG_")}
+        self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
+        for file in ("man/man1/throng.1", "bash-completion/completions/throng", "doc/throng/copyright", "doc/throng/NOTICE"):
+            self.assertTrue((prefix / "share" / file).is_file(), file)
+        installed = [str(file) for file in prefix.rglob("*") if file.is_file()]
+        (build / "install_manifest_program.txt").write_text("\n".join(installed))
+        run("cmake", "-P", ROOT / "cmake/Uninstall.cmake", cwd=build)
+        self.assertEqual([file for file in prefix.rglob("*") if file.is_file()], [])
+        self.assertFalse((prefix / "share/throng").exists())
+
+    def test_the_debian_package(self):
+        if not shutil.which("dpkg-shlibdeps"):
+            self.skipTest("there is no dpkg-shlibdeps")
+        run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", self.folder)
+        [package] = self.folder.glob("*.deb")
+        self.assertRegex(package.name, r"^throng_[\d.]+_[a-z0-9]+\.deb$")
+        depends = run("dpkg-deb", "-f", package, "Depends")
+        for name in ("libc6", "libcholmod3", "libhdf5-103-1", "libgl1-mesa-dri", "fonts-dejavu-core"):
+            self.assertIn(name, depends)
+        files = run("dpkg-deb", "-c", package)
+        for file in ("usr/bin/throng", "usr/share/throng/scenarios/city_square/nearest_exit.json", "usr/share/man/man1/throng.1"):
+            self.assertIn(file, files)
+        self.assertNotIn("/include/", files)
+
+
+unittest.main()
