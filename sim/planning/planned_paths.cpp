@@ -25,7 +25,8 @@ std::vector<PlannedPose> poses_of(const PlannedDrone& drone, std::span<const dou
   PlannedPose pose{drone.start, drone.yaw_rad};
   int step = 0;
   for (const double time_s : times_s) {
-    for (; step * kPathStepS < time_s; ++step) pose = {motion.advance(kPathStepS), motion.yaw_rad()};
+    for (; step * kPathStepS < time_s; ++step)
+      pose = {motion.advance(kPathStepS), motion.yaw_rad()};
     poses.push_back(pose);
   }
   return poses;
