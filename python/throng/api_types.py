@@ -492,6 +492,7 @@ OPERATIONS = (
     ("GET", "/v1/policies"),
     ("GET", "/v1/formats"),
     ("GET", "/v1/schema"),
+    ("GET", "/v1/access/submit"),
     ("POST", "/v1/session"),
     ("GET", "/v1/session"),
     ("DELETE", "/v1/session"),
