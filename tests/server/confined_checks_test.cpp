@@ -6,6 +6,7 @@
 #include <future>
 
 #include "base/error.h"
+#include "jobs/spec/resolved_job.h"
 #include "tests/server/api_fixture.h"
 #include "tests/server/bundles.h"
 
@@ -28,7 +29,7 @@ class RealChecks : public ServiceFixture {
     really_options.max_task_mib = max_task_mib;
     Service service(really_options, executor);
     try {
-      service.queue().checked(job);
+      service.queue().dry_run(job);
     } catch (const InputError& error) {
       return error.problems();
     }
@@ -76,7 +77,8 @@ TEST_F(RealChecks, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
 TEST_F(RealChecks, TheScenarioCompletesTheJob) {
   SKIP_WITHOUT_PROGRAM();
   Service service(really(options()), executor);
-  const jobs::JobSpec job = service.queue().checked(kJob).spec();
+  const std::string resolved = service.queue().dry_run(kJob).at("job").dump();
+  const jobs::JobSpec job = jobs::read_resolved_job(resolved, "").spec();
   EXPECT_FALSE(job.crowd.model.empty());
   ASSERT_EQ(job.drones.size(), 1U);
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
