@@ -54,8 +54,8 @@ void add_keys(CLI::App& app) {
   create->add_option("name", *name, "Name of the owner, shown in lists")->required();
   create
       ->add_option("--scope", *scope,
-                   "read: read everything; submit: also queue jobs and change own ones; admin: "
-                   "change all jobs")
+                   "read: jobs with the label \"shared\"; submit: also queue jobs, see and change "
+                   "own ones; admin: all jobs")
       ->check(CLI::IsMember({"read", "submit", "admin"}))
       ->capture_default_str();
   create->add_option("--max-jobs", *max_jobs, "Max queued and running jobs (0: no limit)")

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "jobs/spec/spec.h"
 #include "jobs/spec/task_memory.h"
 
@@ -50,6 +51,7 @@ jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path&
 }
 
 json ConfinedChecks::dry_run(std::string_view job_json, const fs::path& scenarios) const {
+  parse_json(job_json, "");  // a request to a child cannot hold what is no UTF-8
   json answer = answer_to({{"task", "dry_run"},
                            {"subject", "a job and a scenario"},
                            {"job", job_json},

@@ -18,6 +18,7 @@ namespace {
 
 // Without a limit: with less, not even a log can be written.
 constexpr std::int64_t kMinBytes = 1 << 20;
+constexpr const char* kFull = "the disk is full";
 
 }  // namespace
 
@@ -32,7 +33,7 @@ std::string DiskWatch::look() {
   constexpr std::int64_t kSlackShare = 4;
   const DiskState disk = look_();
   const std::lock_guard lock(mutex_);
-  const bool was_full = !reason_.empty();
+  const bool was_full = reason_.starts_with(kFull);
   const bool is_full = disk.free_bytes < min_bytes_ + (was_full ? min_bytes_ / kSlackShare : 0);
   std::string reason;
   if (disk.is_read_only) {
@@ -40,7 +41,7 @@ std::string DiskWatch::look() {
   } else if (is_full) {
     // Of the two figures only one changes, and each change is an event.
     reason = was_full ? reason_
-                      : fmt::format("the disk is full: {} MiB are free, {} MiB are needed",
+                      : fmt::format("{}: {} MiB are free, {} MiB are needed", kFull,
                                     disk.free_bytes / kMib, min_bytes_ / kMib);
   }
   if (reason == reason_) return reason_;

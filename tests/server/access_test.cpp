@@ -102,8 +102,8 @@ TEST_F(AccessTest, AKeySeesItsOwnJobsAndSharedOnes) {
   const auto ids = [&](const std::string& key, const std::string& path, const char* list,
                        const char* field) {
     std::set<std::string> found;
-    for (const json& item : json::parse(get(path, with(key))->body)[list])
-      found.insert(item[field]);
+    const json answer = json::parse(get(path, with(key))->body);
+    for (const json& item : answer.at(list)) found.insert(item.at(field));
     return found;
   };
   using Ids = std::set<std::string>;
@@ -116,9 +116,11 @@ TEST_F(AccessTest, AKeySeesItsOwnJobsAndSharedOnes) {
   EXPECT_EQ(ids(submitter, "/v1/jobs?label=paper", "jobs", "id"), Ids{shared});
   EXPECT_EQ(ids(submitter, "/v1/events", "events", "job"), (Ids{mine, shared}));
   EXPECT_EQ(ids(admin, "/v1/events", "events", "job"), (Ids{mine, theirs, shared}));
-  ASSERT_TRUE(wait_until([&] {
-    return json::parse(get("/v1/jobs/" + theirs, with(other))->body)["state"] == "succeeded";
-  }));
+  for (const std::string& job : {theirs, shared}) {
+    ASSERT_TRUE(wait_until([&] {
+      return json::parse(get("/v1/jobs/" + job, with(other))->body)["state"] == "succeeded";
+    }));
+  }
   const std::string path = "/v1/jobs/" + theirs;
   for (const char* part : {"", "/events", "/logs", "/logs/x.log", "/previews", "/previews/a.jpg",
                            "/images", "/archive", "/manifest", "/files/README.md", "/metrics",

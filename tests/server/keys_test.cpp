@@ -191,9 +191,9 @@ TEST_F(KeysTest, PrioritiesHaveALimit) {
   EXPECT_EQ(posted("/v1/jobs?priority=10", urgent, kJob), 201);
   EXPECT_EQ(posted("/v1/jobs?priority=101", admin, kJob), 400);
   const httplib::Result high =
-      client().Post("/v1/jobs?priority=100", with(admin), kJob, "application/json");
+      client().Post("/v1/jobs?priority=100&label=shared", with(admin), kJob, "application/json");
   ASSERT_EQ(high->status, 201);
-  // Nor by a copy of somebody else's.
+  // Nor by a copy of another key's.
   const httplib::Result copy = client().Post(high->get_header_value("Location") + "/clone",
                                              with(one), "{}", "application/json");
   ASSERT_EQ(copy->status, 201);
