@@ -269,8 +269,9 @@ test("pages of other sites can neither change nor read anything", async () => {
         await outcome("/v1/jobs", {}),
       ];
     }, { address: service.address, body, job });
-    // An opaque answer cannot be read; what follows shows that it changed nothing.
-    assert.deepEqual(outcomes, ["opaque 0", "refused", "refused", "opaque 0", "refused"]);
+    // An opaque answer cannot be read; what follows shows that it changed nothing. Answers for same-origin pages only
+    // (Cross-Origin-Resource-Policy) are refused.
+    assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
     await evil.evaluate(({ address, body }) => {
       const form = document.createElement("form");
       Object.assign(form, { action: `${address}/v1/jobs`, method: "post", enctype: "text/plain" });
