@@ -338,6 +338,7 @@ class WithService(unittest.TestCase):
 
     def test_z_keys(self):
         """Last: from the first key on everybody needs one."""
+        self.client.change(self.done["id"], labels=["shared"])  # for keys that may only read
         made = subprocess.run(
             [common.THRONG, "keys", "create", "reader", "--scope", "read", "--data", self.base / "data"],
             capture_output=True,

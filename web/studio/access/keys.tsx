@@ -8,9 +8,9 @@ import { bytesText, timeText } from "../parts/format";
 import { CodeBlock } from "../parts/snippet";
 
 const kScopes = [
-  { name: "read", help: "look at everything" },
-  { name: "submit", help: "also queue jobs and change own ones" },
-  { name: "admin", help: "change everything" },
+  { name: "read", help: "see jobs with the label shared" },
+  { name: "submit", help: "also queue jobs, see and change own ones" },
+  { name: "admin", help: "see and change everything" },
 ] as const;
 const kGiB = 2 ** 30;
 
