@@ -109,10 +109,10 @@ class ExitRowCheck {
     if (row_["queue"] == 0 && (row_["queue_length"] != 0 || row_["predicted_wait"] != 0)) {
       fault("a queue of nobody with a length or a wait");
     }
-    if (std::isfinite(sizes_.width_m) &&
-        row_["predicted_wait"] >
-            row_["queue"] / (0.1 * kCapacityPerMs * std::min(kMinLaneM, sizes_.width_m)) * 1.01 +
-                0.02) {
+    const double lane_m = std::min(kMinLaneM, sizes_.width_m);
+    const double max_wait_s =
+        row_["queue"] * (kWaitWindowS + kWaitPriorS) / (kWaitPriorS * kCapacityPerMs * lane_m);
+    if (std::isfinite(sizes_.width_m) && row_["predicted_wait"] > max_wait_s * 1.01 + 0.02) {
       fault(fmt::format("predicted_wait {} s for a queue of {}", row_["predicted_wait"],
                         row_["queue"]));
     }

@@ -307,6 +307,9 @@ test("pages of other sites can neither change nor read anything", async () => {
 });
 
 test("a key is asked for, a wrong one is reported, and a right one becomes a cookie", async () => {
+  // With keys, jobs without the label are seen by their owner and administrators only.
+  const labeled = await fetch(`${service.address}/v1/jobs/${job}`, { method: "PATCH", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ labels: ["shared"] }) });
+  assert.equal(labeled.status, 200);
   const key = service.createKey("submit");
   await go(`/jobs/${job}`);
   await page.getByRole("heading", { name: "Key needed" }).waitFor();
