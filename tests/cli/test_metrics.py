@@ -163,10 +163,13 @@ class Metrics(unittest.TestCase):
             queue = numpy.isfinite(way)
             self.assertEqual(float(self.rows[step]["queue"]), queue.sum(), f"step {step}")
             self.assertAlmostEqual(float(self.rows[step]["queue_length"]), way[queue].max(initial=0), delta=6e-3)
-            # Of the last 200 steps those that began with a queue, and 10 s at the capacity.
+            # Of the last 200 steps those that began with a queue, and 10 s at the capacity of that part of the door before
+            # which the queue stands in the zone.
+            across = at[self.in_zone[step, who], 1]
+            used = min(WIDTH, max(0.8, (numpy.ptp(across) if len(across) else 0) + 2 * self.radius))
             last = [s for s in range(max(1, step - 199), step + 1) if float(self.rows[s - 1]["queue"]) > 0]
             served = sum(crossed[s] - crossed[s - 1] for s in last)
-            wait = queue.sum() / ((served + 10 * 1.3 * WIDTH) / (0.1 * len(last) + 10))
+            wait = queue.sum() / ((served + 10 * 1.3 * used) / (0.1 * len(last) + 10))
             self.assertAlmostEqual(float(self.rows[step]["predicted_wait"]), wait, delta=0.01 + 1e-3 * wait)
             compared += queue.sum() > 5
         self.assertGreater(compared, 10, "there were queues to compare")

@@ -181,11 +181,11 @@ TEST(CrossChecks, TablesOfExitsHaveTheCrossingsOfTheGaps) {
 }
 
 TEST(CrossChecks, WaitsAreTheQueueOverAPossibleRate) {
-  // Three crossings in 20 s at a capacity of 1.3 /s: 13 / 10 to 16 / 10 and down to 13 / 30 a
-  // second.
+  // Three crossings in 20 s at a capacity of 1.3 /s, of which a lane of 0.8 m has 1.04: up to 16 / 10
+  // and down to 10.4 / 30 a second.
   EXPECT_THAT(table_faults("9,north,13,10,3,0"), IsEmpty());
-  EXPECT_THAT(table_faults("9,north,13,29.9,3,0"), IsEmpty());
-  EXPECT_TRUE(any_with(table_faults("9,north,13,31,3,0"), "predicted_wait 31 s for a queue of 13"));
+  EXPECT_THAT(table_faults("9,north,13,37.4,3,0"), IsEmpty());
+  EXPECT_TRUE(any_with(table_faults("9,north,13,38,3,0"), "predicted_wait 38 s for a queue of 13"));
   EXPECT_TRUE(any_with(table_faults("9,north,13,7,3,0"), "predicted_wait 7 s for a queue of 13"));
 }
 
