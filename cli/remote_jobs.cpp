@@ -39,7 +39,8 @@ auto with_job(ApiClient& api, const std::string& id, const Work& work) {
     return work();
   } catch (const NotFound& error) {
     std::vector<std::string> ids;
-    for (const json& job : api.get("/v1/jobs?limit=500")["jobs"]) ids.push_back(job["id"]);
+    const json jobs = api.get("/v1/jobs?limit=500");
+    for (const json& job : jobs.at("jobs")) ids.push_back(job.at("id"));
     if (std::find(ids.begin(), ids.end(), id) != ids.end()) throw;  // it lacks something
     const auto nearest = closest(id, std::vector<std::string_view>(ids.begin(), ids.end()));
     throw InputError(

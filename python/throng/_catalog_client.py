@@ -26,7 +26,7 @@ from .api_types import (
     Webhook,
     WebhookList,
 )
-from .errors import JobFailedError
+from .errors import AccessError, JobFailedError
 
 DEFAULT_URL = "http://127.0.0.1:8080"
 
@@ -195,6 +195,14 @@ class CatalogClient:
     def session(self) -> Session:
         """Whether the service needs a key, and the scope of this client's."""
         return self._get("/v1/session")
+
+    def may_submit(self) -> bool:
+        """Whether this client may send jobs, by its key's scope."""
+        try:
+            self._bytes("/v1/access/submit")
+        except AccessError:
+            return False
+        return True
 
     def version(self) -> str:
         return str(self._get("/v1/version")["version"])

@@ -351,6 +351,7 @@ class WithService(unittest.TestCase):
         self.assertEqual(nobody.exception.status, 401)
         reader = Client(self.client._http.url, key)
         self.assertEqual(reader.job(self.done["id"])["id"], self.done["id"])
+        self.assertFalse(reader.may_submit())
         with self.assertRaises(throng.AccessError) as readers:
             reader.submit(JOB)
         self.assertEqual(readers.exception.status, 403)
@@ -362,6 +363,7 @@ class WithService(unittest.TestCase):
             check=True,
         )
         admin = Client(self.client._http.url, made.stdout.strip())
+        self.assertTrue(admin.may_submit())
         friend = admin.create_key("friend", "read", max_jobs=2)
         self.assertEqual(Client(self.client._http.url, friend["key"]).job(self.done["id"])["id"], self.done["id"])
         self.assertEqual([entry["name"] for entry in admin.keys()], ["reader", "admin", "friend"])
