@@ -1,7 +1,7 @@
 // The job as JSON text, with the service's findings at their lines.
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { json, jsonParseLinter } from "@codemirror/lang-json";
-import { bracketMatching, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
+import { bracketMatching, ensureSyntaxTree, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
 import { type Diagnostic, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
@@ -46,7 +46,9 @@ const unquoted = (text: string) => {
 
 /** The value that a pointer names; the innermost that exists where it names nothing. */
 function nodeAt(state: EditorState, pointer: string): Node {
-  let node: Node = syntaxTree(state).topNode.firstChild ?? syntaxTree(state).topNode;
+  // On a busy machine the editor parses a part only before it draws.
+  const tree = ensureSyntaxTree(state, state.doc.length, 1000) ?? syntaxTree(state);
+  let node: Node = tree.topNode.firstChild ?? tree.topNode;
   for (const part of pointer.split("/").slice(1).map((text) => text.replace(/~1/g, "/").replace(/~0/g, "~"))) {
     let next: Node | null = null;
     if (node.name === "Object") {
