@@ -350,7 +350,8 @@ test("a session does not serve pages of another port of this host", async () => 
       const read = await fetch(`${address}/v1/jobs`, { credentials: "include" }).then((response) => response.text(), () => "refused");
       return [await post(`/v1/jobs/${job}/clone`), await post("/v1/session"), read, await isShown];
     }, { address: service.address, job });
-    assert.deepEqual(outcome, ["opaque", "opaque", "refused", false]);
+    assert.ok(outcome.slice(0, 2).every((type) => ["opaque", "refused"].includes(type)), outcome.join());
+    assert.deepEqual(outcome.slice(2), ["refused", false]);
     await evil.close();
   } finally {
     attacker.stop();
