@@ -181,8 +181,8 @@ TEST(CrossChecks, TablesOfExitsHaveTheCrossingsOfTheGaps) {
 }
 
 TEST(CrossChecks, WaitsAreTheQueueOverAPossibleRate) {
-  // Three crossings in 20 s at a capacity of 1.3 /s, of which a lane of 0.8 m has 1.04: up to 16 / 10
-  // and down to 10.4 / 30 a second.
+  // Three crossings in 20 s at a capacity of 1.3 /s, of which a lane of 0.8 m has 1.04: up to 16 /
+  // 10 and down to 10.4 / 30 a second.
   EXPECT_THAT(table_faults("9,north,13,10,3,0"), IsEmpty());
   EXPECT_THAT(table_faults("9,north,13,37.4,3,0"), IsEmpty());
   EXPECT_TRUE(any_with(table_faults("9,north,13,38,3,0"), "predicted_wait 38 s for a queue of 13"));
