@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "server/answers.h"
 #include "server/calibration_api.h"
 #include "server/downloads_api.h"
@@ -155,7 +155,7 @@ void guarded(const ServiceFolders& folders, const Request& request, Response& re
     write_problem(response, {503, folders.without_paths(error.what())});
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
-    const bool may_pass = says_lack_of_resources(error);
+    const bool may_pass = is_resource_exhaustion(error);
     if (may_pass) response.set_header("Retry-After", "10");
     write_problem(response, {may_pass ? 503 : 500, folders.without_paths(error.what())});
   }
