@@ -72,6 +72,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/plan", Scope::read, &send_job_plan},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trace", Scope::read, &send_run_trace},
       Route{Method::get, "/v1/events", Scope::read, &send_events},
       Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
       Route{Method::get, kCalibrations, Scope::read, &list_calibrations},
