@@ -111,7 +111,7 @@ class Check(unittest.TestCase):
     def test_deprecated_names(self):
         orbit = {"policy": "orbit", "centre": [0, 0], "radius_m": 10}
         warned = self.warned(drones=[{"id": "d1", "start": [0, -10, 25], "guidance": orbit}])
-        self.assertIn('expected "center"', warned["/drones/0/guidance/centre"])
+        self.assertEqual(warned["/drones/0/guidance/centre"], 'the deprecated name "centre"')
 
     def test_smoke_needs_a_hazard(self):
         everyday = {"scenario": "city_square/everyday", "environment": {"smoke": 0.5}}
