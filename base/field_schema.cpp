@@ -108,6 +108,7 @@ ordered_json schema_of(std::span<const FieldRules* const> fields) {
     ordered_json old = rules_of(*field);
     old["description"] = fmt::format("Deprecated: use {}.", path);
     old["deprecated"] = true;
+    old["x-renamed-to"] = path;
     (*parent)[field->deprecated_name] = std::move(old);
   }
   return schema;

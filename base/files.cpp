@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/folders.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng {
 

@@ -15,6 +15,10 @@ std::string read_file(const std::filesystem::path& path);
 /// Creates the parent folder. Throws EnvironmentError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Creates the folder and those around it, so that they are still there after a power failure.
+/// Nothing if it exists. Throws EnvironmentError.
+void make_folders(const std::filesystem::path& folder);
+
 /// Gives the file a second name, or copies it where the file system has no hard links. Creates the
 /// parent folder. Throws EnvironmentError naming both.
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -122,7 +122,8 @@ void add_manual(CLI::App& app) {
   const auto shell = std::make_shared<std::string>("bash");
   completion->add_option("shell", *shell, "bash")->check(CLI::IsMember({"bash"}));
   completion->footer("Use: source <(throng completion bash). The Debian package installs it.");
-  completion->callback([&app] { fmt::print("{}", bash_completion(app)); });
+  // The callback owns the word that the option writes.
+  completion->callback([&app, shell] { fmt::print("{}", bash_completion(app)); });
   app.add_subcommand("manual", "Print the manual page (roff; throng manual | man -l -)")
       ->callback([&app] { fmt::print("{}", manual_page(app)); });
 }

@@ -119,9 +119,13 @@ struct FetchArguments {
   std::string include = {};
   std::string runs = {};
   std::string split = {};
+  int trace = -1;  ///< number of the run whose trace is fetched instead of the dataset; -1: none
 };
 
-std::string archive_path(const FetchArguments& arguments) {
+std::string fetched_path(const FetchArguments& arguments) {
+  if (arguments.trace >= 0) {
+    return fmt::format("{}/runs/{}/trace", path_of(arguments.id), arguments.trace);
+  }
   std::string path = path_of(arguments.id) + "/archive";
   char before = '?';
   const auto add = [&](const char* name, const std::string& value) {
@@ -138,7 +142,9 @@ std::string archive_path(const FetchArguments& arguments) {
 
 void fetch(ApiClient& api, const FetchArguments& arguments) {
   constexpr int kMaxAttempts = 20;
-  const char* suffix = arguments.zip ? ".zip" : ".tar";
+  const std::string suffix = arguments.trace >= 0 ? fmt::format("_run{:03}.h5", arguments.trace)
+                             : arguments.zip      ? ".zip"
+                                                  : ".tar";
   fs::path file = arguments.file;
   if (file.empty() || fs::is_directory(file)) file /= arguments.id + suffix;
   const Interrupt interrupt;
@@ -152,7 +158,7 @@ void fetch(ApiClient& api, const FetchArguments& arguments) {
   };
   for (int attempt = 1;; ++attempt) {
     try {
-      if (!api.download(archive_path(arguments), file, on_bytes)) throw Cancelled();
+      if (!api.download(fetched_path(arguments), file, on_bytes)) throw Cancelled();
       break;
     } catch (const EnvironmentError&) {
       if (attempt == kMaxAttempts) throw;
@@ -295,6 +301,11 @@ void add_fetch(CLI::App& app) {
                       "Only these top-level folders and files, formats, coco");
   command->add_option("--runs", arguments->runs, "Only files of these runs: 0-3,7");
   command->add_option("--split", arguments->split, "Only files of this split's runs");
+  command
+      ->add_option("--trace", arguments->trace,
+                   "The trace of the run of this number instead of the dataset")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes("--zip", "--include", "--runs", "--split");
   command->callback([arguments] {
     ApiClient api;
     with_job(api, arguments->id, [&] { fetch(api, *arguments); });

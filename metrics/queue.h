@@ -11,7 +11,7 @@ namespace throng::metrics {
 
 struct Queue {
   int people = 0;
-  /// From the exit's middle along the queue to the person who has farthest to go.
+  /// From the exit's middle along the queue to the farthest person along it.
   double length_m = 0;
   /// Extent along the door of those of the queue who are in the control zone.
   double breadth_m = 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), includes
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, includes
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$root"
@@ -34,6 +34,15 @@ step_release() {
   say "testing (release)"
   # The tests of the program wait much.
   ctest --preset release -j3
+}
+
+# Not among the default steps: tests of which the default ones take a sample (all damages to datasets, all kinds of sound
+# datasets, more people and time in all scenarios, more crashes).
+step_long() {
+  say "testing what lasts (release)"
+  build release throng_tests
+  bake_people
+  THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash)$'
 }
 
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
@@ -90,6 +99,7 @@ for step in "${steps[@]}"; do
   start=$SECONDS
   "step_$step"
   times+=("$(printf '%-8s %5d s' "$step" $((SECONDS - start)))")
+  say "${times[-1]}"
 done
 say "all checks passed"
 printf '%s\n' "${times[@]}" "$(printf '%-8s %5d s' total $SECONDS)"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "server/answers.h"
 #include "server/calibration_api.h"
 #include "server/downloads_api.h"
@@ -72,6 +72,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/plan", Scope::read, &send_job_plan},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trace", Scope::read, &send_run_trace},
       Route{Method::get, "/v1/events", Scope::read, &send_events},
       Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
       Route{Method::get, kCalibrations, Scope::read, &list_calibrations},
@@ -155,7 +156,7 @@ void guarded(const ServiceFolders& folders, const Request& request, Response& re
     write_problem(response, {503, folders.without_paths(error.what())});
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
-    const bool may_pass = says_lack_of_resources(error);
+    const bool may_pass = is_resource_exhaustion(error);
     if (may_pass) response.set_header("Retry-After", "10");
     write_problem(response, {may_pass ? 503 : 500, folders.without_paths(error.what())});
   }

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::server {
 

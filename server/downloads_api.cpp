@@ -18,6 +18,7 @@
 #include "jobs/queue/archive.h"
 #include "jobs/queue/folder.h"
 #include "jobs/queue/manifest.h"
+#include "jobs/queue/trace_seal.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/task_memory.h"
 #include "server/file_answer.h"
@@ -43,6 +44,17 @@ jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   return row;
 }
 
+/// The run that the path names. Throws HttpError 404 when the job has none of this number.
+int run_of(const Request& request, const jobs::JobRow& row) {
+  const std::string number = request.matches[2];
+  constexpr std::size_t kMaxDigits = 6;
+  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
+  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
+    throw HttpError{404, fmt::format("the job has no run {}", number)};
+  }
+  return run;
+}
+
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
@@ -50,12 +62,7 @@ void send_run_file(const Call& call, const Request& request, Response& response,
                    const char* suffix, const char* type) {
   const jobs::JobRow row = find_job(call, request);
   const bool complete = row.state == jobs::JobState::succeeded;
-  const std::string number = request.matches[2];
-  constexpr std::size_t kMaxDigits = 6;
-  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
-  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
-    throw HttpError{404, fmt::format("the job has no run {}", number)};
-  }
+  const int run = run_of(request, row);
   const fs::path root = complete ? call.folders.dataset_of(row.id)
                                  : jobs::JobFolder(call.folders.job_folder(row.id))
                                        .output_of({jobs::Task::Kind::measure, run});
@@ -63,9 +70,9 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   if (fs::exists(file)) return response.set_content(read_file(file), type);
   if (!complete && !fs::exists(root)) {
     throw HttpError{409, fmt::format("the job is {}; this is there once run {} was measured",
-                                     name_of(row.state), number)};
+                                     name_of(row.state), run)};
   }
-  throw HttpError{404, fmt::format("there is no {} of run {}", folder, number)};
+  throw HttpError{404, fmt::format("there is no {} of run {}", folder, run)};
 }
 
 jobs::ArchiveFormat format_of(const Request& request) {
@@ -267,6 +274,22 @@ void send_metrics(const Call& call, const Request& request, Response& response) 
 
 void send_run_metrics(const Call& call, const Request& request, Response& response) {
   send_run_file(call, request, response, "metrics", ".json", "application/json");
+}
+
+void send_run_trace(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(call, request);
+  const int run = run_of(request, row);
+  const fs::path trace =
+      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
+  if (!fs::exists(trace)) {
+    throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
+                                     name_of(row.state), run)};
+  }
+  response.set_header(
+      "Content-Disposition",
+      fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));
+  answer_with_file(request, response, trace, "application/x-hdf5",
+                   fmt::format("\"{}\"", jobs::sealed_hash(trace)));
 }
 
 void send_run_metrics_csv(const Call& call, const Request& request, Response& response) {

@@ -18,6 +18,8 @@ void send_run_metrics(const Call& call, const httplib::Request& request,
                       httplib::Response& response);
 void send_run_metrics_csv(const Call& call, const httplib::Request& request,
                           httplib::Response& response);
+/// A run's trace (docs/trace.md), whatever becomes of the job.
+void send_run_trace(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 /// The report of all runs as one HTML page; 202 as long as it is being made.
 void send_report(const Call& call, const httplib::Request& request, httplib::Response& response);

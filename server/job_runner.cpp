@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
 #include "jobs/spec/task_memory.h"
@@ -161,7 +161,7 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     error = text_of(error_json("input", folders_.without_paths(failure.what()),
                                folders_.without_paths(failure.problems())));
   } catch (const std::exception& failure) {
-    if (says_lack_of_resources(failure)) throw;  // it is still "running", and taken up again
+    if (is_resource_exhaustion(failure)) throw;  // it is still "running", and taken up again
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
       return;  // still "running": it is resumed when there is free space

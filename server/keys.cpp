@@ -7,7 +7,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "base/folders.h"
+#include "base/files.h"
 #include "base/hash.h"
 #include "server/private_database.h"
 #include "server/random_text.h"

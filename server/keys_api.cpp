@@ -21,8 +21,6 @@ namespace {
 
 constexpr const char* kKeyNoun = "key";
 constexpr std::size_t kMaxKeyNameLength = 100;
-constexpr std::size_t kKeyIdAt = 7;  // in a key, after "throng_"
-constexpr std::size_t kKeyIdLength = 8;
 
 json limit_json(std::int64_t limit) { return limit == 0 ? json(nullptr) : json(limit); }
 
@@ -89,7 +87,7 @@ void create_key(const Call& call, const Request& request, Response& response) {
   const auto max_priority = integer_in(body, "max_priority", -kMaxPriority, kMaxPriority);
   const std::string token = call.keys.create(name, scope_in(body), static_cast<int>(max_jobs),
                                              max_bytes, static_cast<int>(max_priority));
-  json answer = key_json(find_key(call, token.substr(kKeyIdAt, kKeyIdLength)));
+  json answer = key_json(find_key(call, call.keys.caller_of(token)->key_id));
   answer["key"] = token;  // this once
   response.set_header("Location", answer["links"]["self"].get<std::string>());
   response.set_header("Cache-Control", "no-store");

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/folders.h"
+#include "base/files.h"
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "server/answers.h"

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "base/folders.h"
+#include "base/files.h"
 #include "base/json_text.h"
 #include "server/private_database.h"
 

@@ -11,6 +11,7 @@
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
 #include "sim/run.h"
 
@@ -74,7 +75,9 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   }
   if (job.agents) checked.people = *job.agents;
   checked.cost = estimate_cost(job, checked.people);
-  checked.warnings = warnings_of_settings(job, scenario);
+  checked.warnings = deprecated_fields(text);
+  const std::vector<Problem> settings = warnings_of_settings(job, scenario);
+  checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
   for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, 0)) {
     if (view) checked.views.push_back(std::move(*view));
   }

@@ -26,10 +26,9 @@ void check_rain(const JobSpec& job, std::vector<Problem>& warnings) {
   const nlohmann::json usual = to_json(EnvironmentSpec());
   const char* field = "rain_mm_per_h";
   if (asked.value(field, nlohmann::json()) == usual.value(field, nlohmann::json())) return;
-  for (int run = 0; run < job.runs; ++run) {
-    const JobSpec of_run = job_of_run(job, run);
-    const auto seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
-    if (environment_of_run(of_run.environment, seed).light.weather == render::Weather::rain) return;
+  for (const RunPlan& run : plan_runs(job)) {
+    const EnvironmentSpec of_run = job_of_run(job, run.index).environment;
+    if (environment_of_run(of_run, run.seed).light.weather == render::Weather::rain) return;
   }
   warnings.push_back({"", "/environment/rain_mm_per_h",
                       fmt::format("{} mm/h, but rain in no run", asked.at(field).dump()),

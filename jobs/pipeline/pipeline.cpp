@@ -7,7 +7,7 @@
 
 #include "annotate/png.h"
 #include "base/error.h"
-#include "base/folders.h"
+#include "base/files.h"
 #include "base/redact.h"
 #include "camera/files.h"
 #include "jobs/pipeline/job_scenario.h"

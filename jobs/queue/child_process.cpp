@@ -11,7 +11,7 @@
 #include <csignal>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::jobs {
 

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "jobs/queue/worker_limits.h"
 
 namespace throng::jobs {

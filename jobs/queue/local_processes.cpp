@@ -13,7 +13,7 @@
 #include <optional>
 #include <thread>
 
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "base/resources.h"
 #include "jobs/queue/child_process.h"
 #include "jobs/queue/machine_memory.h"
@@ -108,12 +108,12 @@ class Batch {
       running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
                                                   variables_of(attempt, memory_mib),
                                                   folder_.log_of(tasks_[task])));
-      lacks_.clear();
-    } catch (const LacksResources& error) {
+      exhausted_.clear();
+    } catch (const ResourcesExhausted& error) {
       // Nothing that the job could have caused: it waits for as long as it takes.
       --results_[task].attempts;
       waiting_.push_back({task, after(options_.rest_s)});
-      lacks_ = error.what();
+      exhausted_ = error.what();
     } catch (const EnvironmentError& error) {
       fail(task, {Outcome::environment_error, 0, error.what(), {}});
     }
@@ -123,7 +123,7 @@ class Batch {
   void say_why_nothing_runs() {
     std::string reason;
     if (running_.empty() && !waiting_.empty()) {
-      reason = claimant_.waits_for_memory() ? "there is not enough free memory" : lacks_;
+      reason = claimant_.waits_for_memory() ? "there is not enough free memory" : exhausted_;
     }
     if (reason == reason_) return;
     reason_ = reason;
@@ -249,7 +249,8 @@ class Batch {
   Admission& admission_;
   const Share& share_;
   Admission::Claimant claimant_;
-  std::string lacks_;   ///< why no worker could be started when that was last tried; "" if one was
+  std::string
+      exhausted_;       ///< why no worker could be started when that was last tried; "" if one was
   std::string reason_;  ///< that was last given to share_.on_wait
   const JobFolder& folder_;
   std::span<const Task> tasks_;

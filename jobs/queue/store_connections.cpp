@@ -2,7 +2,7 @@
 
 #include <sys/stat.h>
 
-#include "base/folders.h"
+#include "base/files.h"
 #include "jobs/queue/store_rows.h"
 #include "jobs/queue/store_schema.h"
 

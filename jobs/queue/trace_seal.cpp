@@ -19,6 +19,12 @@ void seal_trace(const fs::path& trace) {
   write_file_atomically(seal_of(trace), text_of_seal(trace));
 }
 
+std::string sealed_hash(const fs::path& trace) {
+  if (!fs::exists(seal_of(trace))) return sha256_hex_of_file(trace);
+  const std::string text = read_file(seal_of(trace));
+  return text.substr(0, text.find('\n'));
+}
+
 void remove_if_damaged(const fs::path& trace) {
   if (!fs::exists(trace) || !fs::exists(seal_of(trace))) return;
   if (read_file(seal_of(trace)) == text_of_seal(trace)) return;

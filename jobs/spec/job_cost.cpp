@@ -106,7 +106,7 @@ JobCost estimate_cost(const JobSpec& job, std::int64_t people) {
     add_run(of_run, run, static_cast<double>(of_run.agents.value_or(static_cast<int>(people))),
             cost);
   }
-  cost.memory_mib = TaskMemory(job).max_mib();
+  cost.memory_mib = TaskMemory(job, static_cast<int>(people)).max_mib();
   return cost;
 }
 

@@ -1,5 +1,7 @@
 #include "jobs/spec/schema_problems.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -25,6 +27,26 @@ json::json_pointer removable(const json& job, json::json_pointer pointer) {
 /// Whether `pointer` is `other` or below it.
 bool is_at_or_below(const std::string& pointer, const std::string& other) {
   return pointer == other || pointer.starts_with(other + "/");
+}
+
+/// Deprecated names in a value at a pointer, which the schema's `rules` describe.
+void add_deprecated(const json& value, const json& rules, const std::string& pointer,
+                    std::vector<Problem>& warnings) {
+  if (value.is_array() && rules.contains("items")) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      add_deprecated(value[i], rules["items"], fmt::format("{}/{}", pointer, i), warnings);
+    }
+  }
+  if (!value.is_object() || !rules.contains("properties")) return;
+  for (const auto& [name, member] : value.items()) {
+    const auto found = rules["properties"].find(name);
+    if (found == rules["properties"].end()) continue;
+    const std::string below = pointer + "/" + name;
+    if (const auto now = found->find("x-renamed-to"); now != found->end()) {
+      warnings.push_back({"", below, fmt::format("the deprecated name \"{}\"", name), now->dump()});
+    }
+    add_deprecated(member, *found, below, warnings);
+  }
 }
 
 }  // namespace
@@ -62,6 +84,12 @@ bool SchemaProblems::may_cause(const Problem& problem) const {
     return is_at_or_below(problem.where, removed) ||
            (!parent.empty() && is_at_or_below(problem.where, parent));
   });
+}
+
+std::vector<Problem> deprecated_fields(std::string_view text) {
+  std::vector<Problem> warnings;
+  add_deprecated(parse_json(text, "", kJobJsonLimits), job_schema(), "", warnings);
+  return warnings;
 }
 
 }  // namespace throng::jobs

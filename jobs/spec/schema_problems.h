@@ -1,5 +1,5 @@
 // Values that break the job schema in a text, and the text without them, so that the rest can be
-// checked, too, and a user learns of all mistakes at once.
+// checked, too, and a user learns of all mistakes at once. Deprecated names in a text.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -32,5 +32,8 @@ class SchemaProblems {
   std::vector<Problem> problems_;
   std::vector<std::string> removed_;  ///< pointers
 };
+
+/// Warnings of fields that have their deprecated names in the text of a valid job.
+std::vector<Problem> deprecated_fields(std::string_view text);
 
 }  // namespace throng::jobs

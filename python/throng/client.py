@@ -264,6 +264,11 @@ class Client(CatalogClient):
         path = f"/v1/jobs/{part(job_id)}/runs/{run}/metrics.csv"
         return read_csv(self._bytes(path), self._http.url + path)
 
+    def trace(self, job_id: str, run: int, path: PathLike) -> Path:
+        """Downloads the trace of one run (docs/trace.md) to a file, which throng.Trace reads; returns its path."""
+        _download.fetch(self._http, f"/v1/jobs/{part(job_id)}/runs/{run}/trace", Path(path), lambda done, total: None)
+        return Path(path)
+
     def report(self, job_id: str, *, timeout_s: float = 300.0) -> str:
         """All runs as one HTML page; waits while it is made."""
         deadline = time.monotonic() + timeout_s

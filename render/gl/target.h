@@ -23,7 +23,7 @@ class Target {
   /// Binds it for drawing, with color = `sky`, ids kIdNothing and depth infinite.
   void begin(const Eigen::Vector3f& sky) const;
 
-  /// Fills the frame's id and depth_m, and its rgb if `colour` is wanted.
+  /// Fills the frame's id and depth_m, and its rgb if `color` is wanted.
   void read(bool color, Frame& frame);
 
   /// Fills the frame's rgb alone, which is smaller by `samples` along each side: each pixel is the

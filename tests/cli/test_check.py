@@ -108,6 +108,11 @@ class Check(unittest.TestCase):
         self.assertIn("no run of 1", self.warned(outputs={"splits": {"val": 0.2}})["/outputs/splits/val"])
         self.assertEqual(self.warned(outputs={"splits": {"val": 0.5}}, runs=2), {})
 
+    def test_deprecated_names(self):
+        orbit = {"policy": "orbit", "centre": [0, 0], "radius_m": 10}
+        warned = self.warned(drones=[{"id": "d1", "start": [0, -10, 25], "guidance": orbit}])
+        self.assertIn('expected "center"', warned["/drones/0/guidance/centre"])
+
     def test_smoke_needs_a_hazard(self):
         everyday = {"scenario": "city_square/everyday", "environment": {"smoke": 0.5}}
         self.assertIn("/environment/smoke", self.warned(**everyday))

@@ -98,6 +98,10 @@ class Client(unittest.TestCase):
             tops = {name.split("/")[1] for name in part_zip.namelist()}
         self.assertEqual(tops, {"images", "annotations", "manifest.json"})
         self.assertIn("?runs", self.throng("fetch", id_, "-o", zipped, "--runs", "7", code=2))
+        trace = self.base / "run.h5"
+        self.throng("fetch", id_, "--trace", "0", "-o", trace)
+        self.assertIn("people", json.loads(self.throng("metrics", trace)))
+        self.assertIn("no run 7", self.throng("fetch", id_, "--trace", "7", "-o", trace, code=2))
         self.throng("remove", id_)
         self.assertIn(id_, self.throng("watch", id_, code=2))
 

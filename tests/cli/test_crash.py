@@ -3,7 +3,7 @@ job's state, the disk is full, the database is locked, what was half-written is 
 end with the bytes of an undisturbed one.
 
 usage: test_crash.py THRONG [unittest's arguments]
-$THRONG_CRASHES is the number of random moments of each kind (default: 4); `bench/crash.sh` takes 50.
+$THRONG_CRASHES is the number of random moments of each kind (default: 2); `bench/crash.sh` takes 50.
 """
 import contextlib
 import hashlib
@@ -24,7 +24,7 @@ import urllib.error
 import urllib.request
 
 THRONG = sys.argv.pop(1)
-CRASHES = int(os.environ.get("THRONG_CRASHES", "4"))
+CRASHES = int(os.environ.get("THRONG_CRASHES", "2"))
 
 # Two shards per run, each long enough to be hit.
 JOB = {

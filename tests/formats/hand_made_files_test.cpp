@@ -72,7 +72,7 @@ TEST(HandMadeCvat, HasBoxesWithAttributes) {
   box = box->NextSiblingElement("box");
   EXPECT_STREQ(box->Attribute("occluded"), "1");
   EXPECT_STREQ(box->LastChildElement("attribute")->GetText(), "lying");
-  EXPECT_EQ(box->NextSiblingElement("box"), nullptr) << "who is ignored has no box";
+  EXPECT_EQ(box->NextSiblingElement("box"), nullptr) << "ignored people have no box";
 }
 
 TEST(HandMadeDroneCrowd, HasHeadsInsideOfTheImage) {

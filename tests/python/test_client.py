@@ -124,6 +124,8 @@ class WithService(unittest.TestCase):
         self.assertEqual(next(self.client.jobs(name="clie", state="succeeded", page=1))["id"], id_)
         self.assertEqual(self.client.metrics(id_)["runs"][0]["run"], "run000")
         self.assertGreater(self.client.exits(id_).rows, 3)
+        trace = throng.Trace(self.client.trace(id_, 0, self.folder() / "run.h5"))
+        self.assertGreater(trace.positions.shape[1], 0)
         self.assertIn("alarm_s", self.client.metrics(id_, run=0))
         self.assertIn("<svg", self.client.plan(id_))
         self.assertIn("<html", self.client.report(id_).lower())

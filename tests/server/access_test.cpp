@@ -122,9 +122,10 @@ TEST_F(AccessTest, AKeySeesItsOwnJobsAndSharedOnes) {
     }));
   }
   const std::string path = "/v1/jobs/" + theirs;
-  for (const char* part : {"", "/events", "/logs", "/logs/x.log", "/previews", "/previews/a.jpg",
-                           "/images", "/archive", "/manifest", "/files/README.md", "/metrics",
-                           "/report", "/plan", "/runs/0/metrics", "/runs/0/metrics.csv"}) {
+  for (const char* part :
+       {"", "/events", "/logs", "/logs/x.log", "/previews", "/previews/a.jpg", "/images",
+        "/archive", "/manifest", "/files/README.md", "/metrics", "/report", "/plan",
+        "/runs/0/metrics", "/runs/0/metrics.csv", "/runs/0/trace"}) {
     expect_problem(get(path + part, with(submitter)), 404);
     EXPECT_NE(
         json::parse(get(path + part, with(submitter))->body)["detail"].get<std::string>().find(

@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
+#include "jobs/queue/trace_seal.h"
 #include "jobs/spec/spec.h"
 #include "tests/server/api_fixture.h"
 
@@ -39,6 +41,24 @@ TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   EXPECT_EQ(get(self + "/runs/0/metrics.csv")->body, "frame\n");
   expect_problem(get(self + "/runs/1/metrics.csv"), 404);
   expect_problem(get(self + "/runs/99999999999999/metrics"), 404);
+}
+
+TEST_F(ApiTest, ARunsTraceIsSentAsSoonAsItIsThere) {
+  const std::string id = submit();
+  ASSERT_TRUE(wait_until([&] { return get_json("/v1/jobs/" + id)["state"] == "succeeded"; }));
+  const std::string path = "/v1/jobs/" + id + "/runs/0/trace";
+  expect_problem(get("/v1/jobs/" + id + "/runs/1/trace"), 404);
+  const std::filesystem::path trace =
+      service.folders().job_folder(id) / "work" / "run000" / "trace.h5";
+  std::filesystem::remove(trace);  // a pretended worker may have written one
+  expect_problem(get(path), 409);
+  write_file_atomically(trace, "positions");
+  jobs::seal_trace(trace);
+  const httplib::Result whole = get(path);
+  EXPECT_EQ(whole->body, "positions");
+  EXPECT_EQ(whole->get_header_value("ETag"), '"' + sha256_hex("positions") + '"');
+  EXPECT_THAT(whole->get_header_value("Content-Disposition"), HasSubstr("_run000.h5"));
+  EXPECT_EQ(get(path, {{"Range", "bytes=3-5"}})->body, "iti");
 }
 
 TEST_F(ApiTest, MistakesComeBackWithTheirPointers) {

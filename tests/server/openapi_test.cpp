@@ -150,7 +150,8 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
            {"/v1/jobs/{id}/files/{path}", "/files/metrics.json"},
            {"/v1/jobs/{id}/metrics", "/metrics"},
            {"/v1/jobs/{id}/runs/{n}/metrics", "/runs/0/metrics"},
-           {"/v1/jobs/{id}/runs/{n}/metrics.csv", "/runs/0/metrics.csv"}}) {
+           {"/v1/jobs/{id}/runs/{n}/metrics.csv", "/runs/0/metrics.csv"},
+           {"/v1/jobs/{id}/runs/{n}/trace", "/runs/0/trace"}}) {
     expect_described("get", path, get(self + tail));
     expect_described("get", path, get("/v1/jobs/jnosuchjob00000" + tail));
   }

@@ -97,4 +97,9 @@ class Gate {
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
+/// Whether a job gets into a state soon.
+inline bool reaches(const Service& service, const std::string& id, jobs::JobState state) {
+  return wait_until([&] { return service.queue().get(id)->state == state; });
+}
+
 }  // namespace throng::server

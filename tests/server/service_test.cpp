@@ -3,14 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <thread>
 
 #include "base/error.h"
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
@@ -26,10 +24,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 class ServiceTest : public ServiceFixture {};
-
-bool reaches(const Service& service, const std::string& id, JobState state) {
-  return wait_until([&] { return service.queue().get(id)->state == state; });
-}
 
 TEST_F(ServiceTest, AJobRunsToItsDataset) {
   Service service(options(), executor);
@@ -181,145 +175,6 @@ TEST_F(ServiceTest, ManyClientsAtOnce) {
   }));
 }
 
-/// Jobs whose tasks wait until they are released.
-class SeveralJobs : public ServiceTest {
- protected:
-  SeveralJobs() {
-    executor.before_in = [this](const jobs::JobFolder& folder, const Task&) {
-      const std::string id = folder.path().filename();
-      while (true) {
-        {
-          const std::lock_guard lock(mutex);
-          at_work.insert(id);
-          if (all_may_go || free.contains(id)) return TaskResult{};
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
-    };
-  }
-  ~SeveralJobs() override { let_all_go(); }
-
-  ServiceOptions with_active(int max_active) const {
-    ServiceOptions several = options();
-    several.max_active_jobs = max_active;
-    return several;
-  }
-  void let_go(const std::string& id) {
-    const std::lock_guard lock(mutex);
-    free.insert(id);
-  }
-  void let_all_go() {
-    const std::lock_guard lock(mutex);
-    all_may_go = true;
-  }
-  bool is_at_work(const std::string& id) {
-    return wait_until([&] {
-      const std::lock_guard lock(mutex);
-      return at_work.contains(id);
-    });
-  }
-
-  std::mutex mutex;
-  std::set<std::string> free;
-  std::set<std::string> at_work;
-  bool all_may_go = false;
-};
-
-TEST_F(SeveralJobs, AShortOneEndsWhileALongOneRuns) {
-  Service service(with_active(4), executor);
-  const std::string large = service.queue().submit({kJob}).row.id;
-  ASSERT_TRUE(is_at_work(large));
-  const std::string small = service.queue().submit({kJob}).row.id;
-  ASSERT_TRUE(is_at_work(small));
-  let_go(small);
-  ASSERT_TRUE(reaches(service, small, JobState::succeeded));
-  EXPECT_EQ(service.queue().get(large)->state, JobState::running);
-  let_go(large);
-  EXPECT_TRUE(reaches(service, large, JobState::succeeded));
-}
-
-TEST_F(SeveralJobs, BeyondTheLimitEachOwnerHasOneAndHigherPrioritiesBegin) {
-  Service service(with_active(1), executor);
-  const auto submit = [&](const std::string& owner, int priority = 0) {
-    return service.queue().submit({.job_json = kJob, .priority = priority, .owner = owner}).row.id;
-  };
-  const std::string first = submit("a");
-  ASSERT_TRUE(is_at_work(first));
-  const std::string second = submit("a");
-  const std::string others = submit("b");
-  EXPECT_TRUE(is_at_work(others));
-  const std::string urgent = submit("a", 5);
-  EXPECT_TRUE(is_at_work(urgent));
-  const std::string as_urgent = submit("a", 5);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_EQ(service.queue().get(second)->state, JobState::queued);
-  EXPECT_EQ(service.queue().get(as_urgent)->state, JobState::queued);
-  // Raised above all others, it begins.
-  service.queue().change(second, {.priority = 9});
-  EXPECT_TRUE(is_at_work(second));
-  let_all_go();
-  for (const std::string& id : {first, second, others, urgent, as_urgent}) {
-    EXPECT_TRUE(reaches(service, id, JobState::succeeded));
-  }
-}
-
-TEST_F(SeveralJobs, CancellingOneLeavesTheOthers) {
-  Service service(with_active(3), executor);
-  std::vector<std::string> ids;
-  for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({kJob}).row.id);
-  for (const std::string& id : ids) ASSERT_TRUE(is_at_work(id));
-  const std::string waiting = service.queue().submit({kJob}).row.id;
-  std::jthread canceller([&] { service.queue().cancel(ids[1]); });
-  ASSERT_TRUE(reaches(service, ids[1], JobState::cancelled));
-  let_go(ids[1]);  // its task ends, and makes room
-  EXPECT_TRUE(is_at_work(waiting));
-  let_all_go();
-  for (const std::string& id : {ids[0], ids[2], waiting}) {
-    EXPECT_TRUE(reaches(service, id, JobState::succeeded));
-  }
-  EXPECT_EQ(service.queue().get(ids[1])->state, JobState::cancelled);
-}
-
-TEST_F(SeveralJobs, AllGoOnAfterAFullDiskAndAfterARestart) {
-  std::atomic<std::int64_t> free_bytes = 1000;
-  std::vector<std::string> ids;
-  {
-    ServiceOptions limited = with_active(3);
-    limited.housekeeping.disk = [&] { return DiskState{free_bytes.load()}; };
-    limited.housekeeping.min_free_bytes = 100;
-    Service service(limited, executor);
-    for (int i = 0; i < 3; ++i) ids.push_back(service.queue().submit({kJob}).row.id);
-    for (const std::string& id : ids) ASSERT_TRUE(is_at_work(id));
-    free_bytes = 50;
-    ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
-    let_go(ids[0]);
-    let_go(ids[1]);
-    let_go(ids[2]);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    for (const std::string& id : ids) {
-      EXPECT_EQ(service.queue().get(id)->state, JobState::running);
-      EXPECT_NE(service.queue().get(id)->waiting_for, "");
-    }
-  }
-  jobs::FakeExecutor second;
-  Service service(with_active(2), second);
-  for (const std::string& id : ids) EXPECT_TRUE(reaches(service, id, JobState::succeeded));
-}
-
-TEST_F(SeveralJobs, ACancelledJobsFilesCount) {
-  Service service(with_active(2), executor);
-  const std::string id = service.queue().submit({.job_json = kJob, .owner = "me"}).row.id;
-  ASSERT_TRUE(is_at_work(id));
-  write_file_atomically(service.folders().job_folder(id) / "work/large", std::string(1 << 20, 'x'));
-  std::jthread canceller([&] { service.queue().cancel(id); });
-  ASSERT_TRUE(reaches(service, id, JobState::cancelled));
-  let_go(id);
-  canceller.join();
-  EXPECT_GE(service.queue().get(id)->bytes, 1 << 20);
-  EXPECT_THROW(service.queue().submit({.job_json = kJob, .owner = "me", .max_bytes = 1 << 20}),
-               QuotaError);
-}
-
 TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
   const std::string place = data.path().string();
   std::atomic<bool> fails = true;
@@ -431,7 +286,7 @@ TEST_F(ServiceTest, AJobIsTakenUpAgainAfterTheMachineLackedFiles) {
   std::atomic<int> lacks = 2;
   executor.before = [&](const Task& task) {
     if (task.kind == Task::Kind::render && lacks-- > 0) {
-      throw LacksResources("cannot create a pipe: Too many open files");
+      throw ResourcesExhausted("cannot create a pipe: Too many open files");
     }
     return TaskResult{};
   };

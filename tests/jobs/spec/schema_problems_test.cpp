@@ -37,6 +37,16 @@ TEST(SchemaProblems, AnArrayGoesWithABadElement) {
             json::parse(R"({"scenario": "yard"})"));
 }
 
+TEST(SchemaProblems, DeprecatedNamesAreWarnedOf) {
+  const std::vector<Problem> warnings = deprecated_fields(
+      R"({"scenario": "yard", "drones": [{"id": "a"},
+          {"id": "b", "guidance": {"policy": "orbit", "centre": [4, 5]}}]})");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].where, "/drones/1/guidance/centre");
+  EXPECT_EQ(warnings[0].found, "the deprecated name \"centre\"");
+  EXPECT_EQ(warnings[0].expected, R"("center")");
+}
+
 TEST(SchemaProblems, NothingIsLeftWithoutAScenario) {
   EXPECT_TRUE(left_of(R"({"runs": 2})").is_null());
   EXPECT_TRUE(left_of(R"({"scenario": 3})").is_null());

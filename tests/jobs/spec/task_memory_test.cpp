@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/spec/job_cost.h"
 #include "jobs/spec/spec.h"
 
 namespace throng::jobs {
@@ -63,6 +64,9 @@ TEST(TaskMemory, PeopleCount) {
   const std::string job_text = R"(, "seed": 1)";
   EXPECT_GT(TaskMemory(job_of("{}", job_text), 20'000).max_mib(),
             TaskMemory(job_of("{}", job_text)).max_mib() + 100);
+  // A dry run announces the memory by which submission and admission decide.
+  const JobSpec large = job_of("{}", job_text);
+  EXPECT_EQ(estimate_cost(large, 20'000).memory_mib, TaskMemory(large, 20'000).max_mib());
   const std::int64_t few = TaskMemory(job_of("{}", R"(, "crowd": {"agents": 10})")).max_mib();
   const TaskMemory many(job_of("{}", R"(, "crowd": {"agents": 1000000})"));
   EXPECT_GT(many.max_mib(), few + 5000);

@@ -1,4 +1,4 @@
-// A person who is followed: which cameras see them at this time, and the next frame with them.
+// A followed person: which cameras see them at this time, and the next frame with them.
 import { useEffect, useState } from "preact/hooks";
 import type { Annotation, Dataset, ImageName } from "./coco";
 

@@ -1,4 +1,4 @@
-#include "base/lack.h"
+#include "base/resource_exhaustion.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@ namespace throng {
 
 namespace {
 
-bool is_lack(int error) {
+bool is_exhaustion(int error) {
   return error == EMFILE || error == ENFILE || error == ENOMEM || error == EAGAIN;
 }
 
@@ -19,15 +19,15 @@ bool is_lack(int error) {
 
 void throw_environment_error(const std::string& message, int error) {
   const std::string text = fmt::format("{}: {}", message, std::strerror(error));
-  if (is_lack(error)) throw LacksResources(text);
+  if (is_exhaustion(error)) throw ResourcesExhausted(text);
   throw EnvironmentError(text);
 }
 
-bool says_lack_of_resources(const std::exception& error) {
+bool is_resource_exhaustion(const std::exception& error) {
   if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
-    return is_lack(system->code().value());
+    return is_exhaustion(system->code().value());
   }
-  return dynamic_cast<const LacksResources*>(&error) != nullptr ||
+  return dynamic_cast<const ResourcesExhausted*>(&error) != nullptr ||
          dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
 }
 

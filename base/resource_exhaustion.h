@@ -9,17 +9,17 @@
 
 namespace throng {
 
-class LacksResources : public EnvironmentError {
+class ResourcesExhausted : public EnvironmentError {
  public:
   using EnvironmentError::EnvironmentError;
 };
 
-/// Throws LacksResources if the errno says so, else EnvironmentError; the message gets the errno's
-/// text.
+/// Throws ResourcesExhausted if the errno says so, else EnvironmentError; the message gets the
+/// errno's text.
 [[noreturn]] void throw_environment_error(const std::string& message, int error);
 
-/// Whether this is LacksResources, std::bad_alloc, or an error of threads or files with such an
+/// Whether this is ResourcesExhausted, std::bad_alloc, or an error of threads or files with such an
 /// errno.
-bool says_lack_of_resources(const std::exception& error);
+bool is_resource_exhaustion(const std::exception& error);
 
 }  // namespace throng
