@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The main job from nothing: installs, builds, starts a server on a free loopback port, submits
-# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents. Ends with the
-# address of the job in Studio, the web page of the service.
+# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents. Says how long it takes
+# before it starts; ends with the first image, the address of the job in Studio (the web page of the service) and three
+# commands to try next.
 # usage: scripts/demo.sh [--keep]   --keep: the server stays up until Ctrl-C
 set -euo pipefail
 keep=
@@ -11,7 +12,12 @@ case "${1:-}" in
   *) echo "unknown argument $1; usage: scripts/demo.sh [--keep]" >&2; exit 2 ;;
 esac
 . "$(dirname "$0")/lib.sh"
-say "installing and building: about ten minutes on two cores the first time, then a minute for the job"
+if [ -x "$root/build/release/cli/throng" ]; then
+  say "throng is built: about a minute for the job, more if sources have changed"
+else
+  say "about eleven minutes on two cores: ten to install and build, one for the job"
+  echo "needs root or sudo, 3 GB of disk and 216 MB to download (about 430 Debian packages)"
+fi
 "$root/scripts/setup.sh"
 
 out="$root/build/demo"
@@ -54,15 +60,20 @@ tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
 
 image="$(find "$out/dataset/previews" -name '*.jpg' | sort | head -1)"
-cat <<END
-image with labels:  ${image#"$root/"}
-try next:           build/release/cli/throng help
-                    build/release/cli/throng run scenarios/bridge/demo.job.json -o out
-                    build/release/cli/throng scenario plan city_square/emergency -o plan.svg
-END
 if [ -n "$keep" ]; then
-  say "Studio: $url/jobs/$job (Ctrl-C ends the server)"
-  wait "$server"
+  page="$url/jobs/$job   (Ctrl-C ends the server)"
 else
-  say "to see it in Studio, http://127.0.0.1:8080/jobs/$job: build/release/cli/throng serve --data build/demo/data"
+  page="http://127.0.0.1:8080/jobs/$job   after: $root/build/release/cli/throng serve --data $out/data"
 fi
+say "done after $SECONDS s"
+cat <<END
+image with labels:  $image
+dataset:            $out/dataset
+web page:           $page
+try next:           export PATH=$root/build/release/cli:\$PATH
+                    throng check $root/scenarios/bridge/demo.job.json
+                    throng run $root/scenarios/bridge/demo.job.json -o out
+                    throng scenario plan city_square/emergency -o plan.svg
+documentation:      $root/docs/README.md
+END
+if [ -n "$keep" ]; then wait "$server"; fi

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Proves the README's two commands on a fresh Debian 12: debootstraps a minimal system into a folder,
-# clones this repository's HEAD into it and runs scripts/demo.sh and scripts/test.sh there.
+# clones this repository's HEAD into it and runs scripts/demo.sh and scripts/test.sh there. Prints how long each
+# takes, and the time from clone to first image.
 # usage: scripts/fresh_debian.sh [FOLDER] [COMMAND...]     (needs root and debootstrap)
 set -euo pipefail
 root="$(cd "$(dirname "$0")/.." && pwd)"
@@ -39,6 +40,7 @@ mkdir -p "$folder/usr/etc"
 # Beside the bundle that installing ca-certificates will write there.
 cp -L /etc/ssl/certs/ca-certificates.crt "$folder/etc/host-certificates.crt"
 
+clone_start=$SECONDS
 git clone -q --no-hardlinks "$root" "$folder/throng"
 for mount in proc sys dev dev/pts dev/shm; do
   mkdir -p "$folder/$mount"
@@ -52,4 +54,7 @@ for command in "$@"; do
     ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
     chroot "$folder" /bin/bash -c "cd /throng && $command"
   echo "== fresh Debian: $command took $((SECONDS - start)) s"
+  if [ "$command" = scripts/demo.sh ]; then
+    echo "== fresh Debian: from clone to first image: $((SECONDS - clone_start)) s"
+  fi
 done

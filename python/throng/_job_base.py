@@ -1,4 +1,4 @@
-"""Base of the generated parts of a job, and distributions (docs/job.md, Randomization)."""
+"""Base of the generated parts of a job, and distributions (docs/job_randomization.md)."""
 
 from __future__ import annotations
 

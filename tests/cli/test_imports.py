@@ -32,7 +32,7 @@ class Imports(unittest.TestCase):
 
     def commands(self):
         page = (ROOT / "docs" / "imports.md").read_text()
-        return [shlex.split(line) for line in re.search(r"```\n(.*?)```", page, re.S).group(1).splitlines()]
+        return [shlex.split(line) for line in re.search(r"```sh\n(.*?)```", page, re.S).group(1).splitlines()]
 
     def test_the_page_s_commands_work(self):
         for words in self.commands():
