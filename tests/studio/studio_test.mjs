@@ -51,6 +51,11 @@ test("the empty home leads to the form", async () => {
   await go("/");
   await page.getByText("No jobs yet").waitFor();
   await check(page, "home");
+  // A file opened at once is kept, however late the schema comes.
+  await page.route("**/v1/schema", async (route) => {
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+    await route.continue();
+  });
   await page.getByRole("link", { name: "Make the first dataset" }).click();
   await page.getByRole("heading", { name: "New job" }).waitFor();
   assert.equal(new URL(page.url()).pathname, "/new");

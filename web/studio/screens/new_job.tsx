@@ -210,8 +210,10 @@ export function NewJob() {
   const source = `${query.get("clone") ?? ""} ${query.get("preset") ?? ""}`;
   useEffect(() => {
     if (!schema.value) return;
+    let isLatest = true;
     firstDraft(query, schema.value).then(
       (next) => {
+        if (!isLatest) return;
         setDraft(next);
         setError(null);
         // From here on the draft counts, also after a reload.
@@ -220,15 +222,19 @@ export function NewJob() {
           navigate(withQuery(new URLSearchParams(location.search), { clone: null, preset: null }), { replace: true });
         }
       },
-      (reason: unknown) => setError(asApiError(reason)),
+      (reason: unknown) => isLatest && setError(asApiError(reason)),
     );
+    return () => {
+      isLatest = false;
+    };
   }, [schema.value, source.trim()]);
   const href = useMemo(() => `data:application/json,${encodeURIComponent(draft?.text ?? "")}`, [draft?.text]);
   return (
     <div class="screen new-job">
       <div class="row wrap heading">
         <h1 class="grow">New job</h1>
-        <Sources onDraft={setDraft} />
+        {/* Before the first draft is there, it would replace the file that was opened. */}
+        {(draft || error) && <Sources onDraft={setDraft} />}
         {draft && (
           <a class="button" href={href} download="job.json">
             Save as a file
