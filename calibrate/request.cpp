@@ -210,7 +210,8 @@ void require_inputs(const Request& request, const std::string& source) {
   require(!request.camera.empty(), "a camera (a JSON file of throng calibrate)");
 }
 
-Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress) {
+Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress,
+                                 const OnFound& on_found) {
   const auto warn = [&](double share, const std::string& what) {
     if (on_progress) on_progress(share, what);
   };
@@ -226,6 +227,7 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
       return !request.options.fit.should_continue || request.options.fit.should_continue();
     });
   }
+  if (on_found) on_found(all);
   warn(0.9, "solving");
   return calibrate_intrinsics(all, request.options);
 }
@@ -256,10 +258,13 @@ std::int64_t max_image_pixels(const Request& request) {
   return most;
 }
 
-Calibration carry_out(const Request& request, const OnProgress& on_progress) {
+Calibration carry_out(const Request& request, const OnProgress& on_progress,
+                      const OnFound& on_found) {
   const IntrinsicsOptions& options = request.options;
   require_inputs(request, options.source);
-  if (request.kind == "intrinsics") return carry_out_intrinsics(request, on_progress);
+  if (request.kind == "intrinsics") {
+    return carry_out_intrinsics(request, on_progress, on_found);
+  }
   const CameraFile camera = read_camera_file(request.camera);
   const ControlPoints control = read_control_points(request.control_points);
   const std::vector<NamedPixel> pixels = read_named_pixels(request.observations);
@@ -275,7 +280,13 @@ void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
   const json value = parse_json(read_file(folder / "request.json"), "request.json");
   Request request = request_from_json(value, folder / "files");
   request.options.fit.should_continue = should_continue;
-  const Calibration calibration = carry_out(request, on_progress);
+  const auto write_points = [&](const json& points) {
+    write_file_atomically(folder / kPointsName, points.dump() + "\n");
+  };
+  const Calibration calibration =
+      carry_out(request, on_progress,
+                [&](const Correspondences& found) { write_points(points_json(found)); });
+  write_points(points_json(calibration));
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,
                         ros_yaml(calibration, value.value("name", std::string("camera"))));
