@@ -232,6 +232,18 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
   return calibrate_intrinsics(all, request.options);
 }
 
+/// Files are named as they were sent, not by their paths on this machine.
+void name_as_sent(std::string& name, const fs::path& folder) {
+  if (fs::path(name).parent_path() == folder) name = fs::path(name).filename().string();
+}
+
+template <typename Result>
+Result named_as_sent(Result result, const fs::path& folder) {
+  for (auto& view : result.views) name_as_sent(view.name, folder);
+  for (Problem& problem : result.left_out) name_as_sent(problem.source, folder);
+  return result;
+}
+
 }  // namespace
 
 Request request_from_json(const json& value, const fs::path& folder) {
@@ -278,14 +290,16 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress,
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
                   const std::function<bool()>& should_continue) {
   const json value = parse_json(read_file(folder / "request.json"), "request.json");
-  Request request = request_from_json(value, folder / "files");
+  const fs::path files = folder / "files";
+  Request request = request_from_json(value, files);
   request.options.fit.should_continue = should_continue;
   const auto write_points = [&](const json& points) {
     write_file_atomically(folder / kPointsName, points.dump() + "\n");
   };
-  const Calibration calibration =
-      carry_out(request, on_progress,
-                [&](const Correspondences& found) { write_points(points_json(found)); });
+  const OnFound on_found = [&](const Correspondences& found) {
+    write_points(points_json(named_as_sent(found, files)));
+  };
+  const Calibration calibration = named_as_sent(carry_out(request, on_progress, on_found), files);
   write_points(points_json(calibration));
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,

@@ -229,6 +229,7 @@ TEST_F(CalibrationApi, ImagesAndTheirCornersCanBeFetchedEvenWhenNothingIsEstimat
   EXPECT_EQ(ended(self)["state"], "failed") << "one view";
   const json points = get_json(self + "/points");
   ASSERT_EQ(points["views"].size(), 1U);
+  EXPECT_EQ(points["views"][0]["image"], "board 1.png") << "not its path on the server";
   EXPECT_EQ(points["views"][0]["points"].size(), 54U);
   EXPECT_EQ(points["views"][0]["points"][0]["residual_px"], nullptr);
   const auto image = client().Get(self + "/images/board%201.png");
