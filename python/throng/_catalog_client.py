@@ -122,7 +122,9 @@ class CatalogClient:
                 raise TimeoutError("the calibration has not ended in time")
             time.sleep(0.2)
 
-    def calibration_result(self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals", "points"]) -> str:
+    def calibration_result(
+        self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals", "points"]
+    ) -> str:
         """The camera as JSON, as OpenCV's or ROS' YAML, the residuals as SVG, or the points as JSON."""
         return self._bytes(f"/v1/calibrations/{part(calibration_id)}/{part(name)}").decode("utf-8")
 

@@ -60,11 +60,12 @@ test("images are chosen, dropped and taken out again", async () => {
   await page.getByText("No calibrations yet").waitFor();
   await check(page, "no calibrations");
   assert.ok(await page.getByRole("button", { name: "Calibrate" }).isDisabled());
+  const other = await page.screenshot({ clip: { x: 0, y: 0, width: 1280, height: 720 } }); // as large, without a board
   await chooser().setInputFiles({ name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no image") });
   await page.getByText("notes.txt is neither JPEG nor PNG").waitFor();
   await chooser().setInputFiles(files.slice(0, 9));
   await drop("view09.png", readFileSync(files[9]));
-  await drop("view09.png", await page.screenshot({ clip: { x: 0, y: 0, width: 1280, height: 720 } }));
+  await drop("view09.png", other);
   await page.getByText("11 images").waitFor();
   await page.getByRole("button", { name: "Take out view00.png" }).click();
   await page.getByText("10 images").waitFor();
@@ -73,11 +74,12 @@ test("images are chosen, dropped and taken out again", async () => {
 
 test("a wrong setting is shown at its field", async () => {
   await page.getByLabel("Inner corners in a row").fill("nine");
-  await page.getByLabel("Name").fill("wide camera");
+  await page.getByLabel("Inner corners in a column").fill("9");
+  await page.getByLabel("Name", { exact: true }).fill("wide camera");
   await page.getByRole("button", { name: "Calibrate" }).click();
   await page.locator("#calibration-board-columns-note", { hasText: 'found "nine"' }).waitFor();
   await check(page, "a wrong setting");
-  await page.getByLabel("Inner corners in a row").fill("9");
+  await page.getByLabel("Inner corners in a row").fill("12");
 });
 
 test("the camera, its accuracy and the corners in each image are shown", async () => {
@@ -88,18 +90,18 @@ test("the camera, its accuracy and the corners in each image are shown", async (
   const found = await service.json(`/v1/calibrations/${id}/points`);
   const row = page.getByRole("row").filter({ has: page.getByText("fx", { exact: true }) });
   const [value, deviation] = (await row.locator("td").allInnerTexts()).map((text) => Number(text.replace("± ", "")));
-  assert.ok(Math.abs(value - kTrueFx) < Math.max(2, 6 * deviation), `fx ${value} ± ${deviation}`);
+  assert.ok(Math.abs(value - kTrueFx) < Math.max(4.5, 6 * deviation), `fx ${value} ± ${deviation}`);
   assert.ok(Math.abs(value - camera.fx) <= deviation && Math.abs(deviation / camera.std.fx - 1) < 0.1);
   for (const warning of camera.warnings) await page.getByText(warning).waitFor();
   assert.ok(camera.warnings.some((text) => text.startsWith("9 views")), "fewer than 10 views were used");
   assert.equal(await page.locator(".cell-covered").count(), Math.round(48 * camera.coverage));
-  const figure = page.locator("figure", { has: page.getByText("view01.png", { exact: true }) }).filter({ has: page.locator("svg.none, .board-view") });
-  assert.equal(await figure.locator("circle").count(), kCorners);
+  const figure = page.locator("#view-view01-png");
+  assert.equal(await figure.locator(".board-point, .board-outlier").count(), kCorners);
   const drawn = await figure.locator("circle").nth(1).evaluate((circle) => [circle.cx.baseVal.value, circle.cy.baseVal.value]);
   const { pixel } = found.views.find((view) => view.image === "view01.png").points[1];
   assert.ok(Math.hypot(drawn[0] - pixel[0] - 0.5, drawn[1] - pixel[1] - 0.5) < 1e-3);
   await page.getByText("left out: found no chessboard", { exact: false }).waitFor();
-  await page.locator("figure .whole").first().waitFor();
+  await page.waitForFunction(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0));
   await page.getByRole("button", { name: "view01.png" }).click();
   assert.equal(await page.evaluate(() => document.activeElement.id), "view-view01-png");
   await check(page, "a calibration");

@@ -34,6 +34,7 @@ const checked = (text) => page.locator('#findings + [data-pending="false"]', { h
 /** Pixels of a place in the plan, m. */
 const pixelOf = (x, y) =>
   page.locator(".plan-editor").evaluate((svg, [px, py]) => {
+    svg.scrollIntoView({ block: "nearest" });
     const point = new DOMPoint(px, -py).matrixTransform(svg.getScreenCTM());
     return [point.x, point.y];
   }, [x, y]);
@@ -108,17 +109,33 @@ test("elements are added and changed by the keyboard alone", async () => {
   assert.equal((await place()).exits[2].id, "gate");
 });
 
+test("corners are reached by the keyboard", async () => {
+  await element("/buildings/7").focus();
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.activeElement.getAttribute("aria-label")?.startsWith("Corner 1 of Building wall1"));
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("ArrowUp");
+  assert.deepEqual((await place()).buildings[7].footprint[1], [8, 4.5]);
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.activeElement.getAttribute("data-pointer") === "/buildings/7");
+});
+
 test("findings lead to their elements", async () => {
-  await page.locator(".findings li.error").first().waitFor({ timeout: kLongMs });
+  await element("/exits/2").focus();
+  await page.keyboard.press("Delete");
+  await element("/buildings/6").focus();
+  for (let step = 0; step < 2; ++step) await page.keyboard.press("Shift+ArrowDown"); // onto the building in the south
+  const overlap = page.locator(".findings li.error", { hasText: "building1" });
+  await overlap.waitFor({ timeout: kLongMs });
   assert.ok(await page.getByRole("button", { name: "Upload" }).isDisabled());
   await check(page, "findings");
   await page.setViewportSize({ width: 1440, height: 900 });
-  await page.getByRole("button", { name: "Go to Exit gate" }).first().click();
-  await page.waitForFunction(() => document.activeElement.getAttribute("data-pointer") === "/exits/2");
-  await page.keyboard.press("Delete");
-  await element("/buildings/6").focus();
-  await page.keyboard.press("Delete"); // in which people start
-  await page.getByLabel("Height").fill("tall");
+  await overlap.getByRole("button", { name: /^Go to Building (building1|south)$/ }).click();
+  await page.waitForFunction(() => ["/buildings/1", "/buildings/6"].includes(document.activeElement.getAttribute("data-pointer")));
+  for (let step = 0; step < 2; ++step) await page.keyboard.press("Control+z");
+  assert.deepEqual((await place()).buildings[6].box, [-1.5, -5, 6, 1]);
+  await page.getByLabel(/^Height/).fill("tall");
   await page.keyboard.press("Enter");
   await page.locator(".findings").getByText('found "tall"').waitFor({ timeout: kLongMs });
   await page.keyboard.press("Escape");
@@ -134,7 +151,7 @@ test("the draft survives a reload, a file brings it back", async () => {
   const text = readFileSync(await saved.path(), "utf8");
   assert.deepEqual(JSON.parse(text), before);
   const corrected = JSON.parse(text);
-  for (const building of corrected.buildings) if (building.height_m === "tall") building.height_m = 2;
+  for (const building of corrected.buildings) if (building.height_m === "tall") building.height_m = 9;
   const open = page.getByLabel("Open a file");
   await open.setInputFiles({ name: "bad.json", mimeType: "application/json", buffer: Buffer.from("[1]") });
   await page.getByRole("alert").getByText("bad.json cannot be opened").waitFor();

@@ -166,7 +166,7 @@ export function PlaceScreen() {
           />
           <p class="quiet-text">
             Drag to draw, move or pan; Ctrl and the wheel zoom. Tab goes through the elements, arrow keys move what has the focus (Shift: ten steps), Delete removes
-            it, Enter in the plan adds an element of the chosen tool.
+            it. Enter on an element leads to its corners, Enter in the plan adds an element of the chosen tool.
           </p>
         </div>
         <div class="stack">

@@ -132,8 +132,10 @@ export function PlanEditor(props: PlanEditorProps) {
       history.change(removed(present, element));
       onSelect(null);
       svg.current?.focus();
-    } else if (event.key === "Enter" || event.key === " ") onSelect(element.pointer);
-    else return;
+    } else if (event.key === "Enter" || event.key === " ") {
+      onSelect(element.pointer);
+      requestAnimationFrame(() => svg.current?.querySelector<SVGElement>(".plan-handle")?.focus());
+    } else return;
     event.preventDefault();
     event.stopPropagation();
   };
@@ -143,6 +145,7 @@ export function PlanEditor(props: PlanEditorProps) {
     const [x, y] = element.points[index]!;
     if (arrow) history.change(withCorner(present, element, index, [x + arrow[0] * size, y + arrow[1] * size]));
     else if (event.key === "Delete" || event.key === "Backspace") history.change(withoutCorner(present, element, index));
+    else if (event.key === "Escape") focusElement(element.pointer);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -159,7 +162,7 @@ export function PlanEditor(props: PlanEditorProps) {
       class={`plan-editor ${canGrab ? "" : "drawing"}`}
       viewBox={`${view.x} ${view.y} ${view.width} ${view.height}`}
       role="application"
-      aria-label="Plan. Enter adds an element of the chosen tool in the middle; arrow keys move the view, or the element that has the focus."
+      aria-label="Plan. Enter adds an element of the chosen tool in the middle; arrow keys move the view, or the element that has the focus. Enter on an element leads to its corners."
       tabIndex={0}
       onPointerDown={onDown}
       onPointerMove={onMove}
