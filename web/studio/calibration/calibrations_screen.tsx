@@ -12,7 +12,7 @@ import { ImageChoice } from "./image_choice";
 import { type ChosenImage, kMaxBytes, sendCalibration, sentImages, type Settings, settingsOf, storedSettings, storeSettings } from "./request";
 
 const kPollMs = 2000;
-const kMinImages = 3;
+const kMinImages = 2;
 
 export const removeCalibration = (id: string) => request(`/v1/calibrations/${id}`, { method: "DELETE" });
 export const nameOf = (calibration: Calibration) => calibration.name || `calibration ${calibration.id}`;

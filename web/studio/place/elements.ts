@@ -33,9 +33,12 @@ function pointsOf(kind: Kind, value: JsonObject): Point[] {
   return Array.isArray(outline) ? outline.flatMap(pointOf) : [];
 }
 
+/** With all that the plan writes beside it. */
 function labelOf(kind: Kind, value: JsonObject, number: number): string {
   const name = value["id"] ?? value["kind"] ?? value["material"] ?? value["doing"];
-  return typeof name === "string" ? `${kind.label} ${name}` : `${kind.label} ${number + 1}`;
+  const count = value["count"] ?? value["per_minute"];
+  const words = [name, count].filter((word) => typeof word === "string" || typeof word === "number");
+  return `${kind.label} ${words.length > 0 ? words.join(" ") : number + 1}`;
 }
 
 /** All elements, in the order in which they are drawn: what people stand on first. */

@@ -1,5 +1,5 @@
 // The editor of places: a plan to draw in, its elements' fields, and what the check finds.
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useState } from "preact/hooks";
 import type { JsonObject } from "../form/json";
 import { useCheckedPlace } from "./check";
 import { type Element, elementsOf, rectangleOf } from "./elements";
@@ -122,7 +122,8 @@ export function PlaceScreen() {
   const [underlay, setUnderlay] = useState<Underlay | null>(null);
   const [points, setPoints] = useState<Point[] | null>(null);
   const check = useCheckedPlace(place);
-  useEffect(() => storePlace(place), [place]);
+  // At once, so that a reload right after a change keeps it.
+  useLayoutEffect(() => storePlace(place), [place]);
   useKeys(history, setTool);
   const selected = elements.find((element) => element.pointer === pointer);
   const show = (element: Element) => {

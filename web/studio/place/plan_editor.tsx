@@ -163,7 +163,7 @@ export function PlanEditor(props: PlanEditorProps) {
       viewBox={`${view.x} ${view.y} ${view.width} ${view.height}`}
       role="application"
       aria-label="Plan. Enter adds an element of the chosen tool in the middle; arrow keys move the view, or the element that has the focus. Enter on an element leads to its corners."
-      tabIndex={0}
+      tabindex={0}
       onPointerDown={onDown}
       onPointerMove={onMove}
       onPointerUp={onUp}
