@@ -68,8 +68,8 @@ class CatalogClient:
         return self._bytes(f"/v1/scenarios/{path_of(scenario_id)}", {"format": "svg"}).decode("utf-8")
 
     def upload_scenario(self, path: PathLike, name: str, *, dry_run: bool = False) -> Upload:
-        """Sends a folder, .zip or .tar of scenarios, or a blueprint (.json); jobs name them NAME/... . findings says what
-        is odd about them."""
+        """Sends a folder, .zip or .tar of scenarios, or a blueprint (.json); jobs name them NAME/... . findings says
+        what is odd about them."""
         is_blueprint = Path(path).suffix == ".json"
         return self._http.request(
             "POST",
