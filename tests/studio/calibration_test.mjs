@@ -135,6 +135,7 @@ test("corners are shown even if there are too few images; the rest is added late
   await page.getByText("1 image,").waitFor();
   await chooser().setInputFiles(files.slice(2));
   await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.waitForURL(/\/calibrations\/[a-z0-9]+$/); // the list, too, says that one has succeeded
   await page.getByText("succeeded").waitFor({ timeout: kLongMs });
 });
 
