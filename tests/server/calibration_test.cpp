@@ -53,15 +53,16 @@ std::string grid_table() {
 }
 
 std::string big_endian(std::uint32_t value) {
-  return {static_cast<char>(value >> 24U), static_cast<char>(value >> 16U),
-          static_cast<char>(value >> 8U), static_cast<char>(value)};
+  std::string bytes;
+  for (const unsigned int shift : {24U, 16U, 8U, 0U}) {
+    bytes += static_cast<char>((value >> shift) & 0xFFU);
+  }
+  return bytes;
 }
 
 std::string png_chunk(const std::string& type_and_data) {
-  const auto* bytes = reinterpret_cast<const Bytef*>(type_and_data.data());
-  const auto crc = ::crc32(0, bytes, static_cast<uInt>(type_and_data.size()));
   return big_endian(static_cast<std::uint32_t>(type_and_data.size() - 4)) + type_and_data +
-         big_endian(static_cast<std::uint32_t>(crc));
+         big_endian(crc32_of(type_and_data));
 }
 
 /// A gray image of 480 x 360 px with a chessboard of 10 x 7 squares of 40 px.
@@ -342,14 +343,6 @@ TEST_F(SlowCalibration, EndsWithItsCancellation) {
   EXPECT_EQ(client().Delete(self)->status, 204);
   EXPECT_TRUE(workers_of(folder).empty());
   EXPECT_FALSE(fs::exists(folder));
-}
-
-std::string big_endian(std::uint32_t value) {
-  std::string bytes;
-  for (const unsigned int shift : {24U, 16U, 8U, 0U}) {
-    bytes += static_cast<char>((value >> shift) & 0xFFU);
-  }
-  return bytes;
 }
 
 /// The beginning of a black-and-white PNG file: what it will unpack to is known from that.
