@@ -210,7 +210,8 @@ void require_inputs(const Request& request, const std::string& source) {
   require(!request.camera.empty(), "a camera (a JSON file of throng calibrate)");
 }
 
-Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress) {
+Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress,
+                                 const OnFound& on_found) {
   const auto warn = [&](double share, const std::string& what) {
     if (on_progress) on_progress(share, what);
   };
@@ -226,8 +227,21 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
       return !request.options.fit.should_continue || request.options.fit.should_continue();
     });
   }
+  if (on_found) on_found(all);
   warn(0.9, "solving");
   return calibrate_intrinsics(all, request.options);
+}
+
+/// Files are named as they were sent, not by their paths on this machine.
+void name_as_sent(std::string& name, const fs::path& folder) {
+  if (fs::path(name).parent_path() == folder) name = fs::path(name).filename().string();
+}
+
+template <typename Result>
+Result named_as_sent(Result result, const fs::path& folder) {
+  for (auto& view : result.views) name_as_sent(view.name, folder);
+  for (Problem& problem : result.left_out) name_as_sent(problem.source, folder);
+  return result;
 }
 
 }  // namespace
@@ -256,10 +270,13 @@ std::int64_t max_image_pixels(const Request& request) {
   return most;
 }
 
-Calibration carry_out(const Request& request, const OnProgress& on_progress) {
+Calibration carry_out(const Request& request, const OnProgress& on_progress,
+                      const OnFound& on_found) {
   const IntrinsicsOptions& options = request.options;
   require_inputs(request, options.source);
-  if (request.kind == "intrinsics") return carry_out_intrinsics(request, on_progress);
+  if (request.kind == "intrinsics") {
+    return carry_out_intrinsics(request, on_progress, on_found);
+  }
   const CameraFile camera = read_camera_file(request.camera);
   const ControlPoints control = read_control_points(request.control_points);
   const std::vector<NamedPixel> pixels = read_named_pixels(request.observations);
@@ -273,9 +290,17 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress) {
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
                   const std::function<bool()>& should_continue) {
   const json value = parse_json(read_file(folder / "request.json"), "request.json");
-  Request request = request_from_json(value, folder / "files");
+  const fs::path files = folder / "files";
+  Request request = request_from_json(value, files);
   request.options.fit.should_continue = should_continue;
-  const Calibration calibration = carry_out(request, on_progress);
+  const auto write_points = [&](const json& points) {
+    write_file_atomically(folder / kPointsName, points.dump() + "\n");
+  };
+  const OnFound on_found = [&](const Correspondences& found) {
+    write_points(points_json(named_as_sent(found, files)));
+  };
+  const Calibration calibration = named_as_sent(carry_out(request, on_progress, on_found), files);
+  write_points(points_json(calibration));
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,
                         ros_yaml(calibration, value.value("name", std::string("camera"))));

@@ -11,6 +11,7 @@
 
 #include "calibrate/board.h"
 #include "calibrate/calibration.h"
+#include "calibrate/correspondences.h"
 #include "calibrate/intrinsics.h"
 #include "calibrate/spec/request_files.h"
 
@@ -41,12 +42,17 @@ std::int64_t max_image_pixels(const Request& request);
 /// `done` of `total` of the work, and what it is.
 using OnProgress = std::function<void(double share, const std::string& what)>;
 
+/// Points that were found in the images, before anything is estimated from them.
+using OnFound = std::function<void(const Correspondences&)>;
+
 /// Throws InputError, EnvironmentError (a file cannot be read) and Cancelled (by
 /// options.fit.should_continue).
-Calibration carry_out(const Request& request, const OnProgress& on_progress = {});
+Calibration carry_out(const Request& request, const OnProgress& on_progress = {},
+                      const OnFound& on_found = {});
 
 /// Reads folder/request.json, whose files lie in folder/files, and writes the results into the
-/// folder, the camera last. Throws as carry_out().
+/// folder, the camera last; the points of images also when nothing can be estimated from them.
+/// Throws as carry_out().
 void carry_out_in(const std::filesystem::path& folder, const OnProgress& on_progress,
                   const std::function<bool()>& should_continue);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/problem_json.h"
 #include "calibrate/spec/camera_file.h"
@@ -70,7 +71,37 @@ std::string yaml_matrix(const char* name, std::size_t rows, std::size_t columns,
                      name, rows, columns, fmt::join(words, ", "));
 }
 
+json views_document(const ImageSize& size, json views) {
+  return {{"width", size.width}, {"height", size.height}, {"views", std::move(views)}};
+}
+
 }  // namespace
+
+json points_json(const Correspondences& found) {
+  json views = json::array();
+  for (const View& view : found.views) {
+    json points = json::array();
+    for (const Eigen::Vector2d& pixel : view.pixels) {
+      points.push_back({{"pixel", list_of(pixel)}, {"residual_px", nullptr}, {"used", true}});
+    }
+    views.push_back({{"image", view.name}, {"points", std::move(points)}});
+  }
+  return views_document(found.size, std::move(views));
+}
+
+json points_json(const Calibration& calibration) {
+  json views = json::array();
+  for (const ViewResult& view : calibration.views) {
+    json points = json::array();
+    for (const PointResult& point : view.points) {
+      points.push_back({{"pixel", list_of(point.pixel)},
+                        {"residual_px", list_of(point.residual)},
+                        {"used", point.used}});
+    }
+    views.push_back({{"image", view.name}, {"points", std::move(points)}});
+  }
+  return views_document(calibration.size, std::move(views));
+}
 
 json to_json(const Calibration& calibration) {
   json value = to_json(CameraFile{calibration.lens, calibration.parameters, calibration.size});

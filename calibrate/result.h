@@ -12,6 +12,11 @@ namespace throng::calibrate {
 /// warnings and, where a lens was chosen, models. Unknown values are null.
 nlohmann::json to_json(const Calibration& calibration);
 
+/// Points of all views: {"width", "height", "views": [{"image", "points": [{"pixel", "residual_px",
+/// "used"}]}]}. Pixels as in View; residuals (shown - observed) are null where nothing was solved.
+nlohmann::json points_json(const Correspondences& found);
+nlohmann::json points_json(const Calibration& calibration);
+
 /// For cv::FileStorage, with the fields of OpenCV's own calibration program: camera, standard
 /// deviations, RMS, RMS and pose per view.
 std::string opencv_yaml(const Calibration& calibration);

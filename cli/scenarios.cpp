@@ -2,11 +2,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "cli/api_client.h"
 #include "cli/bundle.h"
 #include "cli/commands.h"
+#include "cli/input_file.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -27,12 +29,16 @@ struct UploadArguments {
 };
 
 void upload(const UploadArguments& arguments) {
-  const Bundle bundle = read_bundle(arguments.from);
+  const std::filesystem::path from = arguments.from;
+  const bool is_blueprint = from.extension() == ".json";
+  const Bundle bundle = is_blueprint ? Bundle{from.stem().stem().string(),
+                                              read_input_file(arguments.from, "a blueprint")}
+                                     : read_bundle(arguments.from);
   const std::string name = arguments.name.empty() ? bundle.name : arguments.name;
   ApiClient api;
   const nlohmann::json answer = api.upload(
       fmt::format("/v1/scenarios?name={}{}", encoded(name), arguments.dry_run ? "&dry_run" : ""),
-      bundle.bytes, "application/octet-stream");
+      bundle.bytes, is_blueprint ? "application/json" : "application/octet-stream");
   for (const nlohmann::json& finding : answer["findings"]) {
     fmt::print(stderr, "{}: {}\n  remedy: {}\n", finding["severity"].get<std::string>(),
                finding["message"].get<std::string>(), finding["remedy"].get<std::string>());
@@ -44,7 +50,9 @@ void add_upload(CLI::App& scenarios) {
   auto* command = scenarios.add_subcommand(
       "upload", "Send scenarios to a server ($THRONG_URL, $THRONG_KEY); prints their ids");
   const auto arguments = std::make_shared<UploadArguments>();
-  command->add_option("bundle", arguments->from, "A folder, or a zip, tar or tar.gz file")
+  command
+      ->add_option("bundle", arguments->from,
+                   "A folder, a zip, tar or tar.gz file, or a blueprint (.json)")
       ->required();
   command->add_option("--name", arguments->name,
                       "The first part of their ids; default: the folder's or file's name");

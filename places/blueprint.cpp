@@ -21,6 +21,7 @@ using nlohmann::json;
 
 namespace {
 
+std::string file_name(const std::string& id) { return id + ".json"; }
 std::string scene_name(const std::string& id) { return id + "_scene.xml"; }
 std::string behavior_name(const std::string& id) { return id + "_behavior.xml"; }
 
@@ -120,15 +121,21 @@ BuiltScenario build_scenario(const json& said, const std::string& source, const 
   return built;
 }
 
-fs::path make_scenario(const json& blueprint, const std::string& source, const fs::path& folder,
-                       const std::string& id) {
+std::map<std::string, std::string> scenario_files(const json& blueprint, const std::string& source,
+                                                  const std::string& id) {
   BuiltScenario built = build_scenario(blueprint, source, id);
   built.document["crowd"] = {{"scene", scene_name(id)}, {"behavior", behavior_name(id)}};
-  write_file_atomically(folder / scene_name(id), crowd::to_xml(built.crowd.scene));
-  write_file_atomically(folder / behavior_name(id), crowd::to_xml(built.crowd.behavior));
-  const fs::path file = folder / (id + ".json");
-  write_file_atomically(file, built.document.dump(1) + "\n");
-  return file;
+  return {{scene_name(id), crowd::to_xml(built.crowd.scene)},
+          {behavior_name(id), crowd::to_xml(built.crowd.behavior)},
+          {file_name(id), built.document.dump(1) + "\n"}};
+}
+
+fs::path make_scenario(const json& blueprint, const std::string& source, const fs::path& folder,
+                       const std::string& id) {
+  for (const auto& [name, text] : scenario_files(blueprint, source, id)) {
+    write_file_atomically(folder / name, text);
+  }
+  return folder / file_name(id);
 }
 
 }  // namespace throng::places

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -26,9 +27,13 @@ struct BuiltScenario {
 BuiltScenario build_scenario(const nlohmann::json& blueprint, const std::string& source,
                              const std::string& id);
 
+/// The scenario's files ID.json, ID_scene.xml and ID_behavior.xml by their names. The same
+/// blueprint gives the same bytes. Throws like build_scenario.
+std::map<std::string, std::string> scenario_files(const nlohmann::json& blueprint,
+                                                  const std::string& source, const std::string& id);
+
 /// Makes the scenario ID.json, ID_scene.xml and ID_behavior.xml in the folder and returns the
-/// first. The same blueprint gives the same bytes. Throws like build_scenario, and EnvironmentError
-/// when the folder cannot be written.
+/// first. Throws like build_scenario, and EnvironmentError when the folder cannot be written.
 std::filesystem::path make_scenario(const nlohmann::json& blueprint, const std::string& source,
                                     const std::filesystem::path& folder, const std::string& id);
 

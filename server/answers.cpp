@@ -204,7 +204,7 @@ json calibration_json(const jobs::JobRow& row, const Retention& retention) {
   value["request"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}};
   if (row.state == jobs::JobState::succeeded) {
-    for (const char* result : {"camera", "opencv", "ros", "residuals"}) {
+    for (const char* result : {"camera", "opencv", "ros", "residuals", "points"}) {
       value["links"][result] = fmt::format("{}/{}", self, result);
     }
   }

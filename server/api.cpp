@@ -79,6 +79,8 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/calibrations/{id}", Scope::read, &send_calibration},
       Route{Method::remove, "/v1/calibrations/{id}", Scope::submit, &remove_calibration},
       Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
+      Route{Method::get, "/v1/calibrations/{id}/images/{path}", Scope::read,
+            &send_calibration_image},
       Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
       Route{Method::get, kScenarios, Scope::read, &list_scenarios},
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/files.h"
 #include "base/json_text.h"
@@ -26,10 +28,12 @@ struct Result {
   const char* file;
   const char* type;
 };
+// Found points are there before, and also when nothing could be estimated from them.
 constexpr std::array kResults = {Result{"camera", calibrate::kCameraName, "application/json"},
                                  Result{"opencv", calibrate::kOpenCvName, "application/yaml"},
                                  Result{"ros", calibrate::kRosName, "application/yaml"},
-                                 Result{"residuals", calibrate::kPlotName, "image/svg+xml"}};
+                                 Result{"residuals", calibrate::kPlotName, "image/svg+xml"},
+                                 Result{"points", calibrate::kPointsName, "application/json"}};
 
 struct Sent {
   std::string request;
@@ -127,12 +131,35 @@ void send_calibration_result(const Call& call, const Request& request, Response&
   if (result == kResults.end()) {
     throw HttpError{404, fmt::format("a calibration has no \"{}\"", name)};
   }
-  if (row.state != jobs::JobState::succeeded) {
+  const std::filesystem::path file = call.folders.calibration_folder(row.id) / result->file;
+  const bool is_early = name == "points" && std::filesystem::exists(file);
+  if (row.state != jobs::JobState::succeeded && !is_early) {
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
                                      name_of(row.state))};
   }
-  response.set_content(read_file(call.folders.calibration_folder(row.id) / result->file),
-                       result->type);
+  if (!std::filesystem::exists(file)) {
+    throw HttpError{404, "this calibration was made by a version that did not keep this"};
+  }
+  response.set_content(read_file(file), result->type);
+}
+
+void send_calibration_image(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
+  const std::string name = request.matches[2];
+  const json images = parse_own_json(row.spec_json, "the request").value("images", json::array());
+  const std::filesystem::path file = call.folders.calibration_folder(row.id) / "files" / name;
+  if (std::find(images.begin(), images.end(), json(name)) == images.end() ||
+      std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(file)) {
+    throw HttpError{404, "the calibration has no image of this name"};
+  }
+  std::string bytes = read_file(file);
+  // A file that a browser would take for something else than an image is not sent as one.
+  const char* const type = bytes.starts_with("\xff\xd8\xff")        ? "image/jpeg"
+                           : bytes.starts_with("\x89PNG\r\n\x1a\n") ? "image/png"
+                                                                    : nullptr;
+  if (type == nullptr) throw HttpError{404, "this file is neither JPEG nor PNG"};
+  response.set_header("Cache-Control", "private, max-age=3600");
+  response.set_content(std::move(bytes), type);
 }
 
 }  // namespace throng::server

@@ -19,8 +19,11 @@ void send_calibration(const Call& call, const httplib::Request& request,
                       httplib::Response& response);
 void remove_calibration(const Call& call, const httplib::Request& request,
                         httplib::Response& response);
-/// camera, opencv, ros or residuals.
+/// camera, opencv, ros, residuals or points.
 void send_calibration_result(const Call& call, const httplib::Request& request,
                              httplib::Response& response);
+/// An image of a board, as it was sent.
+void send_calibration_image(const Call& call, const httplib::Request& request,
+                            httplib::Response& response);
 
 }  // namespace throng::server

@@ -70,6 +70,20 @@ std::string ConfinedChecks::job_plan(const std::string& job_json, const fs::path
       .at("svg");
 }
 
+std::map<std::string, std::string> ConfinedChecks::made_scenario(const json& blueprint,
+                                                                 const std::string& id) const {
+  return answer_to({{"task", "make_scenario"},
+                    {"subject", "a blueprint"},
+                    {"blueprint", blueprint},
+                    {"id", id}})
+      .at("files");
+}
+
+json ConfinedChecks::blueprint(const std::string& id, const fs::path& scenarios) const {
+  return answer_to({{"task", "blueprint"}, {"id", id}, {"scenarios", scenarios.string()}})
+      .at("blueprint");
+}
+
 std::int64_t ConfinedChecks::calibration(const json& request, const fs::path& files) const {
   const json answer =
       answer_to({{"task", "calibration"}, {"request", request}, {"files", files.string()}});

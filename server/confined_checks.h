@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -36,6 +37,11 @@ class ConfinedChecks {
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
+  /// The files of a scenario, by their names, made from a blueprint.
+  std::map<std::string, std::string> made_scenario(const nlohmann::json& blueprint,
+                                                   const std::string& id) const;
+  /// The blueprint that a scenario was made from, with what it extends; null: there is none.
+  nlohmann::json blueprint(const std::string& id, const std::filesystem::path& scenarios) const;
   /// A calibration's request, whose files lie in the folder. Returns the memory it needs, in MiB.
   std::int64_t calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
   /// Names that jobs may use (jobs/pipeline/catalog.h); queried once.

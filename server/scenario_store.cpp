@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char* kNoteName = "upload.json";
 constexpr const char* kFilesName = "files";
+constexpr const char* kPlaceId = "place";  // of a scenario that is sent as a blueprint
 constexpr std::size_t kMaxNameLength = 40;
 constexpr std::size_t kBundleDigits = 16;
 
@@ -138,16 +139,31 @@ void ScenarioStore::make_links(const fs::path& shipped) const {
   links.commit_replacing();
 }
 
-ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_view bytes,
-                                           const std::string& owner) const {
+ScenarioStore::Staged ScenarioStore::begin_staging(const std::string& name,
+                                                   const std::string& owner) const {
   if (!is_upload_name(name)) {
     throw InputError(
         Problem{"", "?name", '"' + name + '"',
                 fmt::format("1 to {} small letters, digits and underscores", kMaxNameLength)});
   }
-  Staged staged{{name, owner, unix_ms_now(), 0, 0, {}, {}},
-                {},
-                std::make_unique<StagingFolder>(uploads_ / name)};
+  return {{name, owner, unix_ms_now(), 0, 0, {}, {}},
+          {},
+          std::make_unique<StagingFolder>(uploads_ / name)};
+}
+
+void ScenarioStore::finish_staging(Staged& staged) const {
+  const fs::path& folder = staged.folder->path();
+  ScenarioUpload& upload = staged.upload;
+  jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
+  for (const std::string& id : checked.ids) upload.ids.push_back(upload.name + "/" + id);
+  upload.summaries = std::move(checked.summaries);
+  staged.findings = std::move(checked.findings);
+  write_file_atomically(folder / kNoteName, note_of(upload));
+}
+
+ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_view bytes,
+                                           const std::string& owner) const {
+  Staged staged = begin_staging(name, owner);
   const fs::path& folder = staged.folder->path();
   const fs::path unpacked = folder / "unpacked";
   fs::create_directories(unpacked);
@@ -155,12 +171,22 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   staged.upload.bytes = found.bytes;
   staged.upload.files = found.files;
   fs::rename(root_of(unpacked), folder / kFilesName);
-  jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
-  for (const std::string& id : checked.ids) staged.upload.ids.push_back(name + "/" + id);
-  staged.upload.summaries = std::move(checked.summaries);
-  staged.findings = std::move(checked.findings);
   fs::remove_all(unpacked);
-  write_file_atomically(folder / kNoteName, note_of(staged.upload));
+  finish_staging(staged);
+  return staged;
+}
+
+ScenarioStore::Staged ScenarioStore::stage_blueprint(const std::string& name, const json& blueprint,
+                                                     const std::string& owner) const {
+  Staged staged = begin_staging(name, owner);
+  std::map<std::string, std::string> files = confined_.made_scenario(blueprint, kPlaceId);
+  files[fmt::format("{}.place.json", kPlaceId)] = blueprint.dump(1) + "\n";
+  for (const auto& [file, text] : files) {
+    write_file_atomically(staged.folder->path() / kFilesName / file, text);
+    staged.upload.bytes += static_cast<std::int64_t>(text.size());
+  }
+  staged.upload.files = files.size();
+  finish_staging(staged);
   return staged;
 }
 

@@ -82,6 +82,10 @@ class ScenarioStore {
   /// Unpacks and checks a bundle. A single folder that everything in it lies in is taken for the
   /// bundle's own. Throws InputError naming everything wrong, EnvironmentError.
   Staged stage(const std::string& name, std::string_view bytes, const std::string& owner) const;
+  /// Makes and checks the scenario NAME/place of a blueprint, which is kept with it. Throws
+  /// likewise.
+  Staged stage_blueprint(const std::string& name, const nlohmann::json& blueprint,
+                         const std::string& owner) const;
   /// Publishes it; durable when it returns. Throws NameTaken and UploadsFull.
   ScenarioUpload publish(Staged& staged);
 
@@ -93,6 +97,8 @@ class ScenarioStore {
   bool remove(const std::string& name);
 
  private:
+  Staged begin_staging(const std::string& name, const std::string& owner) const;
+  void finish_staging(Staged& staged) const;
   void find_uploads();
   void describe(ScenarioUpload& upload) const;
   void make_links(const std::filesystem::path& shipped) const;

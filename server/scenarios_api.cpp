@@ -63,23 +63,26 @@ json scenario_json(const Call& call, const std::string& id) {
   return value;
 }
 
-void require_bundle(const Request& request) {
+/// Whether the body is a blueprint; else it is a bundle. Throws HttpError for anything else.
+bool is_blueprint(const Request& request) {
   constexpr std::array kTypes = {"application/zip",    "application/x-zip-compressed",
                                  "application/x-tar",  "application/gzip",
                                  "application/x-gzip", "application/octet-stream"};
   const std::string header = request.get_header_value("Content-Type");
   const std::string type = header.substr(0, header.find(';'));
+  if (type == "application/json") return true;
   if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) {
     throw HttpError{415,
                     "a bundle is sent with Content-Type: application/zip, application/x-tar or "
-                    "application/gzip"};
+                    "application/gzip, a blueprint with application/json"};
   }
+  return false;
 }
 
 }  // namespace
 
 void upload_scenarios(const Call& call, const Request& request, Response& response) {
-  require_bundle(request);
+  const bool from_blueprint = is_blueprint(request);
   const std::string name = request.get_param_value("name");
   ScenarioStore& uploads = call.uploads.scenarios();
   if (is_bundle_name(name)) throw HttpError{409, "names like this are those of jobs' own bundles"};
@@ -87,7 +90,9 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
   }
   try {
-    ScenarioStore::Staged staged = uploads.stage(name, request.body, call.caller.key_id);
+    ScenarioStore::Staged staged =
+        from_blueprint ? uploads.stage_blueprint(name, json_body_of(request), call.caller.key_id)
+                       : uploads.stage(name, request.body, call.caller.key_id);
     const bool dry = is_asked(request, "dry_run");
     const ScenarioUpload upload = dry ? staged.upload : uploads.publish(staged);
     json value = upload_json(upload);
@@ -96,7 +101,9 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     if (!dry) response.set_header("Location", "/v1/scenarios/" + upload.ids.front());
     write_json(response, dry ? 200 : 201, value);
   } catch (const InputError& error) {
-    throw HttpError{400, "the bundle cannot be used as it stands",
+    throw HttpError{400,
+                    from_blueprint ? "no scenario can be made of the blueprint"
+                                   : "the bundle cannot be used as it stands",
                     call.folders.without_paths(error.problems())};
   }
 }
@@ -126,8 +133,13 @@ void send_scenario(const Call& call, const Request& request, Response& response)
     return response.set_content(call.confined.scenario_plan(id, call.folders.scenarios()),
                                 "image/svg+xml");
   }
+  if (format == "blueprint") {
+    const json blueprint = call.confined.blueprint(id, call.folders.scenarios());
+    if (blueprint.is_null()) throw HttpError{404, "this scenario was not made from a blueprint"};
+    return write_json(response, 200, blueprint);
+  }
   if (!format.empty() && format != "json") {
-    throw HttpError{400, "format is wrong", {{"", "?format", format, "json or svg"}}};
+    throw HttpError{400, "format is wrong", {{"", "?format", format, "json, svg or blueprint"}}};
   }
   write_json(response, 200, scenario_json(call, id));
 }

@@ -13,5 +13,6 @@ inline constexpr const char* kCameraName = "camera.json";
 inline constexpr const char* kOpenCvName = "opencv.yaml";
 inline constexpr const char* kRosName = "ros.yaml";
 inline constexpr const char* kPlotName = "residuals.svg";
+inline constexpr const char* kPointsName = "points.json";
 
 }  // namespace throng::calibrate

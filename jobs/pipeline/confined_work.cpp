@@ -16,6 +16,7 @@
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/pipeline/scenario_check.h"
+#include "places/blueprint.h"
 #include "places/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "world/scenario.h"
@@ -56,6 +57,21 @@ json draw_job(const json& request) {
   return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
 }
 
+std::string blueprint_name(const std::string& id) { return id + ".place.json"; }
+
+json make_scenario(const json& request) {
+  const std::string id = text_at(request, "id");
+  const std::string source = blueprint_name(id);
+  return {{"files", places::scenario_files(request.at("blueprint"), source, id)}};
+}
+
+json read_blueprint(const json& request) {
+  const std::filesystem::path file =
+      std::filesystem::path(text_at(request, "scenarios")) / blueprint_name(text_at(request, "id"));
+  return {
+      {"blueprint", std::filesystem::exists(file) ? places::load_blueprint(file) : json(nullptr)}};
+}
+
 json check_calibration(const json& request) {
   const calibrate::Request checked =
       calibrate::request_from_json(request.at("request"), text_at(request, "files"));
@@ -69,6 +85,8 @@ constexpr std::array kWork = {
     Work{"dry_run", &dry_run},
     Work{"scenario_plan", &draw_scenario},
     Work{"job_plan", &draw_job},
+    Work{"make_scenario", &make_scenario},
+    Work{"blueprint", &read_blueprint},
     Work{"calibration", &check_calibration},
     Work{"catalog", [](const json&) { return catalog(); }},
     Work{"people", [](const json&) { return people_catalog(); }},

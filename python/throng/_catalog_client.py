@@ -68,13 +68,15 @@ class CatalogClient:
         return self._bytes(f"/v1/scenarios/{path_of(scenario_id)}", {"format": "svg"}).decode("utf-8")
 
     def upload_scenario(self, path: PathLike, name: str, *, dry_run: bool = False) -> Upload:
-        """Sends a folder, .zip or .tar of scenarios; jobs name them NAME/... . findings says what is odd about them."""
+        """Sends a folder, .zip or .tar of scenarios, or a blueprint (.json); jobs name them NAME/... . findings says
+        what is odd about them."""
+        is_blueprint = Path(path).suffix == ".json"
         return self._http.request(
             "POST",
             "/v1/scenarios",
             query={"name": name, "dry_run": dry_run},
-            body=bundle(path),
-            content_type="application/octet-stream",
+            body=Path(path).read_bytes() if is_blueprint else bundle(path),
+            content_type="application/json" if is_blueprint else "application/octet-stream",
         ).json()
 
     def remove_scenario(self, name: str) -> None:
@@ -120,8 +122,10 @@ class CatalogClient:
                 raise TimeoutError("the calibration has not ended in time")
             time.sleep(0.2)
 
-    def calibration_result(self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals"]) -> str:
-        """The camera as JSON, as OpenCV's or ROS' YAML, or the residuals as SVG."""
+    def calibration_result(
+        self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals", "points"]
+    ) -> str:
+        """The camera as JSON, as OpenCV's or ROS' YAML, the residuals as SVG, or the points as JSON."""
         return self._bytes(f"/v1/calibrations/{part(calibration_id)}/{part(name)}").decode("utf-8")
 
     def remove_calibration(self, calibration_id: str) -> None:

@@ -274,6 +274,32 @@ class CalibrationList(TypedDict):
     """The JSON schema of a request."""
 
 
+class CalibrationPointsViewPoint(TypedDict):
+    """CalibrationPointsViewPoint of the service."""
+
+    pixel: list[float]
+    """Counted from the middle of the top-left one."""
+    residual_px: list[float | None] | None
+    """Shown - observed; null before anything is estimated."""
+    used: bool
+    """false: an outlier."""
+
+
+class CalibrationPointsView(TypedDict):
+    """CalibrationPointsView of the service."""
+
+    image: str
+    points: list[CalibrationPointsViewPoint]
+
+
+class CalibrationPoints(TypedDict):
+    """CalibrationPoints of the service."""
+
+    width: int
+    height: int
+    views: list[CalibrationPointsView]
+
+
 class ScenarioExit(TypedDict):
     """ScenarioExit of the service."""
 
@@ -474,6 +500,7 @@ OPERATIONS = (
     ("GET", "/v1/calibrations/{id}"),
     ("DELETE", "/v1/calibrations/{id}"),
     ("GET", "/v1/calibrations/{id}/{name}"),
+    ("GET", "/v1/calibrations/{id}/images/{path}"),
     ("GET", "/v1/scenarios"),
     ("POST", "/v1/scenarios"),
     ("GET", "/v1/scenarios/{path}"),

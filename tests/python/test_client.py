@@ -277,6 +277,8 @@ class WithService(unittest.TestCase):
         self.assertIn("<svg", self.client.scenario_plan("yards/yard"))
         with self.assertRaises(throng.ConflictError):
             self.client.upload_scenario(folder / "mine", "yards")
+        blueprint = common.ROOT / "scenarios" / "city_square" / "everyday.place.json"
+        self.assertEqual(self.client.upload_scenario(blueprint, "square", dry_run=True)["ids"], ["square/place"])
         self.client.remove_scenario("yards")
         answer = self.client.dry_run({"scenario": "bundle/yard", "capture": {"to_s": 2}}, scenario=folder / "mine")
         self.assertEqual(answer["frames"], 3)

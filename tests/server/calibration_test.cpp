@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <signal.h>
+#include <zlib.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -49,6 +50,41 @@ std::string grid_table() {
     }
   }
   return text.str();
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (const unsigned int shift : {24U, 16U, 8U, 0U}) {
+    bytes += static_cast<char>((value >> shift) & 0xFFU);
+  }
+  return bytes;
+}
+
+std::string png_chunk(const std::string& type_and_data) {
+  return big_endian(static_cast<std::uint32_t>(type_and_data.size() - 4)) + type_and_data +
+         big_endian(crc32_of(type_and_data));
+}
+
+/// A gray image of 480 x 360 px with a chessboard of 10 x 7 squares of 40 px.
+std::string chessboard_png() {
+  constexpr int kWidth = 480;
+  constexpr int kHeight = 360;
+  std::string rows;
+  for (int y = 0; y < kHeight; ++y) {
+    rows += '\0';  // no filter
+    for (int x = 0; x < kWidth; ++x) {
+      const bool is_board = x >= 40 && x < 440 && y >= 40 && y < 320;
+      rows += is_board && (x / 40 + y / 40) % 2 == 0 ? '\x10' : '\xf0';
+    }
+  }
+  uLongf size = ::compressBound(static_cast<uLong>(rows.size()));
+  std::string packed(size, '\0');
+  ::compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+             reinterpret_cast<const Bytef*>(rows.data()), static_cast<uLong>(rows.size()));
+  packed.resize(size);
+  const std::string head =
+      "IHDR" + big_endian(kWidth) + big_endian(kHeight) + std::string("\x08\x00\x00\x00\x00", 5);
+  return "\x89PNG\r\n\x1a\n" + png_chunk(head) + png_chunk("IDAT" + packed) + png_chunk("IEND");
 }
 
 class CalibrationApi : public ServiceFixture {
@@ -107,6 +143,13 @@ TEST_F(CalibrationApi, FromUploadToCameraToDataset) {
   EXPECT_THAT(client().Get(done["links"]["opencv"].get<std::string>())->body,
               HasSubstr("camera_matrix"));
   EXPECT_EQ(client().Get(self + "/shoe")->status, 404);
+  const json points = get_json(done["links"]["points"]);
+  ASSERT_EQ(points["views"].size(), 3U);
+  EXPECT_EQ(points["width"], 640);
+  EXPECT_EQ(points["views"][0]["points"].size(), 30U);
+  EXPECT_NEAR(points["views"][0]["points"][0]["residual_px"][0].get<double>(), 0, 1e-3);
+  EXPECT_EQ(points["views"][0]["points"][0]["used"], true);
+  EXPECT_EQ(client().Get(self + "/images/points.csv")->status, 404) << "it is no image";
   // It is listed among its own, and not among datasets.
   EXPECT_EQ(get_json(kRoute)["calibrations"].size(), 1U);
   EXPECT_EQ(get_json("/v1/jobs")["jobs"].size(), 0U);
@@ -171,6 +214,31 @@ TEST_F(CalibrationApi, FailuresSayWhy) {
   EXPECT_EQ(done["state"], "failed");
   EXPECT_EQ(done["error"]["kind"], "input");
   EXPECT_THAT(done["error"]["problems"][0]["found"].get<std::string>(), HasSubstr("nan"));
+  EXPECT_EQ(client().Get(self + "/camera")->status, 409);
+}
+
+TEST_F(CalibrationApi, ImagesAndTheirCornersCanBeFetchedEvenWhenNothingIsEstimated) {
+  SKIP_WITHOUT_PROGRAM();
+  const std::string board = chessboard_png();
+  const json asked = {{"images", {"board 1.png"}}, {"board", {{"columns", 9}, {"rows", 6}}}};
+  const httplib::MultipartFormDataItems items = {{"request", asked.dump(), "", "application/json"},
+                                                 {"file", board, "board 1.png", "image/png"},
+                                                 {"file", "secret", "other.png", "image/png"}};
+  const auto answer = client().Post(kRoute, items);
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  const std::string self = answer->get_header_value("Location");
+  EXPECT_EQ(ended(self)["state"], "failed") << "one view";
+  const json points = get_json(self + "/points");
+  ASSERT_EQ(points["views"].size(), 1U);
+  EXPECT_EQ(points["views"][0]["image"], "board 1.png") << "not its path on the server";
+  EXPECT_EQ(points["views"][0]["points"].size(), 54U);
+  EXPECT_EQ(points["views"][0]["points"][0]["residual_px"], nullptr);
+  const auto image = client().Get(self + "/images/board%201.png");
+  EXPECT_EQ(image->get_header_value("Content-Type"), "image/png");
+  EXPECT_EQ(image->body, board);
+  for (const char* name : {"other.png", "..%2frequest.json", "nothing.png"}) {
+    EXPECT_EQ(client().Get(self + "/images/" + name)->status, 404) << name;
+  }
   EXPECT_EQ(client().Get(self + "/camera")->status, 409);
 }
 
@@ -275,14 +343,6 @@ TEST_F(SlowCalibration, EndsWithItsCancellation) {
   EXPECT_EQ(client().Delete(self)->status, 204);
   EXPECT_TRUE(workers_of(folder).empty());
   EXPECT_FALSE(fs::exists(folder));
-}
-
-std::string big_endian(std::uint32_t value) {
-  std::string bytes;
-  for (const unsigned int shift : {24U, 16U, 8U, 0U}) {
-    bytes += static_cast<char>((value >> shift) & 0xFFU);
-  }
-  return bytes;
 }
 
 /// The beginning of a black-and-white PNG file: what it will unpack to is known from that.

@@ -97,6 +97,39 @@ TEST_F(Uploads, ADryRunLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(data.path() / "uploads"));
 }
 
+TEST_F(Uploads, ABlueprintBecomesAScenario) {
+  SKIP_WITHOUT_PROGRAM();
+  const json blueprint = {
+      {"name", "Drawn yard"},
+      {"ground", {{"min", {-30, -20}}, {"max", {30, 20}}, {"material", "pavers"}}},
+      {"inside", {{"min", {-20, -15}}, {"max", {20, 15}}}},
+      {"exits", {{{"id", "east"}, {"from", {15, -2}}, {"to", {15, 2}}}}},
+      {"drones", {{{"id", "d1"}, {"start", {0, 0, 20}}, {"yaw_deg", 90}}}},
+      {"people", {{"groups", {{{"doing", "leave"}, {"box", {-8, -8, 8, 8}}, {"count", 5}}}}}}};
+  const auto send = [&](const json& document, const char* query) {
+    return client().Post(std::string("/v1/scenarios?") + query, document.dump(),
+                         "application/json");
+  };
+  const httplib::Result dry = send(blueprint, "name=drawn&dry_run");
+  ASSERT_EQ(dry->status, 200) << dry->body;
+  EXPECT_TRUE(fs::is_empty(data.path() / "uploads"));
+  const httplib::Result answer = send(blueprint, "name=drawn");
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  EXPECT_THAT(json::parse(answer->body)["ids"], ElementsAre("drawn/place"));
+  EXPECT_EQ(get_json("/v1/scenarios/drawn/place")["name"], "Drawn yard");
+  EXPECT_EQ(get_json("/v1/scenarios/drawn/place?format=blueprint"), blueprint);
+  expect_problem(get("/v1/scenarios/yard?format=blueprint"), 404);
+  json wrong = blueprint;
+  wrong["people"]["groups"][0]["doing"] = "dance";
+  const httplib::Result refused = send(wrong, "name=other&dry_run");
+  expect_problem(refused, 400);
+  const json error = json::parse(refused->body)["errors"][0];
+  EXPECT_EQ(error["pointer"], "/people/groups/0/doing");
+  EXPECT_THAT(error["found"].get<std::string>(), HasSubstr("dance"));
+  expect_problem(send(blueprint, "name=drawn"), 409);
+  expect_problem(send(json::array(), "name=other"), 400);
+}
+
 TEST_F(Uploads, NamesAreTakenOnce) {
   ASSERT_EQ(upload(yard_bundle())->status, 201);
   expect_problem(upload(yard_bundle()), 409);

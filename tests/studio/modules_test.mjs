@@ -15,6 +15,9 @@ let exits;
 let events;
 let statistics;
 let differences;
+let elements;
+let kinds;
+let camera;
 
 before(async () => {
   coco = await importStudio(packages, "dataset/coco.ts");
@@ -25,6 +28,9 @@ before(async () => {
   ({ differencesOf: differences } = await importStudio(packages, "compare/differences.ts"));
   events = await importStudio(packages, "run/events.ts");
   exits = await importStudio(packages, "run/exit_states.ts");
+  elements = await importStudio(packages, "place/elements.ts");
+  kinds = await importStudio(packages, "place/kinds.ts");
+  camera = await importStudio(packages, "calibration/camera.ts");
   ({ footprint } = await importStudio(packages, "form/footprint.ts"));
 });
 
@@ -293,4 +299,52 @@ test("events of a run come in order, each with its kind", () => {
   assert.equal(events.collisionText(metrics), "d1 with person 2×, d1 with building 1×");
   assert.deepEqual(events.eventsOf({ alarm_s: null }), []);
   assert.equal(events.collisionText({ alarm_s: null }), null);
+});
+
+const kArea = (points) => points.reduce((sum, [x, y], i) => sum + (x * points[(i + 1) % points.length][1] - points[(i + 1) % points.length][0] * y) / 2, 0);
+
+test("elements of a blueprint are added, moved and reshaped; outlines stay counter-clockwise", () => {
+  const { added, elementAt, elementsOf, moved, removed, withCorner, withNewCorner, withoutCorner } = elements;
+  const first = kinds.kFirstPlace;
+  assert.equal(elementsOf(first).length, 11);
+  const kind = (name) => kinds.kindNamed(name);
+  const drawn = added(first, kind("building"), [5, 5], [1, 2]);
+  assert.deepEqual(drawn.path, ["buildings", 6]);
+  const at = (document, pointer) => elementAt(elementsOf(document), pointer);
+  assert.deepEqual(drawn.document.buildings[6].box, [1, 2, 5, 5]);
+  assert.equal(first.buildings.length, 6, "the first place is as it was");
+  // A wall's outline has its length and thickness, whatever its direction.
+  for (const end of [[10, 0], [0, 10], [-10, 0], [0, -10], [6, 8]]) {
+    const wall = added(first, kind("building"), [0, 0], end, true).document.buildings[6];
+    assert.ok(Math.abs(kArea(wall.footprint) - 4) < 0.02, String(end));
+  }
+  const building = at(drawn.document, "/buildings/6/height_m");
+  assert.equal(building.pointer, "/buildings/6");
+  assert.deepEqual(moved(drawn.document, building, [0.5, -1]).buildings[6].box, [1.5, 1, 5.5, 4]);
+  assert.deepEqual(withCorner(drawn.document, building, 0, [0, 1]).buildings[6].box, [0, 1, 5, 5]);
+  assert.deepEqual(withCorner(drawn.document, building, 0, [7, 9]).buildings[6].box, [5, 5, 7, 9], "pulled over the opposite corner");
+  assert.equal(withCorner(drawn.document, building, 0, [5, 0]), drawn.document, "no box without a width");
+  const split = withNewCorner(drawn.document, building, 0);
+  assert.deepEqual(split.buildings[6].footprint, [[1, 2], [3, 2], [5, 2], [5, 5], [1, 5]]);
+  const pentagon = at(split, "/buildings/6");
+  const turned = withCorner(split, pentagon, 1, [3, 20]);
+  assert.ok(kArea(turned.buildings[6].footprint) > 0);
+  assert.equal(withoutCorner(split, pentagon, 1).buildings[6].footprint.length, 4);
+  const drone = at(first, "/drones/0/start");
+  assert.deepEqual(moved(first, drone, [1, 2]).drones[0].start, [1, -6, 25], "its height stays");
+  assert.equal(removed(first, at(first, "/exits/0")).exits.length, 1);
+  assert.equal(at(first, "/exits"), undefined);
+  assert.equal(added(added(first, kind("exit"), [0, 0], [1, 0]).document, kind("exit"), [0, 0], [1, 0]).document.exits[3].id, "exit2");
+});
+
+test("a calibration's cells, digits and residuals", () => {
+  const view = (points) => ({ width: 80, height: 60, views: [{ image: "a", points: points.map(([u, v, used = true]) => ({ pixel: [u, v], residual_px: null, used })) }] });
+  const cells = camera.coveredCells(view([[-0.5, -0.5], [9.4, 0], [9.5, 0], [79.4, 59.4], [40, 30, false], [-3, 0]]));
+  assert.deepEqual(cells.flatMap((is, index) => (is ? [index] : [])), [0, 1, 47]);
+  assert.deepEqual(camera.valueText({ name: "fx", value: 900.123456, deviation: 0.0234 }), ["900.123", "± 0.023"]);
+  assert.deepEqual(camera.valueText({ name: "fx", value: 900.123456, deviation: 23.4 }), ["900", "± 23"]);
+  assert.deepEqual(camera.valueText({ name: "k3", value: 0, deviation: null }), ["0", "open"]);
+  assert.deepEqual(camera.valueText({ name: "k3", value: 0.5, deviation: 0 }), ["0.5", "fixed"]);
+  assert.equal(camera.residualScale({ width: 1280, rms_px: 0.13 }), 200);
+  assert.equal(camera.residualScale({ width: 1280, rms_px: 100 }), 1);
 });

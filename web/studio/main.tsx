@@ -21,6 +21,9 @@ const loadDownloads = () => import("./downloads/downloads_screen").then((module)
 const loadNewJob = () => import("./screens/new_job").then((module) => module.NewJob);
 const loadBrowser = () => import("./dataset/browser").then((module) => module.Browser);
 const loadCompare = () => import("./compare/compare_screen").then((module) => module.Compare);
+const loadCalibrations = () => import("./calibration/calibrations_screen").then((module) => module.CalibrationsScreen);
+const loadCalibration = () => import("./calibration/calibration_screen").then((module) => module.CalibrationScreen);
+const loadPlace = () => import("./place/place_screen").then((module) => module.PlaceScreen);
 const loadRun = () => import("./run/run_screen").then((module) => module.RunScreen);
 
 function screenOf(path: string): Screen {
@@ -30,6 +33,10 @@ function screenOf(path: string): Screen {
   if (path === "/compare") return { title: "Compare", element: <Lazy load={loadCompare} props={{}} /> };
   if (path === "/keys") return { title: "Keys and webhooks", element: <Lazy load={loadAccess} props={{}} /> };
   if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
+  if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
+  if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };
+  const calibration = /^\/calibrations\/([a-z0-9]+)\/?$/.exec(path);
+  if (calibration) return { title: "Calibration", element: <Lazy key={path} load={loadCalibration} props={{ id: calibration[1]! }} /> };
   const run = /^\/jobs\/([a-z0-9]+)\/runs\/(\d{1,4})\/?$/.exec(path);
   if (run) return { title: "Run", element: <Lazy key={path} load={loadRun} props={{ id: run[1]!, number: Number(run[2]) }} /> };
   const job = /^\/jobs\/([a-z0-9]+)(\/images|\/downloads)?\/?$/.exec(path);

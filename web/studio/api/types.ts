@@ -205,6 +205,22 @@ export interface CalibrationList {
   schema: Record<string, unknown>;
 }
 
+export interface CalibrationPoints {
+  width: number;
+  height: number;
+  views: ({
+    image: string;
+    points: ({
+      /** Counted from the middle of the top-left one. */
+      pixel: number[];
+      /** Shown - observed; null before anything is estimated. */
+      residual_px: (number | null)[] | null;
+      /** false: an outlier. */
+      used: boolean;
+    })[];
+  })[];
+}
+
 export interface Scenario {
   id: string;
   name?: string;

@@ -24,6 +24,7 @@ const kDroneFields: Path[] = [
   ["guidance", "policy"],
   ["camera", "pitch_deg"],
   ["camera", "yaw_deg"],
+  ["camera", "calibration"],
   ["camera", "hfov_deg"],
   ["camera", "width"],
   ["camera", "height"],

@@ -38,6 +38,8 @@ const kScreens = [
   { address: "/", label: "Home" },
   { address: "/jobs", label: "Jobs" },
   { address: "/new", label: "New job" },
+  { address: "/place", label: "Place" },
+  { address: "/calibrations", label: "Calibration" },
 ];
 
 export function Shell({ children }: { children: ComponentChildren }) {

@@ -6,6 +6,7 @@ import { useJson } from "../api/resource";
 import type { Job, JobList } from "../api/types";
 import { AllFields } from "../form/all_fields";
 import { Basic } from "../form/basic";
+import { calibratedDraft } from "../form/calibrated";
 import { changedDraft, type Check, type Draft, draftOf, forgetDraft, type Form, storedDraft, useCheck } from "../form/draft";
 import { idOf } from "../form/field";
 import type { JsonEditorProps } from "../form/json_editor";
@@ -17,10 +18,16 @@ import { Lazy } from "../parts/lazy";
 import { navigate, usePlace, withQuery } from "../parts/router";
 
 const kPresets = presets as { file: string; job: JsonObject }[];
+const kSources = ["clone", "preset", "calibration", "scenario"];
 const kFirstPreset = "city_square/demo.job.json";
 const loadEditor = () => import("../form/json_editor").then((module) => module.JsonEditor);
 
-/** The draft of this tab, a preset or a copy, as the address says. */
+/** What belongs to the place of the draft: drones fly where the next one has its own. */
+function withoutPlace(draft: Draft): Draft {
+  return ["drones", "crowd"].reduce((next, key) => changedDraft(next, [key], undefined), draft);
+}
+
+/** The draft of this tab (with another place, or with a calibrated camera), a preset or a copy, as the address says. */
 async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft> {
   const clone = query.get("clone");
   if (clone) {
@@ -29,7 +36,11 @@ async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft
   }
   const preset = kPresets.find((entry) => entry.file === query.get("preset"));
   if (preset) return draftOf(textOf(preset.job));
-  return storedDraft() ?? draftOf(textOf(kPresets.find((entry) => entry.file === kFirstPreset)!.job));
+  const draft = storedDraft() ?? draftOf(textOf(kPresets.find((entry) => entry.file === kFirstPreset)!.job));
+  const calibration = query.get("calibration");
+  const scenario = query.get("scenario");
+  if (scenario) return changedDraft(withoutPlace(draft), ["scenario"], scenario);
+  return calibration ? calibratedDraft(draft, calibration) : draft;
 }
 
 /** Time and disk per image of jobs that were done lately, as a forecast. */
@@ -207,7 +218,7 @@ export function NewJob() {
   const [draft, setDraft] = useState<Draft | null>(null);
   const [error, setError] = useState<ApiError | null>(null);
   const check = useCheck(draft);
-  const source = `${query.get("clone") ?? ""} ${query.get("preset") ?? ""}`;
+  const source = kSources.map((name) => query.get(name) ?? "").join(" ");
   useEffect(() => {
     if (!schema.value) return;
     let isLatest = true;
@@ -219,7 +230,7 @@ export function NewJob() {
         // From here on the draft counts, also after a reload.
         if (source.trim()) {
           sessionStorage.setItem("throng.draft", next.text);
-          navigate(withQuery(new URLSearchParams(location.search), { clone: null, preset: null }), { replace: true });
+          navigate(withQuery(new URLSearchParams(location.search), Object.fromEntries(kSources.map((name) => [name, null]))), { replace: true });
         }
       },
       (reason: unknown) => isLatest && setError(asApiError(reason)),

@@ -1,0 +1,154 @@
+// The calibration of a camera in a browser, against a real service: from images of a board to a job with the camera.
+// usage: node calibration_test.mjs PROGRAM PACKAGES
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { after, before, test as nodeTest } from "node:test";
+import { openPage, screenChecker, stepsOf } from "./page.mjs";
+import { launch, TestService } from "./service.mjs";
+
+const [program, packages] = process.argv.slice(2);
+const test = stepsOf(nodeTest);
+const check = screenChecker(packages);
+const complaints = [];
+const service = new TestService(program);
+const boards = mkdtempSync(path.join(tmpdir(), "throng-boards-"));
+const kCorners = 108; // 12 × 9, of the board that throng calibrate selftest renders
+const kTrueFx = 900;
+const kLongMs = 120_000; // a busy machine
+let files;
+let browser;
+let page;
+
+before(async () => {
+  // With few views its own limits may not hold; the images are there all the same.
+  spawnSync(program, ["calibrate", "selftest", "--views", "10", "--images", boards], { stdio: "ignore" });
+  files = readdirSync(boards).sort().map((name) => path.join(boards, name));
+  assert.equal(files.length, 10);
+  await service.start();
+  browser = await launch(packages);
+  page = await openPage(browser, complaints);
+});
+
+after(async () => {
+  await browser?.close();
+  await service.stop();
+  rmSync(boards, { recursive: true });
+});
+
+const go = (address) => page.goto(service.address + address);
+const chooser = () => page.locator('input[type="file"]');
+
+/** Drops a file on the page as a hand does. */
+async function drop(name, bytes) {
+  const transfer = await page.evaluateHandle(
+    ([file, base64]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], file, { type: "image/png" }));
+      return data;
+    },
+    [name, bytes.toString("base64")],
+  );
+  for (const event of ["dragover", "drop"]) await page.locator(".drop").dispatchEvent(event, { dataTransfer: transfer });
+}
+
+test("images are chosen, dropped and taken out again", async () => {
+  await go("/");
+  await page.getByRole("navigation").getByRole("link", { name: "Calibration" }).click();
+  await page.getByText("No calibrations yet").waitFor();
+  await check(page, "no calibrations");
+  assert.ok(await page.getByRole("button", { name: "Calibrate" }).isDisabled());
+  const other = await page.screenshot({ clip: { x: 0, y: 0, width: 1280, height: 720 } }); // as large, without a board
+  await chooser().setInputFiles({ name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no image") });
+  await page.getByText("notes.txt is neither JPEG nor PNG").waitFor();
+  await chooser().setInputFiles(files.slice(0, 9));
+  await drop("view09.png", readFileSync(files[9]));
+  await drop("view09.png", other);
+  await page.getByText("11 images").waitFor();
+  await page.getByRole("button", { name: "Take out view00.png" }).click();
+  await page.getByText("10 images").waitFor();
+  await check(page, "chosen images");
+});
+
+test("a wrong setting is shown at its field", async () => {
+  await page.getByLabel("Inner corners in a row").fill("nine");
+  await page.getByLabel("Inner corners in a column").fill("9");
+  await page.getByLabel("Name", { exact: true }).fill("wide camera");
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.locator("#calibration-board-columns-note", { hasText: 'found "nine"' }).waitFor();
+  await check(page, "a wrong setting");
+  await page.getByLabel("Inner corners in a row").fill("12");
+});
+
+test("the camera, its accuracy and the corners in each image are shown", async () => {
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.getByText("succeeded").waitFor({ timeout: kLongMs });
+  const id = new URL(page.url()).pathname.split("/").at(-1);
+  const { camera } = await service.json(`/v1/calibrations/${id}`);
+  const found = await service.json(`/v1/calibrations/${id}/points`);
+  const row = page.getByRole("row").filter({ has: page.getByText("fx", { exact: true }) });
+  const [value, deviation] = (await row.locator("td").allInnerTexts()).map((text) => Number(text.replace("± ", "")));
+  assert.ok(Math.abs(value - kTrueFx) < Math.max(4.5, 6 * deviation), `fx ${value} ± ${deviation}`);
+  assert.ok(Math.abs(value - camera.fx) <= deviation && Math.abs(deviation / camera.std.fx - 1) < 0.1);
+  for (const warning of camera.warnings) await page.getByText(warning).waitFor();
+  assert.ok(camera.warnings.some((text) => text.startsWith("9 views")), "fewer than 10 views were used");
+  assert.equal(await page.locator(".cell-covered").count(), Math.round(48 * camera.coverage));
+  const figure = page.locator("#view-view01-png");
+  assert.equal(await figure.locator(".board-point, .board-outlier").count(), kCorners);
+  const drawn = await figure.locator("circle").nth(1).evaluate((circle) => [circle.cx.baseVal.value, circle.cy.baseVal.value]);
+  const { pixel } = found.views.find((view) => view.image === "view01.png").points[1];
+  assert.ok(Math.hypot(drawn[0] - pixel[0] - 0.5, drawn[1] - pixel[1] - 0.5) < 1e-3);
+  await page.locator("#view-view09-2-png").getByText("left out: found ").waitFor();
+  await page.waitForFunction(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0));
+  await page.getByRole("button", { name: "view01.png" }).click();
+  assert.equal(await page.evaluate(() => document.activeElement.id), "view-view01-png");
+  await check(page, "a calibration");
+});
+
+test("the camera goes into a job", async () => {
+  const id = new URL(page.url()).pathname.split("/").at(-1);
+  await page.getByRole("link", { name: "Use in a job" }).click();
+  await page.getByText(/\d+ images? in|images/).first().waitFor();
+  await page.waitForFunction(() => location.pathname === "/new" && !location.search.includes("calibration"));
+  const draft = JSON.parse(await page.evaluate(() => sessionStorage.getItem("throng.draft")));
+  assert.ok(draft.drones.length > 0);
+  for (const drone of draft.drones) {
+    assert.equal(drone.camera.calibration, id);
+    assert.equal(drone.camera.width, undefined, "the calibration says the size");
+  }
+  assert.equal(await page.getByLabel("Calibration", { exact: true }).first().inputValue(), id);
+  await page.getByRole("region", { name: "Check and submit" }).getByText(/\d+ images/).first().waitFor({ timeout: kLongMs });
+  assert.ok(await page.getByRole("button", { name: "Submit" }).isEnabled());
+});
+
+test("corners are shown even if there are too few images; the rest is added later", async () => {
+  await go("/calibrations");
+  await chooser().setInputFiles(files.slice(1, 2));
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.getByText("failed", { exact: true }).waitFor({ timeout: kLongMs });
+  await page.locator(".board-view circle").first().waitFor();
+  assert.equal(await page.locator(".board-view circle").count(), kCorners);
+  await check(page, "a failed calibration");
+  await page.getByRole("link", { name: "Change and repeat" }).click();
+  await page.getByText("1 image,").waitFor();
+  await chooser().setInputFiles(files.slice(2));
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.waitForURL(/\/calibrations\/[a-z0-9]+$/); // the list, too, says that one has succeeded
+  await page.getByText("succeeded").waitFor({ timeout: kLongMs });
+});
+
+test("calibrations are listed and deleted", async () => {
+  await go("/calibrations");
+  await page.getByRole("row").nth(3).waitFor();
+  await check(page, "the list");
+  await page.getByRole("button", { name: "Delete wide camera" }).first().click();
+  await page.getByRole("dialog").getByRole("button", { name: "Delete the calibration" }).click();
+  await page.waitForFunction(() => document.querySelectorAll("tbody tr").length === 2);
+  assert.equal((await service.json("/v1/calibrations")).calibrations.length, 2);
+  await go("/calibrations/nowhere");
+  await page.getByText("There is no calibration nowhere").waitFor();
+});
+
+test("nothing was on the console", () => assert.deepEqual(complaints, []));
