@@ -182,6 +182,11 @@ ScenarioStore::Staged ScenarioStore::stage_blueprint(const std::string& name, co
   std::map<std::string, std::string> files = confined_.made_scenario(blueprint, kPlaceId);
   files[fmt::format("{}.place.json", kPlaceId)] = blueprint.dump(1) + "\n";
   for (const auto& [file, text] : files) {
+    // The child is confined because it may be taken over: its word leads out of no folder.
+    if (file.empty() || fs::path(file).filename() != file || file.starts_with('.')) {
+      throw EnvironmentError(
+          fmt::format("a child answered with the file \"{}\", expected a plain name", file));
+    }
     write_file_atomically(staged.folder->path() / kFilesName / file, text);
     staged.upload.bytes += static_cast<std::int64_t>(text.size());
   }

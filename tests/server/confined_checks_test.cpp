@@ -100,6 +100,19 @@ TEST_F(ServiceFixture, AChildThatDiesCostsOneRequest) {
   }
 }
 
+TEST_F(ServiceFixture, AChildThatWasTakenOverWritesNoFileElsewhere) {
+  for (const char* name : {"../../evil", "/tmp/throng-evil", "a/b", "..", ""}) {
+    ServiceOptions hostile = options();
+    hostile.confined = [&](const auto&, const auto&) { return json{{"files", {{name, "x"}}}}; };
+    Service service(hostile, executor);
+    EXPECT_ANY_THROW(service.uploads().scenarios().stage_blueprint("drawn", json::object(), ""))
+        << name;
+    EXPECT_FALSE(fs::exists("/tmp/throng-evil"));
+    EXPECT_FALSE(fs::exists(data.path() / "evil"));
+    EXPECT_FALSE(fs::exists(data.path() / "uploads" / "evil"));
+  }
+}
+
 TEST_F(ServiceFixture, WhatTheSchemaRefusesStartsNoChild) {
   ServiceOptions counting = options();
   std::atomic<int> children = 0;
