@@ -128,6 +128,10 @@ class CatalogClient:
         """The camera as JSON, as OpenCV's or ROS' YAML, the residuals as SVG, or the points as JSON."""
         return self._bytes(f"/v1/calibrations/{part(calibration_id)}/{part(name)}").decode("utf-8")
 
+    def calibration_image(self, calibration_id: str, name: str) -> bytes:
+        """An image of a board, as it was sent."""
+        return self._bytes(f"/v1/calibrations/{part(calibration_id)}/images/{path_of(name)}")
+
     def remove_calibration(self, calibration_id: str) -> None:
         self._remove(f"/v1/calibrations/{part(calibration_id)}")
 

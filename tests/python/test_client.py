@@ -308,6 +308,8 @@ class WithService(unittest.TestCase):
         done = self.client.wait_for_calibration(queued["id"])
         self.assertAlmostEqual(done["camera"]["fx"], 800, places=2)
         self.assertAlmostEqual(json.loads(self.client.calibration_result(queued["id"], "camera"))["fy"], 790, places=2)
+        with self.assertRaisesRegex(throng.NotFoundError, "no image of this name"):
+            self.client.calibration_image(queued["id"], "board.png")
         self.assertIn(queued["id"], [c["id"] for c in self.client.calibrations()])
         self.client.remove_calibration(queued["id"])
         with self.assertRaises(throng.InvalidRequestError):
