@@ -2,6 +2,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "jobs/queue/store_rows.h"
@@ -78,9 +79,9 @@ TEST_F(StoreTest, PartsOfNamesAreFoundAsTheyStandThere) {
 
 TEST_F(StoreTest, ListsOfLabelsAndNamesHavePagesInBothOrders) {
   Store store(folder.path(), clock());
-  std::vector<std::string> ids;
-  for (int i = 0; i < 7; ++i) {
-    ids.push_back(store.add({.name = i % 2 == 0 ? "even one" : "odd one", .labels = {"x"}}).row.id);
+  std::array<std::string, 7> ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    ids[i] = store.add({.name = i % 2 == 0 ? "even one" : "odd one", .labels = {"x"}}).row.id;
   }
   store.remove(ids[2]);
   const auto pages = [&](JobFilter filter) {
