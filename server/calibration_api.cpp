@@ -152,14 +152,14 @@ void send_calibration_image(const Call& call, const Request& request, Response& 
       std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(file)) {
     throw HttpError{404, "the calibration has no image of this name"};
   }
-  std::string bytes = read_file(file);
+  const std::string bytes = read_file(file);
   // A file that a browser would take for something else than an image is not sent as one.
   const char* const type = bytes.starts_with("\xff\xd8\xff")        ? "image/jpeg"
                            : bytes.starts_with("\x89PNG\r\n\x1a\n") ? "image/png"
                                                                     : nullptr;
   if (type == nullptr) throw HttpError{404, "this file is neither JPEG nor PNG"};
   response.set_header("Cache-Control", "private, max-age=3600");
-  response.set_content(std::move(bytes), type);
+  response.set_content(bytes, type);
 }
 
 }  // namespace throng::server

@@ -39,8 +39,9 @@ std::string grid_table() {
     const double lean_x = view == 1 ? 0.0 : 0.5;
     const double lean_y = view == 0 ? 0.0 : 0.6;
     for (int i = 0; i < 30; ++i) {
+      const int row = i / 6;
       const double x = 0.1 * (i % 6 - 2.5);
-      const double y = 0.1 * (i / 6 - 2.0);
+      const double y = 0.1 * (row - 2.0);
       const double y1 = std::cos(lean_x) * y;
       const double z1 = std::sin(lean_x) * y;
       const double x2 = std::cos(lean_y) * x + std::sin(lean_y) * z1;
