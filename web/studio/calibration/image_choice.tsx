@@ -1,5 +1,6 @@
 // Images of a board: dropped or chosen, shown, and taken out again.
 import { useState } from "preact/hooks";
+import { FileButton } from "../parts/elements";
 import { bytesText, countText } from "../parts/format";
 import { type ChosenImage, kMaxBytes, withFiles } from "./request";
 
@@ -39,19 +40,9 @@ export function ImageChoice({ images, onChange }: ImageChoiceProps) {
         onDrop={onDrop}
       >
         <p>Drop images of the board here: 10 or more, near and far, tilted in all directions, also at the borders of the image.</p>
-        <label class="button">
+        <FileButton accept="image/jpeg,image/png" multiple onFiles={add}>
           Choose images
-          <input
-            class="hidden"
-            type="file"
-            accept="image/jpeg,image/png"
-            multiple
-            onChange={(event) => {
-              add([...(event.currentTarget.files ?? [])]);
-              event.currentTarget.value = "";
-            }}
-          />
-        </label>
+        </FileButton>
       </div>
       {refused.map((text) => (
         <p key={text} class="field-error" role="alert">

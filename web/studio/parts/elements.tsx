@@ -176,3 +176,30 @@ export function Tabs({ label, tabs, selected, onSelect }: TabsProps) {
     </div>
   );
 }
+
+interface FileButtonProps {
+  accept: string;
+  multiple?: boolean;
+  onFiles: (files: File[]) => void; ///< at least one
+  children: ComponentChildren;
+}
+
+/** A button that opens the browser's dialog for files; the same file may be chosen again after it was changed. */
+export function FileButton({ accept, multiple = false, onFiles, children }: FileButtonProps) {
+  return (
+    <label class="button">
+      {children}
+      <input
+        class="hidden"
+        type="file"
+        accept={accept}
+        multiple={multiple}
+        onChange={(event) => {
+          const files = [...(event.currentTarget.files ?? [])];
+          event.currentTarget.value = "";
+          if (files.length > 0) onFiles(files);
+        }}
+      />
+    </label>
+  );
+}

@@ -4,7 +4,7 @@ import { type ApiError, asApiError, getJson, request, sendJson } from "../api/cl
 import { useJson } from "../api/resource";
 import type { Scenario, ScenarioList, Upload } from "../api/types";
 import { isObject, type Json, type JsonObject, textOf } from "../form/json";
-import { ErrorBox } from "../parts/elements";
+import { ErrorBox, FileButton } from "../parts/elements";
 import { kFirstPlace } from "./kinds";
 
 const kStorage = "throng.place";
@@ -26,7 +26,7 @@ export function wordOf(document: JsonObject): string {
   return name.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_+|_+$/g, "").slice(0, 40) || "place";
 }
 
-const isMade = (scenario: Scenario) => !scenario.error && !scenario.uploaded;
+const isShipped = (scenario: Scenario) => !scenario.error && !scenario.uploaded;
 
 /** Opens a file, a place of the service, or the first one again. */
 export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (document: JsonObject) => void }) {
@@ -41,8 +41,7 @@ export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (d
       setError(`${id}: ${asApiError(reason).message}`);
     }
   };
-  const readFile = async (file: File | undefined) => {
-    if (!file) return;
+  const readFile = async (file: File) => {
     try {
       const value = JSON.parse(await file.text()) as Json;
       if (!isObject(value)) throw new Error("it holds no JSON object");
@@ -55,7 +54,7 @@ export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (d
   };
   const groups: [string, Scenario[]][] = [
     ["Uploads", scenarios.filter((scenario) => !scenario.error && scenario.uploaded)],
-    ["Places of throng", scenarios.filter(isMade)],
+    ["Places of throng", scenarios.filter(isShipped)],
   ];
   return (
     <div class="row wrap sources">
@@ -84,18 +83,9 @@ export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (d
           ))}
         </select>
       </label>
-      <label class="button">
+      <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
         Open a file
-        <input
-          class="hidden"
-          type="file"
-          accept=".json,application/json"
-          onChange={(event) => {
-            void readFile(event.currentTarget.files?.[0]);
-            event.currentTarget.value = "";
-          }}
-        />
-      </label>
+      </FileButton>
       <a class="button" href={`data:application/json,${encodeURIComponent(textOf(document))}`} download={`${wordOf(document)}.place.json`}>
         Save as a file
       </a>

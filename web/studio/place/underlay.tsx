@@ -1,5 +1,6 @@
 // An image below the plan, such as a photograph of a map, whose scale is given by two of its points and their distance.
 import { useState } from "preact/hooks";
+import { FileButton } from "../parts/elements";
 import type { Point } from "./kinds";
 
 export interface Underlay {
@@ -36,8 +37,7 @@ interface UnderlayPanelProps {
 export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: UnderlayPanelProps) {
   const [distance, setDistance] = useState("10");
   const [error, setError] = useState<string | null>(null);
-  const open = async (file: File | undefined) => {
-    if (!file) return;
+  const open = async (file: File) => {
     const url = URL.createObjectURL(file);
     const image = new Image();
     image.src = url;
@@ -59,10 +59,9 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
       <summary>Image below the plan</summary>
       <div class="stack">
         <p class="quiet-text">A map or a floor plan to draw over. It stays in this browser and is not part of the place.</p>
-        <label class="button">
+        <FileButton accept="image/*" onFiles={([file]) => void open(file!)}>
           Choose an image
-          <input class="hidden" type="file" accept="image/*" onChange={(event) => void open(event.currentTarget.files?.[0])} />
-        </label>
+        </FileButton>
         {error && (
           <p class="field-error" role="alert">
             {error}

@@ -12,7 +12,7 @@ import { idOf } from "../form/field";
 import type { JsonEditorProps } from "../form/json_editor";
 import { type Json, type JsonObject, textOf } from "../form/json";
 import { type Schema, withoutDefaults } from "../form/schema";
-import { ErrorBox, Mistakes, Tabs } from "../parts/elements";
+import { ErrorBox, FileButton, Mistakes, Tabs } from "../parts/elements";
 import { bytesText, countText, durationText, secondsBetween } from "../parts/format";
 import { Lazy } from "../parts/lazy";
 import { navigate, usePlace, withQuery } from "../parts/router";
@@ -169,8 +169,7 @@ function Editor({ draft, check, schema, onDraft }: EditorProps) {
 function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
   const recent = useJson<JobList>("/v1/jobs?limit=10");
   const [error, setError] = useState<string | null>(null);
-  const readFile = async (file: File | undefined) => {
-    if (!file) return;
+  const readFile = async (file: File) => {
     const draft = draftOf(await file.text());
     setError(draft.value ? null : `${file.name} holds no JSON object`);
     if (draft.value) onDraft(draft);
@@ -199,10 +198,9 @@ function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
           </optgroup>
         </select>
       </label>
-      <label class="button">
+      <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
         Open a file
-        <input class="hidden" type="file" accept=".json,application/json" onChange={(event) => void readFile(event.currentTarget.files?.[0])} />
-      </label>
+      </FileButton>
       {error && (
         <span class="field-error" role="alert">
           {error}
