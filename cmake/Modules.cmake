@@ -4,7 +4,7 @@
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/Precompile.cmake")
 
-# With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
+# These compute. The others are compiled with less optimization (release) or without (sanitizers), which takes half the time.
 set(THRONG_OPTIMIZED_MODULES base geometry crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base geometry crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
@@ -34,6 +34,8 @@ function(throng_module name)
     set(options "")
     if(THRONG_SANITIZE AND name IN_LIST THRONG_OPTIMIZED_MODULES)
       list(APPEND options -O1)
+    elseif(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT name IN_LIST THRONG_OPTIMIZED_MODULES)
+      list(APPEND options -O2)
     endif()
     if(THRONG_FUZZ AND name IN_LIST THRONG_FUZZED_MODULES)
       list(APPEND options -fsanitize=fuzzer-no-link)
@@ -70,11 +72,17 @@ function(throng_embed target symbol file)
   set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n OPTIMIZED): one GoogleTest program per module, test_NAME. Its
-# tests run in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one. OPTIMIZED: also
-# with sanitizers, where tests that look at every pixel or vertex themselves take longer than what they test.
+# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n COMPUTES OPTIMIZED): one GoogleTest program per module,
+# test_NAME. Its tests run in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one.
+# scripts/test.sh runs it once: COMPUTES, with the release build; else with AddressSanitizer, where computing takes five
+# times as long (`scripts/test.sh long` runs all with both). OPTIMIZED: also with sanitizers, where tests that look at
+# every pixel or vertex themselves take longer than what they test.
 function(throng_test name)
-  cmake_parse_arguments(ARG "OPTIMIZED" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES;OPTIMIZED" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
+  set(group sanitized)
+  if(ARG_COMPUTES)
+    set(group computing)
+  endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
@@ -86,14 +94,14 @@ function(throng_test name)
   endif()
   target_compile_options(test_${name} PRIVATE ${options})
   throng_precompile(test_${name} THRONG_PRECOMPILED_TEST_HEADERS ${options})
-  add_dependencies(throng_tests test_${name})
+  add_dependencies(throng_${group}_tests test_${name})
   if(NOT ARG_SHARDS)
     set(ARG_SHARDS 1)
   endif()
   foreach(shard RANGE 1 ${ARG_SHARDS})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
-    set_tests_properties(${name}.${shard} PROPERTIES LABELS "${name}" TIMEOUT 900
+    set_tests_properties(${name}.${shard} PROPERTIES LABELS "${name};${group}" TIMEOUT 900
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()

@@ -24,25 +24,30 @@ step_format() {
   mypy --strict --cache-dir build/mypy python/throng python/generate_types.py
 }
 
-# Without the benchmarks, of which only the syntax is checked.
+# Each test program of a module runs once: those that compute with this build, the others with the sanitizers' (cmake/
+# Modules.cmake, throng_test). Tests of the program run here, the shorter ones there as well. Of the benchmarks only the
+# syntax is checked.
 step_release() {
   say "building (release)"
-  build release throng_tests
+  build release throng_computing_tests
   jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
     sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
   bake_people
   say "testing (release)"
   # The tests of the program wait much.
-  ctest --preset release -j3
+  ctest --preset release -j3 -LE '^sanitized$'
 }
 
-# Not among the default steps: tests of which the default ones take a sample (all damages to datasets, all kinds of sound
-# datasets, more people and time in all scenarios, more crashes).
+# Not among the default steps: every test program of a module with both builds, and tests of which the default steps take
+# a sample (all damages to datasets, all kinds of sound datasets, more people and time in all scenarios, more crashes).
 step_long() {
-  say "testing what lasts (release)"
+  say "testing what lasts"
   build release throng_tests
   bake_people
+  ctest --preset release -j2 -L '^sanitized$'
   THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash)$'
+  build asan throng_tests
+  ctest_asan -L '^computing$'
 }
 
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
@@ -59,10 +64,14 @@ step_tidy() {
   echo "$state" >"$stamp"
 }
 
+ctest_asan() {
+  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 "$@"
+}
+
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
-  build asan throng_tests throng_fuzz
-  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 -LE slow
+  build asan throng_sanitized_tests throng_fuzz
+  ctest_asan -LE '^(slow|computing)$'
 }
 
 step_tsan() {

@@ -85,6 +85,17 @@ class Collector {
     return record;
   }
 
+  // Shards that another version of the program planned leave frames out or hold them twice.
+  void check_count(int run, std::int64_t images) const {
+    const std::int64_t expected =
+        job_.frames_per_camera() * static_cast<std::int64_t>(job_.drones.size());
+    if (images == expected) return;
+    throw EnvironmentError(
+        fmt::format("{}: found {} images, expected {}: another version of throng began this job; "
+                    "submit it again",
+                    (folder_.path() / "work" / run_name(run)).string(), images, expected));
+  }
+
   json take_frames(int run) {
     std::int64_t images = 0;
     std::int64_t annotations = 0;
@@ -98,6 +109,7 @@ class Collector {
       devices_.insert(record.at("device").get<std::string>());
       coco_shards_.push_back(folder_.output_of(task) / "coco");
     }
+    check_count(run, images);
     images_ += images;
     annotations_ += annotations;
     agents_ += agents.size();

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "jobs/spec/plan.h"
+#include "jobs/spec/render_cost.h"
 #include "jobs/spec/spec.h"
 #include "jobs/spec/task_memory.h"
 
@@ -14,22 +15,10 @@ namespace throng::jobs {
 
 namespace {
 
-constexpr double kPerMegapixel = 1e6;
-
-/// Seconds of one core, from the tables of docs/rendering.md and docs/places.md.
-struct RenderCost {
-  double per_megapixel_s;
-  double per_person_s;  ///< in view; people small enough to be far away cost less
-};
-constexpr std::array kRenderCosts = {RenderCost{0.012, 0.000037}, RenderCost{0.051, 0.000076},
-                                     RenderCost{0.345, 0.00086}};
 constexpr double kSimulatedPersonSecond = 60e-6;
 constexpr double kSimulatedDroneSecond = 0.01;
 constexpr double kLoadedPerson = 0.0003;
-constexpr double kWorkerStartS = 0.6;     ///< of a shard: driver, character library, place
-constexpr double kLensMapS = 2;           ///< of a shard, per megapixel of a lens that distorts
-constexpr double kLensMegapixelS = 0.08;  ///< of an image
-constexpr double kShutterFactor = 2.5;    ///< motion blur or a rolling shutter
+constexpr double kWorkerStartS = 0.6;  ///< of a shard: driver, character library, place
 
 /// Bytes of the dataset.
 constexpr double kJpegBytesPerPixel = 0.33;  ///< at quality 95
@@ -48,9 +37,6 @@ constexpr std::array kKindBytes = {KindBytes{"density", 4},     KindBytes{"depth
                                    KindBytes{"normals", 1},     KindBytes{"flow", 1.5},
                                    KindBytes{"semantic", 0.05}};
 
-/// Share of the people that an image shows; unknown before the simulation.
-constexpr double kShareInView = 0.5;
-
 double bytes_per_pixel(const OutputSpec& outputs) {
   double bytes =
       kJpegBytesPerPixel * std::exp2((outputs.image_quality - kJpegQuality) / kJpegOctave);
@@ -59,20 +45,6 @@ double bytes_per_pixel(const OutputSpec& outputs) {
     if (std::find(names.begin(), names.end(), kind.kind) != names.end()) bytes += kind.per_pixel;
   }
   return bytes;
-}
-
-double render_cpu_s(const JobSpec& job, const camera::CameraSpec& camera, double images,
-                    double shards, double in_view) {
-  const double megapixels = static_cast<double>(camera.width) * camera.height / kPerMegapixel;
-  const RenderCost& cost = kRenderCosts.at(static_cast<std::size_t>(job.quality));
-  double image_s = megapixels * cost.per_megapixel_s + in_view * cost.per_person_s;
-  if (camera.exposure.exposure_s > 0 || camera.exposure.readout_s > 0) image_s *= kShutterFactor;
-  double shard_s = 0;
-  if (camera.lens.model != camera::LensModel::pinhole || camera.calibrated) {
-    image_s += megapixels * kLensMegapixelS;
-    shard_s += megapixels * kLensMapS;
-  }
-  return images * image_s + shards * shard_s;
 }
 
 void add_run(const JobSpec& job, const RunPlan& run, double people, JobCost& cost) {
@@ -86,7 +58,8 @@ void add_run(const JobSpec& job, const RunPlan& run, double people, JobCost& cos
                 shards * kWorkerStartS;
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const auto camera = camera_of_run(job.drones[i].camera, run.seed, camera_pointer(i));
-    cost.cpu_s += render_cpu_s(job, camera, frames, shards, in_view);
+    cost.cpu_s +=
+        frames * image_cpu_s(job.quality, camera, in_view) + shards * camera_setup_cpu_s(camera);
     bytes +=
         frames * (static_cast<double>(camera.width) * camera.height * bytes_per_pixel(job.outputs) +
                   in_view * kAnnotationBytes);

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "jobs/spec/render_cost.h"
 
 namespace throng::jobs {
 
@@ -13,6 +15,27 @@ namespace {
 
 constexpr std::int64_t kFramesPerShard = 30;
 constexpr std::int64_t kShardsPerShortRun = 4;
+/// What a worker needs before its first image (driver, people, place) and less than which a shard
+/// is not worth it.
+constexpr double kMinShardS = 1;
+
+/// Of the job as it is written: shards must not depend on what is sampled for a run.
+double frame_cpu_s(const JobSpec& job) {
+  const double in_view = kShareInView * job.agents.value_or(0);
+  double frame_s = 0;
+  for (const DroneSpec& drone : job.drones) {
+    frame_s += image_cpu_s(job.quality, drone.camera, in_view);
+  }
+  return frame_s;
+}
+
+std::int64_t frames_per_shard(const JobSpec& job, std::int64_t frames) {
+  const std::int64_t quarter = (frames + kShardsPerShortRun - 1) / kShardsPerShortRun;
+  const double worthwhile = std::ceil(kMinShardS / frame_cpu_s(job));
+  const auto least =
+      worthwhile < kFramesPerShard ? static_cast<std::int64_t>(worthwhile) : kFramesPerShard;
+  return std::clamp(quarter, least, kFramesPerShard);
+}
 
 }  // namespace
 
@@ -27,8 +50,7 @@ std::vector<RunPlan> plan_runs(const JobSpec& job) {
 
 std::vector<Shard> plan_shards(const JobSpec& job, int run) {
   const std::int64_t frames = job.frames_per_camera();
-  const std::int64_t quarter = (frames + kShardsPerShortRun - 1) / kShardsPerShortRun;
-  const std::int64_t size = std::clamp(quarter, std::int64_t{1}, kFramesPerShard);
+  const std::int64_t size = frames_per_shard(job, frames);
   std::vector<Shard> shards;
   for (std::int64_t first = 0; first < frames; first += size) {
     shards.push_back({run, static_cast<int>(shards.size()), first, std::min(first + size, frames)});

@@ -28,8 +28,8 @@ struct Shard {
 std::vector<RunPlan> plan_runs(const JobSpec& job);
 
 /// The shards of a run: they cover its frames exactly once, in order. At most 30 frames each, so
-/// that little is lost with a worker; at least four shards, where there are frames enough, so that
-/// a short job uses several cores.
+/// that little is lost with a worker; of a short run four shards, so that it uses several cores, or
+/// as many as have a second of work each by estimate (render_cost.h), since each starts a worker.
 std::vector<Shard> plan_shards(const JobSpec& job, int run);
 
 /// Unique over the job and independent of shards: images are numbered by run, camera, frame.

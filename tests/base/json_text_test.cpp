@@ -100,9 +100,9 @@ TEST(JsonText, RefusesWhatIsNoJson) {
 }
 
 TEST(JsonText, OwnTextMayBeLargeButNotDeep) {
-  const std::string many = "[" + repeated("[],", 6'000'000) + "0]";
+  const std::string many = "[" + repeated("1,", 5'000'000) + "0]";
   EXPECT_THAT(problem_of(many).found, HasSubstr("5000000 values"));
-  EXPECT_EQ(parse_own_json(many, "x").size(), 6'000'001U);
+  EXPECT_EQ(parse_own_json(many, "x").size(), 5'000'001U);
   EXPECT_THROW(static_cast<void>(parse_own_json(nested_arrays(65), "the job")), EnvironmentError);
   try {
     static_cast<void>(parse_own_json("{", "the job"));

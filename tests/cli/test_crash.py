@@ -26,13 +26,13 @@ import urllib.request
 THRONG = sys.argv.pop(1)
 CRASHES = int(os.environ.get("THRONG_CRASHES", "2"))
 
-# Two shards per run, each long enough to be hit.
+# Two shards per run (of 30 and of 6 frames), each long enough to be hit.
 JOB = {
     "name": "crash",
     "scenario": "city_square/nearest_exit",
     "runs": 2,
     "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
-    "capture": {"rate_hz": 1, "from_s": 1, "to_s": 2},
+    "capture": {"rate_hz": 5, "from_s": 1, "to_s": 8},
     "outputs": {"annotations": ["coco"]},
 }
 

@@ -240,7 +240,7 @@ TEST(Errors, MutatedFilesAreRejectedOrRunButNeverCrash) {
   int accepted = 0;
   const auto whole_scene = folder.write("scene.xml", scene);
   const auto whole_behavior = folder.write("behavior.xml", behavior);
-  for (std::uint64_t i = 0; i < 1000; ++i) {
+  for (std::uint64_t i = 0; i < 300; ++i) {
     Random random(2024, Stream::crowd_generator, i);
     const bool in_scene = random.below(2) == 0;
     const auto scene_file =
@@ -260,8 +260,8 @@ TEST(Errors, MutatedFilesAreRejectedOrRunButNeverCrash) {
       for (const char c : problem.text()) EXPECT_TRUE(c >= ' ' && c <= '~') << problem.text();
     }
   }
-  EXPECT_GT(rejected, 300);
-  EXPECT_GT(accepted, 50) << "some changes are harmless";
+  EXPECT_GT(rejected, 90);
+  EXPECT_GT(accepted, 15) << "some changes are harmless";
 }
 
 TEST(Errors, UnknownAttributesAreOnlyWarnedOf) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -24,6 +25,18 @@ using nlohmann::json;
 
 class Validate : public SmallDataset {
  protected:
+  /// Makes the dataset a sound one with this format and no other.
+  void with_format(const std::string& format) {
+    std::filesystem::remove_all(root_ / "formats");
+    formats_ = {format};
+    const DatasetInfo described = info();
+    export_dataset(described, choose_formats(formats_, described.annotations, ""),
+                   root_ / "formats");
+    write_manifest();
+    const Validation validation = validate_dataset(root_);
+    ASSERT_EQ(validation.found, 0U)
+        << validation.findings.front().file << " " << validation.findings.front().what;
+  }
   /// Changes the first record that begins with such a member, and lists the files again.
   void change_record(const std::string& begin, const std::function<void(json&)>& change) {
     change_lines(begin, [&](std::string line) {
@@ -413,14 +426,8 @@ TEST_F(Validate, MasksThatAreAPixelWider) {
 }
 
 TEST_F(Validate, OtherFormatsThatSaySomethingElse) {
-  formats_ = {"mot", "visdrone-det", "visdrone-mot", "yolo-detect", "yolo-pose"};
-  const DatasetInfo described = info();
-  export_dataset(described, choose_formats(formats_, described.annotations, ""), root_ / "formats");
-  write_manifest();
-  const Validation validation = validate_dataset(root_);
-  ASSERT_EQ(validation.found, 0U) << validation.findings.front().file << " "
-                                  << validation.findings.front().what;
-  const auto damaged = [&](const std::string& path, const auto& damage) {
+  using Damage = std::function<void(std::string&)>;
+  const auto damaged = [&](const std::string& path, const Damage& damage) {
     SCOPED_TRACE(path);
     const std::string whole = read_file(root_ / "formats" / path);
     std::string text = whole;
@@ -429,20 +436,24 @@ TEST_F(Validate, OtherFormatsThatSaySomethingElse) {
     expect("formats", path, "");
     write("formats/" + path, whole);
   };
-  // A track's number, its whole line, a box moved by a pixel, a line too many.
-  damaged("mot/train/run000-d1/gt/gt.txt", [](std::string& text) { text.insert(2, "9"); });
-  damaged("mot/train/run000-d1/gt/gt.txt",
-          [](std::string& text) { text.erase(0, text.find('\n') + 1); });
-  damaged("mot/train/run001-d2/gt/gt.txt",
-          [](std::string& text) { text += "3,77,1,1,5,5,1,1,1\n"; });
-  const auto next_digit = [](std::string& text) {
+  const Damage next_digit = [](std::string& text) {
     char& digit = text[text.find(',') - 1];
     digit = digit == '9' ? '8' : static_cast<char>(digit + 1);
   };
+  const std::string track = "mot/train/run000-d1/gt/gt.txt";
+  with_format("mot");
+  damaged(track, [](std::string& text) { text.insert(2, "9"); });
+  damaged(track, [](std::string& text) { text.erase(0, text.find('\n') + 1); });
+  damaged("mot/train/run001-d2/gt/gt.txt",
+          [](std::string& text) { text += "3,77,1,1,5,5,1,1,1\n"; });
+  with_format("visdrone-det");
   damaged("visdrone-det/train/annotations/run000-d1-000000.txt", next_digit);
+  with_format("visdrone-mot");
   damaged("visdrone-mot/train/annotations/run001-d1.txt", next_digit);
+  with_format("yolo-detect");
   damaged("yolo-detect/labels/train/run000-d1-000000.txt",
           [](std::string& text) { text.replace(4, 1, text[4] == '5' ? "6" : "5"); });
+  with_format("yolo-pose");
   damaged("yolo-pose/labels/train/run000-d1-000000.txt",
           [](std::string& text) { text += text.substr(0, text.find('\n') + 1); });
 }

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "tests/server/api_fixture.h"
 
@@ -80,9 +80,10 @@ TEST(ImageList, FramesNeedNotBeginAtZero) {
 
 TEST(ImageList, AHundredThousandImagesTakeAMoment) {
   const auto files = dataset_of(100, {"d1", "d2"}, 500);
-  const auto start = std::chrono::steady_clock::now();
+  // Of the processor, with sanitizers too: a search per image would take minutes.
+  const std::clock_t start = std::clock();
   EXPECT_EQ(list_images(files, {"", "", 50'000, 48}).total, 100'000);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(500));
+  EXPECT_LT(std::clock() - start, 2 * CLOCKS_PER_SEC);
 }
 
 class ImagesApi : public ApiTest {};

@@ -25,10 +25,11 @@ class SupervisorTest : public testing::Test {
   JobFolder folder() const { return JobFolder::create(base.path() / "job", job); }
 
   TemporaryFolder base;
-  // Two runs of three frames: three shards each.
-  ResolvedJob job{parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2},
-                                "drones": [{"id": "d1"}]})",
-                            "")};
+  // Two runs of three frames that take long: three shards each.
+  ResolvedJob job{
+      parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2}, "quality": "high",
+                                "drones": [{"id": "d1", "camera": {"width": 3840, "height": 2160}}]})",
+                "")};
   FakeExecutor executor;
 };
 

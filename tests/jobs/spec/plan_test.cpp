@@ -42,8 +42,22 @@ TEST(Plan, ShardsPartitionTheFramesInOrder) {
   }
 }
 
-TEST(Plan, AShortRunStillUsesSeveralCores) {
-  EXPECT_EQ(plan_shards(job_with(19, 1, 1, 1), 0).size(), 4U);
+TEST(Plan, AShortRunUsesSeveralCoresIfItsImagesTakeLong) {
+  JobSpec job = job_with(19, 1, 1, 1);
+  job.quality = render::Quality::high;
+  job.drones[0].camera.width = 3840;
+  job.drones[0].camera.height = 2160;
+  EXPECT_EQ(plan_shards(job, 0).size(), 4U);
+}
+
+TEST(Plan, AShortRunOfQuickImagesStartsOneWorker) {
+  JobSpec job = job_with(19, 1, 1, 1);
+  job.quality = render::Quality::draft;
+  job.drones[0].camera.width = 320;
+  job.drones[0].camera.height = 240;
+  EXPECT_EQ(plan_shards(job, 0).size(), 1U);
+  job.agents = 60000;  // take longer than the pixels
+  EXPECT_EQ(plan_shards(job, 0).size(), 4U);
 }
 
 TEST(Plan, RunSeedsDifferAndDoNotDependOnTheirNumber) {
