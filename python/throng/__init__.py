@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from . import job
+from . import job, scores
 from ._version import __version__
 from .annotations import Annotations
 from .camera import Camera
@@ -80,6 +80,7 @@ __all__ = [
     "metrics",
     "open_real_set",
     "run",
+    "scores",
     "show",
     "simulate",
     "study",

@@ -43,6 +43,16 @@ class WithoutTorch(unittest.TestCase):
             self.assertIn("apt-get install python3-torch", result.stderr)
 
 
+class Jobs(unittest.TestCase):
+    def test_a_training_set_of_a_demo(self):
+        with tempfile.TemporaryDirectory() as folder:
+            job = pathlib.Path(folder) / "bridge.job.json"
+            demo = common.ROOT / "scenarios/bridge/demo.job.json"
+            job.write_bytes(subprocess.check_output(["jq", "-f", EXAMPLES / "training_set.jq", demo]))
+            checked = subprocess.run([common.THRONG, "check", job], capture_output=True, text=True, check=True).stdout
+            self.assertRegex(checked, "images +42 ")
+
+
 @unittest.skipUnless(common.has("torch"), SKIPPED)
 class Examples(unittest.TestCase):
     @classmethod
