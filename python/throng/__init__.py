@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from . import job
+from . import job, scores
 from ._version import __version__
 from .annotations import Annotations
 from .camera import Camera
@@ -35,6 +35,7 @@ from .errors import (
 from .frame import Frame
 from .plotting import animate, show
 from .program import find_program, metrics, run, simulate, study
+from .real_sets import REAL_SETS, open_real_set
 from .scenario import Scenario
 from .tables import Table
 from .trace import Trace
@@ -60,6 +61,7 @@ __all__ = [
     "Mistake",
     "NotFoundError",
     "ProgramError",
+    "REAL_SETS",
     "Scenario",
     "ScenarioError",
     "SegmentationDataset",
@@ -76,7 +78,9 @@ __all__ = [
     "job",
     "merge",
     "metrics",
+    "open_real_set",
     "run",
+    "scores",
     "show",
     "simulate",
     "study",

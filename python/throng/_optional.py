@@ -13,6 +13,7 @@ _PACKAGES = {
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "pandas": ("python3-pandas", "pandas"),
     "PIL": ("python3-pil", "Pillow"),
+    "scipy": ("python3-scipy", "scipy"),
     "shapely": ("python3-shapely", "shapely"),
     "torch": ("python3-torch", "torch"),
 }

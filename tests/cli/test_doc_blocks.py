@@ -37,6 +37,7 @@ NOT_RUN = {
     ("docs/library.md", "cmake --preset"): "builds the program: many minutes; tests/cli/test_package.py installs it",
     ("docs/people.md", "throng people build"): "48 s of CPU time for 96 people; run by scripts/setup.sh",
     ("docs/python.md", "pip install"): "pip needs the network; the rest of the page is run by tests/python/test_docs.py",
+    ("docs/training.md", ""): "minutes of CPU time, needs torch; tests/python/test_examples.py runs the programs",
     ("docs/studio.md", "node web/studio"): "never ends (--watch), needs the packages of web/",
 }
 

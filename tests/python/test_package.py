@@ -66,7 +66,8 @@ class Package(unittest.TestCase):
                 wheels[name] = {entry: wheel.read(entry) for entry in wheel.namelist() if not entry.endswith("RECORD")}
                 wheel.extractall(self.folder / "installed")
         self.assertEqual(wheels["direct"], wheels["from the archive"])
-        modules = {f"throng/{path.name}" for path in (PACKAGE / "throng").glob("*.py")} | {"throng/py.typed"}
+        sources = (PACKAGE / "throng").rglob("*.py")
+        modules = {str(path.relative_to(PACKAGE)) for path in sources} | {"throng/py.typed"}
         self.assertEqual({name for name in wheels["direct"] if name.startswith("throng/")}, modules)
         done = call(
             "import sys; sys.path.insert(0, sys.argv[1]); import throng; print(throng.__file__, throng.__version__)",

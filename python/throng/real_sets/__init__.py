@@ -1,0 +1,51 @@
+"""Readers of photographs with labels, in the layouts of their publishers, to test on what was trained with throng.
+
+>>> images = throng.open_real_set("visdrone", "VisDrone2019-DET-val")
+>>> images[0].image(), images[0].boxes, images[0].ignored
+
+The sets themselves are not part of throng; each has terms of its own. docs/training.md says where labels differ.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+from pathlib import Path
+from typing import Callable
+
+from ..errors import DatasetError
+from ._images import RealImage, RealSet
+from .dronecrowd import read_dronecrowd
+from .mot import read_mot
+from .nwpu import read_nwpu
+from .shanghaitech import read_shanghaitech
+from .uavdt import read_uavdt
+from .visdrone import read_visdrone
+
+REAL_SETS: dict[str, Callable[[Path], RealSet]] = {
+    "dronecrowd": read_dronecrowd,
+    "mot": read_mot,
+    "nwpu": read_nwpu,
+    "shanghaitech": read_shanghaitech,
+    "uavdt": read_uavdt,
+    "visdrone": read_visdrone,
+}
+
+
+def open_real_set(kind: str, folder: str | os.PathLike[str]) -> RealSet:
+    """The images and labels of a folder in the layout of `kind`, a key of REAL_SETS; "mot" reads PETS 2009, too.
+
+    Labels are read at once, images when they are asked for. Errors: ValueError for another kind, DatasetError for a
+    folder of another layout and for wrong lines.
+    """
+    if kind not in REAL_SETS:
+        near = difflib.get_close_matches(kind, REAL_SETS, 1)
+        hint = f" (did you mean {near[0]!r}?)" if near else ""
+        raise ValueError(f"kind: found {kind!r}, expected one of {', '.join(sorted(REAL_SETS))}{hint}")
+    path = Path(folder)
+    if not path.is_dir():
+        raise DatasetError(f"{path}: found no such folder, expected a set in the layout of {kind}")
+    return REAL_SETS[kind](path)
+
+
+__all__ = ["REAL_SETS", "RealImage", "RealSet", "open_real_set"]
