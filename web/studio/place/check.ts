@@ -22,9 +22,8 @@ export interface PlaceCheck {
 const sentence = ({ found, expected, message }: Mistake) => (found ? `found ${found}, expected ${expected}` : message);
 
 function findingsOf(upload: Upload): Finding[] {
-  // The generated type lacks what a finding has in common with mistakes.
-  return ((upload.findings ?? []) as (Mistake & { severity: string; remedy: string })[]).map((finding) => ({
-    severity: finding.severity === "warning" ? "warning" : "error",
+  return (upload.findings ?? []).map((finding) => ({
+    severity: finding.severity,
     pointer: finding.pointer,
     text: sentence(finding),
     remedy: finding.remedy,
