@@ -28,7 +28,7 @@ function typeOf(schema, indent) {
 function members(schema, indent) {
   const inner = `${indent}  `;
   const required = new Set(schema.required ?? []);
-  // What is required without being described is there all the same.
+  // Required members without a description are there all the same.
   const others = [...required].filter((key) => !(key in schema.properties)).map((key) => [key, {}]);
   const described = { ...schema.properties, ...Object.fromEntries(others) };
   const lines = Object.entries(described).map(([key, value]) => {
