@@ -5,6 +5,7 @@ import { useJson } from "../api/resource";
 import type { ImageList, Job } from "../api/types";
 import { Empty, ErrorBox } from "../parts/elements";
 import { countText } from "../parts/format";
+import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { type ImageName, imageOf } from "./coco";
 import { choiceOf, chosenImages, type Facet, facetsOf } from "./facets";
@@ -212,6 +213,7 @@ export function Browser({ id }: { id: string }) {
   const job = useJson<Job>(`/v1/jobs/${id}`);
   const path = query.get("image");
   const image = path === null ? null : imageOf(path);
+  if (job.error?.status === 404) return <GoneJob id={id} />;
   return (
     <div class="screen">
       <div class="heading">

@@ -3,7 +3,6 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { type ApiError, asApiError } from "../api/client";
 import { useSession } from "../api/session";
 import { Progress } from "../parts/elements";
-import { countText } from "../parts/format";
 import { navigate } from "../parts/router";
 import { type Choice, type Facet, histogramOf } from "./facets";
 import { type ImageIndex, readIndex } from "./image_index";
@@ -40,12 +39,15 @@ function Histogram({ facet, counts, chosen, onToggle }: { facet: Facet; counts: 
       <h3>{facet.label}</h3>
       {facet.bins.map((label, bin) =>
         counts[bin] === 0 && !chosen.has(bin) ? null : (
-          <button key={label} type="button" class="bar" aria-pressed={chosen.has(bin)} aria-label={`${label}: ${countText(counts[bin]!, "image")}`} onClick={() => onToggle(bin)}>
+          <button key={label} type="button" class="bar" aria-pressed={chosen.has(bin)} onClick={() => onToggle(bin)}>
             <span class="bar-label">{label}</span>
             <span class="bar-track">
               <span style={{ width: `${(100 * counts[bin]!) / most}%` }} />
             </span>
-            <span class="bar-count">{counts[bin]!.toLocaleString("en-US")}</span>
+            <span class="bar-count">
+              {counts[bin]!.toLocaleString("en-US")}
+              <span class="hidden"> {counts[bin] === 1 ? "image" : "images"}</span>
+            </span>
           </button>
         ),
       )}
