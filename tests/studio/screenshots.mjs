@@ -64,7 +64,7 @@ try {
   for (const { name, address, height, ready, keys = "", start = "" } of kScreens.filter((screen) => isWanted([screen.name]))) {
     await page.setViewportSize({ width: 1280, height });
     await page.goto(service.address + address);
-    if (start) await page.getByLabel("Start from").selectOption({ label: start });
+    if (start) await page.getByLabel("Start from").selectOption(start);
     if (keys) await page.locator("canvas.overlay[data-drawn]:not([data-drawn=''])").waitFor();
     for (const key of keys) await page.keyboard.press(key);
     await page.locator(ready).first().waitFor();

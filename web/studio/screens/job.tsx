@@ -204,8 +204,8 @@ export function JobScreen({ id }: { id: string }) {
     else resource.reload();
   };
   const isRunning = resource.value ? isActive(resource.value) : false;
-  // A removed job has no event that says so.
-  useInterval(resource.reload, isRunning ? kPollMs : 0);
+  // No event says that a job has been removed; one that is removed while it runs is cancelled first.
+  useInterval(resource.reload, isRunning || resource.value?.state === "cancelled" ? kPollMs : 0);
   const connection = useEvents(isRunning ? `/v1/jobs/${id}/events` : null, onEvent);
   if (resource.error?.status === 404) return <GoneJob id={id} />;
   if (!resource.value) {
