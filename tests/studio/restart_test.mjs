@@ -72,7 +72,7 @@ test("the form of a job keeps what is typed while the service is away", async ()
 });
 
 test("a job's screen goes on after a restart in the middle of the job", async () => {
-  const { id } = await post({ ...kJob, name: "interrupted", runs: 3, crowd: { agents: 150 } });
+  const { id } = await post({ ...kJob, name: "interrupted", runs: 3, crowd: { agents: 60 } });
   await go(`/jobs/${id}`);
   await page.locator(".heading .badge", { hasText: "running" }).waitFor({ timeout: kJobMs });
   await service.halt();
