@@ -344,10 +344,10 @@ class ScenarioList(TypedDict):
 class UploadFinding(TypedDict):
     """UploadFinding of the service."""
 
-    pointer: Any
-    found: Any
-    expected: Any
-    message: Any
+    pointer: str
+    found: str
+    expected: str
+    message: str
     severity: Literal["error", "warning"]
     remedy: str
 

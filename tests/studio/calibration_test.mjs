@@ -92,7 +92,12 @@ test("the camera, its accuracy and the corners in each image are shown", async (
   const [value, deviation] = (await row.locator("td").allInnerTexts()).map((text) => Number(text.replace("± ", "")));
   assert.ok(Math.abs(value - kTrueFx) < Math.max(4.5, 6 * deviation), `fx ${value} ± ${deviation}`);
   assert.ok(Math.abs(value - camera.fx) <= deviation && Math.abs(deviation / camera.std.fx - 1) < 0.1);
-  for (const warning of camera.warnings) await page.getByText(warning).waitFor();
+  const warnings = page.locator(".notice.warn li");
+  assert.equal(await warnings.count(), camera.warnings.length);
+  // Options of the command line are not of this page.
+  assert.ok(camera.warnings.some((text) => text.includes("--prior")));
+  assert.ok(!(await warnings.allInnerTexts()).join().includes("--"));
+  await warnings.filter({ hasText: "(“About known”: cx = 640 ± 20)" }).waitFor();
   assert.ok(camera.warnings.some((text) => text.startsWith("9 views")), "fewer than 10 views were used");
   assert.equal(await page.locator(".cell-covered").count(), Math.round(48 * camera.coverage));
   const figure = page.locator("#view-view01-png");
@@ -137,6 +142,67 @@ test("corners are shown even if there are too few images; the rest is added late
   await page.getByRole("button", { name: "Calibrate" }).click();
   await page.waitForURL(/\/calibrations\/[a-z0-9]+$/); // the list, too, says that one has succeeded
   await page.getByText("succeeded").waitFor({ timeout: kLongMs });
+});
+
+test("parameters that are known go with the images", async () => {
+  await go("/calibrations");
+  await page.getByText("What is known of the lens").click();
+  await page.getByLabel("Fixed", { exact: true }).fill("k3, cy = 359.5");
+  await page.getByLabel("About known").fill("cx = 640 ± x");
+  await page.getByLabel("fx and fy are equal").check();
+  await chooser().setInputFiles(files);
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.locator("#calibration-prior-note", { hasText: 'found "x"' }).waitFor();
+  await check(page, "known parameters");
+  await page.getByLabel("About known").fill("cx = 640 ± 5");
+  await page.getByRole("button", { name: "Calibrate" }).click();
+  await page.waitForURL(/\/calibrations\/[a-z0-9]+$/);
+  await page.getByText("succeeded").waitFor({ timeout: kLongMs });
+  const { camera, request } = await service.json(`/v1/calibrations/${new URL(page.url()).pathname.split("/").at(-1)}`);
+  assert.deepEqual([request.fix, request.prior, request.tie], [{ k3: null, cy: 359.5 }, { cx: { mean: 640, sd: 5 } }, { fx: { to: "fy" } }]);
+  assert.equal(camera.fx, camera.fy);
+  assert.equal(camera.cy, 359.5);
+  await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
+});
+
+test("control points give the poses of a camera", async () => {
+  const points = [[-12, -8, 0], [10, -9, 2], [14, 6, 0], [-9, 7, 3], [2, 1, 0], [-4, -3, 1], [7, 3, 0], [0, 9, 2]];
+  const center = [-20, -15, 25];
+  // Looking at the origin: right, down and ahead.
+  const ahead = center.map((value) => -value / Math.hypot(...center));
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const level = Math.hypot(ahead[0], ahead[1]);
+  const right = [ahead[1] / level, -ahead[0] / level, 0];
+  const axes = [right, cross(ahead, right), ahead];
+  const pixels = points.map((point) => {
+    const [x, y, z] = axes.map((axis) => axis.reduce((sum, value, index) => sum + value * (point[index] - center[index]), 0));
+    return [(900 * x) / z + 639.5, (900 * y) / z + 359.5];
+  });
+  const table = (name, header, rows) => ({ name, mimeType: "text/csv", buffer: Buffer.from(`${header}\n${rows.map((row) => row.join()).join("\n")}\n`) });
+  await go("/calibrations?form=poses");
+  const form = page.getByRole("form", { name: "New poses" });
+  const inputs = form.locator('input[type="file"]');
+  await inputs.nth(0).setInputFiles(table("gcp.csv", "point,X,Y,Z", points.map((point, index) => [`p${index}`, ...point])));
+  await inputs.nth(1).setInputFiles(table("seen.csv", "image,point,u", pixels.map(([u, v], index) => ["a.jpg", `p${index}`, u])));
+  await inputs.nth(2).setInputFiles({ name: "camera.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })) });
+  await page.getByRole("button", { name: "Estimate poses" }).click();
+  await page.getByRole("alert").or(page.getByText("failed", { exact: true })).first().waitFor({ timeout: kLongMs });
+  await page.getByText(/column/).first().waitFor();
+  await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
+  await go("/calibrations?form=poses");
+  await inputs.nth(0).setInputFiles(table("gcp.csv", "point,X,Y,Z", points.map((point, index) => [`p${index}`, ...point])));
+  await inputs.nth(1).setInputFiles(table("seen.csv", "image,point,u,v", pixels.map((pixel, index) => ["a.jpg", `p${index}`, ...pixel])));
+  await inputs.nth(2).setInputFiles({ name: "camera.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })) });
+  await check(page, "control points");
+  await page.getByRole("button", { name: "Estimate poses" }).click();
+  await page.waitForURL(/\/calibrations\/[a-z0-9]+$/);
+  await page.getByText("succeeded").waitFor({ timeout: kLongMs });
+  const cells = await page.getByRole("region", { name: "Poses of the cameras" }).getByRole("row").nth(1).locator("td").allInnerTexts();
+  const [heading, pitch] = [Math.atan2(ahead[1], ahead[0]), Math.asin(ahead[2])].map((angle) => (angle * 180) / Math.PI);
+  const expected = [...center, heading, pitch];
+  expected.forEach((value, index) => assert.ok(Math.abs(parseFloat(cells[index]) - value) < 0.02, `${cells} is not ${expected}`));
+  await check(page, "poses");
+  await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
 });
 
 test("calibrations are listed and deleted", async () => {

@@ -191,6 +191,63 @@ test("a person is followed over frames and cameras", async () => {
   await follow.waitFor({ state: "detached" });
 });
 
+test("images are filtered by histograms of their labels", async () => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await go(`/jobs/${job}/images`);
+  await page.getByRole("link", { name: "All filters" }).click();
+  const filters = page.getByRole("region", { name: "Filters" });
+  const group = (name) => filters.getByRole("group", { name, exact: true });
+  await group("State of a person").waitFor();
+  // The oracle counts the annotations as JSON.
+  const peopleIn = (image) => coco.annotations.filter((entry) => entry.image_id === image.id && entry.category_id === 1);
+  const isFar = (entry) => entry.bbox[3] < 16 && entry.bbox[3] >= 8;
+  const isHidden = (entry) => entry.visibility >= 0.2 && entry.visibility < 0.4;
+  const both = coco.images.filter((image) => peopleIn(image).some((entry) => isFar(entry) && isHidden(entry)));
+  const far = coco.images.filter((image) => peopleIn(image).some(isFar));
+  assert.ok(both.length > 0 && both.length < coco.images.length, `${both.length} of ${coco.images.length}`);
+  const bar = (facet, label, list) => group(facet).getByRole("button", { name: new RegExp(`^${label}\\W+${countOf(list)}$`) });
+  const countOf = (list) => (list.length === 1 ? "1 image" : `${list.length} images`);
+  await bar("Height of a person", "8 to 16 px", far).focus();
+  await page.keyboard.press("Enter");
+  await bar("Visible part of a person", "20 to 40 %", both).click();
+  await filters.getByRole("status").getByText(`${countOf(both)} of ${coco.images.length}`).waitFor();
+  assert.equal(await page.locator("a.thumbnail").count(), both.length);
+  const light = coco.images.filter((image) => image.environment.sun_elevation_deg >= 15 && both.includes(image));
+  if (light.length > 0) await bar("Light", "day", light).waitFor();
+  await page.reload();
+  await filters.getByRole("status").getByText(`${countOf(both)} of ${coco.images.length}`).waitFor();
+  const d1 = both.filter((image) => image.camera_id === "d1");
+  if (d1.length > 0) {
+    await bar("Camera", "d1", d1).click();
+    await filters.getByRole("status").getByText(`${countOf(d1)} of`).waitFor();
+  }
+  await page.locator('canvas.image[data-drawn="yes"]').first().waitFor();
+  await check(page, "filters");
+  await filters.getByRole("link", { name: "No filters" }).click();
+  await page.getByText(`${coco.images.length} images`).waitFor();
+});
+
+test("density maps are compared in the same colors", async () => {
+  const other = await service.finished({ ...kJob, name: "fewer people", crowd: { agents: 60 }, runs: 1 });
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await go(`/compare?job=${job}&job=${other}&t=6`);
+  await page.getByRole("checkbox", { name: "Density" }).check();
+  await page.getByRole("img", { name: "density of fewer people" }).waitFor();
+  const sumOf = async (id) => {
+    const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${id}/files/density/run000/d1/000001.npy`)).arrayBuffer());
+    let sum = 0;
+    for (let at = 10 + npy.readUInt16LE(8); at < npy.length; at += 4) sum += npy.readFloatLE(at);
+    return sum.toFixed(1);
+  };
+  await page.getByText(`People in the images: ${await sumOf(job)} and ${await sumOf(other)}.`).waitFor();
+  // Left of the edge the one map is seen, right of it the other.
+  await page.getByRole("slider", { name: "Edge between the images" }).fill("30");
+  const clips = await page.locator("canvas.density").evaluateAll((list) => list.map((canvas) => canvas.style.clipPath));
+  assert.match(clips[0], /^inset\(0(px)? 70% 0(px)? 0(px)?\)$/);
+  assert.match(clips[1], /^inset\(0(px)? 0(px)? 0(px)? 30%\)$/);
+  await check(page, "density compared");
+});
+
 test("events of a run lead to their time", async () => {
   const metrics = await service.json(`/v1/jobs/${job}/runs/0/metrics`);
   assert.equal(metrics.alarm_s, 8);

@@ -1,10 +1,14 @@
-// Screenshots of docs/studio.md, from a service of their own with two jobs.
-// usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT   OUTPUT: folder, docs/studio
-import { mkdirSync } from "node:fs";
+// Screenshots of docs/studio.md, from a service of their own with two jobs and a calibration.
+// usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT [NAME...]   OUTPUT: folder, docs/studio; NAME: of those alone, such as place
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import path from "node:path";
 import { launch, TestService } from "./service.mjs";
 
-const [program, packages, output] = process.argv.slice(2);
+const [program, packages, output, ...names] = process.argv.slice(2);
+const isWanted = (list) => names.length === 0 || list.some((name) => names.includes(name));
+const kWithoutJobs = ["calibration", "place"];
 const camera = { width: 1280, height: 720 };
 const kJobs = [
   { name: "Square, 200 people", seed: 4, crowd: { agents: 200 } },
@@ -18,13 +22,33 @@ const kJobs = [
   ...job,
 }));
 
+/** The id of a calibration by images of the board that throng renders. */
+async function calibrated() {
+  const boards = mkdtempSync(path.join(tmpdir(), "throng-boards-"));
+  spawnSync(program, ["calibrate", "selftest", "--views", "12", "--images", boards], { stdio: "ignore" });
+  const images = readdirSync(boards).sort();
+  const form = new FormData();
+  form.append("request", JSON.stringify({ name: "wide camera", images, board: { columns: 12, rows: 9, square: 0.025 }, lens: "auto" }));
+  for (const name of images) form.append("file", new Blob([readFileSync(path.join(boards, name))], { type: "image/png" }), name);
+  rmSync(boards, { recursive: true });
+  const { id } = await service.json("/v1/calibrations", { method: "POST", body: form });
+  for (;;) {
+    const { state, error } = await service.json(`/v1/calibrations/${id}`);
+    if (state === "succeeded") return id;
+    if (state === "failed") throw new Error(`the calibration failed: ${error.message}`);
+    await new Promise((resolve) => setTimeout(resolve, 500));
+  }
+}
+
 const service = new TestService(program);
 await service.start();
 const browser = await launch(packages);
 try {
   mkdirSync(output, { recursive: true });
   const ids = [];
-  for (const job of kJobs) ids.push(await service.finished(job));
+  const needsJobs = names.length === 0 || names.some((name) => !kWithoutJobs.includes(name));
+  for (const job of needsJobs ? kJobs : []) ids.push(await service.finished(job));
+  const calibration = isWanted(["calibration"]) ? await calibrated() : "";
   const kScreens = [
     { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=2`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
     { name: "image", address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`, height: 800, ready: 'canvas.overlay[data-drawn$=" boxes,masks"]' },
@@ -32,11 +56,15 @@ try {
     { name: "downloads", address: `/jobs/${ids[0]}/downloads?include=images,coco`, height: 900, ready: ".parts .size:not(:empty)" },
     { name: "form", address: `/new?clone=${ids[0]}`, height: 900, ready: ".plan-sheet img" },
     { name: "compare", address: `/compare?job=${ids[0]}&job=${ids[1]}&t=13`, height: 980, ready: ".swipe .upper" },
+    { name: "filters", address: `/jobs/${ids[0]}/images?filters=all&state=running`, height: 900, ready: 'canvas.image[data-drawn="yes"] >> nth=3' },
+    { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
+    { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency" },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  for (const { name, address, height, ready, keys = "" } of kScreens) {
+  for (const { name, address, height, ready, keys = "", start = "" } of kScreens.filter((screen) => isWanted([screen.name]))) {
     await page.setViewportSize({ width: 1280, height });
     await page.goto(service.address + address);
+    if (start) await page.getByLabel("Start from").selectOption(start);
     if (keys) await page.locator("canvas.overlay[data-drawn]:not([data-drawn=''])").waitFor();
     for (const key of keys) await page.keyboard.press(key);
     await page.locator(ready).first().waitFor();

@@ -26,7 +26,7 @@ export class TestService {
 
   /** Resolves when the service listens. */
   start() {
-    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", "0", ...this.options], { stdio: ["ignore", "pipe", "pipe"] });
+    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", this.address ? new URL(this.address).port : "0", ...this.options], { stdio: ["ignore", "pipe", "pipe"] });
     return new Promise((resolve, reject) => {
       let text = "";
       const read = (chunk) => {
@@ -67,13 +67,18 @@ export class TestService {
     if (!response.ok) throw new Error(`${address}: ${response.status}`);
   }
 
-  async stop() {
+  /** Ends the service; its data stay. `start` begins it again at the same address. */
+  async halt() {
     const ended = new Promise((resolve) => this.child.on("exit", resolve));
     this.child.removeAllListeners("exit");
     this.child.on("exit", () => {});
     const gone = new Promise((resolve) => this.child.on("close", resolve));
     this.child.kill("SIGTERM");
     await Promise.race([ended, gone]);
+  }
+
+  async stop() {
+    await this.halt();
     rmSync(this.data, { recursive: true, force: true });
   }
 }

@@ -28,7 +28,10 @@ function typeOf(schema, indent) {
 function members(schema, indent) {
   const inner = `${indent}  `;
   const required = new Set(schema.required ?? []);
-  const lines = Object.entries(schema.properties).map(([key, value]) => {
+  // Required members without a description are there all the same.
+  const others = [...required].filter((key) => !(key in schema.properties)).map((key) => [key, {}]);
+  const described = { ...schema.properties, ...Object.fromEntries(others) };
+  const lines = Object.entries(described).map(([key, value]) => {
     const comment = value.description ? `${inner}/** ${value.description} */\n` : "";
     return `${comment}${inner}${key}${required.has(key) ? "" : "?"}: ${typeOf(value, inner)};\n`;
   });

@@ -1,4 +1,5 @@
 // Requests to the service.
+import { noteUnreachable } from "./reach";
 import { demandKey } from "./session";
 import type { Mistake, Problem } from "./types";
 
@@ -25,6 +26,7 @@ export async function request(path: string, init: RequestInit = {}): Promise<Res
     response = await fetch(path, init);
   } catch (error) {
     if ((error as Error).name === "AbortError") throw error;
+    noteUnreachable();
     throw new ApiError(0, "the service cannot be reached");
   }
   if (response.ok || response.status === 304) return response;

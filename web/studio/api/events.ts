@@ -1,6 +1,7 @@
 // Server-Sent Events by fetch: the browser's EventSource cannot send a key.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { request } from "./client";
+import { ApiError, getJson, request } from "./client";
+import type { Job } from "./types";
 
 export interface ServerEvent {
   type: string;
@@ -36,6 +37,16 @@ export async function* readEvents(body: ReadableStream<Uint8Array>, onId: (id: s
   }
 }
 
+/** Whether a job's events have ended with the job, and not with the service. */
+async function isOver(path: string, signal: AbortSignal): Promise<boolean> {
+  try {
+    const { state } = await getJson<Job>(path.replace(/\/events$/, ""), signal);
+    return state !== "queued" && state !== "running";
+  } catch (error) {
+    return error instanceof ApiError && error.status === 404;
+  }
+}
+
 async function follow(
   path: string,
   first: string,
@@ -53,7 +64,7 @@ async function follow(
       onConnection("live");
       pause = kFirstPauseMs;
       for await (const event of readEvents(response.body!, (id) => (last = id))) onEvent(event);
-      if (path !== "/v1/events") return onConnection("ended");
+      if (path !== "/v1/events" && (await isOver(path, signal))) return onConnection("ended");
     } catch {
       if (signal.aborted) return;
     }

@@ -1,10 +1,11 @@
 // Sign-in. A key is entered once; the service keeps it behind a cookie that scripts cannot read, so that images and
 // downloads are plain addresses.
 import { useEffect, useState } from "preact/hooks";
+import { onReturn } from "./reach";
 import type { Session as ServiceSession } from "./types";
 
 export interface Session {
-  /** Rises with each sign-in: whatever was refused before it is fetched again. */
+  /** Rises with each sign-in and when a lost service is back: whatever failed before is fetched again. */
   round: number;
   needsKey: boolean;
   /** Why a key is asked for; null: whatever is known so far is enough. */
@@ -30,6 +31,8 @@ export function noteSignIn(): void {
 export function demandKey(reason: string): void {
   if (session.demand !== reason) change({ ...session, needsKey: true, demand: reason });
 }
+
+onReturn(() => change({ ...session, round: session.round + 1 }));
 
 export function useSession(): Session {
   const [value, setValue] = useState(session);

@@ -261,6 +261,10 @@ export interface Upload {
   ids?: string[];
   /** Findings that do not prevent the upload (throng scenario check). */
   findings?: ({
+    pointer: string;
+    found: string;
+    expected: string;
+    message: string;
     severity: "error" | "warning";
     remedy: string;
   })[];

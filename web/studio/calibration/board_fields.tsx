@@ -38,7 +38,7 @@ interface TextFieldProps {
 }
 
 function TextField({ label, pointer, value, errors, placeholder = "", isNumber = true, onInput }: TextFieldProps) {
-  const own = errors.filter((error) => error.pointer === pointer);
+  const own = errors.filter((error) => error.pointer === pointer || error.pointer.startsWith(`${pointer}/`));
   const id = `calibration${pointer.replace(/\W/g, "-")}`;
   return (
     <div class={`field ${own.length ? "wrong" : ""}`}>
@@ -72,7 +72,7 @@ export function BoardFields({ settings, schema, errors, onChange }: BoardFieldsP
   const lenses = choicesOf(schemaAt(schema, ["lens"]));
   const dictionaries = choicesOf(schemaAt(schema, ["board", "dictionary"]));
   const unit = <span class="unit"> m</span>;
-  const text = (key: "name" | "columns" | "rows" | "square" | "marker") => ({
+  const text = (key: "name" | "columns" | "rows" | "square" | "marker" | "fix" | "prior") => ({
     value: settings[key],
     errors,
     onInput: (value: string) => onChange({ [key]: value }),
@@ -119,6 +119,17 @@ export function BoardFields({ settings, schema, errors, onChange }: BoardFieldsP
         </label>
         <TextField label="Name" pointer="/name" isNumber={false} placeholder="of the camera" {...text("name")} />
       </div>
+      <details class="known" open={settings.fix !== "" || settings.prior !== "" || settings.isSquare}>
+        <summary>What is known of the lens</summary>
+        <div class="fields">
+          <TextField label="Fixed" pointer="/fix" isNumber={false} placeholder="k3, cx = 640" {...text("fix")} />
+          <TextField label="About known" pointer="/prior" isNumber={false} placeholder="cx = 640 ± 20" {...text("prior")} />
+          <label class="row check-field">
+            <input type="checkbox" checked={settings.isSquare} onChange={(event) => onChange({ isSquare: event.currentTarget.checked })} />
+            fx and fy are equal
+          </label>
+        </div>
+      </details>
     </fieldset>
   );
 }

@@ -11,6 +11,8 @@ import { type Camera, type FoundPoints, residualScale } from "./camera";
 import { CoverageFigure, LensTable, ParameterTable, ResidualList } from "./figures";
 import { imagePath } from "./request";
 import { ViewFigure } from "./view_figure";
+import { PoseTable } from "./pose_table";
+import { warningText } from "./warnings";
 
 const kPollMs = 700;
 const kPercent = 1000;
@@ -85,10 +87,16 @@ function Result({ camera, found }: { camera: Camera; found: FoundPoints | null }
           <strong>{countText(camera.warnings.length, "warning")}</strong>
           <ul class="mistakes">
             {camera.warnings.map((warning) => (
-              <li key={warning}>{warning}</li>
+              <li key={warning}>{warningText(warning)}</li>
             ))}
           </ul>
         </div>
+      )}
+      {camera.kind && camera.kind !== "intrinsics" && (
+        <section aria-labelledby="poses">
+          <h2 id="poses">Poses</h2>
+          <PoseTable camera={camera} />
+        </section>
       )}
       <div class="calibration-result">
         <section aria-labelledby="parameters" class="stack">

@@ -4,15 +4,20 @@ import { type ApiError, asApiError, getJson, request } from "../api/client";
 import { useInterval, useJson } from "../api/resource";
 import type { Calibration, CalibrationList } from "../api/types";
 import type { Schema } from "../form/schema";
-import { Confirmation, Empty, ErrorBox, type Question, StateBadge } from "../parts/elements";
+import { Confirmation, Empty, ErrorBox, type Question, StateBadge, Tabs } from "../parts/elements";
 import { agoText, countText } from "../parts/format";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { BoardFields } from "./board_fields";
 import { ImageChoice } from "./image_choice";
+import { PoseForm } from "./pose_form";
 import { type ChosenImage, kMaxBytes, sendCalibration, sentImages, type Settings, settingsOf, storedSettings, storeSettings } from "./request";
 
 const kPollMs = 2000;
 const kMinImages = 2;
+const kForms = [
+  { id: "lens", label: "Lens, from images of a board" },
+  { id: "poses", label: "Poses, from control points" },
+];
 
 export const removeCalibration = (id: string) => request(`/v1/calibrations/${id}`, { method: "DELETE" });
 export const nameOf = (calibration: Calibration) => calibration.name || `calibration ${calibration.id}`;
@@ -125,6 +130,7 @@ function CalibrationTable({ list, onRemove }: TableProps) {
 export function CalibrationsScreen() {
   const { query } = usePlace();
   const after = query.get("after");
+  const form = query.get("form") === "poses" ? "poses" : "lens";
   const list = useJson<CalibrationList>(`/v1/calibrations?limit=20${after ? `&after=${encodeURIComponent(after)}` : ""}`);
   const [question, setQuestion] = useState<Question | null>(null);
   const [error, setError] = useState<ApiError | null>(null);
@@ -145,7 +151,18 @@ export function CalibrationsScreen() {
         <p class="quiet-text">Images of a board give the lens of a real camera, so that a dataset has exactly that camera.</p>
       </div>
       <ErrorBox error={error ?? (list.error?.status !== 401 ? list.error : null)} />
-      {list.value && <NewCalibration schema={list.value.schema as Schema} />}
+      {list.value && (
+        <>
+          <Tabs label="New calibration" tabs={kForms} selected={form} onSelect={(id) => navigate(withQuery(query, { form: id === "lens" ? null : id }), { replace: true })} />
+          <div id="panel" role="tabpanel" aria-labelledby={`tab-${form}`}>
+            {form === "lens" ? (
+              <NewCalibration schema={list.value.schema as Schema} />
+            ) : (
+              <PoseForm calibrations={calibrations.filter((entry) => entry.state === "succeeded")} nameOf={nameOf} />
+            )}
+          </div>
+        </>
+      )}
       <section aria-labelledby="calibrations">
         <h2 id="calibrations">Calibrations</h2>
         {list.value && calibrations.length === 0 && <Empty title="No calibrations yet" />}

@@ -6,9 +6,12 @@ export interface CameraView {
   points: number; ///< used
   rms_px: number | null;
   outliers: unknown[];
+  "camera_centre": [number, number, number]; ///< in the frame of the points
+  rotation_vector: [number, number, number]; ///< from that frame to the camera's
 }
 
 export interface Camera {
+  kind?: "intrinsics" | "pose" | "bundle";
   lens: string;
   width: number;
   height: number;
@@ -77,4 +80,15 @@ export function residualScale(camera: Camera): number {
   const power = 10 ** Math.floor(Math.log10(wanted));
   const steps = [5, 2, 1].map((step) => step * power);
   return Math.min(10_000, Math.max(1, steps.find((step) => step <= wanted) ?? power));
+}
+
+/** Where a camera looks in the frame of the points: degrees from +x to +y, and above the level. */
+export function directionOf([x, y, z]: CameraView["rotation_vector"]): { heading: number; pitch: number } {
+  const angle = Math.hypot(x, y, z);
+  const [a, b, c] = angle > 0 ? [x / angle, y / angle, z / angle] : [0, 0, 1];
+  // Rodrigues: the third row of the rotation is the camera's axis.
+  const [sin, rest] = [Math.sin(angle), 1 - Math.cos(angle)];
+  const axis = [c * a * rest - b * sin, c * b * rest + a * sin, Math.cos(angle) + c * c * rest] as const;
+  const degrees = (radians: number) => (radians * 180) / Math.PI;
+  return { heading: degrees(Math.atan2(axis[1], axis[0])), pitch: degrees(Math.asin(Math.max(-1, Math.min(1, axis[2])))) };
 }

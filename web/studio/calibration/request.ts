@@ -1,6 +1,7 @@
 // A request for a calibration by images of a board, and how it is sent.
 import { request as send } from "../api/client";
 import type { Calibration } from "../api/types";
+import { fixedOf, fixedText, numberOr, priorsOf, priorText } from "./known";
 
 export interface Settings {
   name: string;
@@ -12,6 +13,9 @@ export interface Settings {
   dictionary: string;
   lens: string;
   skew: boolean;
+  fix: string; ///< as in known.ts
+  prior: string;
+  isSquare: boolean; ///< fx and fy are equal
 }
 
 export interface ChosenImage {
@@ -34,6 +38,9 @@ export const kUsualSettings: Settings = {
   dictionary: "4X4_50",
   lens: "auto",
   skew: false,
+  fix: "",
+  prior: "",
+  isSquare: false,
 };
 
 export function storedSettings(): Settings {
@@ -62,21 +69,30 @@ export function settingsOf(request: Record<string, unknown>): Settings {
     dictionary: text(board["dictionary"], "4X4_50"),
     lens: text(request["lens"], "brown5"),
     skew: request["skew"] === true,
+    fix: fixedText(request["fix"]),
+    prior: priorText(request["prior"]),
+    isSquare: "fx" in ((request["tie"] ?? {}) as object),
   };
 }
 
-/** A number where the text is one; else the text, so that the service says what is wrong with it. */
-const numberOr = (text: string) => (text.trim() === "" || Number.isNaN(Number(text)) ? text : Number(text));
-
 export function requestOf(settings: Settings, images: ChosenImage[]): object {
-  const { name, kind, columns, rows, square, marker, dictionary, lens, skew } = settings;
+  const { name, kind, columns, rows, square, marker, dictionary, lens, skew, fix, prior, isSquare } = settings;
   const board: Record<string, unknown> = { kind, columns: numberOr(columns), rows: numberOr(rows) };
   if (square.trim()) board["square"] = numberOr(square);
   if (kind === "charuco") {
     board["dictionary"] = dictionary;
     if (marker.trim()) board["marker"] = numberOr(marker);
   }
-  return { ...(name.trim() ? { name: name.trim() } : {}), images: images.map((image) => image.name), board, lens, skew };
+  return {
+    ...(name.trim() ? { name: name.trim() } : {}),
+    images: images.map((image) => image.name),
+    board,
+    lens,
+    skew,
+    ...(fix.trim() ? { fix: fixedOf(fix) } : {}),
+    ...(prior.trim() ? { prior: priorsOf(prior) } : {}),
+    ...(isSquare ? { tie: { fx: { to: "fy" } } } : {}),
+  };
 }
 
 /** Images of a list of files beside those that are chosen, and in words why others are not taken. */

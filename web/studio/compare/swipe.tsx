@@ -6,6 +6,7 @@ import type { Dataset, ImageName } from "../dataset/coco";
 import { useDataset } from "../dataset/stage";
 import { captureOf, frameAt, timeOf } from "../run/capture";
 import { Swatch } from "./curves";
+import { DensityMap, useDensities } from "./density";
 
 interface SwipeProps {
   jobs: [Job, Job];
@@ -38,6 +39,10 @@ function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
   const images = datasets.map((dataset, side) => chosen && nearestImage(dataset, jobs[side]!, chosen.run, chosen.camera, time_s));
   const [left, right] = images;
   const sources = [useSource(left ? datasets[0].address(left) : null), useSource(right ? datasets[1].address(right) : null)];
+  const [hasDensity, setDensity] = useState(false);
+  const sides = [left, right].map((image, side) => (image ? { dataset: datasets[side]!, image } : null));
+  const densities = useDensities(sides[0] ?? null, sides[1] ?? null, hasDensity);
+  const maps = typeof densities === "object" ? densities : null;
   if (!chosen || !left || !right) return <p class="quiet-text">These two jobs have no run and camera of the same name.</p>;
   const caption = (side: 0 | 1, image: ImageName) => (
     <span>
@@ -56,10 +61,26 @@ function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
           ))}
         </select>
       </label>
+      <label class="row">
+        <input type="checkbox" checked={hasDensity} onChange={(event) => setDensity(event.currentTarget.checked)} />
+        Density
+      </label>
+      {typeof densities === "string" && (
+        <p class="notice warn" role="status">
+          {densities}
+        </p>
+      )}
+      {maps && (
+        <p class="quiet-text">
+          Both maps have the same colors, up to {maps.scale.max.toPrecision(2)} people per pixel. People in the images: {maps.people[0].toFixed(1)} and {maps.people[1].toFixed(1)}.
+        </p>
+      )}
       <figure>
         <div class="stage swipe">
           {sources[0] && <img src={sources[0]} alt={`${jobs[0].name}: ${left.path}`} />}
           {sources[1] && <img class="upper" src={sources[1]} alt={`${jobs[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />}
+          {maps && <DensityMap raster={maps.rasters[0]} scale={maps.scale} label={`density of ${jobs[0].name}`} clip={`inset(0 ${100 - edge}% 0 0)`} />}
+          {maps && <DensityMap raster={maps.rasters[1]} scale={maps.scale} label={`density of ${jobs[1].name}`} clip={`inset(0 0 0 ${edge}%)`} />}
           <div class="edge" style={{ left: `${edge}%` }} />
         </div>
         <figcaption class="row swipe-caption">

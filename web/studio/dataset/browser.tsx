@@ -1,12 +1,15 @@
 // The images of a dataset: a grid by pages, and one image with its labels.
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import { request } from "../api/client";
 import { useJson } from "../api/resource";
 import type { ImageList, Job } from "../api/types";
 import { Empty, ErrorBox } from "../parts/elements";
 import { countText } from "../parts/format";
+import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { type ImageName, imageOf } from "./coco";
+import { choiceOf, chosenImages, type Facet, facetsOf } from "./facets";
+import { Filters, useIndex } from "./filters";
 import { useDataset } from "./stage";
 import { Viewer } from "./viewer";
 
@@ -88,24 +91,23 @@ function pageAddress(id: string, query: URLSearchParams, page: number): string {
   return `/v1/jobs/${id}/images?${parameters}`;
 }
 
-function Grid({ id, query }: { id: string; query: URLSearchParams }) {
-  const page = Math.max(1, Number(query.get("page") ?? 1) || 1);
-  const list = useJson<ImageList>(pageAddress(id, query, page));
-  if (!list.value) return list.error ? <ErrorBox error={list.error.status === 401 ? null : list.error} /> : <p class="loading">Loading …</p>;
-  const { images, total, runs } = list.value;
+interface GridProps {
+  id: string;
+  query: URLSearchParams;
+}
+
+const pageOf = (query: URLSearchParams) => Math.max(1, Number(query.get("page") ?? 1) || 1);
+
+interface ThumbnailsProps extends GridProps {
+  images: { path: string; run: string; camera: string; frame: number }[]; ///< of the page
+  total: number;
+}
+
+function Thumbnails({ id, query, images, total }: ThumbnailsProps) {
+  const page = pageOf(query);
   const pages = Math.max(1, Math.ceil(total / kPage));
   return (
     <>
-      <div class="row wrap filters">
-        <Filter label="Run" name="run" values={runs.map((entry) => entry.run)} query={query} />
-        <Filter label="Camera" name="camera" values={sorted(runs.flatMap((entry) => entry.cameras.map((camera) => camera.camera)))} query={query} />
-        <span class="quiet-text">{countText(total, "image")}</span>
-        {query.get("run") && (
-          <a class="button small" href={`/jobs/${id}/runs/${Number(query.get("run")!.replace(/\D/g, ""))}`}>
-            Timeline
-          </a>
-        )}
-      </div>
       {images.length === 0 && <Empty title="No image fits" />}
       <div class="cards small-cards">
         {images.map((image) => (
@@ -138,6 +140,60 @@ function Grid({ id, query }: { id: string; query: URLSearchParams }) {
   );
 }
 
+/** Pages of the service: it filters by run and camera alone. */
+function Grid({ id, query }: GridProps) {
+  const list = useJson<ImageList>(pageAddress(id, query, pageOf(query)));
+  if (!list.value) return list.error ? <ErrorBox error={list.error.status === 401 ? null : list.error} /> : <p class="loading">Loading …</p>;
+  const { images, total, runs } = list.value;
+  return (
+    <>
+      <div class="row wrap filters">
+        <Filter label="Run" name="run" values={runs.map((entry) => entry.run)} query={query} />
+        <Filter label="Camera" name="camera" values={sorted(runs.flatMap((entry) => entry.cameras.map((camera) => camera.camera)))} query={query} />
+        <a class="button small" href={withQuery(query, { filters: "all", page: null })}>
+          All filters
+        </a>
+        <span class="quiet-text">{countText(total, "image")}</span>
+        {query.get("run") && (
+          <a class="button small" href={`/jobs/${id}/runs/${Number(query.get("run")!.replace(/\D/g, ""))}`}>
+            Timeline
+          </a>
+        )}
+      </div>
+      <Thumbnails {...{ id, query, images, total }} />
+    </>
+  );
+}
+
+const kNoFacets: Facet[] = [];
+
+/** Images chosen by their labels, which the browser reads once. */
+function FilteredGrid({ id, query }: GridProps) {
+  const state = useIndex(id, true);
+  const { index } = state;
+  const facets = useMemo(() => (index ? facetsOf(index) : kNoFacets), [index]);
+  const search = query.toString();
+  const choice = useMemo(() => choiceOf(facets, query), [facets, search]);
+  const images = useMemo(() => (index ? chosenImages(index, facets, choice) : []), [index, facets, choice]);
+  const first = (pageOf(query) - 1) * kPage;
+  return (
+    <>
+      <section class="card facets" aria-label="Filters">
+        <div class="row wrap">
+          <a class="button small" href={location.pathname}>
+            No filters
+          </a>
+          <span class="quiet-text" role="status">
+            {index && `${countText(images.length, "image")} of ${index.images.length.toLocaleString("en-US")}`}
+          </span>
+        </div>
+        <Filters {...{ state, facets, choice, query }} />
+      </section>
+      {index && <Thumbnails {...{ id, query }} images={images.slice(first, first + kPage)} total={images.length} />}
+    </>
+  );
+}
+
 /** One image; the labels need what the grid does without. */
 function Selected({ id, image, query }: { id: string; image: ImageName; query: URLSearchParams }) {
   const { dataset, error } = useDataset(id);
@@ -157,6 +213,7 @@ export function Browser({ id }: { id: string }) {
   const job = useJson<Job>(`/v1/jobs/${id}`);
   const path = query.get("image");
   const image = path === null ? null : imageOf(path);
+  if (job.error?.status === 404) return <GoneJob id={id} />;
   return (
     <div class="screen">
       <div class="heading">
@@ -167,7 +224,7 @@ export function Browser({ id }: { id: string }) {
       </div>
       {image && <Selected id={id} image={image} query={query} />}
       {path !== null && !image && <Empty title="The address names no image" />}
-      {path === null && <Grid id={id} query={query} />}
+      {path === null && (query.get("filters") ? <FilteredGrid id={id} query={query} /> : <Grid id={id} query={query} />)}
     </div>
   );
 }

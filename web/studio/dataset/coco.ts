@@ -54,7 +54,7 @@ export interface ImageRecord {
   counts?: { all: number; visible: number; truncated: number };
   hidden?: { track_id: number; bbox_amodal: [number, number, number, number] }[];
   exits?: ExitRecord[];
-  environment?: { weather?: string; time_of_day?: string };
+  environment?: { weather?: string; time_of_day?: string; sun_elevation_deg?: number };
 }
 
 export interface Track {

@@ -6,6 +6,7 @@ import { useSession } from "../api/session";
 import type { Job } from "../api/types";
 import { Empty, ErrorBox } from "../parts/elements";
 import { bytesText } from "../parts/format";
+import { GoneJob } from "../parts/gone";
 import { navigate, usePlace } from "../parts/router";
 import { CodeBlock } from "../parts/snippet";
 import { type FormatEntry, FormatList } from "./format_list";
@@ -133,6 +134,7 @@ export function DownloadsScreen({ id }: { id: string }) {
   const isReady = job.value !== null && hasDataset(job.value);
   const card = useJson<Card>(isReady ? `/v1/jobs/${id}/files/dataset.json` : null);
   const formats = useJson<{ formats: FormatEntry[] }>("/v1/formats");
+  if (job.error?.status === 404) return <GoneJob id={id} />;
   const error = job.error ?? card.error ?? formats.error;
   return (
     <div class="screen">

@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { Job, Mistake } from "../api/types";
 import { useSource } from "../api/resource";
 import type { ApiError } from "../api/client";
+import { useSession } from "../api/session";
 
 export function StateBadge({ state }: { state: Job["state"] }) {
   return <span class={`badge state-${state}`}>{state}</span>;
@@ -28,8 +29,10 @@ export function Progress({ done, total, label }: { done: number; total: number; 
 /** An image of the service; a blank of the same size until it is there. */
 export function ServiceImage({ path, alt, className = "" }: { path: string | null; alt: string; className?: string }) {
   const source = useSource(path);
+  const { round } = useSession();
+  const attempt = `${round} ${source}`;
   const [failed, setFailed] = useState<string | null>(null);
-  if (source && failed !== source) return <img class={`image ${className}`} src={source} alt={alt} decoding="async" onError={() => setFailed(source)} />;
+  if (source && failed !== attempt) return <img key={attempt} class={`image ${className}`} src={source} alt={alt} decoding="async" onError={() => setFailed(attempt)} />;
   return (
     <div class={`image blank ${className}`} role="img" aria-label={alt}>
       {failed ? <span>no image</span> : null}

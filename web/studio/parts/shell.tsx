@@ -2,6 +2,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { getJson, messageOf, sendJson } from "../api/client";
+import { useLost } from "../api/reach";
 import { demandKey, noteSession, noteSignIn, useSession } from "../api/session";
 import type { Session } from "../api/types";
 import { usePlace } from "./router";
@@ -81,6 +82,7 @@ export function Shell({ children }: { children: ComponentChildren }) {
           <ThemeButton />
         </div>
       </header>
+      <LostNote />
       <main id="main" tabIndex={-1}>
         {children}
       </main>
@@ -91,6 +93,16 @@ export function Shell({ children }: { children: ComponentChildren }) {
         </a>
       </footer>
     </>
+  );
+}
+
+/** Says so while the service does not answer; what was typed stays. */
+function LostNote() {
+  const isLost = useLost();
+  return (
+    <div role="status" class={isLost ? "notice warn lost-note" : "hidden"}>
+      {isLost && "The service cannot be reached; trying again. Nothing that was typed is lost."}
+    </div>
   );
 }
 

@@ -1,6 +1,7 @@
 // Findings of the service about a blueprint, a moment after each change.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { ApiError, asApiError, sendJson } from "../api/client";
+import { useSession } from "../api/session";
 import type { Mistake, Upload } from "../api/types";
 import type { JsonObject } from "../form/json";
 
@@ -22,9 +23,8 @@ export interface PlaceCheck {
 const sentence = ({ found, expected, message }: Mistake) => (found ? `found ${found}, expected ${expected}` : message);
 
 function findingsOf(upload: Upload): Finding[] {
-  // The generated type lacks what a finding has in common with mistakes.
-  return ((upload.findings ?? []) as (Mistake & { severity: string; remedy: string })[]).map((finding) => ({
-    severity: finding.severity === "warning" ? "warning" : "error",
+  return (upload.findings ?? []).map((finding) => ({
+    severity: finding.severity,
     pointer: finding.pointer,
     text: sentence(finding),
     remedy: finding.remedy,
@@ -37,6 +37,7 @@ const checkName = () => `check_${Math.random().toString(36).slice(2, 12)}`;
 export function useCheckedPlace(document: JsonObject): PlaceCheck {
   const [check, setCheck] = useState<PlaceCheck>({ isPending: true, findings: [], message: null });
   const controller = useRef<AbortController | null>(null);
+  const { round } = useSession();
   useEffect(() => {
     setCheck((last) => ({ ...last, isPending: true }));
     const timer = setTimeout(() => {
@@ -53,6 +54,6 @@ export function useCheckedPlace(document: JsonObject): PlaceCheck {
       );
     }, kPauseMs);
     return () => clearTimeout(timer);
-  }, [document]);
+  }, [document, round]);
   return check;
 }

@@ -7,6 +7,7 @@ import type { Dataset, ImageName, Labels } from "../dataset/coco";
 import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
+import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { EscapeCurve, ExitChart } from "./charts";
 import { EventChart } from "./event_chart";
@@ -147,6 +148,7 @@ export function RunScreen({ id, number }: { id: string; number: number }) {
   const place = job.value?.job["scenario"];
   const scenario = useJson<Scenario>(typeof place === "string" ? `/v1/scenarios/${place}` : null);
   const run = `run${String(number).padStart(3, "0")}`;
+  if (job.error?.status === 404) return <GoneJob id={id} />;
   const hasRun = (dataset?.camerasOf(run).length ?? 0) > 0;
   return (
     <div class="screen">

@@ -1,17 +1,19 @@
 // One job: progress of its runs, images as they come, logs, errors, and its results.
 import { useState } from "preact/hooks";
-import { ApiError, messageOf } from "../api/client";
+import { messageOf } from "../api/client";
 import { type ServerEvent, useEvents } from "../api/events";
 import { cancelJob, canRetry, editCopy, hasDataset, isActive, keepJob, removeJob, retryJob, shareDone, stageText } from "../api/jobs";
-import { useJson } from "../api/resource";
+import { useInterval, useJson } from "../api/resource";
 import type { Job, PreviewList, Progress as JobProgress } from "../api/types";
 import { ConnectionNote } from "../parts/connection";
+import { GoneJob } from "../parts/gone";
 import { Confirmation, ErrorBox, Figures, Mistakes, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
 import { bytesText, durationText, secondsBetween, timeText } from "../parts/format";
 import { navigate } from "../parts/router";
 import { Logs } from "./logs";
 import { Results } from "./results";
 
+const kPollMs = 5000;
 const kMaxPreviews = 12;
 
 function Actions({ job, onChange }: { job: Job; onChange: () => void }) {
@@ -202,9 +204,11 @@ export function JobScreen({ id }: { id: string }) {
     else resource.reload();
   };
   const isRunning = resource.value ? isActive(resource.value) : false;
+  // No event says that a job has been removed; one that is removed while it runs is cancelled first.
+  useInterval(resource.reload, isRunning || resource.value?.state === "cancelled" ? kPollMs : 0);
   const connection = useEvents(isRunning ? `/v1/jobs/${id}/events` : null, onEvent);
+  if (resource.error?.status === 404) return <GoneJob id={id} />;
   if (!resource.value) {
-    if (resource.error?.status === 404) return <GoneJob id={id} />;
     return resource.error && resource.error.status !== 401 ? <ErrorBox error={resource.error} /> : <p class="loading">Loading …</p>;
   }
   const job = { ...resource.value, progress: isRunning && live ? live : resource.value.progress };
@@ -269,15 +273,5 @@ function Summary({ job }: { job: Job }) {
       )}
       <Figures list={figures} />
     </div>
-  );
-}
-
-function GoneJob({ id }: { id: string }) {
-  return (
-    <ErrorBox error={new ApiError(404, `There is no job ${id}: it has been removed, or the address is wrong.`)}>
-      <a class="button" href="/jobs">
-        All jobs
-      </a>
-    </ErrorBox>
   );
 }

@@ -218,7 +218,8 @@ export function NewJob() {
   const check = useCheck(draft);
   const source = kSources.map((name) => query.get(name) ?? "").join(" ");
   useEffect(() => {
-    if (!schema.value) return;
+    // The schema comes again after a lost connection: the draft that is there counts.
+    if (!schema.value || (draft && !source.trim())) return;
     let isLatest = true;
     firstDraft(query, schema.value).then(
       (next) => {
