@@ -26,13 +26,14 @@ import urllib.request
 THRONG = sys.argv.pop(1)
 CRASHES = int(os.environ.get("THRONG_CRASHES", "2"))
 
-# Two shards per run (of 30 and of 6 frames), each long enough to be hit.
+# One shard per run, long enough to be hit; with $THRONG_LONG two (of 30 and of 6 frames).
+CAPTURE = {"rate_hz": 5, "from_s": 1, "to_s": 8} if os.environ.get("THRONG_LONG") else {"rate_hz": 1, "from_s": 1, "to_s": 2}
 JOB = {
     "name": "crash",
     "scenario": "city_square/nearest_exit",
     "runs": 2,
     "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
-    "capture": {"rate_hz": 5, "from_s": 1, "to_s": 8},
+    "capture": CAPTURE,
     "outputs": {"annotations": ["coco"]},
 }
 
@@ -278,7 +279,7 @@ class Crash(unittest.TestCase):
                     self.server = Server(self.base)
 
     def test_a_run_whose_worker_always_dies_leaves_the_others(self):
-        self.server.start(faults="die:run001/shard0001")
+        self.server.start(faults="die:run001/shard0000")
         job = self.server.request("POST", "/v1/jobs", JOB)["id"]
         end = self.server.wait_for_end(job)
         self.assertEqual(end["state"], "partial")
@@ -288,7 +289,7 @@ class Crash(unittest.TestCase):
         self.assertNotIn(str(self.base), json.dumps(end))
         manifest = self.server.request("GET", f"/v1/jobs/{job}/manifest")
         self.assertEqual([run["run"] for run in manifest["runs"]], ["run000"])
-        self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0001"}])
+        self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0000"}])
         # Everything present is complete.
         checked = subprocess.run([THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")],
                                  capture_output=True, text=True)
