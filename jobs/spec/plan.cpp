@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::int64_t kFramesPerShard = 30;
 constexpr std::int64_t kShardsPerShortRun = 4;
-/// What a worker needs before its first image (driver, people, place) and less than which a shard
-/// is not worth it.
+/// A worker needs longer than this before its first image: driver, people, place.
 constexpr double kMinShardS = 1;
 
 /// Of the job as it is written: shards must not depend on what is sampled for a run.
