@@ -22,8 +22,8 @@ std::string day_of(std::int64_t unix_ms) {
 }
 
 void print_keys(const std::vector<server::KeyRow>& keys) {
-  fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs",
-             "most GiB", "priority", "made", "revoked", "name");
+  fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "max jobs",
+             "max GiB", "priority", "made", "revoked", "name");
   for (const server::KeyRow& key : keys) {
     const int max_priority =
         key.scope >= server::Scope::admin ? server::kMaxPriority : key.max_priority;

@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kBorderPx = 20;
 constexpr int kTitlePx = 30;
-constexpr int kLegendPx = 80;
+constexpr int kLegendLinePx = 22;
+constexpr int kLegendColumnPx = 200;
 constexpr int kNarrowestPx = 640;  // the legend needs as much
 constexpr double kLettersPx = 13;
 
@@ -36,6 +37,13 @@ constexpr std::array<Entry, 10> kLegend = {{{"building", colors::kBuilding},
                                             {"people enter here", colors::kSource},
                                             {"drone", colors::kDrone},
                                             {"hazard", colors::kDanger}}};
+
+/// Of the scale and of the legend below it, in a drawing of this width.
+int legend_height_px(int width_px) {
+  const int columns = (width_px - kBorderPx) / kLegendColumnPx;
+  const int rows = (static_cast<int>(kLegend.size()) + columns - 1) / columns;
+  return (rows + 1) * kLegendLinePx;
+}
 
 /// A length for the scale: 1, 2 or 5 times a power of ten, about this long.
 double round_length(double length_m) {
@@ -65,7 +73,8 @@ Sheet::Sheet(const world::Rectangle& area, int size_px) : area_(area) {
   plan_height_px_ = static_cast<int>(std::ceil(size.y() * px_per_m_));
   drawing_.width_px =
       std::max(kNarrowestPx, static_cast<int>(std::ceil(size.x() * px_per_m_)) + 2 * kBorderPx);
-  drawing_.height_px = kTitlePx + plan_height_px_ + 2 * kBorderPx + kLegendPx;
+  drawing_.height_px =
+      kTitlePx + plan_height_px_ + 2 * kBorderPx + legend_height_px(drawing_.width_px);
 }
 
 Vector2d Sheet::at(const Vector2d& place) const {
@@ -138,8 +147,6 @@ void Sheet::finish(const std::string& title) {
 
 void Sheet::add_legend(double top_px) {
   constexpr double kBarPx = 160;
-  constexpr double kLinePx = 22;
-  constexpr double kColumnPx = 200;
   const double length_m = round_length(kBarPx / px_per_m_);
   Shape bar;
   bar.kind = Shape::Kind::line;
@@ -153,10 +160,10 @@ void Sheet::add_legend(double top_px) {
     drawing_.shapes.push_back(text_shape(place, text, kLettersPx, colors::kInk));
   };
   write({end + 8, top_px + 8}, fmt::format("{:g} m", length_m));
-  Vector2d place(kBorderPx, top_px + kLinePx + 6);
+  Vector2d place(kBorderPx, top_px + kLegendLinePx + 6);
   for (const Entry& entry : kLegend) {
-    if (place.x() + kColumnPx > drawing_.width_px) {
-      place = {static_cast<double>(kBorderPx), place.y() + kLinePx};
+    if (place.x() + kLegendColumnPx > drawing_.width_px) {
+      place = {static_cast<double>(kBorderPx), place.y() + kLegendLinePx};
     }
     Shape box;
     box.points = {place, place + Vector2d(12, 0), place + Vector2d(12, 10),
@@ -165,7 +172,7 @@ void Sheet::add_legend(double top_px) {
     box.fill.opacity = 1;
     drawing_.shapes.push_back(std::move(box));
     write(place + Vector2d(18, 10), entry.words);
-    place.x() += kColumnPx;
+    place.x() += kLegendColumnPx;
   }
 }
 

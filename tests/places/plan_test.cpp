@@ -42,6 +42,19 @@ TEST_F(PlanOfYard, SaysExitsWidthsFlowsAndDrones) {
               IsSupersetOf({"gate 3 m", "nearest exit for 16", "d1, 20 m up", "hut", "10 m"}));
 }
 
+TEST_F(PlanOfYard, HasRoomForTheWholeLegend) {
+  const world::Scenario scenario = world::load_scenario(yard.write(folder), "yard");
+  for (const int size_px : {200, 600, 800, 1000, 3000}) {
+    const Drawing drawing = draw_plan(scenario, size_px);
+    EXPECT_THAT(labels(drawing), IsSupersetOf({"building", "hazard"}));
+    for (const Shape& shape : drawing.shapes) {
+      for (const auto& point : shape.points) {
+        EXPECT_LE(point.y(), drawing.height_px) << size_px << " " << shape.text;
+      }
+    }
+  }
+}
+
 TEST_F(PlanOfYard, SaysHowManyComeWhere) {
   const std::string there = yard.generator;
   yard.generator = there + R"(</AgentGroup><AgentGroup>
