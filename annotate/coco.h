@@ -51,6 +51,9 @@ inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgents
 /// A person's track_id, equal in all frames and cameras of a run: agent id + 1 + run_index *
 /// kTrackIdsPerRun.
 inline constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+constexpr std::int64_t track_id(std::int64_t run_index, std::uint32_t agent) {
+  return agent + 1 + run_index * kTrackIdsPerRun;
+}
 
 /// Writes the records of one shard of frames: `images.jsonl`, `annotations.jsonl` and, of who is in
 /// them, `tracks.jsonl` in a folder, one JSON object per line, and `coco_shard.json`, which counts

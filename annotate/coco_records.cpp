@@ -158,7 +158,7 @@ void append_whole(std::string& text, const CocoImage& image, std::uint32_t numbe
 }  // namespace
 
 std::int64_t track_id(const CocoImage& image, std::uint32_t agent) {
-  return agent + 1 + image.run_index * kTrackIdsPerRun;
+  return track_id(image.run_index, agent);
 }
 
 void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent) {

@@ -29,6 +29,7 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::density, make<PixelCheck<check_density>>},
     GroundTruthChecker{GroundTruth::exits, make<ExitsCheck>},
     GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
+    GroundTruthChecker{GroundTruth::trajectories, make<TrajectoriesCheck>},
     GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
     GroundTruthChecker{GroundTruth::instances, make<PixelCheck<check_instances>>},
     GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},

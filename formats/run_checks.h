@@ -76,6 +76,26 @@ class FieldsCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
 };
 
+/// trajectories/RUN.npy against the people in the images, and against how fast people run.
+class TrajectoriesCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+  struct Seen {
+    Eigen::Vector2d position;
+    double heading_rad = 0;
+    std::string behavior;
+  };
+  struct Frame {
+    double time_s = 0;
+    std::map<std::int64_t, Seen> people;  ///< by track
+  };
+
+ private:
+  std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
+};
+
 /// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
 class ConstancyCheck {
  public:

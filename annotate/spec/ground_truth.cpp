@@ -51,6 +51,12 @@ constexpr std::array kKinds = {
                     .file = "fields/RUN/FRAME.npy",
                     .content = "people per square metre, velocity, Voronoi density; grid in "
                                "fields/RUN.json"},
+    GroundTruthKind{.kind = GroundTruth::trajectories,
+                    .name = "trajectories",
+                    .help = "everybody's, seen or not",
+                    .file = "trajectories/RUN.npy",
+                    .content = "x, y, heading and state of everybody at the times of the frames; "
+                               "times and track ids in trajectories/RUN.json"},
     GroundTruthKind{.kind = GroundTruth::depth,
                     .name = "depth",
                     .extent = Extent::pixel,

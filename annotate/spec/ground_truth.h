@@ -21,6 +21,7 @@ enum class GroundTruth : std::uint8_t {
   density,
   exits,
   fields,
+  trajectories,
   depth,
   instances,
   parts,

@@ -6,8 +6,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "annotate/coco.h"
 #include "annotate/exits_csv.h"
 #include "annotate/ground_field.h"
+#include "annotate/trajectories.h"
 #include "base/error.h"
 #include "jobs/pipeline/flight_record.h"
 #include "jobs/spec/plan.h"
@@ -47,6 +49,24 @@ void write_fields(RunOutput& output) {
   output.publication.add("fields/" + run + ".json", grid.dump(kJsonIndent) + "\n");
 }
 
+void write_trajectories(RunOutput& output) {
+  std::vector<double> times_s;
+  for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
+    times_s.push_back(output.job.frame_time_s(frame));
+  }
+  const annotate::Trajectories found = annotate::trajectories_at(output.trace, times_s);
+  nlohmann::json tracks = nlohmann::json::array();
+  for (const std::uint32_t agent : found.agents) {
+    tracks.push_back(annotate::track_id(output.run, agent));
+  }
+  const std::string run = run_name(output.run);
+  output.publication.add(file_of(GroundTruth::trajectories, run), annotate::npy_bytes(found));
+  const nlohmann::json description = {{"times_s", times_s},
+                                      {"track_ids", std::move(tracks)},
+                                      {"states", output.trace.header.state_names}};
+  output.publication.add("trajectories/" + run + ".json", description.dump() + "\n");
+}
+
 void write_sensors(RunOutput& output) {
   const std::uint64_t seed = plan_runs(output.job)[static_cast<std::size_t>(output.run)].seed;
   for (std::size_t i = 0; i < output.job.drones.size(); ++i) {
@@ -64,6 +84,7 @@ void write_sensors(RunOutput& output) {
 constexpr std::array kRunWriters = {
     RunWriter{GroundTruth::exits, write_exits_table},
     RunWriter{GroundTruth::fields, write_fields},
+    RunWriter{GroundTruth::trajectories, write_trajectories},
     RunWriter{GroundTruth::sensors, write_sensors},
 };
 

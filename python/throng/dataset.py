@@ -6,7 +6,6 @@ Operations (filter, split, resample, ...) give new views; they copy no files and
 from __future__ import annotations
 
 import copy
-import io
 import math
 import os
 from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
@@ -14,6 +13,7 @@ from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overl
 import numpy as np
 from numpy.typing import NDArray
 
+from ._npy import read_npy
 from ._optional import require
 from .annotations import PERSON, AnnotationFilter
 from .errors import DatasetError
@@ -150,17 +150,17 @@ class Dataset(Sequence[Frame]):
         """(4, rows, columns): people per m2, velocity in x and y, people per m2 by Voronoi cells; and the grid."""
         source = self._sources[0]
         grid = source.object(f"fields/{run}.json")
-        name = f"fields/{run}/{frame:06d}.npy"
-        try:
-            values = np.load(io.BytesIO(source.storage.read(name)), allow_pickle=False)
-        except (ValueError, OSError, EOFError) as error:
-            if isinstance(error, DatasetError):
-                raise
-            raise DatasetError(f"{source.storage.where(name)}: found no whole NumPy file ({error})") from error
         expected = (4, grid.get("rows"), grid.get("columns"))
-        if values.shape != expected:
-            raise DatasetError(f"{source.storage.where(name)}: found the shape {values.shape}, expected {expected}")
-        return values, grid
+        return read_npy(source, f"fields/{run}/{frame:06d}.npy", expected), grid
+
+    def trajectories(self, run: str) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
+        """(frames, people, 4): x, y (m), heading (rad) and the state's number of everybody, seen or not, NaN where
+        absent; and the times of the frames, the people's track ids and the names of the states."""
+        source = self._sources[0]
+        description = source.object(f"trajectories/{run}.json")
+        name = f"trajectories/{run}.npy"
+        expected = (len(description.get("times_s", ())), len(description.get("track_ids", ())), 4)
+        return read_npy(source, name, expected), description
 
     # Views.
 

@@ -8,6 +8,7 @@ GEOMETRY = [
     "density",
     "exits",
     "fields",
+    "trajectories",
     "depth",
     "instances",
     "parts",

@@ -48,11 +48,10 @@ JOB = {
     },
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
-# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, or what a behavior's names mean. The
+# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody. The
 # damage to hidden people takes some here who are hidden in all images.
 NOT_FOUND = {
     "attributes of two people exchanged",
-    "behaviors of people exchanged",
     "field one cell off",
     "flow of exits doubled",
     "hidden people of one picture left out",
@@ -117,6 +116,7 @@ ONE_PER_RULE = {
     "sensors": "sensor columns vx and vy exchanged",
     "state": "velocities in km per h",
     "time": "times one frame late",
+    "trajectories": "trajectories 10 cm off",
     "truncation": "truncation doubled",
     "velocity-is-motion": "velocities 5 percent too high",
     "visibility-is-ratio": "visibility inverted",

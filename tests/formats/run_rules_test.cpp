@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "formats/run_checks.h"
@@ -200,6 +201,88 @@ TEST(FieldRules, HaveTheirShape) {
   FieldsOfRun shorter;
   shorter.values.pop_back();
   EXPECT_TRUE(any_with(shorter.faults(), "another shape or type"));
+}
+
+/// Two frames of three people, of whom an image shows the second; the third comes late.
+class TrajectoriesOfRun {
+ public:
+  TrajectoriesOfRun() : info_(hand_made::info(folder_.path())) { info_.runs = {"run002"}; }
+
+  std::vector<float> values = {0, 0, 0, 0, 3,    2.5F, 1, 1, kNaN, kNaN, kNaN, kNaN,
+                               1, 0, 0, 0, 3.5F, 2.5F, 1, 1, 9,    9,    0,    0};
+  json description = {{"times_s", {1, 2}}, {"track_ids", {2, 3, 7}}, {"states", {"Walk", "Wait"}}};
+  std::int64_t shown_track = 3;
+  double shown_s = 2;
+  double shown_heading_rad = 1 - 2 * std::numbers::pi;
+
+  std::vector<std::string> faults() const {
+    write_file_atomically(info_.root / "trajectories/run002.json", description.dump());
+    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3, 4), }";
+    header.resize(118, ' ');
+    std::string bytes =
+        std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+    write_file_atomically(info_.root / "trajectories/run002.npy", bytes);
+    return found_by([&](Findings& findings) {
+      TrajectoriesCheck check;
+      Image image = hand_made::image();
+      image.frame = 1;
+      image.time_s = shown_s;
+      Person person = hand_made::person(3, {1, 1, 1, 1}, {1, 1, 1, 1}, 1);
+      person.track_id = shown_track;
+      person.position = {3.502, 2.5, 0};
+      person.heading_rad = shown_heading_rad;
+      person.record["behaviour"] = "Wait";
+      image.people = {person};
+      check.add(info_, image, findings);
+      check.finish(info_, findings);
+    });
+  }
+
+ private:
+  static constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  throng::testing::TemporaryFolder folder_;
+  DatasetInfo info_;
+};
+
+TEST(TrajectoryRules, AreThoseOfThePeopleInImages) {
+  EXPECT_THAT(TrajectoriesOfRun().faults(), IsEmpty());
+  TrajectoriesOfRun off;
+  off.values[16] += 0.05F;
+  EXPECT_TRUE(any_with(off.faults(), "0.05 m from the position"));
+  TrajectoriesOfRun turned;
+  turned.shown_heading_rad = 2;
+  EXPECT_TRUE(any_with(turned.faults(), "heading 1.00, in an image 2.00"));
+  TrajectoriesOfRun other;
+  other.values[19] = 0;
+  EXPECT_TRUE(any_with(other.faults(), "state \"Walk\", in an image \"Wait\""));
+  TrajectoriesOfRun unknown;
+  unknown.shown_track = 4;
+  EXPECT_TRUE(any_with(unknown.faults(), "no track 4"));
+  TrajectoriesOfRun late;
+  late.shown_s = 2.5;
+  EXPECT_TRUE(any_with(late.faults(), "in an image at 2.5 s"));
+}
+
+TEST(TrajectoryRules, HoldOfPeopleWhomNoCameraSees) {
+  TrajectoriesOfRun fast;
+  fast.values[12] = 20;
+  EXPECT_TRUE(any_with(fast.faults(), "20.00 m in 1 s"));
+  TrajectoriesOfRun partly;
+  partly.values[9] = 3;
+  EXPECT_TRUE(any_with(partly.faults(), "no numbers"));
+  TrajectoriesOfRun state;
+  state.values[23] = 2;
+  EXPECT_TRUE(any_with(state.faults(), "state 2"));
+  TrajectoriesOfRun unordered;
+  unordered.description["track_ids"] = {3, 2, 7};
+  EXPECT_TRUE(any_with(unordered.faults(), "another order"));
+  TrajectoriesOfRun shorter;
+  shorter.values.pop_back();
+  EXPECT_TRUE(any_with(shorter.faults(), "another shape or type"));
+  TrajectoriesOfRun wrong;
+  wrong.description = json::array();
+  EXPECT_FALSE(wrong.faults().empty());
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ JOB = {
             "density",
             "exits",
             "fields",
+            "trajectories",
             "depth",
             "instances",
             "parts",

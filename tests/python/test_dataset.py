@@ -132,8 +132,24 @@ class Reading(unittest.TestCase):
             sensors = dataset.sensors("run000", "d1")
             self.assertGreater(sensors.rows, 500)
             self.assertAlmostEqual(float(sensors["true_z_m"][0]), 15)
+            self.check_trajectories(dataset)
             field, grid = dataset.field("run001", 1)
             self.assertAlmostEqual(float(field[0].sum()) * grid["cell_m"] ** 2, grid["people"][1], delta=0.01)
+
+    def check_trajectories(self, dataset):
+        """Everybody whom an image shows is where the image has the person; others are there too."""
+        values, description = dataset.trajectories("run001")
+        self.assertEqual(values.shape[2], 4)
+        seen = set()
+        for frame in dataset.filter(runs=["run001"]):
+            people = frame.people
+            for track, position in zip(people.track_ids, people.positions):
+                person = description["track_ids"].index(track)
+                np.testing.assert_allclose(values[frame.index, person, :2], position[:2], atol=0.006)
+                seen.add(track)
+            self.assertAlmostEqual(description["times_s"][frame.index], frame.time_s, places=3)
+        present = (~np.isnan(values[..., 0])).any(axis=0).sum()
+        self.assertGreater(present, len(seen))
 
     def test_copies_in_other_processes(self):
         for name, dataset in self.datasets.items():

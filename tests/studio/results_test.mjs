@@ -18,7 +18,7 @@ const kJob = {
     { id: "d2", camera: { width: 320, height: 180 } },
   ],
   capture: { from_s: 2, to_s: 10, rate_hz: 0.25 },
-  outputs: { annotations: ["coco", "keypoints", "exits", "density", "depth"], formats: ["mot"], splits: { train: 0.5, val: 0.5 }, previews: 0 },
+  outputs: { annotations: ["coco", "keypoints", "exits", "density", "depth", "trajectories"], formats: ["mot"], splits: { train: 0.5, val: 0.5 }, previews: 0 },
 };
 const kImage = "images/run000/d2/000001.jpg";
 
@@ -259,6 +259,22 @@ test("events of a run lead to their time", async () => {
   await page.keyboard.press("Enter");
   await page.getByRole("slider", { name: "Time" }).and(page.locator('[aria-valuetext="10.0 s"]')).waitFor(); // the nearest image
   await check(page, "run with events");
+});
+
+test("the plan shows everybody, seen by a camera or not", async () => {
+  await go(`/jobs/${job}/runs/0?frame=1`);
+  const seen = new Set(["d1", "d2"].flatMap((camera) => peopleOf(`images/run000/${camera}/000001.jpg`).people.filter((entry) => entry.category_id === 1).map((entry) => entry.track_id)));
+  const { track_ids } = await service.json(`/v1/jobs/${job}/files/trajectories/run000.json`);
+  const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${job}/files/trajectories/run000.npy`)).arrayBuffer());
+  const start = 10 + npy.readUInt16LE(8);
+  const present = track_ids.filter((_, person) => !Number.isNaN(npy.readFloatLE(start + 16 * (track_ids.length + person))));
+  const unseen = present.filter((track) => !seen.has(track)).length;
+  assert.ok(unseen > 0, "a person whom no camera sees");
+  assert.ok([...seen].every((track) => present.includes(track)));
+  await page.getByRole("img", { name: `${present.length} people on the plan` }).waitFor();
+  await page.getByText(new RegExp(`White: ${unseen} (person|people) that no camera sees`)).waitFor();
+  assert.equal(await page.locator("circle.unseen").count(), unseen);
+  await check(page, "everybody on the plan");
 });
 
 test("nothing was on the console", () => assert.deepEqual(complaints, []));

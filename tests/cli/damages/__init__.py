@@ -5,9 +5,13 @@ usage: python3 tests/cli/damages THRONG DATASET [NAME...]    prints a table; DAT
 runs, two cameras and five frames; damages of formats/ need `mot`, `yolo-detect`, `kitti`, `voc` and `table` there.
 
 All damages by the module that holds them; names on the command line have blanks for underscores."""
-from . import cameras, exits, exports, fields, identities, images, lenses, pixels, poses, shapes
+from . import cameras, exits, exports, fields, identities, images, lenses, pixels, poses, shapes, trajectories
 
 TABLE = {
+    trajectories: """
+        trajectories_10_cm_off trajectories_one_frame_late trajectories_without_somebody_seen
+        trajectories_of_two_people_exchanged trajectory_headings_from_north trajectory_states_exchanged
+        trajectory_of_somebody_leaps""",
     images: """
         picture_black picture_mirrored picture_upside_down all_pictures_mirrored pictures_of_two_cameras_exchanged
         pictures_of_two_frames_exchanged picture_of_the_next_frame picture_of_the_other_run

@@ -4,7 +4,9 @@
 const kPlanPx = 1200;
 const kBorderPx = 20;
 const kTitlePx = 30;
-const kLegendPx = 80;
+const kLegendLinePx = 22;
+const kLegendColumnPx = 200;
+const kLegendEntries = 10;
 const kMinWidthPx = 640;
 
 export interface Sheet {
@@ -17,9 +19,11 @@ export interface Sheet {
 export function sheetOf([minX, minY, maxX, maxY]: [number, number, number, number]): Sheet {
   const scale = kPlanPx / Math.max(maxX - minX, maxY - minY);
   const planHeight = Math.ceil((maxY - minY) * scale);
+  const width = Math.max(kMinWidthPx, Math.ceil((maxX - minX) * scale) + 2 * kBorderPx);
+  const legendRows = Math.ceil(kLegendEntries / Math.floor((width - kBorderPx) / kLegendColumnPx));
   return {
-    width: Math.max(kMinWidthPx, Math.ceil((maxX - minX) * scale) + 2 * kBorderPx),
-    height: kTitlePx + planHeight + 2 * kBorderPx + kLegendPx,
+    width,
+    height: kTitlePx + planHeight + 2 * kBorderPx + (legendRows + 1) * kLegendLinePx,
     toPx: (x, y) => [kBorderPx + (x - minX) * scale, kTitlePx + kBorderPx + planHeight - (y - minY) * scale],
     toMeters: (x, y) => [(x - kBorderPx) / scale + minX, (kTitlePx + kBorderPx + planHeight - y) / scale + minY],
   };

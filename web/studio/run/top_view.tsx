@@ -1,10 +1,11 @@
-// The floor plan with the people that some camera sees, and the drones.
+// The floor plan with the people that some camera sees, the others if the job asked for trajectories, and the drones.
 import { useSource } from "../api/resource";
 import type { Scenario } from "../api/types";
 import type { Annotation, Labels } from "../dataset/coco";
 import { colorOf } from "../dataset/overlay";
 import { countText } from "../parts/format";
 import { sheetOf } from "../parts/sheet";
+import { type Trajectories, unseenAt } from "./trajectories";
 
 const kPerson = 1; ///< category
 
@@ -17,15 +18,27 @@ export function peopleOf(labels: (Labels | null)[]): Annotation[] {
   return [...people.values()];
 }
 
-export function TopView({ scenario, labels }: { scenario: Scenario; labels: (Labels | null)[] }) {
+interface TopViewProps {
+  scenario: Scenario;
+  labels: (Labels | null)[];
+  trajectories: Trajectories | null;
+  frame: number;
+}
+
+export function TopView({ scenario, labels, trajectories, frame }: TopViewProps) {
   const source = useSource(`/v1/scenarios/${scenario.id}?format=svg`);
   const sheet = sheetOf(scenario.ground_m as [number, number, number, number]);
   const people = peopleOf(labels);
+  const unseen = trajectories ? unseenAt(trajectories, frame, new Set(people.map((person) => person.track_id))) : [];
   return (
     <figure>
       <div class="plan-sheet">
         {source && <img src={source} alt={`floor plan of ${scenario.name ?? scenario.id}`} width={sheet.width} height={sheet.height} />}
-        <svg viewBox={`0 0 ${sheet.width} ${sheet.height}`} role="img" aria-label={`${countText(people.length, "person", "people")} on the plan`}>
+        <svg viewBox={`0 0 ${sheet.width} ${sheet.height}`} role="img" aria-label={`${countText(people.length + unseen.length, "person", "people")} on the plan`}>
+          {unseen.map(([x, y], index) => {
+            const [column, row] = sheet.toPx(x, y);
+            return <circle key={index} class="unseen" cx={column} cy={row} r="5" fill="#fff" stroke="#555" stroke-width="2" />;
+          })}
           {people.map((person) => {
             const [x, y] = sheet.toPx(person.position[0], person.position[1]);
             return <circle key={person.track_id} cx={x} cy={y} r="6" fill={colorOf(person, "state")} stroke="#000" stroke-width="1.5" />;
@@ -45,7 +58,10 @@ export function TopView({ scenario, labels }: { scenario: Scenario; labels: (Lab
           })}
         </svg>
       </div>
-      <figcaption>{countText(people.length, "person", "people")} that a camera sees, colored by state; crosses are the drones.</figcaption>
+      <figcaption>
+        {countText(people.length, "person", "people")} that a camera sees, colored by state; crosses are the drones.{" "}
+        {trajectories ? `White: ${countText(unseen.length, "person", "people")} that no camera sees.` : "Others are shown if the job's annotations have trajectories."}
+      </figcaption>
     </figure>
   );
 }

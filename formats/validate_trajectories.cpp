@@ -1,0 +1,183 @@
+// Trajectories of everybody against the people in the images and against how fast people move.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
+#include "formats/run_checks.h"
+#include "geometry/angle.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kRule = "trajectories";
+constexpr std::size_t kValues = 4;  ///< x, y, heading, state
+constexpr double kMaxSpeedMps = 15;
+constexpr double kMaxOffM = 0.01;
+constexpr double kMaxOffRad = 0.01;
+constexpr double kMaxOffS = 1e-3;
+
+/// trajectories/RUN.json and RUN.npy.
+struct Recorded {
+  std::vector<double> times_s;
+  std::vector<std::int64_t> tracks;
+  std::vector<std::string> states;
+  std::vector<float> values;
+
+  /// The kValues values of a person.
+  const float* at(std::size_t frame, std::size_t person) const {
+    return values.data() + (frame * tracks.size() + person) * kValues;
+  }
+  bool present(std::size_t frame, std::size_t person) const {
+    return !std::isnan(*at(frame, person));
+  }
+  Vector2d place(std::size_t frame, std::size_t person) const {
+    const float* value = at(frame, person);
+    return {static_cast<double>(value[0]), static_cast<double>(value[1])};
+  }
+};
+
+std::vector<float> read_values(const fs::path& file, const std::string& shape, std::size_t count) {
+  const std::string bytes = read_file(file);
+  constexpr std::size_t kPreamble = 10;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const std::size_t start =
+      bytes.size() < kPreamble ? bytes.size() : kPreamble + byte(8) + 256U * byte(9);
+  if (start + count * sizeof(float) != bytes.size() ||
+      bytes.find("'shape': " + shape) == std::string::npos ||
+      bytes.find("'<f4'") == std::string::npos) {
+    throw InputError({file.string(), "", "another shape or type", "float32 of shape " + shape});
+  }
+  std::vector<float> values(count);
+  std::memcpy(values.data(), bytes.data() + start, count * sizeof(float));
+  return values;
+}
+
+Recorded read_recorded(const fs::path& root, const std::string& run,
+                       const std::string& description) {
+  const json record = parse_own_json(read_file(root / description), description);
+  Recorded recorded{record.at("times_s").get<std::vector<double>>(),
+                    record.at("track_ids").get<std::vector<std::int64_t>>(),
+                    record.at("states").get<std::vector<std::string>>(),
+                    {}};
+  const std::size_t frames = recorded.times_s.size();
+  const std::size_t people = recorded.tracks.size();
+  if (!std::is_sorted(recorded.tracks.begin(), recorded.tracks.end())) {
+    throw InputError({description, "/track_ids", "another order", "ascending ids"});
+  }
+  recorded.values =
+      read_values(root / file_of(annotate::GroundTruth::trajectories, run),
+                  fmt::format("({}, {}, {})", frames, people, kValues), frames * people * kValues);
+  return recorded;
+}
+
+/// What is wrong with the values by themselves, or "".
+std::string fault_of_values(const Recorded& recorded) {
+  for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
+    for (std::size_t person = 0; person < recorded.tracks.size(); ++person) {
+      const float* value = recorded.at(frame, person);
+      const auto numbers =
+          std::count_if(value, value + kValues, [](float v) { return !std::isnan(v); });
+      const std::string where = fmt::format("track {}, frame {}: ", recorded.tracks[person], frame);
+      if (numbers == 0) continue;
+      if (numbers < static_cast<std::ptrdiff_t>(kValues) ||
+          !std::all_of(value, value + kValues, [](float v) { return std::isfinite(v); })) {
+        return where + "values that are no numbers beside others";
+      }
+      const auto states = static_cast<float>(recorded.states.size());
+      if (value[3] < 0 || value[3] != std::floor(value[3]) || value[3] >= std::max(states, 1.0F)) {
+        return where + fmt::format("state {}, but there are {}", value[3], recorded.states.size());
+      }
+      if (frame == 0 || !recorded.present(frame - 1, person)) continue;
+      const double passed_s = recorded.times_s[frame] - recorded.times_s[frame - 1];
+      const double way_m =
+          (recorded.place(frame, person) - recorded.place(frame - 1, person)).norm();
+      if (way_m > kMaxSpeedMps * passed_s) {
+        return where + fmt::format("{:.2f} m in {:g} s", way_m, passed_s);
+      }
+    }
+  }
+  return "";
+}
+
+/// What is wrong with a person whom an image shows, or "".
+std::string fault_of_seen(const Recorded& recorded, std::size_t frame, std::size_t person,
+                          const TrajectoriesCheck::Seen& seen) {
+  if (!recorded.present(frame, person)) return "absent, but an image shows the person";
+  const double off_m = (recorded.place(frame, person) - seen.position).norm();
+  if (off_m > kMaxOffM) return fmt::format("{:.2f} m from the position in an image", off_m);
+  const float* value = recorded.at(frame, person);
+  const auto heading_rad = static_cast<double>(value[2]);
+  if (std::abs(geometry::turn_rad(heading_rad, seen.heading_rad)) > kMaxOffRad) {
+    return fmt::format("heading {:.2f}, in an image {:.2f}", heading_rad, seen.heading_rad);
+  }
+  const auto state = static_cast<std::size_t>(value[3]);
+  if (seen.behavior.empty() || recorded.states.at(state) == seen.behavior) return "";
+  return fmt::format("state \"{}\", in an image \"{}\"", recorded.states[state], seen.behavior);
+}
+
+template <typename Report>
+void check_frame(const Recorded& recorded, std::size_t number,
+                 const TrajectoriesCheck::Frame& frame, const Report& report) {
+  if (number >= recorded.times_s.size()) return report("no such frame");
+  if (std::abs(recorded.times_s[number] - frame.time_s) > kMaxOffS) {
+    report(fmt::format("at {:g} s, in an image at {:g} s", recorded.times_s[number], frame.time_s));
+  }
+  for (const auto& [track, seen] : frame.people) {
+    const auto found = std::lower_bound(recorded.tracks.begin(), recorded.tracks.end(), track);
+    if (found == recorded.tracks.end() || *found != track) {
+      report(fmt::format("no track {}, which an image shows", track));
+      continue;
+    }
+    const auto person = static_cast<std::size_t>(found - recorded.tracks.begin());
+    const std::string what = fault_of_seen(recorded, number, person, seen);
+    if (!what.empty()) report(fmt::format("track {}: {}", track, what));
+  }
+}
+
+}  // namespace
+
+void TrajectoriesCheck::add(const DatasetInfo& /*info*/, const Image& image,
+                            Findings& /*findings*/) {
+  Frame& frame = runs_[image.run][image.frame];
+  frame.time_s = image.time_s;
+  if (!is_shot_at_once(image)) return;
+  for (const Person& person : image.people) {
+    frame.people.insert_or_assign(
+        person.track_id,
+        Seen{person.position.head<2>(), person.heading_rad, person.record.value("behaviour", "")});
+  }
+}
+
+void TrajectoriesCheck::finish(const DatasetInfo& info, Findings& findings) {
+  for (const std::string& run : info.runs) {
+    const std::string file = file_of(annotate::GroundTruth::trajectories, run);
+    try {
+      const Recorded recorded = read_recorded(info.root, run, "trajectories/" + run + ".json");
+      const std::string what = fault_of_values(recorded);
+      if (!what.empty()) findings.add(kRule, file, "", what);
+      for (const auto& entry : runs_[run]) {
+        check_frame(recorded, static_cast<std::size_t>(entry.first), entry.second,
+                    [&](const std::string& fault) {
+                      findings.add(kRule, file, fmt::format("frame {}", entry.first), fault);
+                    });
+      }
+    } catch (const InputError& error) {
+      findings.add(kRule, file, "", error.problems().front().found);
+    } catch (const std::exception& error) {
+      findings.add(kRule, file, "", error.what());
+    }
+  }
+}
+
+}  // namespace throng::formats
