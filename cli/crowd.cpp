@@ -70,8 +70,8 @@ Recorders make_recorders(const CrowdArguments& arguments, const crowd::Project& 
 }
 
 /// Steps until everybody is in a final state or the time is over. Returns the number of steps.
-long simulate(crowd::Simulation& crowd, double duration_s, const Recorders& recorders, bool quiet) {
-  const Interrupt interrupt;
+long simulate(crowd::Simulation& crowd, double duration_s, const Recorders& recorders, bool quiet,
+              const Interrupt& interrupt) {
   std::optional<ProgressBar> bar;
   if (!quiet) bar.emplace("crowd");
   constexpr double kRounding = 1e-9;
@@ -117,9 +117,10 @@ void run(const CrowdArguments& arguments) {
   if (!arguments.quiet) print_warnings(project.warnings);
   crowd::Simulation crowd = crowd::load_simulation(project);
   if (!arguments.quiet) print_warnings(crowd.warnings());
+  const Interrupt interrupt;  // before there are files to remove
   const Recorders recorders = make_recorders(arguments, project, crowd);
   const auto start = std::chrono::steady_clock::now();
-  const long steps = simulate(crowd, project.duration_s, recorders, arguments.quiet);
+  const long steps = simulate(crowd, project.duration_s, recorders, arguments.quiet, interrupt);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (!arguments.quiet) print_summary(crowd, steps, wall.count());
 }
