@@ -1,6 +1,7 @@
 // The job that is being written: one state behind all tabs. The text is what is sent; its value is what fields show.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { ApiError, sendJson } from "../api/client";
+import { useSession } from "../api/session";
 import type { DryRun, Mistake } from "../api/types";
 import { type Json, type JsonObject, isObject, type Path, textOf, withValue } from "./json";
 
@@ -51,10 +52,11 @@ export interface Check {
 
 const kUnchecked: Check = { isPending: true, plan: null, errors: [], message: null };
 
-/** Has the service check the job a moment after each change, and keeps it for this tab's life. */
+/** Has the service check the job a moment after each change and after each sign-in, and keeps it for this tab's life. */
 export function useCheck(draft: Draft | null): Check {
   const [check, setCheck] = useState<Check>(kUnchecked);
   const [round, setRound] = useState(0);
+  const { round: session } = useSession();
   const controller = useRef<AbortController | null>(null);
   useEffect(() => {
     if (!draft) return;
@@ -78,6 +80,6 @@ export function useCheck(draft: Draft | null): Check {
       clearTimeout(timer);
       clearTimeout(retry);
     };
-  }, [draft?.text, round]);
+  }, [draft?.text, round, session]);
   return check;
 }
