@@ -22,7 +22,8 @@ struct Trajectories {
   std::vector<float> values;
 };
 
-/// Those that the renderer draws, linear between the steps of the trace as in images.
+/// Positions of the people whom the renderer draws, linear between the steps of the trace as in
+/// images.
 Trajectories trajectories_at(const world::Trace& trace, std::span<const double> times_s);
 
 /// The bytes of a .npy file, float32, C order.

@@ -81,7 +81,7 @@ Recorded read_recorded(const fs::path& root, const std::string& run,
   return recorded;
 }
 
-/// What is wrong with the values by themselves, or "".
+/// A fault of the values by themselves, or "".
 std::string fault_of_values(const Recorded& recorded) {
   for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
     for (std::size_t person = 0; person < recorded.tracks.size(); ++person) {
@@ -110,7 +110,7 @@ std::string fault_of_values(const Recorded& recorded) {
   return "";
 }
 
-/// What is wrong with a person whom an image shows, or "".
+/// A fault of a person whom an image shows, or "".
 std::string fault_of_seen(const Recorded& recorded, std::size_t frame, std::size_t person,
                           const TrajectoriesCheck::Seen& seen) {
   if (!recorded.present(frame, person)) return "absent, but an image shows the person";
