@@ -45,7 +45,7 @@ step_long() {
   build release throng_tests
   bake_people
   ctest --preset release -j2 -L '^sanitized$'
-  THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash)$'
+  THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
   build asan throng_tests
   ctest_asan -L '^computing$'
 }
@@ -65,7 +65,7 @@ step_tidy() {
 }
 
 ctest_asan() {
-  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 "$@"
+  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j3 "$@"
 }
 
 step_asan() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every shipped scenario runs for 200 s, and nobody is inside at the end without a reason.
+"""Every shipped scenario runs for 150 s, and nobody is inside at the end without a reason.
 
-The drones of the scenario hover, as a job without drones has it. 120 people each keep it short; with $THRONG_LONG there
+The drones of the scenario hover, as a job without drones has it. 60 people each keep it short; with $THRONG_LONG there
 are 250 for 300 s, and bench/shipped_runs.py does the same for 600 s with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
 their people start in a wall (docs/places.md).
 usage: test_shipped.py THRONG
@@ -16,7 +16,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 THRONG = sys.argv[1]
-PEOPLE, DURATION_S = (250, 300) if os.environ.get("THRONG_LONG") else (120, 200)
+PEOPLE, DURATION_S = (250, 300) if os.environ.get("THRONG_LONG") else (60, 150)
 # The blueprint's, city_square/nearest_exit and its three cases, and the same with walls around obstacles.
 PAPERS_OWN = ("huang2016/crowded_exit_blocked", "huang2016/nearest_exit", "huang2016/second_nearest",
               "huang2016/side_exit_blocked")

@@ -15,19 +15,13 @@ import sound_jobs
 
 # Different places, lights, lenses, motions and views.
 FEW = [
-    "bridge",
     "concert",
     "street emergency in smoke",
-    "stadium",
     "station emergency",
     "fisheye",
-    "umbrellas from above",
     "night",
     "rolling shutter",
-    "wind and gimbal",
-    "low among the crowd",
     "people struck",
-    "tele",
     "generated block",
 ]
 
