@@ -277,13 +277,16 @@ void add_flight(const People& people, BehaviorBuilder& behavior) {
   const std::vector<Node> grows = late_obstacles(people);
   std::vector<Node> flee = {
       describe::select_goal("exit_choice", kFleeingSet, {{"familiarity", 0.7}, {"sight", 40}}),
-      walk(),
-      describe::action("set_property", {{"property", "pref_speed"},
-                                        {"dist", "n"},
-                                        {"mean", 2},
-                                        {"stddev", 0.25},
-                                        {"exit_reset", false}}),
-      describe::action("add_obstacle", {{"operand", 2}})};
+      walk()};
+  if (people.evacuation_speed_mps) {
+    std::vector<Attribute> runs = {{"property", "pref_speed"}};
+    for (Attribute& attribute : people.evacuation_speed_mps->attributes()) {
+      runs.push_back(std::move(attribute));
+    }
+    runs.emplace_back("exit_reset", false);
+    flee.push_back(describe::action("set_property", std::move(runs)));
+  }
+  flee.push_back(describe::action("add_obstacle", {{"operand", 2}}));
   flee.insert(flee.end(), grows.begin(), grows.end());
   if (any_panic(people)) flee.push_back(describe::action("panic"));
   behavior.add_state("Flee", std::move(flee));
@@ -328,13 +331,11 @@ void add_emergency_transitions(const Everyday& everyday, const People& people,
                              {"start", significant_text(danger.seen.start_s, 6)}}));
   }
   everyday.add_transitions(behavior);
-  behavior.add_transition("React", "Flee",
-                          describe::condition("timer", {{"per_agent", true},
-                                                        {"together", true},
-                                                        {"dist", "lognormal"},
-                                                        {"log_mean", 0.7},
-                                                        {"log_stddev", 0.5},
-                                                        {"at_most", 6}}));
+  std::vector<Attribute> delay = {{"per_agent", true}, {"together", true}};
+  for (Attribute& attribute : people.pre_movement_s.attributes()) {
+    delay.push_back(std::move(attribute));
+  }
+  behavior.add_transition("React", "Flee", describe::condition("timer", std::move(delay)));
   behavior.add_transition("Flee", "Follow", led(5));
   behavior.add_transition("Flee", "Away", describe::goal_reached(0.2));
   behavior.add_transition(

@@ -62,15 +62,24 @@ Node agents_at(const std::vector<Vector2d>& places) {
   return describe::agents_at(places, kDecimals);
 }
 
+/// The profile of a group, line or source by its index in the blueprint: everybody's, or its own.
+std::string profile_of(const std::optional<SampledValue>& own_speed_mps, const char* list,
+                       std::size_t index) {
+  return own_speed_mps ? fmt::format("person_{}_{}", list, index) : "person";
+}
+
 void add_lines(const People& people, std::vector<Vector2d>& taken, SceneBuilder& scene) {
-  for (const Line& line : people.lines) {
+  for (std::size_t i = 0; i < people.lines.size(); ++i) {
+    const Line& line = people.lines[i];
     std::vector<Vector2d> places;
-    for (int i = 0; i < line.count; ++i) {
-      const double share = line.count > 1 ? static_cast<double>(i) / (line.count - 1) : 0;
+    for (int place = 0; place < line.count; ++place) {
+      const double share = line.count > 1 ? static_cast<double>(place) / (line.count - 1) : 0;
       places.push_back(line.from + share * (line.to - line.from));
     }
-    scene.add_group(
-        {"person", state_of(Doing::wait), agents_at(places), {facing_element(facing_of(line))}});
+    scene.add_group({profile_of(line.speed_mps, "line", i),
+                     state_of(Doing::wait),
+                     agents_at(places),
+                     {facing_element(facing_of(line))}});
     taken.insert(taken.end(), places.begin(), places.end());
   }
 }
@@ -88,7 +97,7 @@ void add_groups(const People& people, const Solids& solids, std::vector<Vector2d
     if (standing.count == 0) continue;
     std::vector<Node> more;
     if (group.doing == Doing::wait) more.push_back(facing_element(group.facing));
-    scene.add_group({"person", state_of(group.doing),
+    scene.add_group({profile_of(group.speed_mps, "group", i), state_of(group.doing),
                      describe::typed("Generator", "scatter",
                                      {{"count", standing.count},
                                       {"apart", decimals_text(standing.apart_m, 3)},
@@ -165,7 +174,10 @@ void add_sources(const Scenario& scenario, const People& people, const Solids& s
     closed_s = std::min(closed_s, reached_s(from, to, discs));
     const std::string state =
         source.towards ? state_towards(scenario.exits[*source.towards]) : state_of(source.doing);
-    scene.add_group({"person", state, agents_at(places), {arrivals_of(source, closed_s)}});
+    scene.add_group({profile_of(source.speed_mps, "source", i),
+                     state,
+                     agents_at(places),
+                     {arrivals_of(source, closed_s)}});
   }
 }
 
@@ -207,9 +219,11 @@ void add_obstacles(const Scenario& scenario, const People& people, const Solids&
   }
 }
 
-void add_profiles(const People& people, SceneBuilder& scene) {
+void add_person(std::string name, const SampledValue& speed_mps, SceneBuilder& scene) {
+  std::vector<Attribute> speed = {{"name", "pref_speed"}};
+  for (const Attribute& attribute : speed_mps.attributes()) speed.push_back(attribute);
   scene.add_profile(
-      {.name = "person",
+      {.name = std::move(name),
        .common = {{"max_angle_vel", 360},
                   {"max_neighbors", 10},
                   {"obstacleSet", 1},
@@ -218,12 +232,22 @@ void add_profiles(const People& people, SceneBuilder& scene) {
                   {"max_speed", 3},
                   {"max_accel", 5}},
        .properties = {
-           Node("Property", {{"name", "pref_speed"},
-                             {"dist", "n"},
-                             {"mean", significant_text(people.speed_mps, 3)},
-                             {"stddev", significant_text(0.19 * people.speed_mps, 3)}}),
+           Node("Property", std::move(speed)),
            // So alike that all of them share one mesh (crowd/navigation/auto_navigation.h).
            describe::property("r", describe::Sampled::uniform(kSlimmestM, 0.24))}});
+}
+
+void add_profiles(const People& people, SceneBuilder& scene) {
+  add_person("person", people.speed_mps, scene);
+  const auto add_own = [&](const auto& list, const char* name) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::optional<SampledValue>& own = list[i].speed_mps;
+      if (own) add_person(profile_of(own, name, i), *own, scene);
+    }
+  };
+  add_own(people.groups, "group");
+  add_own(people.lines, "line");
+  add_own(people.sources, "source");
   if (people.dangers.empty()) return;
   scene.add_profile({.name = "danger",
                      .common = {{"max_neighbors", 0},

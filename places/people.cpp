@@ -20,6 +20,9 @@ constexpr double kFarM = 100'000;
 constexpr int kMaxPeople = 100'000;
 constexpr double kMaxDurationS = 86'400;
 constexpr double kGasHurtsAfterS = 60;  // an assumption: real gases take a breath or many minutes
+constexpr SampledLimits kFreeSpeedMps = {0.1, 3, 0.19};  // Weidmann 1993: 0.26 of 1.34
+constexpr SampledLimits kEvacuationSpeedMps = {0.1, 3, 0.125};
+constexpr SampledLimits kPreMovementS = {0, 3600, 0};
 constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
 
 Doing read_doing(const JsonValue& value) {
@@ -76,27 +79,38 @@ Facing read_facing(const JsonValue& value) {
   return facing;
 }
 
+/// The free speed of a group, line or source, if it has one of its own.
+std::optional<SampledValue> read_own_speed(const JsonValue& item) {
+  const JsonValue value = item["speed_mps"];
+  if (!value.exists()) return std::nullopt;
+  return read_sampled(value, kFreeSpeedMps);
+}
+
 Group read_group(const JsonValue& item) {
-  item.fields({"doing", "area", "count"}, {"facing"});
+  item.fields({"doing", "area", "count"}, {"facing", "speed_mps"});
   Group group{read_doing(item["doing"]), read_outline(item["area"]),
               item["count"].integer(1, kMaxPeople)};
   if (item["facing"].exists()) {
     if (group.doing != Doing::wait) item["facing"].reject("a group that is doing \"wait\"");
     group.facing = read_facing(item["facing"]);
   }
+  group.speed_mps = read_own_speed(item);
   return group;
 }
 
 Line read_line(const JsonValue& item) {
-  item.fields({"from", "to", "count"}, {"facing"});
+  item.fields({"from", "to", "count"}, {"facing", "speed_mps"});
   Line line{item["from"].vector2(kFarM), item["to"].vector2(kFarM), item["count"].integer(1, 1000)};
   if (item["facing"].exists()) line.facing = read_facing(item["facing"]);
+  line.speed_mps = read_own_speed(item);
   return line;
 }
 
 Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits) {
-  item.fields({"doing"}, {"exit", "from", "to", "per_minute", "until_s", "table", "towards"});
+  item.fields({"doing"},
+              {"exit", "from", "to", "per_minute", "until_s", "table", "towards", "speed_mps"});
   Source source;
+  source.speed_mps = read_own_speed(item);
   source.doing = read_doing(item["doing"]);
   source.exit = read_exit(item["exit"], exits);
   source.towards = read_exit(item["towards"], exits);
@@ -162,12 +176,31 @@ Danger read_danger(const JsonValue& item, int agent) {
   return danger;
 }
 
+void read_speeds_and_times(const JsonValue& value, People& people) {
+  if (value["speed_mps"].exists()) {
+    people.speed_mps = read_sampled(value["speed_mps"], kFreeSpeedMps);
+  }
+  if (value["pre_movement_s"].exists()) {
+    people.pre_movement_s = read_sampled(value["pre_movement_s"], kPreMovementS);
+  }
+  const JsonValue evacuation = value["evacuation_speed_mps"];
+  if (!evacuation.exists()) return;
+  if (!evacuation.is_text()) {
+    people.evacuation_speed_mps = read_sampled(evacuation, kEvacuationSpeedMps);
+  } else if (evacuation.text() == "unchanged") {
+    people.evacuation_speed_mps.reset();
+  } else {
+    evacuation.reject("\"unchanged\", a number or a distribution");
+  }
+}
+
 }  // namespace
 
 People read_people(const JsonValue& value, const JsonValue& disasters,
                    const std::vector<world::Exit>& exits) {
   People people;
-  value.fields({}, {"groups", "lines", "sources", "spots", "speed_mps", "in_groups"});
+  value.fields({}, {"groups", "lines", "sources", "spots", "speed_mps", "in_groups",
+                    "pre_movement_s", "evacuation_speed_mps"});
   for (const JsonValue& item : value["groups"].items()) people.groups.push_back(read_group(item));
   for (const JsonValue& item : value["lines"].items()) people.lines.push_back(read_line(item));
   for (const JsonValue& item : value["sources"].items()) {
@@ -176,7 +209,7 @@ People read_people(const JsonValue& value, const JsonValue& disasters,
   for (const JsonValue& spot : value["spots"].items()) {
     people.spots.push_back(spot.vector2(kFarM));
   }
-  if (value["speed_mps"].exists()) people.speed_mps = value["speed_mps"].number(0.3, 3);
+  read_speeds_and_times(value, people);
   if (value["in_groups"].exists()) people.in_groups = value["in_groups"].number(0, 1);
   for (const JsonValue& item : disasters.items()) {
     people.dangers.push_back(read_danger(item, static_cast<int>(people.dangers.size())));

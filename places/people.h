@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "places/sampled_value.h"
 #include "world/disasters.h"
 #include "world/scenario.h"
 
@@ -34,7 +35,8 @@ struct Group {
   Doing doing = Doing::stroll;
   std::vector<Eigen::Vector2d> area;  ///< m
   int count = 0;
-  Facing facing = {};  ///< of those who wait
+  Facing facing = {};                                    ///< of those who wait
+  std::optional<SampledValue> speed_mps = std::nullopt;  ///< free speed; nothing: everybody's
 };
 
 /// People who stand in line.
@@ -42,7 +44,8 @@ struct Line {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< its head, m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   int count = 0;
-  std::optional<Facing> facing = std::nullopt;  ///< nothing: to the line's head
+  std::optional<Facing> facing = std::nullopt;           ///< nothing: to the line's head
+  std::optional<SampledValue> speed_mps = std::nullopt;  ///< free speed; nothing: everybody's
 };
 
 /// People who come: at an exit, from outside, or at places along a segment.
@@ -55,6 +58,7 @@ struct Source {
   double until_s = 600;
   std::vector<std::pair<double, int>> table;  ///< seconds and people, instead of per_minute
   std::optional<std::size_t> towards;         ///< index of the exit they go to
+  std::optional<SampledValue> speed_mps = std::nullopt;  ///< free speed; nothing: everybody's
 };
 
 /// A disaster and what it does to the crowd.
@@ -72,9 +76,15 @@ struct People {
   std::vector<Group> groups;
   std::vector<Line> lines;
   std::vector<Source> sources;
-  std::vector<Eigen::Vector2d> spots;  ///< where strollers go
-  double speed_mps = 1.34;             ///< mean of the free speed
-  double in_groups = 0.5;              ///< share of people who walk in social groups
+  std::vector<Eigen::Vector2d> spots;                          ///< where strollers go
+  SampledValue speed_mps = SampledValue::normal(1.34, 0.255);  ///< free speed (Weidmann 1993)
+  /// From when people notice a disaster until they leave, s. An assumption without a source; a
+  /// study takes its own.
+  SampledValue pre_movement_s = {SampledValue::Kind::lognormal, 0.7, 0.5,
+                                 -std::numeric_limits<double>::infinity(), 6};
+  /// Free speed of people who flee; nothing: as before. An assumption: they run.
+  std::optional<SampledValue> evacuation_speed_mps = SampledValue::normal(2, 0.25);
+  double in_groups = 0.5;  ///< share of people who walk in social groups
   std::vector<Danger> dangers;
 };
 

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "study/page.h"
+#include "study/summary_tables.h"
 
 namespace throng::study {
 
@@ -16,89 +17,15 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kConfidence = 0.95;
+constexpr const char* kIntervalTitle = "Intervals";
+constexpr const char* kDifferenceTitle = "Cases compared";
+constexpr int kConvergencePercent = 95;
 
-Spread spread_of(const std::vector<double>& values) {
-  return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
-}
-
-template <typename Value>
-std::vector<double> each(const std::vector<Outcome>& runs, const Value& value) {
-  std::vector<double> values;
-  values.reserve(runs.size());
-  for (const Outcome& run : runs) values.push_back(value(run));
-  return values;
-}
-
-MeanAtHorizon mean_at(double at_s, const std::vector<Outcome>& runs,
-                      const std::vector<Outcome>& baseline, std::uint64_t seed) {
-  const auto mean_s = [at_s](const Outcome& run) { return run.restricted_mean_s(at_s); };
-  MeanAtHorizon result;
-  result.at_s = at_s;
-  result.spread = spread_of(each(runs, mean_s));
-  result.mean_s = mean(each(runs, mean_s));
-  result.inside = mean(
-      each(runs, [at_s](const Outcome& run) -> double { return run.escapes.inside_after(at_s); }));
-  result.ratio_to_baseline = result.mean_s / mean(each(baseline, mean_s));
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    differences.push_back(mean_s(runs[i]) - mean_s(baseline[i]));
-  }
-  result.difference_s = mean(differences);
-  result.difference_95 = bootstrap_mean(differences, kConfidence, seed);
-  result.test = wilcoxon_signed_rank(differences);
-  return result;
-}
-
-SummaryRow summarize_one(const Case& one, const std::vector<Outcome>& runs,
-                         const std::vector<Outcome>& baseline, std::uint64_t seed) {
-  SummaryRow row;
-  row.runs = static_cast<int>(runs.size());
-  for (const int percent : kSummaryPercents) {
-    row.percentiles.push_back(
-        spread_of(each(runs, [&](const Outcome& run) { return run.percentile_s(percent); })));
-  }
-  for (std::size_t i = 0; i < row.means.size(); ++i) {
-    row.means[i] = mean_at(one.horizons_s[i], runs, baseline, seed);
-  }
-  for (const Outcome& run : runs) {
-    if (static_cast<int>(run.escapes.escape_s.size()) == run.escapes.evacuees()) ++row.all_out;
-  }
-  const auto mean_of = [&](const auto& value) { return mean(each(runs, value)); };
-  row.not_escaped = mean_of([](const Outcome& run) -> double { return run.escapes.not_escaped(); });
-  row.casualties = mean_of(
-      [](const Outcome& run) { return static_cast<double>(run.escapes.casualties.size()); });
-  const auto ratios = [&](BestFigures Outcome::*best, double& t90, double& of_mean) {
-    t90 = median(
-        each(runs, [&](const Outcome& run) { return run.percentile_s(90) / (run.*best).t90_s; }));
-    of_mean = median(each(runs, [&](const Outcome& run) {
-      return run.escapes.mean_censored_s() / (run.*best).mean_s;
-    }));
-  };
-  ratios(&Outcome::bound, row.t90_to_bound, row.mean_to_bound);
-  ratios(&Outcome::reference, row.t90_to_reference, row.mean_to_reference);
-  for (std::size_t e = 0; e < runs.front().exit_use.size(); ++e) {
-    row.exit_use.push_back(mean_of(
-        [&](const Outcome& run) -> double { return run.exit_use[e].out - run.exit_use[e].in; }));
-  }
-  row.followed = mean_of([](const Outcome& run) -> double { return run.followed; });
-  return row;
-}
-
-// Every comparison with the baseline at either horizon is one of the study's tests.
-void adjust_p_values(std::size_t baseline, std::vector<SummaryRow>& rows) {
-  std::vector<double> p_values;
-  for (const SummaryRow& row : rows) {
-    if (row.policy == baseline) continue;
-    for (const MeanAtHorizon& at : row.means) p_values.push_back(at.test.p_value);
-  }
-  const std::vector<double> adjusted = holm_adjusted(p_values);
-  std::size_t next = 0;
-  for (SummaryRow& row : rows) {
-    if (row.policy == baseline) continue;
-    for (MeanAtHorizon& at : row.means) at.holm_p = adjusted[next++];
-  }
-}
+/// Everything that the report's files say.
+struct Summary {
+  std::vector<SummaryRow> rows;
+  std::vector<CaseDifference> case_differences;
+};
 
 std::string csv_of(const Study& study, const std::vector<SummaryRow>& rows) {
   std::string csv = "case,policy,runs";
@@ -113,12 +40,19 @@ std::string csv_of(const Study& study, const std::vector<SummaryRow>& rows) {
         "{0}_wilcoxon_p,{0}_holm_p",
         name);
   }
-  csv += ",t90_to_bound,mean_to_bound,t90_to_reference,mean_to_reference,followed\n";
+  csv += ",t90_to_bound,mean_to_bound,t90_to_reference,mean_to_reference,followed";
+  for (const int percent : kIntervalPercents) {
+    csv += fmt::format(
+        ",t{0}_mean_s,t{0}_mean_low_s,t{0}_mean_high_s,t{0}_p95_s,t{0}_p95_low_s,t{0}_p95_high_s",
+        percent);
+  }
+  csv += "\n";
   for (const SummaryRow& row : rows) {
     csv += fmt::format("{},{},{}", study.cases[row.one_case].id, study.policies[row.policy].id,
                        row.runs);
-    for (const Spread& time : row.percentiles) {
-      csv += fmt::format(",{:.2f},{:.2f},{:.2f}", time.median, time.low, time.high);
+    for (const EscapePercentile& time : row.percentiles) {
+      csv += fmt::format(",{:.2f},{:.2f},{:.2f}", time.spread.median, time.spread.low,
+                         time.spread.high);
     }
     csv += fmt::format(",{},{:.2f},{:.2f}", row.all_out, row.not_escaped, row.casualties);
     for (const MeanAtHorizon& at : row.means) {
@@ -128,63 +62,17 @@ std::string csv_of(const Study& study, const std::vector<SummaryRow>& rows) {
           at.ratio_to_baseline, at.difference_s, at.difference_95.low, at.difference_95.high,
           at.test.p_value, at.holm_p);
     }
-    csv += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.1f}\n", row.t90_to_bound, row.mean_to_bound,
+    csv += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.1f}", row.t90_to_bound, row.mean_to_bound,
                        row.t90_to_reference, row.mean_to_reference, row.followed);
+    for (const int percent : kIntervalPercents) {
+      const EscapePercentile& time = percentile_of(row, percent);
+      csv +=
+          fmt::format(",{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", time.mean_s, time.mean_95.low,
+                      time.mean_95.high, time.high_s, time.high_95.low, time.high_95.high);
+    }
+    csv += "\n";
   }
   return csv;
-}
-
-std::string time_text(double seconds) {
-  return std::isfinite(seconds) ? fmt::format("{:.0f}", seconds) : std::string("never");
-}
-
-std::string spread_text(const Spread& time) {
-  return fmt::format("{} [{}-{}]", time_text(time.median), time_text(time.low),
-                     time_text(time.high));
-}
-
-std::string exits_text(const SummaryRow& row) {
-  std::string text;
-  for (const double count : row.exit_use)
-    text += fmt::format("{}{:.0f}", text.empty() ? "" : "/", count);
-  return text;
-}
-
-/// A cell of the case's table, in Markdown and in HTML alike.
-std::vector<std::string> case_header(const Case& one) {
-  std::vector<std::string> cells = {"policy"};
-  for (const int percent : kSummaryPercents) cells.push_back(fmt::format("T{}", percent));
-  cells.insert(cells.end(), {"all out", "left inside"});
-  for (const double at_s : one.horizons_s) {
-    cells.insert(cells.end(), {fmt::format("mean to {:.0f} s", at_s), "ratio", "difference [95 %]",
-                               "p", "p (Holm)"});
-  }
-  cells.insert(cells.end(), {"T90/bound", "T90/reference", "exits"});
-  return cells;
-}
-
-std::vector<std::string> case_cells(const Study& study, const SummaryRow& row) {
-  std::vector<std::string> cells = {study.policies[row.policy].title};
-  for (const Spread& time : row.percentiles) cells.push_back(spread_text(time));
-  cells.push_back(fmt::format("{}/{}", row.all_out, row.runs));
-  cells.push_back(fmt::format("{:.1f}", row.not_escaped));
-  for (const MeanAtHorizon& at : row.means) {
-    cells.push_back(
-        fmt::format("{:.1f} [{:.1f}-{:.1f}]", at.spread.median, at.spread.low, at.spread.high));
-    if (row.policy == study.baseline) {
-      cells.insert(cells.end(), {"", "", "", ""});
-      continue;
-    }
-    cells.push_back(fmt::format("{:.2f}", at.ratio_to_baseline));
-    cells.push_back(fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", at.difference_s, at.difference_95.low,
-                                at.difference_95.high));
-    cells.push_back(fmt::format("{:.2g}", at.test.p_value));
-    cells.push_back(fmt::format("{:.2g}", at.holm_p));
-  }
-  cells.push_back(fmt::format("{:.2f}", row.t90_to_bound));
-  cells.push_back(fmt::format("{:.2f}", row.t90_to_reference));
-  cells.push_back(exits_text(row));
-  return cells;
 }
 
 std::string markdown_row(const std::vector<std::string>& cells) {
@@ -193,28 +81,26 @@ std::string markdown_row(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-std::string explanation(const Study& study) {
-  return fmt::format(
-      "Medians [quartiles] over {} runs with paired seeds; times in s, each person's from the "
-      "later of alarm and arrival. Mean to a horizon: restricted mean survival time, who is not "
-      "out by then counts with it. Ratio, difference and p (Wilcoxon): of that mean to \"{}\", the "
-      "interval by bootstrap; p (Holm): adjusted for all comparisons of the study. Left inside: "
-      "unhurt at the end, mean. Bound, reference: docs/guidance.md. Exits: net number of people "
-      "out per exit, mean.",
-      study.runs, study.policies[study.baseline].title);
+std::string markdown_table(const Table& table) {
+  std::string text = markdown_row(table.header);
+  text += markdown_row(std::vector<std::string>(table.header.size(), "---"));
+  for (const std::vector<std::string>& cells : table.rows) text += markdown_row(cells);
+  return text;
 }
 
-std::string markdown_of(const Study& study, const std::vector<SummaryRow>& rows) {
-  std::string text = fmt::format("# {}\n\n{} {}.\n", study.name, explanation(study), kGenerator);
+std::string markdown_of(const Study& study, const Summary& summary) {
+  std::string text =
+      fmt::format("# {}\n\n{} {}.\n", study.name, case_explanation(study), kGenerator);
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
-    const std::vector<std::string> header = case_header(study.cases[c]);
-    text += fmt::format("\n## {}\n\n", study.cases[c].title) + markdown_row(header);
-    text += markdown_row(std::vector<std::string>(header.size(), "---"));
-    for (const SummaryRow& row : rows) {
-      if (row.one_case == c) text += markdown_row(case_cells(study, row));
-    }
+    text += fmt::format("\n## {}\n\n", study.cases[c].title) +
+            markdown_table(case_table(study, summary.rows, c));
   }
-  return text;
+  text += fmt::format("\n## {}\n\n{}\n\n", kIntervalTitle, interval_explanation()) +
+          markdown_table(interval_table(study, summary.rows));
+  if (summary.case_differences.empty()) return text;
+  return text +
+         fmt::format("\n## {}\n\n{}\n\n", kDifferenceTitle, case_difference_explanation(study)) +
+         markdown_table(case_difference_table(study, summary.case_differences));
 }
 
 json time_json(double seconds) { return std::isfinite(seconds) ? json(seconds) : json(nullptr); }
@@ -223,6 +109,32 @@ json spread_json(const Spread& time) {
   return {{"median", time_json(time.median)},
           {"low", time_json(time.low)},
           {"high", time_json(time.high)}};
+}
+
+json interval_json(const Interval& interval) {
+  return {time_json(interval.low), time_json(interval.high)};
+}
+
+json percentile_json(const EscapePercentile& time) {
+  json value = spread_json(time.spread);
+  value["mean_s"] = time_json(time.mean_s);
+  value["mean_95_s"] = interval_json(time.mean_95);
+  value["p95_s"] = time_json(time.high_s);
+  value["p95_95_s"] = interval_json(time.high_95);
+  value["runs_for_5_percent"] = time_json(time.runs_for_5_percent);
+  return value;
+}
+
+json case_difference_json(const Study& study, const CaseDifference& one) {
+  return {{"case", study.cases[one.one_case].id},
+          {"policy", study.policies[one.policy].id},
+          {"percent", one.percent},
+          {"runs", one.runs},
+          {"difference_s", time_json(one.difference_s)},
+          {"difference_95_s", interval_json(one.difference_95)},
+          {"wilcoxon",
+           {{"n", one.test.n}, {"w_plus", one.test.w_plus}, {"p", time_json(one.test.p_value)}}},
+          {"holm_p", time_json(one.holm_p)}};
 }
 
 json mean_json(const MeanAtHorizon& at) {
@@ -237,12 +149,12 @@ json mean_json(const MeanAtHorizon& at) {
           {"holm_p", time_json(at.holm_p)}};
 }
 
-json json_of(const Study& study, const std::vector<SummaryRow>& rows) {
+json json_of(const Study& study, const Summary& summary) {
   json list = json::array();
-  for (const SummaryRow& row : rows) {
+  for (const SummaryRow& row : summary.rows) {
     json times;
     for (std::size_t i = 0; i < row.percentiles.size(); ++i) {
-      times[fmt::format("t{}_s", kSummaryPercents[i])] = spread_json(row.percentiles[i]);
+      times[fmt::format("t{}_s", kSummaryPercents[i])] = percentile_json(row.percentiles[i]);
     }
     json exits;
     const auto& scenario_exits = study.cases[row.one_case].scenario.exits;
@@ -265,11 +177,18 @@ json json_of(const Study& study, const std::vector<SummaryRow>& rows) {
                     {"followed", row.followed},
                     {"exit_use", std::move(exits)}});
   }
-  return {{"name", study.name},
-          {"seed", study.seed},
-          {"generator", kGenerator},
-          {"baseline", study.policies[study.baseline].id},
-          {"rows", std::move(list)}};
+  json document = {{"name", study.name},
+                   {"seed", study.seed},
+                   {"generator", kGenerator},
+                   {"baseline", study.policies[study.baseline].id},
+                   {"rows", std::move(list)}};
+  if (!study.baseline_case) return document;
+  document["baseline_case"] = study.cases[*study.baseline_case].id;
+  document["case_differences"] = json::array();
+  for (const CaseDifference& one : summary.case_differences) {
+    document["case_differences"].push_back(case_difference_json(study, one));
+  }
+  return document;
 }
 
 // Share of people out at each second in per cent, mean over the runs.
@@ -288,12 +207,18 @@ json curve_of(const std::string& name, const std::vector<Outcome>& runs, double 
   return {{"name", name}, {"share", std::move(share)}};
 }
 
+double median_t95_s(const std::vector<Outcome>& runs) {
+  std::vector<double> times_s;
+  for (const Outcome& run : runs) times_s.push_back(run.percentile_s(95));
+  return median(std::move(times_s));
+}
+
 // Until nearly everybody is out under most policies.
 double shown_time_s(const Case& one, const std::vector<std::vector<Outcome>>& policies) {
   constexpr double kRoundTo = 20;
   double longest = 0;
   for (const auto& runs : policies) {
-    const double t95 = median(each(runs, [](const Outcome& run) { return run.percentile_s(95); }));
+    const double t95 = median_t95_s(runs);
     longest = std::max(longest, std::isfinite(t95) ? t95 : one.duration_s);
   }
   return kRoundTo * std::ceil(1.15 * longest / kRoundTo);
@@ -307,22 +232,44 @@ std::string html_row(const char* tag, const std::vector<std::string>& cells) {
   return html + "</tr>\n";
 }
 
-std::string html_table(const Study& study, const std::vector<SummaryRow>& rows,
-                       std::size_t one_case) {
-  std::string html = "<table>" + html_row("th", case_header(study.cases[one_case]));
-  for (const SummaryRow& row : rows) {
-    if (row.one_case == one_case) html += html_row("td", case_cells(study, row));
-  }
+std::string html_table(const Table& table) {
+  std::string html = "<table>" + html_row("th", table.header);
+  for (const std::vector<std::string>& cells : table.rows) html += html_row("td", cells);
   return html + "</table>\n";
 }
 
-std::string html_of_study(const Study& study, const Outcomes& outcomes,
-                          const std::vector<SummaryRow>& rows) {
+/// How the mean settles as runs are added, of each policy in a case.
+json convergence_json(const Study& study, const std::vector<std::vector<Outcome>>& policies) {
+  json curves = json::array();
+  for (std::size_t p = 0; p < policies.size(); ++p) {
+    const Convergence settled = convergence_of(policies[p], kConvergencePercent);
+    json mean_s = json::array();
+    json low_s = json::array();
+    json high_s = json::array();
+    for (std::size_t i = 0; i < settled.mean_s.size(); ++i) {
+      mean_s.push_back(rounded(settled.mean_s[i]));
+      low_s.push_back(rounded(settled.mean_95[i].low));
+      high_s.push_back(rounded(settled.mean_95[i].high));
+    }
+    curves.push_back({{"name", study.policies[p].title},
+                      {"mean_s", std::move(mean_s)},
+                      {"low_s", std::move(low_s)},
+                      {"high_s", std::move(high_s)}});
+  }
+  return curves;
+}
+
+std::string html_section(const char* title, const std::string& explanation, const Table& table) {
+  return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", title, escaped_markup(explanation)) +
+         html_table(table);
+}
+
+std::string html_of_study(const Study& study, const Outcomes& outcomes, const Summary& summary) {
   Page page;
   page.title = study.name;
   page.body =
       fmt::format("<h1>{}</h1>\n<p>{} {}. Curves: mean over the runs.</p>\n",
-                  escaped_markup(study.name), escaped_markup(explanation(study)), kGenerator);
+                  escaped_markup(study.name), escaped_markup(case_explanation(study)), kGenerator);
   json cases = json::array();
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     json curves = json::array();
@@ -330,38 +277,35 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes,
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
       curves.push_back(curve_of(study.policies[p].title, outcomes[c][p], until_s));
     }
-    cases.push_back({{"curves", std::move(curves)}});
+    cases.push_back(
+        {{"curves", std::move(curves)}, {"convergence", convergence_json(study, outcomes[c])}});
     page.body +=
         fmt::format("<h2>{}</h2>\n", escaped_markup(study.cases[c].title)) +
-        html_table(study, rows, c) +
+        html_table(case_table(study, summary.rows, c)) +
         chart_frame("People out", fmt::format("data-chart=\"policies\" data-case=\"{}\"", c));
+    if (study.runs < 2) continue;
+    page.body += chart_frame(
+        fmt::format("Mean T{} over the first runs, with its 95 % interval", kConvergencePercent),
+        fmt::format("data-chart=\"convergence\" data-case=\"{}\"", c));
+  }
+  page.body +=
+      html_section(kIntervalTitle, interval_explanation(), interval_table(study, summary.rows));
+  if (!summary.case_differences.empty()) {
+    page.body += html_section(kDifferenceTitle, case_difference_explanation(study),
+                              case_difference_table(study, summary.case_differences));
   }
   return html_of(page, {{"cases", std::move(cases)}});
 }
 
 }  // namespace
 
-std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) {
-  std::vector<SummaryRow> rows;
-  for (std::size_t c = 0; c < study.cases.size(); ++c) {
-    for (std::size_t p = 0; p < study.policies.size(); ++p) {
-      rows.push_back(
-          summarize_one(study.cases[c], outcomes[c][p], outcomes[c][study.baseline], study.seed));
-      rows.back().one_case = c;
-      rows.back().policy = p;
-    }
-  }
-  adjust_p_values(study.baseline, rows);
-  return rows;
-}
-
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
-  const std::vector<SummaryRow> rows = summarize(study, outcomes);
-  write_file_atomically(folder / "report.html", html_of_study(study, outcomes, rows));
-  write_file_atomically(folder / "summary.csv", csv_of(study, rows));
-  write_file_atomically(folder / "summary.json", json_of(study, rows).dump(2) + "\n");
-  write_file_atomically(folder / "summary.md", markdown_of(study, rows));
+  const Summary summary{summarize(study, outcomes), compare_cases(study, outcomes)};
+  write_file_atomically(folder / "report.html", html_of_study(study, outcomes, summary));
+  write_file_atomically(folder / "summary.csv", csv_of(study, summary.rows));
+  write_file_atomically(folder / "summary.json", json_of(study, summary).dump(2) + "\n");
+  write_file_atomically(folder / "summary.md", markdown_of(study, summary));
 }
 
 }  // namespace throng::study

@@ -1,7 +1,9 @@
 #include "study/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -97,6 +99,40 @@ Interval bootstrap_mean(const std::vector<double>& values, double confidence, st
   }
   const double tail = 0.5 * (1 - confidence);
   return {quantile(means, tail), quantile(means, 1 - tail)};
+}
+
+Interval student_interval(const std::vector<double>& values, double confidence) {
+  if (values.size() < 2) {
+    constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+    return {kNotKnown, kNotKnown};
+  }
+  const double middle = mean(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - middle) * (value - middle);
+  const auto count = static_cast<double>(values.size());
+  const double error = std::sqrt(squares / (count - 1) / count);
+  const double half =
+      error * boost::math::quantile(boost::math::students_t(count - 1), 0.5 + 0.5 * confidence);
+  return {middle - half, middle + half};
+}
+
+Interval quantile_interval(std::vector<double> values, double p, double confidence) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Interval interval{-kInfinity, kInfinity};
+  if (values.empty()) return interval;
+  std::sort(values.begin(), values.end());
+  const double tail = 0.5 * (1 - confidence);
+  const boost::math::binomial below(static_cast<double>(values.size()), p);
+  // The k-th value is above the quantile if fewer than k values are below it.
+  for (std::size_t k = 1; k <= values.size(); ++k) {
+    if (boost::math::cdf(below, static_cast<double>(k - 1)) > tail) break;
+    interval.low = values[k - 1];
+  }
+  for (std::size_t k = values.size(); k >= 1; --k) {
+    if (boost::math::cdf(boost::math::complement(below, static_cast<double>(k - 1))) > tail) break;
+    interval.high = values[k - 1];
+  }
+  return interval;
 }
 
 SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {

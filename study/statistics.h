@@ -22,6 +22,14 @@ struct Interval {
 /// seed.
 Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed);
 
+/// Student's interval of the mean of normal values; NaN for fewer than two.
+Interval student_interval(const std::vector<double>& values, double confidence);
+
+/// Interval of the quantile of a share `p`, from the order statistics, whatever the distribution
+/// (e.g. Conover, Practical Nonparametric Statistics, 3.2). An end for which there are too few
+/// values is infinite.
+Interval quantile_interval(std::vector<double> values, double p, double confidence);
+
 /// Wilcoxon's signed-rank test (1945) of whether paired differences are symmetric about 0:
 /// two-sided. Zeros are left out, ties have mean ranks. Exact, by counting all signs, for up to 60
 /// differences; normal beyond, with a continuity correction.

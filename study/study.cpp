@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMaxRuns = 1000;
-constexpr double kMaxRunS = 7200;  // of a job
+constexpr const char* kNoDrones = "no_drones";  // id of the policy of a study that names none
+constexpr double kMaxRunS = 7200;               // of a job
 
 // The part of a document that a job takes over as it is.
 json part(const json& object, const char* key) {
@@ -45,7 +46,8 @@ class StudyReader {
         root_(document, source, problems_) {}
 
   Study read() {
-    root_.fields({"cases", "policies"}, {"name", "seed", "runs", "baseline", "horizons_s"});
+    root_.fields({"cases"},
+                 {"policies", "name", "seed", "runs", "baseline", "baseline_case", "horizons_s"});
     study_.name = root_["name"].exists() ? root_["name"].text() : "study";
     if (root_["seed"].exists()) {
       study_.seed = static_cast<std::uint64_t>(root_["seed"].integer(0, 1'000'000'000));
@@ -65,6 +67,10 @@ class StudyReader {
   }
 
   void read_policies() {
+    if (!root_["policies"].exists()) {
+      study_.policies.push_back({kNoDrones, "no drones"});
+      return;
+    }
     std::set<std::string> ids;
     for (const JsonValue& item : root_["policies"].items(1)) {
       item.fields({"id"}, {"title", "drones"});
@@ -102,6 +108,21 @@ class StudyReader {
       read_horizons(item, one);
       study_.cases.push_back(std::move(one));
     }
+    read_baseline_case();
+  }
+
+  // Cases of a study without policies are alternatives: of what else would they be cases?
+  void read_baseline_case() {
+    const bool are_alternatives = !root_["policies"].exists() && study_.cases.size() > 1;
+    if (are_alternatives) study_.baseline_case = 0;
+    if (!root_["baseline_case"].exists()) return;
+    const std::string id = root_["baseline_case"].identifier();
+    for (std::size_t i = 0; i < study_.cases.size(); ++i) {
+      if (study_.cases[i].id != id) continue;
+      study_.baseline_case = i;
+      return;
+    }
+    root_["baseline_case"].reject("the id of a case");
   }
 
   world::Scenario read_scenario(const JsonValue& value) {
@@ -202,7 +223,8 @@ class StudyReader {
         {"runs", study_.runs},
         {"capture", {{"from_s", 0}, {"to_s", study_.cases[c].duration_s}, {"rate_hz", 0.01}}}};
     const json crowd = part(given, "crowd");
-    const json drones = part(document_["policies"][p], "drones");
+    const json policies = part(document_, "policies");
+    const json drones = policies.is_null() ? json() : part(policies[p], "drones");
     if (!crowd.is_null()) job["crowd"] = crowd;
     const bool nobody_flies = drones.is_null() || drones == json::array();
     if (!nobody_flies) job["drones"] = drones;

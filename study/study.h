@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct Study {
   std::uint64_t seed = 1;
   int runs = 24;             ///< paired: run i of every policy has the same seed
   std::size_t baseline = 0;  ///< index of the policy that the others are compared with
+  /// Index of the case that the others are compared with, if cases are alternatives.
+  std::optional<std::size_t> baseline_case;
   std::vector<Case> cases;
   std::vector<PolicyRow> policies;
   std::vector<std::vector<jobs::JobSpec>> jobs;  ///< per case and policy; without drones: none fly

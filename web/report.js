@@ -1,12 +1,13 @@
 // Draws the charts of a report. The page holds their figures as JSON (#figures) and an element
 // [data-chart] for each; tables and the choice of a run need no script.
 import { draw } from './charts.js';
+import { convergenceOfPolicies } from './convergence.js';
 import { escapeOfPolicies, escapeOfRuns } from './escape.js';
 import { fundamental } from './fundamental.js';
 import { map, paths } from './ground.js';
 import { timeline } from './timeline.js';
 
-const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, timeline, map, paths, fundamental };
+const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, convergence: convergenceOfPolicies, timeline, map, paths, fundamental };
 const figures = JSON.parse(document.getElementById('figures').textContent);
 const drawn = new Map();
 

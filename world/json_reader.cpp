@@ -90,6 +90,10 @@ JsonValue JsonValue::renamed(std::string_view key, std::string_view deprecated) 
   return old;
 }
 
+bool JsonValue::is_number() const { return value_ != nullptr && value_->is_number(); }
+
+bool JsonValue::is_text() const { return value_ != nullptr && value_->is_string(); }
+
 double JsonValue::number(double low, double high) const {
   if (value_ == nullptr) return low;
   const double value = value_->is_number() ? value_->get<double>() : low - 1;

@@ -34,6 +34,8 @@ class JsonValue {
   /// The same, or, with a warning, the field with its deprecated name. Both at once are a problem.
   JsonValue renamed(std::string_view key, std::string_view deprecated) const;
   bool exists() const { return value_ != nullptr; }
+  bool is_number() const;
+  bool is_text() const;
 
   double number(double low, double high) const;
   int integer(int low, int high) const;

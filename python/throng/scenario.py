@@ -35,12 +35,18 @@ _ON_WALL_M = 0.02
 _MARGIN_M = 15.0
 _DRONE_HEIGHT_M = 60.0
 
+Sampled = Union[float, Mapping[str, Any]]
+"""A number that is sampled for each person, as docs/blueprint.md has it."""
+
 
 class Scenario:
     """A place and who is in it.
 
     walkable is the floor: walls stand around it but for the exits, its holes are obstacles. People escape when they
     leave its bounding box. Methods return the scenario, so that calls can be chained.
+
+    Speeds and pre-movement times are numbers, {"uniform": [low, high]}, {"normal": [mean, standard deviation]} or
+    {"lognormal": [median, standard deviation of the logarithm]}; the latter two with "min" and "max".
     """
 
     def __init__(
@@ -52,8 +58,10 @@ class Scenario:
         wall_thickness_m: float = 0.3,
         wall_height_m: float = 2.5,
         ground: str = "concrete",
-        speed_mps: float | None = None,
+        speed_mps: Sampled | None = None,
         in_groups: float | None = None,
+        pre_movement_s: Sampled | None = None,
+        evacuation_speed_mps: Sampled | Literal["unchanged"] | None = None,
     ) -> None:
         if not re.fullmatch(r"[a-z0-9_]{1,60}", name):
             raise ScenarioError(f"name: found {name!r}, expected 1 to 60 letters a to z, digits and '_'")
@@ -65,9 +73,13 @@ class Scenario:
         self._thickness = wall_thickness_m
         self._height = wall_height_m
         self._ground = ground
-        self._people: dict[str, Any] = {
-            key: value for key, value in (("speed_mps", speed_mps), ("in_groups", in_groups)) if value is not None
+        people = {
+            "speed_mps": speed_mps,
+            "in_groups": in_groups,
+            "pre_movement_s": pre_movement_s,
+            "evacuation_speed_mps": evacuation_speed_mps,
         }
+        self._people: dict[str, Any] = {key: plain(value) for key, value in people.items() if value is not None}
         self._exits: list[dict[str, Any]] = []
         self._blocks: list[tuple[str, Points, float]] = []
         self._lists: dict[str, list[dict[str, Any]]] = {"groups": [], "sources": [], "lines": []}
@@ -183,6 +195,7 @@ class Scenario:
         doing: str = "cross",
         towards: str | None = None,
         until_s: float | None = None,
+        speed_mps: Sampled | None = None,
     ) -> Scenario:
         """People who come in by an exit or across a line: per_minute of them (Poisson), or a table of [seconds,
         people]."""
@@ -193,6 +206,7 @@ class Scenario:
             "table": plain(table),
             "towards": towards,
             "until_s": until_s,
+            "speed_mps": plain(speed_mps),
         }
         if line is not None:
             points = line_of(line, "source")
@@ -200,11 +214,11 @@ class Scenario:
         self._lists["sources"].append({key: value for key, value in entry.items() if value is not None})
         return self
 
-    def queue(self, line: Any, *, count: int, doing: str = "wait") -> Scenario:
-        """People who stand in line; its head is the line's first point."""
+    def queue(self, line: Any, *, count: int, **more: Any) -> Scenario:
+        """People who stand in line; its head is the line's first point. more is as docs/blueprint.md has it."""
         points = line_of(line, "queue")
         self._lists["lines"].append(
-            {"doing": doing, "from": points[0].tolist(), "to": points[-1].tolist(), "count": int(count)}
+            {"from": points[0].tolist(), "to": points[-1].tolist(), "count": int(count), **plain(more)}
         )
         return self
 
@@ -325,7 +339,7 @@ class Scenario:
     ) -> Trace:
         """Simulates one run without drawing anything.
 
-        model is a pedestrian model of `throng crowd --list` (default: weidmann). job holds more fields of a job, such
+        model is a pedestrian model of `throng crowd --list` (default: ttc). job holds more fields of a job, such
         as {"crowd": {"agents": 20}}. The trace is kept in the file `trace`, else in a temporary one for as long as the
         Trace is.
         """

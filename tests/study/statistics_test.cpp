@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "base/random.h"
@@ -78,6 +79,45 @@ TEST(Statistics, TheBootstrapCoversTheMean) {
   EXPECT_NEAR(interval.low, 3.94, 0.06);
   EXPECT_NEAR(interval.high, 5.06, 0.06);
   EXPECT_EQ(interval.low, bootstrap_mean(values, 0.95, 1).low) << "the same for the same seed";
+}
+
+TEST(Statistics, StudentsIntervalIsThatOfTheTables) {
+  const Interval interval = student_interval({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 0.95);
+  // t(9, 0.975) = 2.262 (any table), standard deviation 3.0277.
+  EXPECT_NEAR(interval.low, 5.5 - 2.262 * 3.0277 / std::sqrt(10), 1e-3);
+  EXPECT_NEAR(interval.high, 5.5 + 2.262 * 3.0277 / std::sqrt(10), 1e-3);
+  EXPECT_TRUE(std::isnan(student_interval({4}, 0.95).low));
+}
+
+TEST(Statistics, QuantileIntervalsAreThoseOfTheTables) {
+  std::vector<double> values(10);
+  std::iota(values.begin(), values.end(), 1);
+  // The median of ten: between the 2nd and the 9th with 97.9 %, as tables of the sign test say.
+  EXPECT_EQ(quantile_interval(values, 0.5, 0.95).low, 2);
+  EXPECT_EQ(quantile_interval(values, 0.5, 0.95).high, 9);
+  // The longest of n exceeds the 95th percentile with 1 - 0.95^n: above 97.5 % from 72 on.
+  const auto high_of = [](int count) {
+    std::vector<double> times(static_cast<std::size_t>(count));
+    std::iota(times.begin(), times.end(), 1);
+    return quantile_interval(times, 0.95, 0.95).high;
+  };
+  EXPECT_TRUE(std::isinf(high_of(71)));
+  EXPECT_EQ(high_of(72), 72);
+}
+
+TEST(Statistics, QuantileIntervalsCoverTheQuantile) {
+  Random random(11, Stream::bootstrap);
+  int covered = 0;
+  constexpr int kTrials = 2000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> values(100);
+    for (double& value : values) value = -std::log(1 - random.uniform());
+    const Interval interval = quantile_interval(values, 0.9, 0.95);
+    const double truth = std::log(10.0);
+    if (interval.low <= truth && truth <= interval.high) ++covered;
+  }
+  EXPECT_GE(covered, 0.95 * kTrials);
+  EXPECT_LE(covered, 0.985 * kTrials) << "not much wider than it must be";
 }
 
 // The definition, one hypothesis after the other: those with smaller p-values first, each of them

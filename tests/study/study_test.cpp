@@ -82,6 +82,23 @@ TEST_F(StudyFile, APolicyWithoutDronesNeedsNoneOfTheScenario) {
   EXPECT_EQ(study.jobs[0][0].crowd.model, "orca") << "still the scenario's";
 }
 
+TEST_F(StudyFile, OneDesignNeedsNoPolicy) {
+  json document = small_study();
+  document.erase("policies");
+  document.erase("baseline");
+  const Study one = load(document);
+  ASSERT_EQ(one.jobs[0].size(), 1U);
+  EXPECT_TRUE(one.jobs[0][0].drones.empty());
+  EXPECT_FALSE(one.baseline_case.has_value());
+  document["cases"].push_back(document["cases"][0]);
+  document["cases"][1]["id"] = "b";
+  EXPECT_EQ(load(document).baseline_case, 0U) << "two designs are compared";
+  document["baseline_case"] = "b";
+  EXPECT_EQ(load(document).baseline_case, 1U);
+  document["baseline_case"] = "c";
+  EXPECT_EQ(problems_of(document).at(0).where, "/baseline_case");
+}
+
 TEST_F(StudyFile, TheShippedOneIsFine) {
   const Study study = load_study(kScenarios / "city_square" / "study.json", kScenarios);
   EXPECT_EQ(study.runs, 24);

@@ -1,0 +1,33 @@
+// The tables of a study's report, as text in cells for Markdown and HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/summary.h"
+
+namespace throng::study {
+
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Of one case: a row for each policy with medians, quartiles and comparisons.
+Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::size_t one_case);
+
+/// T50, T90 and T95 of all cases and policies with the intervals of their means, and whether there
+/// are runs enough.
+Table interval_table(const Study& study, const std::vector<SummaryRow>& rows);
+
+/// The other cases against the baseline case.
+Table case_difference_table(const Study& study, const std::vector<CaseDifference>& differences);
+
+/// What the cells of case_table() are.
+std::string case_explanation(const Study& study);
+/// What the cells of interval_table() are.
+std::string interval_explanation();
+/// What the cells of case_difference_table() are.
+std::string case_difference_explanation(const Study& study);
+
+}  // namespace throng::study
