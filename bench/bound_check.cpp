@@ -28,7 +28,7 @@ constexpr double kRounding = 1e-6;
 
 class Observer : public sim::RunObserver {
  public:
-  Observer(const world::Scenario& scenario, metrics::Alarm alarm)
+  Observer(const world::Scenario& scenario, world::Alarm alarm)
       : scenario_(scenario), alarm_(std::move(alarm)) {}
   void begin(const world::TraceHeader& header) override {
     max_radius_m_ = metrics::max_radius_m(header);
@@ -43,7 +43,7 @@ class Observer : public sim::RunObserver {
 
  private:
   const world::Scenario& scenario_;
-  metrics::Alarm alarm_;
+  world::Alarm alarm_;
   double max_radius_m_ = 0;
   std::unique_ptr<metrics::PeopleTracker> tracker_;
 };
@@ -83,7 +83,7 @@ void check_run(const world::Scenario& scenario, int number, std::uint64_t seed, 
       scenario.id.find("navigated") == std::string::npos) {
     spec.crowd.compat = crowd::Compat::huang2016;
   }
-  const metrics::Alarm alarm = metrics::alarm_of(scenario);
+  const world::Alarm alarm = world::alarm_of(scenario);
   Observer observer(scenario, alarm);
   sim::simulate(scenario, spec, observer);
   const auto people = observer.tracker().records();

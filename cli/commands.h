@@ -13,6 +13,7 @@ void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_study(CLI::App& app);
+void add_schema(CLI::App& app);
 void add_render(CLI::App& app);
 void add_crowd(CLI::App& app);
 void add_serve(CLI::App& app);

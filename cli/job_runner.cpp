@@ -74,8 +74,8 @@ std::string read_job_text(const std::string& path) {
   return jobs::with_calibrations(text, camera_in);
 }
 
-jobs::ResolvedJob read_job_file(const std::string& path) {
-  return jobs::resolve_job(read_job_text(path), path, world::scenarios_folder());
+jobs::ResolvedJob read_job_file(const std::string& path, jobs::DefaultDrones default_drones) {
+  return jobs::resolve_job(read_job_text(path), path, world::scenarios_folder(), default_drones);
 }
 
 void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,

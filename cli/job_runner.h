@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
 
@@ -25,7 +26,8 @@ void add_job_options(CLI::App& command, JobArguments& arguments);
 std::string read_job_text(const std::string& path);
 
 /// Reads the job file and resolves the job. Throws InputError (also when there is no such file).
-jobs::ResolvedJob read_job_file(const std::string& path);
+jobs::ResolvedJob read_job_file(
+    const std::string& path, jobs::DefaultDrones default_drones = jobs::DefaultDrones::of_scenario);
 
 /// Works the folder's job off, then prints where the dataset is, and where the time went if asked
 /// for. Throws like jobs::run_job.

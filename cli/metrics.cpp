@@ -88,7 +88,7 @@ void measure(const MetricsArguments& arguments) {
         {"--scenario", "", "nothing", "the scenario whose exits the recorded people walk to"});
   }
   const world::Scenario scenario =
-      scenario_named(arguments.scenario.empty() ? trace.header.scenario_id : arguments.scenario);
+      scenario_of_trace(arguments.scenario, trace.header, arguments.trace);
   if (recorded) check_somebody_inside(trace, scenario, arguments.trajectory);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
@@ -146,7 +146,7 @@ void add_metrics(CLI::App& app) {
       "--trajectory", arguments->trajectory,
       "Recorded trajectories instead: JuPedSim or PedPy text, JuPedSim SQLite, Menge .scb, .csv");
   command->add_option("--scenario", arguments->scenario,
-                      "Id or file (.json) of the scenario; default: the trace's");
+                      "Id or file (.json) of the scenario; default: the one that the trace holds");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");
   command->add_option("--csv", arguments->csv, "Also write the exits' time series (CSV)");
   command->add_option("--to,--to-jupedsim", arguments->to_file,

@@ -9,8 +9,10 @@
 #include "cli/commands.h"
 #include "cli/job_runner.h"
 #include "cli/trace_file.h"
+#include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
 #include "world/trace.h"
+#include "world/trace_scenario.h"
 
 namespace throng::cli {
 
@@ -42,12 +44,26 @@ void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
   if (!problems.empty()) throw InputError(problems);
 }
 
+/// The job, in the scenario that the trace holds, so that a job's folder is enough; else in the
+/// shipped one.
+jobs::JobSpec job_for(const world::Trace& trace, const RenderArguments& arguments) {
+  const auto kept =
+      world::scenario_in_trace(trace.header, arguments.trace_file, world::TraceMeshes::needed);
+  if (!kept) return read_job_file(arguments.job_file).spec();
+  std::vector<Problem> problems;
+  jobs::JobSpec job =
+      jobs::parse_job(read_job_text(arguments.job_file), arguments.job_file, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return jobs::resolve(std::move(job), *kept, arguments.job_file).spec();
+}
+
 void render(const RenderArguments& arguments) {
-  jobs::JobSpec job = read_job_file(arguments.job_file).spec();
+  const world::Trace trace = read_trace_file(arguments.trace_file);
+  jobs::JobSpec job = job_for(trace, arguments);
   job.runs = 1;
   std::erase_if(job.outputs.exports.splits.runs,
                 [](const auto& named) { return named.first != jobs::run_name(0); });
-  check_fits(read_trace_file(arguments.trace_file), job, arguments);
+  check_fits(trace, job, arguments);
   const jobs::ResolvedJob one_run(std::move(job));
   const auto folder = jobs::JobFolder::create(arguments.output, one_run);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});

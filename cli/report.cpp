@@ -17,8 +17,6 @@
 #include "cli/job_report.h"
 #include "cli/scenario_named.h"
 #include "cli/trace_file.h"
-#include "jobs/pipeline/job_scenario.h"
-#include "jobs/queue/folder.h"
 #include "jobs/queue/job_id.h"
 #include "study/run_report.h"
 #include "world/trace.h"
@@ -61,14 +59,6 @@ void find_traces(const fs::path& input, std::vector<NamedTrace>& traces) {
   traces.insert(traces.end(), found.begin(), found.end());
 }
 
-/// The scenario of a job, which may have been generated for it.
-std::optional<world::Scenario> scenario_of_job(const fs::path& input) {
-  const jobs::JobFolder folder(input);
-  if (!fs::exists(folder.job_file())) return std::nullopt;
-  const fs::path scenarios = world::scenarios_folder();
-  return jobs::scenario_of(folder.read_job().spec(), scenarios);
-}
-
 bool is_on_server(const ReportArguments& arguments) {
   return arguments.inputs.size() == 1 && !fs::exists(arguments.inputs[0]) &&
          jobs::is_job_id(arguments.inputs[0]);
@@ -86,16 +76,14 @@ std::string report_of_traces(const ReportArguments& arguments) {
   std::vector<NamedTrace> traces;
   for (const std::string& input : arguments.inputs) find_traces(input, traces);
   std::optional<world::Scenario> scenario;
-  if (!arguments.scenario.empty()) {
-    scenario = scenario_named(arguments.scenario);
-  } else {
-    scenario = scenario_of_job(arguments.inputs.front());
-  }
-  std::string id = scenario ? scenario->id : "";
+  std::string id;
   std::vector<study::MeasuredRun> runs;
   for (const NamedTrace& named : traces) {
     world::Trace trace = read_trace_file(named.file);
-    if (!scenario) scenario = scenario_named(id = trace.header.scenario_id);
+    if (!scenario) {
+      scenario = scenario_of_trace(arguments.scenario, trace.header, named.file.string());
+      id = trace.header.scenario_id;
+    }
     if (arguments.scenario.empty() && trace.header.scenario_id != id) {
       throw InputError({named.file.string(), "", trace.header.scenario_id,
                         fmt::format("a run of {}, as the first one", id)});
@@ -132,7 +120,7 @@ void add_report(CLI::App& app) {
       ->required();
   command->add_option(
       "--scenario", arguments->scenario,
-      "Id or file (.json) of the scenario; default: the job's or the first trace's");
+      "Id or file (.json) of the scenario; default: the one that the first trace holds");
   command->add_option("-o,--output", arguments->output, "HTML file to write")->required();
   command->callback([arguments] { report(*arguments); });
 }

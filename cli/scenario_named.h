@@ -7,6 +7,7 @@
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
 #include "world/scenario.h"
+#include "world/trace_scenario.h"
 
 namespace throng::cli {
 
@@ -17,6 +18,15 @@ inline world::Scenario scenario_named(const std::string& name) {
   if (file.extension() != ".json") return world::find_scenario(world::scenarios_folder(), name);
   require_kind(DocumentKind::scenario, read_input_file(name, "a scenario file"), name);
   return world::load_scenario(file, file.stem().string());
+}
+
+/// The scenario that the user names; where `name` is empty the one that the trace holds, else the
+/// shipped one of its id. Throws InputError.
+inline world::Scenario scenario_of_trace(const std::string& name, const world::TraceHeader& header,
+                                         const std::string& file) {
+  if (!name.empty()) return scenario_named(name);
+  auto kept = world::scenario_in_trace(header, file, world::TraceMeshes::left_out);
+  return kept ? *std::move(kept) : scenario_named(header.scenario_id);
 }
 
 }  // namespace throng::cli

@@ -26,7 +26,7 @@ struct SimulateArguments {
 };
 
 void simulate(const SimulateArguments& arguments) {
-  const jobs::JobSpec job = read_job_file(arguments.job_file).spec();
+  const jobs::JobSpec job = read_job_file(arguments.job_file, jobs::DefaultDrones::if_any).spec();
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});

@@ -71,8 +71,9 @@ std::string model_of_run(const world::Trace& trace, const world::Scenario& scena
 }  // namespace
 
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
-                       const std::vector<ExitSeries>& exits, const std::optional<Alarm>& given) {
-  const Alarm alarm = given ? *given : alarm_of(scenario);
+                       const std::vector<ExitSeries>& exits,
+                       const std::optional<world::Alarm>& given) {
+  const world::Alarm alarm = given ? *given : world::alarm_of(scenario);
   RunMetrics metrics;
   metrics.persons = person_records(trace, scenario, alarm);
   const std::vector<PersonRecord>& people = metrics.persons;

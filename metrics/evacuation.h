@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "metrics/alarm.h"
 #include "metrics/drones.h"
 #include "metrics/escape_times.h"
 #include "metrics/exit_totals.h"
@@ -18,6 +17,7 @@
 #include "metrics/people.h"
 #include "metrics/remaining.h"
 #include "metrics/run_bound.h"
+#include "world/alarm.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
@@ -65,11 +65,11 @@ struct RunMetrics {
 };
 
 /// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is
-/// 0 (and no percentile reached) when there is nobody. Without `alarm` it is alarm_of(scenario),
-/// whose exceptions pass.
+/// 0 (and no percentile reached) when there is nobody. Without `alarm` it is
+/// world::alarm_of(scenario), whose exceptions pass.
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<ExitSeries>& exits,
-                       const std::optional<Alarm>& alarm = {});
+                       const std::optional<world::Alarm>& alarm = {});
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
 inline constexpr int kDefinitionsVersion = 9;

@@ -72,7 +72,7 @@ json to_json(const GuidanceFigures& guidance) {
 LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_guides,
                        const world::Scenario& scenario) {
   check_pair(trace.header, without_guides.header);
-  const Alarm alarm = alarm_of(scenario);
+  const world::Alarm alarm = world::alarm_of(scenario);
   const double end_s = std::min(trace.duration_s(), without_guides.duration_s());
   const auto out_by = [&](const PersonRecord& person) {
     return std::min(person.escaped_s.value_or(end_s), end_s);

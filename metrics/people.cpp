@@ -44,7 +44,7 @@ double max_radius_m(const world::TraceHeader& header) {
 }
 
 PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scenario& scenario,
-                             Alarm alarm)
+                             world::Alarm alarm)
     : scenario_(scenario),
       alarm_(std::move(alarm)),
       dt_s_(header.dt_s),
@@ -163,7 +163,7 @@ std::vector<PersonRecord> PeopleTracker::records() const {
 }
 
 PeopleTracker tracked(const world::Trace& trace, const world::Scenario& scenario,
-                      const Alarm& alarm) {
+                      const world::Alarm& alarm) {
   PeopleTracker tracker(trace.header, scenario, alarm);
   const std::size_t agents = trace.agents();
   for (std::size_t step = 0; step < trace.steps(); ++step) {
@@ -178,7 +178,7 @@ PeopleTracker tracked(const world::Trace& trace, const world::Scenario& scenario
 }
 
 std::vector<PersonRecord> person_records(const world::Trace& trace, const world::Scenario& scenario,
-                                         const Alarm& alarm) {
+                                         const world::Alarm& alarm) {
   return tracked(trace, scenario, alarm).records();
 }
 

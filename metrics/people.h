@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "metrics/alarm.h"
 #include "metrics/crossings.h"
+#include "world/alarm.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
@@ -69,12 +69,13 @@ double max_radius_m(const world::TraceHeader& header);
 /// Watches people step by step. The scenario outlives it.
 ///
 /// Noticing: the first step, from the later of alarm and arrival on, at which somebody is in a
-/// state of people who know (Alarm::aware_states). If the behavior does not define those states,
-/// the first such step at which somebody follows a guide or heads for an exit that they did not
-/// head for before the alarm. Without an alarm nobody notices anything.
+/// state of people who know (world::Alarm::aware_states). If the behavior does not define those
+/// states, the first such step at which somebody follows a guide or heads for an exit that they did
+/// not head for before the alarm. Without an alarm nobody notices anything.
 class PeopleTracker {
  public:
-  PeopleTracker(const world::TraceHeader& header, const world::Scenario& scenario, Alarm alarm);
+  PeopleTracker(const world::TraceHeader& header, const world::Scenario& scenario,
+                world::Alarm alarm);
 
   /// Steps come in order of time.
   void step(const PeopleStep& step);
@@ -104,7 +105,7 @@ class PeopleTracker {
   void count_doors(Person& person, const PeopleStep& step);
 
   const world::Scenario& scenario_;
-  Alarm alarm_;
+  world::Alarm alarm_;
   double dt_s_;
   std::vector<bool> follows_, is_down_, is_aware_;  ///< per state of the header
   std::vector<ExitLine> lines_;
@@ -117,10 +118,10 @@ class PeopleTracker {
 
 /// A tracker that has seen a whole trace.
 PeopleTracker tracked(const world::Trace& trace, const world::Scenario& scenario,
-                      const Alarm& alarm);
+                      const world::Alarm& alarm);
 
 /// The same, of which only the people matter.
 std::vector<PersonRecord> person_records(const world::Trace& trace, const world::Scenario& scenario,
-                                         const Alarm& alarm);
+                                         const world::Alarm& alarm);
 
 }  // namespace throng::metrics

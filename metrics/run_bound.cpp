@@ -31,7 +31,7 @@ struct SettingOut {
   Vector2d place = Vector2d::Zero();
 };
 
-SettingOut setting_out(const PersonRecord& person, const Alarm& alarm, Knowledge knowledge) {
+SettingOut setting_out(const PersonRecord& person, const world::Alarm& alarm, Knowledge knowledge) {
   const bool notices = knowledge == Knowledge::as_noticed && alarm.at_s;
   if (notices && person.noticed_s) return {*person.noticed_s, person.noticed_place};
   if (notices && !person.escaped_s) return {};
@@ -136,7 +136,7 @@ bool went_by_door(const PersonRecord& person, const SettingOut& out) {
 class LowerBound {
  public:
   LowerBound(const world::Scenario& scenario, std::vector<const PersonRecord*> people,
-             const Alarm& alarm, const BoundSpec& spec)
+             const world::Alarm& alarm, const BoundSpec& spec)
       : scenario_(scenario),
         people_(std::move(people)),
         model_(spec.model),
@@ -246,8 +246,8 @@ using Distance = std::function<double(std::size_t exit, const Vector2d& place)>;
 using Speed = std::function<double(const PersonRecord&)>;
 
 std::optional<BestTimes> reference_of(const world::Scenario& scenario,
-                                      const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                      double end_s, Knowledge knowledge,
+                                      const std::vector<PersonRecord>& people,
+                                      const world::Alarm& alarm, double end_s, Knowledge knowledge,
                                       const std::vector<double>& capacity_per_s,
                                       const Distance& distance_m, const Speed& speed_mps) {
   const std::vector<const PersonRecord*> evacuees = evacuees_of(people);
@@ -286,16 +286,18 @@ std::optional<double> BestTimes::percentile_s(int percent) const {
 }
 
 std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
-                                     const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                     double end_s, const BoundSpec& spec) {
+                                     const std::vector<PersonRecord>& people,
+                                     const world::Alarm& alarm, double end_s,
+                                     const BoundSpec& spec) {
   std::vector<const PersonRecord*> evacuees = evacuees_of(people);
   if (evacuees.empty()) return std::nullopt;
   return LowerBound(scenario, std::move(evacuees), alarm, spec).times(end_s);
 }
 
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
-                                        const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                        double end_s, Knowledge knowledge,
+                                        const std::vector<PersonRecord>& people,
+                                        const world::Alarm& alarm, double end_s,
+                                        Knowledge knowledge,
                                         const std::vector<WalkingDistance>& distances) {
   std::vector<double> capacities;
   for (const world::Exit& exit : scenario.exits) {
@@ -311,9 +313,9 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
 }
 
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
-                                        const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                        double end_s, Knowledge knowledge,
-                                        const ReferenceSpec& spec) {
+                                        const std::vector<PersonRecord>& people,
+                                        const world::Alarm& alarm, double end_s,
+                                        Knowledge knowledge, const ReferenceSpec& spec) {
   return reference_of(
       scenario, people, alarm, end_s, knowledge, spec.capacity_per_s,
       [&](std::size_t exit, const Vector2d& place) {

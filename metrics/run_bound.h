@@ -44,8 +44,9 @@ struct BoundSpec {
 /// can be at the nearest side. People present at the alarm share the doors' capacity; later ones
 /// have it for themselves. Empty without evacuees.
 std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
-                                     const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                     double end_s, const BoundSpec& spec);
+                                     const std::vector<PersonRecord>& people,
+                                     const world::Alarm& alarm, double end_s,
+                                     const BoundSpec& spec);
 
 /// Knowledge assumed by a reference time.
 struct ReferenceSpec {
@@ -58,13 +59,14 @@ struct ReferenceSpec {
 /// greatest speed that each desired, on the shortest path of `distances` (walking_distances()).
 /// Empty without evacuees or exits.
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
-                                        const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                        double end_s, Knowledge knowledge,
+                                        const std::vector<PersonRecord>& people,
+                                        const world::Alarm& alarm, double end_s,
+                                        Knowledge knowledge,
                                         const std::vector<WalkingDistance>& distances);
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
-                                        const std::vector<PersonRecord>& people, const Alarm& alarm,
-                                        double end_s, Knowledge knowledge,
-                                        const ReferenceSpec& spec);
+                                        const std::vector<PersonRecord>& people,
+                                        const world::Alarm& alarm, double end_s,
+                                        Knowledge knowledge, const ReferenceSpec& spec);
 
 /// Ratio of the run's percentile to that of `best`; empty if either was not reached or the latter
 /// is 0.

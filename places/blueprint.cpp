@@ -11,6 +11,7 @@
 #include "places/crowd_scene.h"
 #include "places/people.h"
 #include "places/shorthand.h"
+#include "schemas/schemas.h"
 #include "world/json_reader.h"
 #include "world/scenario.h"
 
@@ -45,6 +46,7 @@ json scenario_json(const json& blueprint) {
   json document = blueprint;
   document.erase("people");
   document.erase("disasters");
+  document.erase("$schema");
   const auto exits = document.find("exits");
   if (exits == document.end() || !exits->is_array()) return document;
   int number = 0;
@@ -70,7 +72,9 @@ void add_emergency(const world::Scenario& place, const People& people, json& doc
     const world::Exit& exit = place.exits[i];
     const BlockedDisc* const disc = first_to_reach(exit, discs);
     json& written = document["exits"][i];
+    if (!anybody_leaves(people)) written["goals"].clear();
     if (can_flee_by(disc)) written["goals"].push_back({kFleeingSet, i});
+    if (written["goals"].empty()) written.erase("goals");
     if (disc == nullptr || !exit.is_open(disc->from_s)) continue;
     if (disc->from_s > 0) {
       written["closes_at_s"] = disc->from_s;
@@ -113,6 +117,7 @@ BuiltScenario build_scenario(const json& said, const std::string& source, const 
   BuiltScenario built{scenario_json(blueprint), {}};
   const world::Scenario place = read_place(built.document, source, id);
   const People people = read_people(root["people"], root["disasters"], place.exits);
+  schemas::add_schema_problems(schemas::Kind::blueprint, said, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   built.crowd = crowd_of_people(place, people, problems);
   for (Problem& problem : problems) problem.source = source;

@@ -196,6 +196,16 @@ void read_speeds_and_times(const JsonValue& value, People& people) {
 
 }  // namespace
 
+bool anybody_leaves(const People& people) {
+  const auto leaves = [](const auto& who) {
+    return who.doing == Doing::cross || who.doing == Doing::leave;
+  };
+  return std::any_of(people.groups.begin(), people.groups.end(), leaves) ||
+         std::any_of(people.sources.begin(), people.sources.end(), [&](const Source& source) {
+           return source.towards.has_value() || leaves(source);
+         });
+}
+
 People read_people(const JsonValue& value, const JsonValue& disasters,
                    const std::vector<world::Exit>& exits) {
   People people;

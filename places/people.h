@@ -88,6 +88,9 @@ struct People {
   std::vector<Danger> dangers;
 };
 
+/// Whether anybody leaves by an exit before or without a disaster.
+bool anybody_leaves(const People& people);
+
 /// Reads "people" and "disasters" of a blueprint whose exits are known.
 People read_people(const world::JsonValue& people, const world::JsonValue& disasters,
                    const std::vector<world::Exit>& exits);

@@ -84,6 +84,7 @@ void expand_shorthand(json& blueprint, const std::string& source, std::vector<Pr
   }
   if (!root["rows"].exists()) return;
   if (!blueprint.contains("props")) blueprint["props"] = json::array();
+  if (!blueprint["props"].is_array()) return root["props"].reject("an array");
   for (const JsonValue& row : root["rows"].items()) add_row(row, blueprint["props"]);
   blueprint.erase("rows");
 }

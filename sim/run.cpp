@@ -49,28 +49,34 @@ void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems
   }
 }
 
-// A first move of every goal, to learn whether the behavior file has it.
+/// A first move of a drone's goal, to learn whether the behavior file has it.
+template <typename Crowd>
+void check_goal(std::size_t drone, const world::GoalRef& goal, const Eigen::Vector2f& place,
+                Crowd& crowd, std::vector<Problem>& problems) {
+  try {
+    crowd.move_goal(goal.set, goal.goal, place);
+  } catch (const InputError&) {
+    problems.push_back({"", fmt::format("/drones/{}/moves_goal", drone),
+                        fmt::format("[{}, {}]", goal.set, goal.goal),
+                        "a goal set and goal of the scenario's behavior file"});
+  }
+}
+
 void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
                  std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
     if (!drones[i].moves_goal) continue;
-    const auto [set, goal] = *drones[i].moves_goal;
-    try {
-      crowd.move_goal(set, goal, drones[i].start.head<2>().cast<float>());
-    } catch (const InputError&) {
-      problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
-                          fmt::format("[{}, {}]", set, goal),
-                          "a goal set and goal of the scenario's behavior file"});
-    }
+    check_goal(i, *drones[i].moves_goal, drones[i].start.head<2>().cast<float>(), crowd, problems);
   }
 }
 
-// A goal that a job lets a drone move although nobody can ever follow the drone.
+// A goal that a job, not its scenario, lets a drone move although nobody can ever follow the drone.
 std::vector<Problem> idle_goals(const std::vector<PlannedDrone>& drones) {
   std::vector<Problem> warnings;
   for (std::size_t i = 0; i < drones.size(); ++i) {
     const DroneMission& mission = drones[i].mission;
-    if (!mission.moves_goal || guides(*drones[i].policy) || mission.guidance.beacon) continue;
+    if (!has_own_goal(mission, *drones[i].scenario)) continue;
+    if (guides(*drones[i].policy) || mission.guidance.beacon) continue;
     warnings.push_back({"", fmt::format("/drones/{}/moves_goal", i),
                         fmt::format("a goal, but the policy \"{}\" keeps the beacon off, so nobody "
                                     "follows this drone",
@@ -122,6 +128,8 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
                              const CrowdSource& crowd, const std::vector<world::AgentRole>& roles) {
   world::TraceHeader header = crowd.header(spec.seed);
   header.scenario_id = scenario.id;
+  header.scenario_document = scenario.document;
+  header.alarm = world::alarm_of(scenario);
   if (crowd.has_intents()) {
     for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
   }
@@ -158,6 +166,22 @@ std::vector<Problem> warnings_of(const CrowdSource& crowd, const std::vector<Pla
 }
 
 }  // namespace
+
+bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario) {
+  return mission.moves_goal && std::none_of(scenario.drones.begin(), scenario.drones.end(),
+                                            [&](const world::DroneStart& known) {
+                                              return known.id == mission.id &&
+                                                     known.moves_goal == mission.moves_goal;
+                                            });
+}
+
+void check_moved_goals(const std::vector<DroneMission>& missions, crowd::Simulation& crowd,
+                       std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < missions.size(); ++i) {
+    if (!missions[i].moves_goal) continue;
+    check_goal(i, *missions[i].moves_goal, Eigen::Vector2f::Zero(), crowd, problems);
+  }
+}
 
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
   if (!spec.model.empty()) return spec.model;

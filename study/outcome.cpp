@@ -73,7 +73,7 @@ Outcome outcome_from(const json& value) {
   return outcome;
 }
 
-OutcomeObserver::OutcomeObserver(const world::Scenario& scenario, metrics::Alarm alarm,
+OutcomeObserver::OutcomeObserver(const world::Scenario& scenario, world::Alarm alarm,
                                  metrics::ReferenceSpec reference, std::string model)
     : scenario_(scenario),
       alarm_(std::move(alarm)),

@@ -43,7 +43,7 @@ Outcome outcome_from(const nlohmann::json& value);
 class OutcomeObserver : public sim::RunObserver {
  public:
   /// The scenario outlives it. `model`: the pedestrian model of the run (crowd/model.h).
-  OutcomeObserver(const world::Scenario& scenario, metrics::Alarm alarm,
+  OutcomeObserver(const world::Scenario& scenario, world::Alarm alarm,
                   metrics::ReferenceSpec reference, std::string model);
   ~OutcomeObserver() override;
 
@@ -56,7 +56,7 @@ class OutcomeObserver : public sim::RunObserver {
 
  private:
   const world::Scenario& scenario_;
-  metrics::Alarm alarm_;
+  world::Alarm alarm_;
   metrics::ReferenceSpec reference_;
   std::string model_;
   double max_radius_m_ = 0;

@@ -12,6 +12,7 @@
 #include "base/json_text.h"
 #include "base/version.h"
 #include "jobs/pipeline/resolve.h"
+#include "schemas/schemas.h"
 #include "world/json_reader.h"
 
 namespace throng::study {
@@ -55,6 +56,7 @@ class StudyReader {
     if (root_["runs"].exists()) study_.runs = root_["runs"].integer(1, kMaxRuns);
     read_policies();
     read_cases();
+    schemas::add_schema_problems(schemas::Kind::study, document_, source_, problems_);
     throw_if_errors();
     make_jobs();
     throw_if_errors();
@@ -102,7 +104,7 @@ class StudyReader {
       one.title = item["title"].exists() ? item["title"].text() : one.id;
       if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kMaxRunS);
       one.scenario = read_scenario(item["scenario"]);
-      one.alarm = metrics::alarm_of(one.scenario);
+      one.alarm = world::alarm_of(one.scenario);
       if (item["alarm_s"].exists()) one.alarm.at_s = item["alarm_s"].number(0, one.duration_s);
       read_reference(item, one);
       read_horizons(item, one);

@@ -18,7 +18,7 @@ namespace throng::study {
 struct Case {
   std::string id;
   std::string title;
-  metrics::Alarm alarm;  ///< the scenario's, at the time that the study's file gives, if it does
+  world::Alarm alarm;  ///< the scenario's, at the time that the study's file gives, if it does
   double duration_s = 900;
   world::Scenario scenario;
   metrics::ReferenceSpec reference;

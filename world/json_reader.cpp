@@ -15,6 +15,9 @@ using nlohmann::json;
 
 namespace {
 
+/// Names the schema that an editor checks a document with; nothing to us.
+constexpr const char* kSchemaField = "$schema";
+
 // Keys are escaped as RFC 6901 wants it.
 std::string escaped(std::string_view key) {
   std::string text;
@@ -61,6 +64,7 @@ void JsonValue::fields(std::initializer_list<std::string_view> required,
   std::vector<std::string_view> known(required);
   known.insert(known.end(), optional.begin(), optional.end());
   for (const auto& [key, child] : value_->items()) {
+    if (pointer_.empty() && key == kSchemaField) continue;
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     if (std::find(deprecated.begin(), deprecated.end(), key) != deprecated.end()) continue;
     problems_->push_back(

@@ -19,6 +19,7 @@
 #include "base/resources.h"
 #include "base/suggest.h"
 #include "geometry/polygon.h"
+#include "schemas/schemas.h"
 #include "world/json_reader.h"
 
 namespace throng::world {
@@ -306,7 +307,11 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
     }
   }
   if (root["guides_alert"].exists()) scenario.guides_alert = root["guides_alert"].boolean();
+  schemas::add_schema_problems(schemas::Kind::scenario, document, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
+  nlohmann::json kept = document;
+  for (const char* field : {"crowd", "$schema"}) kept.erase(field);
+  scenario.document = kept.dump();
   return scenario;
 }
 

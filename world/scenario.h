@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geometry/rectangle.h"
+#include "world/alarm.h"
 #include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
@@ -105,6 +106,10 @@ struct Scenario {
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones
   std::vector<Marking> markings;
+  /// The file's JSON without its crowd, for those who have the run's trace but not the file.
+  std::string document;
+  /// Of a scenario whose crowd is not at hand, as that of a trace; else alarm_of() finds it.
+  std::optional<Alarm> alarm;
 
   /// Whether it has a crowd to simulate; otherwise it is a place for recorded people.
   bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "world/alarm.h"
 #include "world/trace_event.h"
 
 namespace throng::world {
@@ -64,6 +65,9 @@ struct TraceHeader {
   std::vector<std::uint8_t> state_lying;
   std::vector<std::string> exit_ids;  ///< index = value in Trace::exit_intent
   std::vector<std::string> drone_ids;
+  /// Scenario::document; empty in files of earlier versions and where a recording was read.
+  std::string scenario_document;
+  std::optional<Alarm> alarm;         ///< with scenario_document: the scenario's (world/alarm.h)
   std::vector<AgentRole> role;        ///< per agent; size = number of agents
   std::vector<float> radius_m;        ///< per agent
   std::vector<float> pref_speed_mps;  ///< per agent, as generated

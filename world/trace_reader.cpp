@@ -103,6 +103,17 @@ class Reader {
     }
     header.exit_ids = texts("exit_ids");
     header.drone_ids = texts("drone_ids");
+    if (H5Lexists(root_.id(), "scenario", H5P_DEFAULT) > 0) {
+      const hsize_t bytes = hdf5::shape_of(root_, "scenario", 1)[0];
+      const auto document = numbers<std::uint8_t>(root_, "scenario", {bytes});
+      header.scenario_document.assign(document.begin(), document.end());
+    }
+    if (H5Lexists(root_.id(), "alarm_aware_states", H5P_DEFAULT) > 0) {
+      header.alarm.emplace().aware_states = texts("alarm_aware_states");
+      if (H5Aexists(root_.id(), "alarm_s") > 0) {
+        header.alarm->at_s = hdf5::read_attribute<double>(root_, "alarm_s");
+      }
+    }
     const hdf5::Handle agents = open_group("agents");
     const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
     for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {

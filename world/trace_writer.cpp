@@ -254,6 +254,16 @@ void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   }
   hdf5::write_texts(file, "exit_ids", header.exit_ids);
   hdf5::write_texts(file, "drone_ids", header.drone_ids);
+  if (!header.scenario_document.empty()) {
+    constexpr hsize_t kDocumentChunk = 65'536;
+    Column<std::uint8_t> document(file, "scenario", {}, kDocumentChunk, "");
+    for (const char byte : header.scenario_document) document.add(static_cast<std::uint8_t>(byte));
+    document.flush();
+  }
+  if (header.alarm) {
+    hdf5::write_texts(file, "alarm_aware_states", header.alarm->aware_states);
+    if (header.alarm->at_s) hdf5::write_attribute(file, "alarm_s", *header.alarm->at_s);
+  }
   const hdf5::Handle agents = hdf5::create_group(file, "agents");
   Column<std::uint8_t> role(agents, "role", {}, 1024, "");
   Column<float> radius_m(agents, "radius_m", {}, 1024, "m");

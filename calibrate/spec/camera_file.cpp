@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "schemas/schemas.h"
 
 namespace throng::calibrate {
 
@@ -75,6 +76,9 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
     camera.parameters[i] =
         number_at(value, name, focal ? kMinFocal : -kMaxParameter, kMaxParameter, source);
   }
+  std::vector<Problem> problems;
+  schemas::add_schema_problems(schemas::Kind::camera, value, source, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
   return camera;
 }
 

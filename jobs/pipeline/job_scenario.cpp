@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "places/generated.h"
+#include "world/trace_scenario.h"
 
 namespace throng::jobs {
 
@@ -22,6 +23,12 @@ world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& sce
     }
     throw InputError(std::move(problems));
   }
+}
+
+world::Scenario scenario_of_run(const JobSpec& job, const std::filesystem::path& scenarios,
+                                const world::TraceHeader& header) {
+  auto kept = world::scenario_in_trace(header, "trace.h5", world::TraceMeshes::needed);
+  return kept ? *std::move(kept) : scenario_of(job, scenarios);
 }
 
 }  // namespace throng::jobs

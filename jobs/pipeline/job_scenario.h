@@ -6,6 +6,7 @@
 
 #include "jobs/spec/spec.h"
 #include "world/scenario.h"
+#include "world/trace.h"
 
 namespace throng::jobs {
 
@@ -14,5 +15,9 @@ namespace throng::jobs {
 /// file names itself.
 world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
                             const std::string& source = "");
+
+/// The scenario of a run that was simulated: as its trace holds it, else the job's.
+world::Scenario scenario_of_run(const JobSpec& job, const std::filesystem::path& scenarios,
+                                const world::TraceHeader& header);
 
 }  // namespace throng::jobs

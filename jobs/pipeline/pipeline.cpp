@@ -89,8 +89,8 @@ void add_cameras(const JobSpec& job, int run, Publication& output) {
 }  // namespace
 
 void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
-  const world::Scenario scenario = scenario_of(job, scenarios);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
+  const world::Scenario scenario = scenario_of_run(job, scenarios, trace.header);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
 

@@ -81,7 +81,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
 void take_from_scenario(JobSpec& job, const world::Scenario& scenario,
                         DefaultDrones default_drones) {
   job.crowd.model = sim::model_for(scenario, job.crowd);
-  if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
+  if (job.drones.empty() && default_drones != DefaultDrones::none) {
     for (const world::DroneStart& known : scenario.drones) {
       job.drones.emplace_back().mission.id = known.id;
     }
@@ -128,6 +128,11 @@ void check_has_drones(const JobSpec& job, std::vector<Problem>& problems) {
       {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
 }
 
+// Whether it comes from the trace of a run, which was simulated and has no need of its crowd.
+bool is_of_trace(const world::Scenario& scenario) {
+  return !scenario.has_crowd() && scenario.alarm.has_value();
+}
+
 // Checks that need the simulation: whether the drones can fly and whether there are people enough.
 void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
                            std::vector<Problem>& problems) {
@@ -142,17 +147,22 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
     return;
   }
   if (job.recorded) return check_recording(job, problems);
-  if (job.agents) {
-    const crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
-    sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
-                      job.seed, problems);
-  }
+  if (is_of_trace(scenario)) return;
+  const bool moves_goals = std::any_of(
+      missions.begin(), missions.end(),
+      [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
+  if (!job.agents && !moves_goals) return;
+  crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
+  if (moves_goals) sim::check_moved_goals(missions, crowd, problems);
+  if (!job.agents) return;
+  sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
+                    job.seed, problems);
 }
 
 /// That the scenario has if the job does not say how many; 0 where they cannot be counted, which
 /// the simulation will explain.
 int people_of(const JobSpec& job, const world::Scenario& scenario) {
-  if (job.agents || job.recorded) return 0;
+  if (job.agents || job.recorded || is_of_trace(scenario)) return 0;
   try {
     return static_cast<int>(sim::load_crowd(scenario, job.seed, job.crowd).agent_count());
   } catch (const InputError&) {

@@ -17,7 +17,11 @@ ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::str
 
 /// Drones of a job that names none: the scenario's, of which there must be one, or none at all, for
 /// simulations that are not rendered.
-enum class DefaultDrones { of_scenario, none };
+enum class DefaultDrones {
+  of_scenario,  ///< those of the scenario; a job without any is refused
+  if_any,       ///< those of the scenario, or none: for what renders nothing
+  none
+};
 
 /// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. All
 /// problems are reported together: where the text breaks the schema, the rest of it is checked,

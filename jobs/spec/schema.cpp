@@ -3,12 +3,19 @@
 #include <nlohmann/json.hpp>
 
 #include "base/field_table.h"
-#include "base/json_schema.h"
 #include "jobs/spec/job_fields.h"
+#include "schemas/json_schema.h"
 
 namespace throng::jobs {
 
 using nlohmann::json;
+
+namespace {
+
+/// Names the schema that an editor checks a document with; nothing to us.
+constexpr const char* kSchemaField = "$schema";
+
+}  // namespace
 
 const json& job_schema() {
   static const json schema = ordered_job_schema();
@@ -21,8 +28,11 @@ std::string_view job_schema_text() {
 }
 
 std::vector<Problem> schema_problems(const json& job, const std::string& source) {
-  static const JsonSchema schema(job_schema());
-  return schema.problems(job, source);
+  static const schemas::JsonSchema schema(job_schema());
+  if (!job.is_object() || !job.contains(kSchemaField)) return schema.problems(job, source);
+  json without = job;
+  without.erase(kSchemaField);
+  return schema.problems(without, source);
 }
 
 }  // namespace throng::jobs

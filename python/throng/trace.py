@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from contextlib import contextmanager
 from functools import cached_property
@@ -145,6 +146,14 @@ class Trace:
     def following(self) -> NDArray[np.bool_]:
         """(S, N): heads for the goal that a drone moves."""
         return self._flag(_FOLLOWING)
+
+    @cached_property
+    def scenario_document(self) -> dict[str, Any]:
+        """The scenario file without its crowd (docs/scenario.md); empty in traces of earlier versions."""
+        with self._open("scenario") as file:
+            text = bytes(file["scenario"][()]) if "scenario" in file else b"{}"
+            document: dict[str, Any] = json.loads(text)
+        return document
 
     @cached_property
     def state_names(self) -> list[str]:

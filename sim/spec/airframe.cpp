@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
+#include "schemas/schemas.h"
 #include "world/json_reader.h"
 
 namespace throng::embedded {
@@ -81,6 +82,7 @@ Airframe read_airframe(const std::string& name, const nlohmann::json& value,
   std::vector<Problem> own;
   const std::string source;
   Airframe frame = read_fields(name, world::JsonValue(value, source, own));
+  schemas::add_schema_problems(schemas::Kind::airframe, value, source, own);
   for (Problem& problem : own) {
     if (problem.where == "/") problem.where.clear();
     problem.where = pointer + problem.where;

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/json_describe.h"
 #include "base/json_text.h"
+#include "schemas/schemas.h"
 
 namespace throng::skinning {
 
@@ -145,17 +146,19 @@ CharacterDescription read_description(const fs::path& file) {
     throw InputError({file.string(), "", "no such file", "the description of a character"});
   }
   const std::string source = file.string();
-  const json document = parse_json_or_discard(read_file(file));
+  json document = parse_json_or_discard(read_file(file));
   if (!document.is_object()) {
     throw InputError({source, "", document.is_discarded() ? "no JSON" : "no object",
                       R"(an object such as {"name": "guide", "model": "guide.glb", )"
                       R"("height_m": 1.75, "license": "CC0-1.0"})"});
   }
+  document.erase("$schema");
   static const fields::FieldTable<CharacterDescription> table = make_description_fields();
   CharacterDescription description;
   description.file = file;
   std::vector<Problem> problems;
   table.read_checked(document, description, {"", source, problems});
+  schemas::add_schema_problems(schemas::Kind::character, document, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return description;
 }

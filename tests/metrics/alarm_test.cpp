@@ -1,4 +1,4 @@
-#include "metrics/alarm.h"
+#include "world/alarm.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST_F(AlarmFiles, AwareIsWhatOnlyTheNewsLeadsTo) {
       transition("Flee", "Led", R"(<Condition type="follow" distance="5"/>)") +
       transition("Led", "Flee", R"(<Condition type="not"><Condition type="follow"/></Condition>)"));
   place.disaster_agents = {7};
-  const Alarm alarm = alarm_of(place);
+  const world::Alarm alarm = world::alarm_of(place);
   EXPECT_EQ(alarm.at_s, 12.5);
   EXPECT_EQ(alarm.aware_states, (Names{"Flee", "Led", "React"}))
       << "neither Away, where others get to, nor Casualty";
@@ -56,7 +56,7 @@ TEST_F(AlarmFiles, NobodyIsAwareInAStateInWhichPeopleLie) {
   world::Scenario place = scenario(states + transition("Walk", "Struck", kNews) +
                                    transition("Walk", "Dead_end", kNews));
   place.disaster_agents = {7};
-  EXPECT_EQ(alarm_of(place).aware_states, (Names{"Dead_end"}));
+  EXPECT_EQ(world::alarm_of(place).aware_states, (Names{"Dead_end"}));
 }
 
 TEST_F(AlarmFiles, PartsOfConditionsAndTargetsCount) {
@@ -64,41 +64,45 @@ TEST_F(AlarmFiles, PartsOfConditionsAndTargetsCount) {
       std::string(R"(<Condition type="and">)") + kNews +
       R"(<Condition type="timer"/></Condition>)"
       R"(<Target type="prob"><State name="Run1" weight="1"/><State name="Run2"/></Target>)";
-  EXPECT_EQ(alarm_of(scenario("<Transition from=\"Walk\">" + both + "</Transition>")).aware_states,
-            (Names{"Run1", "Run2"}));
-  EXPECT_EQ(alarm_of(scenario(transition("Walk", "Panic", R"(<Condition type="panicked"/>)")))
-                .aware_states,
-            (Names{"Panic"}))
+  EXPECT_EQ(
+      world::alarm_of(scenario("<Transition from=\"Walk\">" + both + "</Transition>")).aware_states,
+      (Names{"Run1", "Run2"}));
+  EXPECT_EQ(
+      world::alarm_of(scenario(transition("Walk", "Panic", R"(<Condition type="panicked"/>)")))
+          .aware_states,
+      (Names{"Panic"}))
       << "told by others";
   const std::string event = R"(<Event><Effect type="change_state" state="Evacuate"/></Event>)";
-  EXPECT_EQ(alarm_of(scenario(event)).aware_states, (Names{"Evacuate"}));
+  EXPECT_EQ(world::alarm_of(scenario(event)).aware_states, (Names{"Evacuate"}));
 }
 
 TEST_F(AlarmFiles, TheGuideWhoIsGoneTellsNothing) {
   const std::string gone = R"(<Condition type="not"><Condition type="follow"/></Condition>)";
-  EXPECT_TRUE(alarm_of(scenario(transition("Walk", "Stroll", gone))).aware_states.empty());
+  EXPECT_TRUE(world::alarm_of(scenario(transition("Walk", "Stroll", gone))).aware_states.empty());
 }
 
 TEST_F(AlarmFiles, DisastersSayWhenAndEverydayHasNone) {
   world::Scenario place = scenario(transition("Walk", "Flee", kNews));
-  EXPECT_FALSE(alarm_of(place).at_s) << "nothing here is a disaster";
+  EXPECT_FALSE(world::alarm_of(place).at_s) << "nothing here is a disaster";
   add_alarm(place, 9);
   add_alarm(place, 4);
-  EXPECT_EQ(alarm_of(place).at_s, 4);
-  EXPECT_FALSE(alarm_of(place_with_door(2)).at_s) << "a place without files";
+  EXPECT_EQ(world::alarm_of(place).at_s, 4);
+  EXPECT_FALSE(world::alarm_of(place_with_door(2)).at_s) << "a place without files";
 }
 
 TEST_F(AlarmFiles, WhatIsNoXmlIsRefused) {
   world::Scenario place = scenario("");
   place.behavior_file = folder.write("broken.xml", "<BFSM><State></BFSM>");
-  EXPECT_THROW(alarm_of(place), InputError);
+  EXPECT_THROW(world::alarm_of(place), InputError);
   place.behavior_file = folder.path() / "nowhere.xml";
-  EXPECT_THROW(alarm_of(place), EnvironmentError);
+  EXPECT_THROW(world::alarm_of(place), EnvironmentError);
 }
 
 TEST(ShippedAlarms, AreThoseOfTheirFiles) {
   const std::filesystem::path folder = std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios";
-  const auto alarm = [&](const char* id) { return alarm_of(world::find_scenario(folder, id)); };
+  const auto alarm = [&](const char* id) {
+    return world::alarm_of(world::find_scenario(folder, id));
+  };
   EXPECT_EQ(alarm("station/emergency").at_s, 6);
   EXPECT_EQ(alarm("station/emergency").aware_states, (Names{"Flee", "Follow", "React"}));
   EXPECT_EQ(alarm("city_square/nearest_exit").at_s, 18);
@@ -108,7 +112,7 @@ TEST(ShippedAlarms, AreThoseOfTheirFiles) {
   EXPECT_FALSE(alarm("station/everyday").at_s);
   for (const std::string& id : world::list_scenarios(folder)) {
     const bool everyday = id.find("everyday") != std::string::npos;
-    const Alarm found = alarm(id.c_str());
+    const world::Alarm found = alarm(id.c_str());
     EXPECT_EQ(found.at_s.has_value(), !everyday) << id;
     if (everyday) continue;
     EXPECT_FALSE(found.aware_states.empty()) << id;
@@ -131,7 +135,7 @@ TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
     if (time_s < 11.95) trace.flags[trace.at(step, 3)] = 0;  // arrives and heads for it at once
     trace.exit_intent[trace.at(step, 3)] = 0;
   }
-  const auto people = person_records(trace, scenario, alarm_of(scenario));
+  const auto people = person_records(trace, scenario, world::alarm_of(scenario));
   EXPECT_FALSE(people[0].noticed_s);
   EXPECT_NEAR(people[1].noticed_s.value(), 8, 1e-6);
   EXPECT_NEAR(people[2].noticed_s.value(), 10, 1e-6);
@@ -139,7 +143,7 @@ TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
   EXPECT_NEAR(people[3].start_s, 12, 1e-6);
   EXPECT_FALSE(people[4].noticed_s);
   scenario.disasters.clear();
-  for (const PersonRecord& person : person_records(trace, scenario, alarm_of(scenario))) {
+  for (const PersonRecord& person : person_records(trace, scenario, world::alarm_of(scenario))) {
     EXPECT_FALSE(person.noticed_s) << "there is nothing to notice";
     EXPECT_EQ(person.start_s, person.arrived_s);
   }

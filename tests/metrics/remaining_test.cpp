@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 
 Remaining remaining_in(const world::Trace& trace, const world::Scenario& scenario) {
-  return remaining_of(trace, scenario, person_records(trace, scenario, alarm_of(scenario)),
+  return remaining_of(trace, scenario, person_records(trace, scenario, world::alarm_of(scenario)),
                       walking_distances(scenario));
 }
 

@@ -175,6 +175,20 @@ class Simulated(unittest.TestCase):
         self.assertIn("0 errors", hexagon.check())
         self.assertGreater(len(hexagon.simulate(to_s=60, job={"crowd": {"compliance": 0.5}}).evacuation()[0]), 10)
 
+    def test_speeds_and_times(self):
+        place = Scenario("slow", ROOM, in_groups=0, pre_movement_s={"uniform": [5, 6]}, evacuation_speed_mps="unchanged")
+        place.exit("door", (20, 4), (20, 6)).group(count=20, doing="wait", speed_mps={"normal": [0.8, 0.1]})
+        place.queue([(5, 2), (8, 2)], count=3, speed_mps=1.5)
+        place.disaster("fire", (1, 9), start_s=2, radius_m=0.3, max_radius_m=0.3, noticed_m=100)
+        self.assertIn("0 errors", place.check())
+        trace = place.simulate(to_s=60, seed=3)
+        people = np.flatnonzero(np.array(trace.roles) == "person")
+        speeds = trace.preferred_speeds_mps[people]
+        self.assertEqual(((speeds > 0.45) & (speeds < 1.15)).sum(), 20)
+        flees = trace.states[:, people] == trace.state_names.index("Flee")
+        first = trace.time_s[flees.argmax(axis=0)]
+        self.assertTrue(((first >= 6.9) & (first <= 8.3)).all(), first)
+
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
             place = self.bottleneck(2)
@@ -184,6 +198,7 @@ class Simulated(unittest.TestCase):
             )
             self.assertIn("<svg", place.plan(f"{folder}/plan.svg").read_text())
             trace = place.simulate(to_s=2, trace=f"{folder}/kept.h5")
+            self.assertEqual([door["id"] for door in trace.scenario_document["exits"]], ["door"])
             self.assertEqual(throng.Trace(f"{folder}/kept.h5").positions.shape, trace.positions.shape)
             self.assertEqual(len(throng.metrics(trace, scenario=f"{folder}/bottleneck.json")["by_person"]["agent"]), 60)
 

@@ -103,7 +103,7 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   for (const world::Exit& exit : scenario.exits) {
     reference.capacity_per_s.push_back(1.3 * exit.width_m());
   }
-  OutcomeObserver observer(scenario, metrics::alarm_of(scenario), reference,
+  OutcomeObserver observer(scenario, world::alarm_of(scenario), reference,
                            sim::model_for(scenario, spec.crowd));
   sim::simulate(scenario, spec, observer);
   const Outcome outcome = observer.take();
@@ -169,7 +169,7 @@ TEST(WhoCounts, AreThoseWhoArrive) {
   ASSERT_LT(expected.people, expected.in_header);
   metrics::ReferenceSpec reference;
   reference.capacity_per_s.assign(scenario.exits.size(), 1);
-  OutcomeObserver observer(scenario, metrics::alarm_of(scenario), reference, "weidmann");
+  OutcomeObserver observer(scenario, world::alarm_of(scenario), reference, "weidmann");
   sim::simulate(scenario, spec, observer);
   EXPECT_EQ(observer.take().escapes.people, expected.people);
 }
@@ -177,7 +177,7 @@ TEST(WhoCounts, AreThoseWhoArrive) {
 // Walkers who head for an exit anyway are not warned before the fire starts (at 6 s).
 TEST(WhoNotices, KnowsOfTheAlarm) {
   const world::Scenario scenario = world::find_scenario(kScenarioFolder, "station/emergency");
-  EXPECT_EQ(metrics::alarm_of(scenario).at_s, 6);
+  EXPECT_EQ(world::alarm_of(scenario).at_s, 6);
   sim::RunSpec spec;
   spec.seed = 11;
   spec.duration_s = 30;

@@ -1,4 +1,4 @@
-#include "base/json_schema.h"
+#include "schemas/json_schema.h"
 
 #include <algorithm>
 #include <map>
@@ -8,11 +8,11 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "base/field_check.h"
+#include "base/field_table.h"
 #include "base/json_describe.h"
 #include "base/suggest.h"
 
-namespace throng {
+namespace throng::schemas {
 
 using nlohmann::json;
 
@@ -53,8 +53,7 @@ class Rules {
   /// The rules of a member or an element; null where the schema says nothing of it.
   const json* child(const json& rules, const std::string& key) const {
     if (const auto items = rules.find("items"); items != rules.end()) return &resolved(*items);
-    if (const auto found = rules.find("properties");
-        found != rules.end() && found->contains(key)) {
+    if (const auto found = rules.find("properties"); found != rules.end() && found->contains(key)) {
       return &resolved((*found)[key]);
     }
     if (const auto more = rules.find("additionalProperties");
@@ -76,7 +75,8 @@ class Rules {
 };
 
 std::string expected_at(const json& rules) {
-  const bool says = rules.contains("x-expected") || rules.contains("enum") || rules.contains("type");
+  const bool says =
+      rules.contains("x-expected") || rules.contains("enum") || rules.contains("type");
   return says ? fields::expectation(rules) : "what the schema describes";
 }
 
@@ -166,14 +166,14 @@ std::vector<Problem> JsonSchema::problems(const json& value, const std::string& 
 void add_other_places(std::vector<Problem>& problems, std::vector<Problem> more) {
   const std::size_t before = problems.size();
   for (Problem& problem : more) {
-    const bool is_there = std::any_of(
-        problems.begin(), problems.begin() + static_cast<std::ptrdiff_t>(before),
-        [&](const Problem& other) {
-          return is_at_or_below(other.where, problem.where) ||
-                 is_at_or_below(problem.where, other.where);
-        });
+    const bool is_there =
+        std::any_of(problems.begin(), problems.begin() + static_cast<std::ptrdiff_t>(before),
+                    [&](const Problem& other) {
+                      return is_at_or_below(other.where, problem.where) ||
+                             is_at_or_below(problem.where, other.where);
+                    });
     if (!is_there) problems.push_back(std::move(problem));
   }
 }
 
-}  // namespace throng
+}  // namespace throng::schemas

@@ -1,4 +1,4 @@
-#include "metrics/alarm.h"
+#include "world/alarm.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,22 +6,24 @@
 #include <set>
 #include <sstream>
 
-#include "crowd/elements/element.h"
+#include "crowd/description/description.h"
+#include "world/scenario.h"
 #include "world/scenario_crowd.h"
 #include "world/trace.h"
 
-namespace throng::metrics {
+namespace throng::world {
 
 namespace {
 
-using crowd::Element;
+using crowd::Node;
 using Names = std::set<std::string>;
 
-std::string text_of(const Element& element, std::string_view attribute) {
-  return std::string(element.attribute(attribute).value_or(""));
+std::string text_of(const Node& element, std::string_view attribute) {
+  const std::string* const text = element.find(attribute);
+  return text == nullptr ? "" : *text;
 }
 
-double number_of(const Element& element, std::string_view attribute) {
+double number_of(const Node& element, std::string_view attribute) {
   const std::string text = text_of(element, attribute);
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -52,7 +54,7 @@ struct StateGraph {
 
   bool lies_in(const std::string& state) const {
     const auto found = lying.find(state);
-    return found != lying.end() ? found->second : world::implies_lying(state);
+    return found != lying.end() ? found->second : implies_lying(state);
   }
   std::optional<double> first_proximity_s;
 
@@ -73,35 +75,35 @@ struct StateGraph {
 
 // Whether a condition, or any part of it, is about the disaster, panic or a guide. A part that is
 // negated (the guide is gone) informs nobody.
-bool informs(const Element& element, StateGraph& graph) {
+bool informs(const Node& element, StateGraph& graph) {
   const std::string type = text_of(element, "type");
-  if (element.name() == "Condition" && type == "not") return false;
+  if (element.name == "Condition" && type == "not") return false;
   bool found = false;
-  if (element.name() == "Condition") {
+  if (element.name == "Condition") {
     if (type == "proximity") {
       const double start_s = number_of(element, "start");
       graph.first_proximity_s = std::min(graph.first_proximity_s.value_or(start_s), start_s);
     }
     found = type == "proximity" || type == "panicked" || type == "follow";
   }
-  for (const Element& child : element.children()) found = informs(child, graph) || found;
+  for (const Node& child : element.children) found = informs(child, graph) || found;
   return found;
 }
 
-void gather_targets(const Element& element, Names& targets) {
-  for (const Element& child : element.children()) {
-    if (child.name() == "State") targets.insert(text_of(child, "name"));
+void gather_targets(const Node& element, Names& targets) {
+  for (const Node& child : element.children) {
+    if (child.name == "State") targets.insert(text_of(child, "name"));
     gather_targets(child, targets);
   }
 }
 
-void read_transition(const Element& element, StateGraph& graph) {
+void read_transition(const Node& element, StateGraph& graph) {
   Names targets;
   for (const std::string& to : words_of(text_of(element, "to"))) targets.insert(to);
   bool informing = false;
-  for (const Element& child : element.children()) {
-    if (child.name() == "Condition") informing = informs(child, graph) || informing;
-    if (child.name() == "Target") gather_targets(child, targets);
+  for (const Node& child : element.children) {
+    if (child.name == "Condition") informing = informs(child, graph) || informing;
+    if (child.name == "Target") gather_targets(child, targets);
   }
   auto& edges = informing ? graph.informing : graph.ordinary;
   for (const std::string& from : words_of(text_of(element, "from"))) {
@@ -109,9 +111,9 @@ void read_transition(const Element& element, StateGraph& graph) {
   }
 }
 
-void read_behavior(const Element& element, StateGraph& graph) {
-  for (const Element& child : element.children()) {
-    if (child.name() == "Transition") {
+void read_behavior(const Node& element, StateGraph& graph) {
+  for (const Node& child : element.children) {
+    if (child.name == "Transition") {
       read_transition(child, graph);
       continue;
     }
@@ -120,15 +122,15 @@ void read_behavior(const Element& element, StateGraph& graph) {
     }
     const std::string type = text_of(child, "type");
     if (type == "change_state") graph.informed_by_events.insert(text_of(child, "state"));
-    if (child.name() == "StateSelector") graph.informed_by_events.insert(text_of(child, "name"));
+    if (child.name == "StateSelector") graph.informed_by_events.insert(text_of(child, "name"));
     read_behavior(child, graph);
   }
 }
 
 // Every state that a selector of the scene names.
-void gather_initial(const Element& element, bool in_selector, Names& states) {
-  for (const Element& child : element.children()) {
-    const bool selects = in_selector || child.name() == "StateSelector";
+void gather_initial(const Node& element, bool in_selector, Names& states) {
+  for (const Node& child : element.children) {
+    const bool selects = in_selector || child.name == "StateSelector";
     if (selects) states.insert(text_of(child, "name"));
     gather_initial(child, selects, states);
   }
@@ -136,18 +138,19 @@ void gather_initial(const Element& element, bool in_selector, Names& states) {
 
 }  // namespace
 
-Alarm alarm_of(const world::Scenario& scenario) {
+Alarm alarm_of(const Scenario& scenario) {
+  if (scenario.alarm) return *scenario.alarm;
   Alarm alarm;
-  for (const world::Disaster& disaster : scenario.disasters) {
+  for (const Disaster& disaster : scenario.disasters) {
     alarm.at_s = std::min(alarm.at_s.value_or(disaster.start_s), disaster.start_s);
   }
   if (!scenario.has_crowd()) return alarm;
-  const crowd::CrowdDescription crowd = world::crowd_of(scenario);
+  const crowd::CrowdDescription crowd = crowd_of(scenario);
   StateGraph graph;
-  read_behavior(crowd::Reading(crowd.behavior, "BFSM").root(), graph);
+  read_behavior(crowd.behavior.root, graph);
   if (!alarm.at_s && !scenario.disaster_agents.empty()) alarm.at_s = graph.first_proximity_s;
   Names initial;
-  gather_initial(crowd::Reading(crowd.scene, "Experiment").root(), false, initial);
+  gather_initial(crowd.scene.root, false, initial);
   const Names unaware = graph.reached_from(std::move(initial), false);
   Names informed = graph.informed_by_events;
   for (const StateGraph::Edge& edge : graph.informing) informed.insert(edge.to);
@@ -157,4 +160,4 @@ Alarm alarm_of(const world::Scenario& scenario) {
   return alarm;
 }
 
-}  // namespace throng::metrics
+}  // namespace throng::world

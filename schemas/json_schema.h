@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace throng {
+namespace throng::schemas {
 
 /// A schema, ready for use by several threads. It may use "definitions" of its own ("$ref":
 /// "#/definitions/NAME"); "x-expected" of a part says in words what should stand there.
@@ -36,4 +36,4 @@ class JsonSchema {
 /// Adds those of `more` whose places no problem of `problems` is at, above or below.
 void add_other_places(std::vector<Problem>& problems, std::vector<Problem> more);
 
-}  // namespace throng
+}  // namespace throng::schemas

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "world/scenario.h"
+namespace throng::world {
 
-namespace throng::metrics {
+struct Scenario;
 
 struct Alarm {
   /// The earliest start of a disaster; where the scenario places none, the earliest start of the
@@ -18,10 +18,13 @@ struct Alarm {
   /// reach of a disaster, for panic or for a guide, or of an event that changes states; states of
   /// people who cannot stand are left out. Empty where the behavior has no such transition.
   std::vector<std::string> aware_states = {};
+
+  bool operator==(const Alarm&) const = default;
 };
 
-/// Reads the scenario's scene and behavior files, if it names any. Throws EnvironmentError for
-/// files that cannot be read and InputError for files that are not well-formed.
-Alarm alarm_of(const world::Scenario& scenario);
+/// Scenario::alarm if it is known, else from the scenario's scene and behavior, if it has a crowd.
+/// Throws EnvironmentError for files that cannot be read and InputError for files that are not
+/// well-formed.
+Alarm alarm_of(const Scenario& scenario);
 
-}  // namespace throng::metrics
+}  // namespace throng::world

@@ -1,0 +1,52 @@
+#include "jobs/spec/published_schemas.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/field_table.h"
+#include "jobs/spec/job_fields.h"
+#include "schemas/schemas.h"
+
+namespace throng::jobs {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::string_view kJob = "job";
+constexpr const char* kSchemaField = "$schema";
+
+ordered_json job() {
+  ordered_json schema = ordered_job_schema();
+  schema["properties"][kSchemaField] = {
+      {"description", "The schema that an editor completes and checks with."}, {"type", "string"}};
+  return schema;
+}
+
+/// What a study takes over from jobs is described as in a job.
+ordered_json study(std::string_view text) {
+  ordered_json schema = ordered_json::parse(text);
+  for (const char* part : {"crowd", "drones"}) {
+    schema["definitions"][part] = ordered_job_schema()["properties"][part];
+  }
+  return schema;
+}
+
+}  // namespace
+
+std::vector<std::string_view> schema_names() {
+  std::vector<std::string_view> names = {kJob};
+  for (const schemas::Entry& entry : schemas::entries()) names.push_back(entry.name);
+  return names;
+}
+
+std::string published_schema(std::string_view name) {
+  if (name == kJob) return fields::schema_text(job());
+  for (const schemas::Entry& entry : schemas::entries()) {
+    if (entry.name != name) continue;
+    if (entry.kind == schemas::Kind::study) return study(entry.text).dump(1) + "\n";
+    return std::string(entry.text);
+  }
+  return {};
+}
+
+}  // namespace throng::jobs

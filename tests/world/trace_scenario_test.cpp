@@ -1,0 +1,78 @@
+// The scenario that a trace holds.
+#include "world/trace_scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "tests/world/temporary_folder.h"
+#include "world/scenario.h"
+
+namespace throng::world {
+namespace {
+
+Scenario shipped(const char* id) {
+  return find_scenario(std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios", id);
+}
+
+TraceHeader header_of(const Scenario& scenario) {
+  TraceHeader header;
+  header.scenario_id = scenario.id;
+  header.scenario_document = scenario.document;
+  header.alarm = alarm_of(scenario);
+  return header;
+}
+
+TEST(ScenarioInTrace, IsTheScenarioWithoutItsCrowd) {
+  for (const char* id : {"city_square/emergency", "station/everyday", "bridge/emergency"}) {
+    const Scenario scenario = shipped(id);
+    const auto kept = scenario_in_trace(header_of(scenario), "run.h5", TraceMeshes::needed);
+    ASSERT_TRUE(kept) << id;
+    EXPECT_FALSE(kept->has_crowd());
+    EXPECT_EQ(kept->id, id);
+    EXPECT_EQ(kept->document, scenario.document);
+    ASSERT_EQ(kept->exits.size(), scenario.exits.size());
+    EXPECT_EQ(kept->exits.back().goals, scenario.exits.back().goals);
+    EXPECT_EQ(kept->props.size(), scenario.props.size());
+    EXPECT_EQ(alarm_of(*kept), alarm_of(scenario));
+  }
+}
+
+TEST(ScenarioInTrace, SurvivesTheFile) {
+  const throng::testing::TemporaryFolder folder;
+  TraceHeader header = header_of(shipped("city_square/emergency"));
+  header.dt_s = 0.1;
+  {
+    TraceWriter writer(folder.path() / "run.h5", header);
+    writer.add(CrowdStep{});
+    writer.finish();
+  }
+  const TraceHeader read = read_trace(folder.path() / "run.h5").header;
+  EXPECT_EQ(read.scenario_document, header.scenario_document);
+  EXPECT_EQ(read.alarm, header.alarm);
+}
+
+TEST(ScenarioInTrace, TracesOfEarlierVersionsHaveNone) {
+  EXPECT_FALSE(scenario_in_trace({}, "run.h5", TraceMeshes::left_out));
+}
+
+TEST(ScenarioInTrace, MeshesAreNotInIt) {
+  TraceHeader header = header_of(shipped("city_square/emergency"));
+  nlohmann::json document = nlohmann::json::parse(header.scenario_document);
+  document["meshes"] = {{{"file", "statue.glb"}, {"position", {0, 0, 0}}}};
+  header.scenario_document = document.dump();
+  EXPECT_FALSE(scenario_in_trace(header, "run.h5", TraceMeshes::needed));
+  EXPECT_TRUE(scenario_in_trace(header, "run.h5", TraceMeshes::left_out)->meshes.empty());
+}
+
+TEST(ScenarioInTrace, ADamagedOneIsNamed) {
+  TraceHeader header = header_of(shipped("city_square/emergency"));
+  header.scenario_document[0] = '?';
+  EXPECT_THROW(scenario_in_trace(header, "run.h5", TraceMeshes::needed), InputError);
+  header.scenario_document = "[]";
+  EXPECT_THROW(scenario_in_trace(header, "run.h5", TraceMeshes::needed), InputError);
+}
+
+}  // namespace
+}  // namespace throng::world
