@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "study/page.h"
+#include "study/values.h"
 
 namespace throng::study {
 
@@ -345,6 +346,7 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) 
   std::vector<SummaryRow> rows;
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
+      if (outcomes[c][p].empty()) continue;
       rows.push_back(
           summarize_one(study.cases[c], outcomes[c][p], outcomes[c][study.baseline], study.seed));
       rows.back().one_case = c;
@@ -355,13 +357,18 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) 
   return rows;
 }
 
+json summary_json(const Study& study, const Outcomes& outcomes) {
+  return json_of(study, summarize(study, outcomes));
+}
+
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
   const std::vector<SummaryRow> rows = summarize(study, outcomes);
-  write_file_atomically(folder / "report.html", html_of_study(study, outcomes, rows));
-  write_file_atomically(folder / "summary.csv", csv_of(study, rows));
-  write_file_atomically(folder / "summary.json", json_of(study, rows).dump(2) + "\n");
-  write_file_atomically(folder / "summary.md", markdown_of(study, rows));
+  write_file_atomically(folder / kReportName, html_of_study(study, outcomes, rows));
+  write_file_atomically(folder / kCsvName, csv_of(study, rows));
+  write_file_atomically(folder / kMarkdownName, markdown_of(study, rows));
+  write_file_atomically(folder / kValuesName, values_json(study, all_runs(outcomes)).dump() + "\n");
+  write_file_atomically(folder / kSummaryName, json_of(study, rows).dump(2) + "\n");
 }
 
 }  // namespace throng::study

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -51,10 +52,15 @@ struct SummaryRow {
 
 inline constexpr int kSummaryPercents[] = {25, 50, 75, 90, 95, 99};
 
+/// Cases without outcomes have no rows.
 std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
 
-/// Writes summary.csv, summary.json, summary.md and report.html, which has the tables and the
-/// escape curves of each case as charts, into the folder. Equal outcomes give equal bytes.
+/// The summary as summary.json holds it.
+nlohmann::json summary_json(const Study& study, const Outcomes& outcomes);
+
+/// Writes summary.csv, summary.json, summary.md, values.json (study/values.h) and report.html,
+/// which has the tables and the escape curves of each case as charts, into the folder. Equal
+/// outcomes give equal bytes.
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder);
 
