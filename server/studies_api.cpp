@@ -53,7 +53,7 @@ HttpError not_there_yet(const jobs::JobRow& row) {
           fmt::format("the study is {}; this is there once it has succeeded", name_of(row.state))};
 }
 
-/// The result of a run that the path names, made anew from the plan's ids: none leads elsewhere.
+/// The result of a run that the path names, made again from the plan's ids: none leads elsewhere.
 std::optional<fs::path> run_file(const json& plan, const std::string& path) {
   for (const json& one : plan.at("cases")) {
     for (const json& policy : plan.at("policies")) {

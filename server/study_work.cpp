@@ -126,7 +126,7 @@ class StudyWork {
 
   void require_success(const std::vector<Task>& tasks,
                        const std::vector<TaskResult>& results) const {
-    // What was cancelled for the failure of another does not say why.
+    // A task that was cancelled for the failure of another does not say why.
     for (std::size_t i = 0; i < results.size(); ++i) {
       const TaskResult& result = results[i];
       if (result.outcome == Outcome::succeeded || result.outcome == Outcome::cancelled) continue;

@@ -45,14 +45,15 @@ double age_s(const fs::path& file) {
   return std::chrono::duration<double>(age).count();
 }
 
-// So often that it takes a twentieth of the time at most, and not twice a second.
+// So often that it takes a twentieth of the time at most; at once while there is nothing to show.
 bool is_renewal_due(const fs::path& folder) {
   constexpr double kMinInterval_s = 2;
   constexpr double kPart = 20;
   const fs::path file = folder / kSummarySoFarName;
   if (!fs::exists(file)) return true;
   const json summary = parse_json_or_discard(read_file(file));
-  const double took_s = summary.is_object() ? summary.value(kTookName, 0.0) : 0;
+  if (!summary.is_object() || summary.value("rows", json::array()).empty()) return true;
+  const double took_s = summary.value(kTookName, 0.0);
   return age_s(file) > std::max(kMinInterval_s, kPart * took_s);
 }
 

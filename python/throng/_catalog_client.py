@@ -146,7 +146,7 @@ class CatalogClient:
         return self._send("POST", "/v1/studies", plain(study))
 
     def check_study(self, study: Mapping[str, Any]) -> StudyPlan:
-        """What a study would be; InvalidRequestError with everything that is wrong with it."""
+        """The plan of a study that is not queued; InvalidRequestError with everything that is wrong with it."""
         return self._http.request("POST", "/v1/studies", query={"dry_run": True}, json_body=plain(study)).json()
 
     def study(self, study_id: str) -> Study:

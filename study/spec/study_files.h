@@ -7,7 +7,7 @@
 
 namespace throng::study {
 
-/// What was sent to the service, and what it was found to be (study/service_work.h).
+/// The document that was sent to the service, and its plan (study/service_work.h).
 inline constexpr const char* kDocumentName = "study.json";
 inline constexpr const char* kPlanName = "plan.json";
 /// The program that the results are of.

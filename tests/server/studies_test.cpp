@@ -42,6 +42,9 @@ class StudyApi : public ApiTest {
   httplib::Result post(const json& study, const httplib::Headers& headers = {}) const {
     return client().Post(kRoute, headers, study.dump(), "application/json");
   }
+  httplib::Result act(const std::string& path) const {
+    return client().Post(path, "", "application/json");
+  }
   std::string submitted(const json& study) const {
     const httplib::Result answer = post(study);
     EXPECT_EQ(answer->status, 201) << answer->body;
@@ -154,18 +157,18 @@ TEST_F(StudyApi, ShowsProgressAndIsCancelledAndGoesOn) {
   const json running = get_json(self);
   EXPECT_EQ(running["state"], "running");
   EXPECT_EQ(running["progress"]["cells"], (json{{2, 1}}));
-  EXPECT_EQ(running["summary"]["rows"][0]["runs"], 1) << "one whole pair";
+  EXPECT_EQ(running.at("summary").at("rows").at(0).at("runs"), 1) << "one whole pair";
   EXPECT_EQ(get_json(self + "/files/values.json")["cases"][0]["runs"], (json{0}));
   EXPECT_EQ(get(self + "/files/summary.json")->status, 409);
   EXPECT_EQ(get(self + "/report")->status, 409);
-  const httplib::Result cancelled = client().Post(self + "/cancel");
+  const httplib::Result cancelled = act(self + "/cancel");
   EXPECT_EQ(cancelled->status, 200) << cancelled->body;
   EXPECT_EQ(json::parse(cancelled->body)["state"], "cancelled");
-  EXPECT_EQ(client().Post(self + "/cancel")->status, 409);
+  EXPECT_EQ(act(self + "/cancel")->status, 409);
   ::unsetenv("THRONG_FAULTS");
   const fs::path first = service.folders().study_folder(id_of(self)) / "runs/yard/none/000.json";
   const auto written = fs::last_write_time(first);
-  EXPECT_EQ(client().Post(self + "/retry")->status, 200);
+  EXPECT_EQ(act(self + "/retry")->status, 200);
   EXPECT_EQ(ended(self)["state"], "succeeded");
   EXPECT_EQ(fs::last_write_time(first), written) << "finished runs are kept";
 }

@@ -1,4 +1,4 @@
-// Screenshots of docs/studio.md, from a service of their own with two jobs and a calibration.
+// Screenshots of docs/studio.md, from a service of their own with two jobs, a calibration and a study.
 // usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT [NAME...]   OUTPUT: folder, docs/studio; NAME: of those alone, such as place
 import { spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
@@ -8,7 +8,7 @@ import { launch, TestService } from "./service.mjs";
 
 const [program, packages, output, ...names] = process.argv.slice(2);
 const isWanted = (list) => names.length === 0 || list.some((name) => names.includes(name));
-const kWithoutJobs = ["calibration", "place"];
+const kWithoutJobs = ["calibration", "place", "study"];
 const camera = { width: 1280, height: 720 };
 const kJobs = [
   { name: "Square, 200 people", seed: 4, crowd: { agents: 200 } },
@@ -40,6 +40,24 @@ async function calibrated() {
   }
 }
 
+/** The id of a study of two cases and four policies, which is part of the shipped one. */
+async function studied() {
+  const whole = JSON.parse(readFileSync(new URL("../../scenarios/city_square/study.json", import.meta.url), "utf8"));
+  const study = {
+    ...whole,
+    runs: 12,
+    cases: whole.cases.slice(-2).map((one) => ({ ...one, duration_s: 300 })),
+    policies: whole.policies.slice(0, 4),
+  };
+  const { id } = await service.json("/v1/studies", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(study) });
+  for (;;) {
+    const { state, error } = await service.json(`/v1/studies/${id}`);
+    if (state === "succeeded") return id;
+    if (state === "failed") throw new Error(`the study failed: ${error.message}`);
+    await new Promise((resolve) => setTimeout(resolve, 500));
+  }
+}
+
 const service = new TestService(program);
 await service.start();
 const browser = await launch(packages);
@@ -49,6 +67,7 @@ try {
   const needsJobs = names.length === 0 || names.some((name) => !kWithoutJobs.includes(name));
   for (const job of needsJobs ? kJobs : []) ids.push(await service.finished(job));
   const calibration = isWanted(["calibration"]) ? await calibrated() : "";
+  const study = isWanted(["study"]) ? await studied() : "";
   const kScreens = [
     { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=2`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
     { name: "image", address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`, height: 800, ready: 'canvas.overlay[data-drawn$=" boxes,masks"]' },
@@ -56,8 +75,9 @@ try {
     { name: "downloads", address: `/jobs/${ids[0]}/downloads?include=images,coco`, height: 900, ready: ".parts .size:not(:empty)" },
     { name: "form", address: `/new?clone=${ids[0]}`, height: 900, ready: ".plan-sheet img" },
     { name: "compare", address: `/compare?job=${ids[0]}&job=${ids[1]}&t=13`, height: 980, ready: ".swipe .upper" },
-    { name: "filters", address: `/jobs/${ids[0]}/images?filters=all&state=running`, height: 900, ready: 'canvas.image[data-drawn="yes"] >> nth=3' },
+    { name: "filters", address: `/jobs/${ids[0]}/images?filters=all&state=panicking`, height: 900, ready: 'canvas.image[data-drawn="yes"]' },
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
+    { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
     { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency" },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
