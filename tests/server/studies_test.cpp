@@ -5,6 +5,7 @@
 
 #include "study/spec/study_files.h"
 #include "tests/server/api_fixture.h"
+#include "tests/server/bundles.h"
 
 namespace throng::server {
 namespace {
@@ -212,15 +213,11 @@ TEST_F(StudyApi, IsItsOwnersAndCountsForTheirQuota) {
 
 TEST_F(StudyApi, AScenarioThatItNamesIsNotRemoved) {
   SKIP_WITHOUT_PROGRAM();
-  const auto bundle =
-      read_file(fs::path(THRONG_SOURCE_DIR) / "scenarios/station/emergency.place.json");
-  const auto uploaded = client().Post("/v1/scenarios?name=mine", bundle, "application/json");
+  const auto uploaded = client().Post("/v1/scenarios?name=mine", yard_bundle(), "application/zip");
   ASSERT_EQ(uploaded->status, 201) << uploaded->body;
   ::setenv("THRONG_FAULTS", "slow:*:60", 1);
   json study = small_study();
-  study["cases"][0]["scenario"] = "mine/place";
-  study["cases"][0]["duration_s"] = 100;
-  study["policies"].erase(1);
+  study["cases"][0]["scenario"] = "mine/yard";
   const std::string self = submitted(study);
   EXPECT_EQ(client().Delete("/v1/scenarios/mine")->status, 409);
   EXPECT_EQ(client().Delete(self)->status, 204);

@@ -78,16 +78,17 @@ try {
     { name: "filters", address: `/jobs/${ids[0]}/images?filters=all&state=panicking`, height: 900, ready: 'canvas.image[data-drawn="yes"]' },
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
     { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
-    { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency" },
+    { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  for (const { name, address, height, ready, keys = "", start = "" } of kScreens.filter((screen) => isWanted([screen.name]))) {
+  for (const { name, address, height, ready, keys = "", start = "", pending = "" } of kScreens.filter((screen) => isWanted([screen.name]))) {
     await page.setViewportSize({ width: 1280, height });
     await page.goto(service.address + address);
     if (start) await page.getByLabel("Start from").selectOption(start);
     if (keys) await page.locator("canvas.overlay[data-drawn]:not([data-drawn=''])").waitFor();
     for (const key of keys) await page.keyboard.press(key);
     await page.locator(ready).first().waitFor();
+    if (pending) await page.getByText(pending).waitFor({ state: "hidden" });
     await page.waitForFunction(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0));
     await page.waitForTimeout(500); // the plan, a large drawing, is painted after it has loaded
     await page.screenshot({ path: path.join(output, `${name}.jpg`), type: "jpeg", quality: 72 });

@@ -194,10 +194,15 @@ export function PlanEditor(props: PlanEditorProps) {
             onKeyDown={(event) => onElementKey(event, element)}
           >
             <Shape element={element} unit={unit} />
-            {names.has(element) && <Name name={names.get(element)!} unit={unit} />}
           </g>
         ),
       )}
+      {/* Above all elements, whose labels say the same. */}
+      <g aria-hidden="true">
+        {[...names].map(([element, name]) => (
+          <Name key={element.pointer} name={name} unit={unit} />
+        ))}
+      </g>
       {canGrab && selected && selected.kind.shape !== "point" && (
         <Handles
           element={selected}
