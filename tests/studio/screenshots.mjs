@@ -1,9 +1,10 @@
 // Screenshots of docs/studio.md, from a service of their own with two jobs, a calibration and a study.
 // usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT [NAME...]   OUTPUT: folder, docs/studio; NAME: of those alone, such as place
-import { spawnSync } from "node:child_process";
+import { execFile } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
+import { promisify } from "node:util";
 import { launch, TestService } from "./service.mjs";
 
 const [program, packages, output, ...names] = process.argv.slice(2);
@@ -25,7 +26,8 @@ const kJobs = [
 /** The id of a calibration by images of the board that throng renders. */
 async function calibrated() {
   const boards = mkdtempSync(path.join(tmpdir(), "throng-boards-"));
-  spawnSync(program, ["calibrate", "selftest", "--views", "12", "--images", boards], { stdio: "ignore" });
+  // With few views its own limits may not hold. Not synchronously: connections that the service closes meanwhile must be noticed.
+  await promisify(execFile)(program, ["calibrate", "selftest", "--views", "12", "--images", boards]).catch(() => {});
   const images = readdirSync(boards).sort();
   const form = new FormData();
   form.append("request", JSON.stringify({ name: "wide camera", images, board: { columns: 12, rows: 9, square: 0.025 }, lens: "auto" }));
