@@ -5,14 +5,18 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/suggest.h"
 #include "cli/api_client.h"
+#include "cli/bundle.h"
 #include "cli/commands.h"
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
