@@ -22,6 +22,7 @@ void add_confined(CLI::App& app);
 void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
 void add_remote_jobs(CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch
+void add_remote_studies(CLI::App& app);
 void add_scenarios(CLI::App& app);
 void add_scenario(CLI::App& app);  // check, plan, make, generate
 void add_airframes(CLI::App& app);

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "jobs/pipeline/confined_work.h"
 #include "jobs/queue/confined_task.h"
+#include "study/service_work.h"
 
 namespace throng::cli {
 
@@ -20,7 +21,9 @@ void add_confined(CLI::App& app) {
                       "Folder with the request, for the answer; without it, folders come on stdin");
   command->callback([work] {
     const auto perform = [](const std::filesystem::path& folder) {
-      return jobs::run_confined_task(folder, &jobs::do_confined_work);
+      return jobs::run_confined_task(folder, [](const nlohmann::json& request) {
+        return jobs::do_confined_work(request, {{"study", &study::check_request}});
+      });
     };
     std::exit(work->empty() ? jobs::run_fork_server(perform) : perform(*work));
   });

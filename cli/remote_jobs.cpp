@@ -21,6 +21,7 @@
 #include "cli/interrupt.h"
 #include "cli/job_summary.h"
 #include "cli/progress_bar.h"
+#include "cli/remote_end.h"
 
 namespace throng::cli {
 
@@ -49,8 +50,6 @@ auto with_job(ApiClient& api, const std::string& id, const Work& work) {
   }
 }
 
-bool has_ended(const json& job) { return job["state"] != "queued" && job["state"] != "running"; }
-
 void show(ProgressBar& bar, const json& job) {
   const json& progress = job["progress"];
   const std::int64_t done = progress.value("frames_done", std::int64_t{0});
@@ -69,47 +68,14 @@ void show(ProgressBar& bar, const json& job) {
   bar.show(fraction, text);
 }
 
-/// Follows a job until it has ended. A server that restarts is waited for.
+/// Follows a job until it has ended.
 json watched(ApiClient& api, const std::string& id) {
-  constexpr auto kPatience = 60s;
-  constexpr auto kPause = 1s;
-  const Interrupt interrupt;
-  ProgressBar bar(id);
   std::int64_t seen = 0;
-  auto last_answer = std::chrono::steady_clock::now();
-  while (true) {
-    if (interrupt.token().stop_requested()) throw Cancelled();
-    try {
-      json job = api.get(path_of(id));
-      last_answer = std::chrono::steady_clock::now();
-      show(bar, job);
-      if (has_ended(job)) return job;
-      const json news = api.get(fmt::format("{}/events?after={}&wait_s=1", path_of(id), seen));
-      seen = news["next"];
-    } catch (const EnvironmentError&) {
-      if (std::chrono::steady_clock::now() - last_answer > kPatience) throw;
-      std::this_thread::sleep_for(kPause);
-    }
-  }
-}
-
-/// Throws what a job that did not succeed means for the exit code.
-void require_success(const json& job) {
-  if (job["state"] == "succeeded") return;
-  if (job["state"] == "cancelled") throw Cancelled();
-  const json& error = job["error"];
-  const std::vector<Problem> problems = problems_of(error["problems"]);
-  if (error["kind"] == "input" && !problems.empty()) throw InputError(problems);
-  std::string message = error["message"].get<std::string>();
-  if (job["state"] != "partial") {
-    throw EnvironmentError(fmt::format("the job failed: {}", message));
-  }
-  for (const json& run : error["runs"]) {
-    message += fmt::format("\n{}", run["message"].get<std::string>());
-  }
-  throw EnvironmentError(
-      fmt::format("{}\n`throng fetch {}` has the others, `throng retry {}` tries again", message,
-                  job["id"].get<std::string>(), job["id"].get<std::string>()));
+  return followed(api, path_of(id), id, {&show, [&] {
+                                           const json news = api.get(fmt::format(
+                                               "{}/events?after={}&wait_s=1", path_of(id), seen));
+                                           seen = news["next"];
+                                         }});
 }
 
 struct FetchArguments {

@@ -8,12 +8,14 @@
 #include "cli/commands.h"
 #include "cli/job_report.h"
 #include "jobs/pipeline/worker.h"
+#include "study/service_work.h"
 
 namespace throng::cli {
 
 namespace {
 
-void calibrate_in(const jobs::JobFolder& folder, const jobs::OnTaskProgress& on_progress) {
+void calibrate_in(const jobs::JobFolder& folder, const std::string& /*name*/,
+                  const jobs::OnTaskProgress& on_progress) {
   calibrate::carry_out_in(folder.path(),
                           [&](double share, const std::string& what) {
                             on_progress({share, 1, what});
@@ -21,12 +23,26 @@ void calibrate_in(const jobs::JobFolder& folder, const jobs::OnTaskProgress& on_
                           {});
 }
 
-void write_report(const jobs::JobFolder& folder, const jobs::OnTaskProgress& /*on_progress*/) {
+void write_report(const jobs::JobFolder& folder, const std::string& /*name*/,
+                  const jobs::OnTaskProgress& /*on_progress*/) {
   write_file_atomically(folder.output_of({jobs::Task::Kind::report}), report_of_job(folder.path()));
 }
 
+void simulate_of_study(const jobs::JobFolder& folder, const std::string& name,
+                       const jobs::OnTaskProgress& on_progress) {
+  study::simulate_in(folder.path(), std::stoul(name.substr(name.find('/') + 1)));
+  on_progress({1, 1, {}});
+}
+
+void report_of_study(const jobs::JobFolder& folder, const std::string& /*name*/,
+                     const jobs::OnTaskProgress& /*on_progress*/) {
+  study::report_in(folder.path());
+}
+
 jobs::OtherTasks other_tasks() {
-  return {{jobs::name_of({jobs::Task::Kind::calibrate}), &calibrate_in},
+  return {{jobs::kStudyRunName, &simulate_of_study},
+          {jobs::name_of({jobs::Task::Kind::study_report}), &report_of_study},
+          {jobs::name_of({jobs::Task::Kind::calibrate}), &calibrate_in},
           {jobs::name_of({jobs::Task::Kind::report}), &write_report}};
 }
 

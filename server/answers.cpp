@@ -211,6 +211,18 @@ json calibration_json(const jobs::JobRow& row, const Retention& retention) {
   return value;
 }
 
+json study_json(const jobs::JobRow& row, const Retention& retention) {
+  const std::string self = "/v1/studies/" + row.id;
+  json value = row_json(row, retention);
+  value["study"] = parsed_or(row.spec_json, nullptr);
+  value["links"] = {{"self", self}, {"values", self + "/files/values.json"}};
+  if (row.state == jobs::JobState::succeeded) {
+    value["links"]["report"] = self + "/report";
+    value["links"]["summary"] = self + "/files/summary.json";
+  }
+  return value;
+}
+
 json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
   json value = row_json(row, retention);

@@ -38,6 +38,9 @@ nlohmann::json problems_json(const std::vector<Problem>& problems);
 /// A calibration as GET /v1/calibrations/{id} shows it; its camera is there once it has succeeded.
 nlohmann::json calibration_json(const jobs::JobRow& row, const Retention& retention);
 
+/// A study as GET /v1/studies shows it.
+nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
+
 /// A job as GET /v1/jobs/{id} shows it.
 nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
 

@@ -24,6 +24,7 @@
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
 #include "server/session_api.h"
+#include "server/studies_api.h"
 #include "server/studio.h"
 #include "server/webhooks_api.h"
 
@@ -42,6 +43,7 @@ void write_problem(Response& response, const HttpError& error) {
 }
 
 constexpr const char* kCalibrations = "/v1/calibrations";
+constexpr const char* kStudies = "/v1/studies";
 constexpr const char* kScenarios = "/v1/scenarios";
 constexpr const char* kSession = "/v1/session";
 constexpr const char* kJobs = "/v1/jobs";
@@ -81,6 +83,14 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
       Route{Method::get, "/v1/calibrations/{id}/images/{path}", Scope::read,
             &send_calibration_image},
+      Route{Method::post, kStudies, Scope::submit, &submit_study},
+      Route{Method::get, kStudies, Scope::read, &list_studies},
+      Route{Method::get, "/v1/studies/{id}", Scope::read, &send_study},
+      Route{Method::remove, "/v1/studies/{id}", Scope::submit, &remove_study},
+      Route{Method::post, "/v1/studies/{id}/cancel", Scope::submit, &cancel_study},
+      Route{Method::post, "/v1/studies/{id}/retry", Scope::submit, &retry_study},
+      Route{Method::get, "/v1/studies/{id}/report", Scope::read, &send_study_report},
+      Route{Method::get, "/v1/studies/{id}/files/{path}", Scope::read, &send_study_file},
       Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
       Route{Method::get, kScenarios, Scope::read, &list_scenarios},
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
@@ -258,7 +268,7 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& se
 // Answers may hold what strangers have sent: no script in them runs as a part of the
 // service's page, nor is it shown within another site's. A report has scripts of its own.
 const char* content_policy_of(const Route& route) {
-  const bool is_report = route.handler == &send_report;
+  const bool is_report = route.handler == &send_report || route.handler == &send_study_report;
   return is_report ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
                      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
                      "font-src data:; frame-ancestors 'none'"
@@ -280,10 +290,11 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
       guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         key = caller.key_id;
-        entry.handler({service.queue(), service.uploads(), service.calibrations(),
-                       service.housekeeping(), service.datasets(), service.reports(),
-                       service.confined(), service.folders(), hooks, keys, sessions_, caller},
-                      request, response);
+        entry.handler(
+            {service.queue(), service.uploads(), service.calibrations(), service.studies(),
+             service.housekeeping(), service.datasets(), service.reports(), service.confined(),
+             service.folders(), hooks, keys, sessions_, caller},
+            request, response);
       });
       if (is_audited(request.method, response.status)) {
         record(audit_, key, request, response.status);

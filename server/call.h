@@ -10,6 +10,7 @@
 #include "server/report_maker.h"
 #include "server/service_folders.h"
 #include "server/sessions.h"
+#include "server/studies.h"
 #include "server/uploads.h"
 #include "server/webhook_sender.h"
 
@@ -19,6 +20,7 @@ struct Call {
   JobQueue& queue;
   Uploads& uploads;
   Calibrations& calibrations;
+  Studies& studies;
   Housekeeping& housekeeping;
   Datasets& datasets;
   ReportMaker& reports;

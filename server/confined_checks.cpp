@@ -92,10 +92,19 @@ std::int64_t ConfinedChecks::calibration(const json& request, const fs::path& fi
   return mib;
 }
 
-void ConfinedChecks::require_memory(std::int64_t mib, const char* pointer) const {
+json ConfinedChecks::study(const json& document, const fs::path& scenarios) const {
+  json plan = answer_to({{"task", "study"},
+                         {"subject", "a study and its scenarios"},
+                         {"study", document},
+                         {"scenarios", scenarios.string()}});
+  require_memory(plan.at("memory_mib").get<std::int64_t>(), "/cases", "simulations");
+  return plan;
+}
+
+void ConfinedChecks::require_memory(std::int64_t mib, const char* pointer, const char* what) const {
   if (max_task_mib_ == 0 || mib <= max_task_mib_) return;
   throw InputError(
-      Problem{"", pointer, fmt::format("images that need about {} MiB of memory", mib),
+      Problem{"", pointer, fmt::format("{} that need about {} MiB of memory", what, mib),
               fmt::format("smaller ones: this service has {} MiB for a task", max_task_mib_)});
 }
 

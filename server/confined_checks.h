@@ -20,9 +20,9 @@ namespace throng::server {
 /// problem, also when the child was ended at a limit, and EnvironmentError.
 class ConfinedChecks {
  public:
-  /// Folders for the children's files are made in `data`, and removed. Jobs and calibrations with a
-  /// task that needs more than `max_task_mib` of memory (jobs/spec/task_memory.h) are refused; 0:
-  /// none are.
+  /// Folders for the children's files are made in `data`, and removed. Jobs, calibrations and
+  /// studies with a task that needs more than `max_task_mib` of memory (jobs/spec/task_memory.h)
+  /// are refused; 0: none are.
   ConfinedChecks(jobs::ConfinedTask task, const std::filesystem::path& data,
                  std::int64_t max_task_mib = 0);
 
@@ -44,13 +44,17 @@ class ConfinedChecks {
   nlohmann::json blueprint(const std::string& id, const std::filesystem::path& scenarios) const;
   /// A calibration's request, whose files lie in the folder. Returns the memory it needs, in MiB.
   std::int64_t calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
+  /// The plan of a study (study/service_work.h): its cases, policies and number of simulations, and
+  /// the memory that the largest needs.
+  nlohmann::json study(const nlohmann::json& document,
+                       const std::filesystem::path& scenarios) const;
   /// Names that jobs may use (jobs/pipeline/catalog.h); queried once.
   const nlohmann::json& catalog() const;
   nlohmann::json people() const;
 
  private:
   nlohmann::json answer_to(const nlohmann::json& request) const;
-  void require_memory(std::int64_t mib, const char* pointer) const;
+  void require_memory(std::int64_t mib, const char* pointer, const char* what = "images") const;
 
   jobs::ConfinedTask task_;
   std::filesystem::path data_;

@@ -59,9 +59,11 @@ void remove_old(const fs::path& quarantine) {
 void tidy_data_folder(const fs::path& data, const jobs::Store& store) {
   std::error_code error;
   fs::remove_all(data / "trash", error);
-  remove_temporaries(data / "calibrations");
   quarantine_strangers(data, "jobs", store);
-  quarantine_strangers(data, "calibrations", store);
+  for (const char* kind : {"calibrations", "studies"}) {
+    remove_temporaries(data / kind);
+    quarantine_strangers(data, kind, store);
+  }
   remove_old(data / "quarantine");
 }
 

@@ -18,6 +18,7 @@
 #include "server/answers.h"
 #include "server/calibrations.h"
 #include "server/data_folder.h"
+#include "server/study_work.h"
 
 namespace throng::server {
 
@@ -26,6 +27,7 @@ using namespace std::chrono_literals;
 using jobs::JobEvent;
 using jobs::JobRow;
 using jobs::JobState;
+using nlohmann::json;
 
 namespace {
 
@@ -144,6 +146,8 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     std::vector<jobs::RunFailure> failures;
     if (row.kind == jobs::JobKind::calibration) {
       make_calibration(row, stop);
+    } else if (row.kind == jobs::JobKind::study) {
+      make_study(row, stop);
     } else {
       failures = make_dataset(row, stop);
     }
@@ -237,6 +241,23 @@ void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop)
     if (result.outcome != jobs::Outcome::succeeded) throw EnvironmentError(result.message);
   }
   set_progress(1, "finished");
+}
+
+void JobRunner::make_study(const JobRow& row, const std::stop_token& stop) {
+  Clock::time_point last_save;
+  Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
+  const auto on_progress = [&](const json& progress) {
+    state_.set_progress(row, text_of(progress));
+    const auto now = Clock::now();
+    if (now - last_save < kProgressInterval) return;
+    last_save = now;
+    save_progress(row);
+    if (now < next_bytes) return;
+    save_bytes(row);
+    const auto took = Clock::now() - now;
+    next_bytes = now + std::max<Clock::duration>(kMinBytesInterval, kMaxPartOfTime * took);
+  };
+  work_on_study(folders_.study_folder(row.id), executor_, share_of(row), on_progress, stop);
 }
 
 // Progress is worth no job: when it cannot be saved now, it will be a second later.

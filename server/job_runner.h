@@ -50,6 +50,7 @@ class JobRunner {
   void run(const jobs::JobRow& row, const std::stop_token& stop);
   std::vector<jobs::RunFailure> make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
   void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
+  void make_study(const jobs::JobRow& row, const std::stop_token& stop);
   jobs::Share share_of(const jobs::JobRow& row) const;
   void save_progress(const jobs::JobRow& row);
   void save_bytes(const jobs::JobRow& row);

@@ -109,6 +109,14 @@ std::optional<std::string> viewer_of(const Caller& caller) {
   return sees_all(caller) ? std::nullopt : std::optional(caller.key_id);
 }
 
+namespace {
+
+std::string_view word_of(jobs::JobKind kind) {
+  return kind == jobs::JobKind::dataset ? "job" : name_of(kind);
+}
+
+}  // namespace
+
 jobs::JobRow find_job(const Call& call, const Request& request) {
   return find_row(call, request, jobs::JobKind::dataset);
 }
@@ -117,7 +125,7 @@ void require_own(const Call& call, const jobs::JobRow& row) {
   if (call.caller.scope >= Scope::admin || row.owner == call.caller.key_id) return;
   throw HttpError{
       403, fmt::format("the {} is another's: only its owner and administrators may change it",
-                       row.kind == jobs::JobKind::dataset ? "job" : "calibration")};
+                       word_of(row.kind))};
 }
 
 jobs::JobRow find_row(const Call& call, const Request& request, jobs::JobKind kind) {
@@ -125,8 +133,7 @@ jobs::JobRow find_row(const Call& call, const Request& request, jobs::JobKind ki
   std::optional<jobs::JobRow> row;
   if (jobs::is_job_id(id)) row = call.queue.get(id);
   if (!row || row->kind != kind || !is_visible(call.caller, *row)) {
-    throw HttpError{404, fmt::format("there is no {} {}",
-                                     kind == jobs::JobKind::dataset ? "job" : "calibration", id)};
+    throw HttpError{404, fmt::format("there is no {} {}", word_of(kind), id)};
   }
   return std::move(*row);
 }

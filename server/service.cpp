@@ -9,6 +9,7 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
       state_(store_),
       uploads_(folders_, store_, confined_, options.uploads),
       calibrations_(folders_, store_, state_, confined_),
+      studies_(folders_, store_, state_, uploads_, confined_),
       queue_(folders_, store_, state_, uploads_, calibrations_, confined_),
       housekeeping_(folders_, store_, state_, uploads_, options.housekeeping),
       reports_(executor),

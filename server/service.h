@@ -15,6 +15,7 @@
 #include "server/queue_state.h"
 #include "server/report_maker.h"
 #include "server/service_folders.h"
+#include "server/studies.h"
 #include "server/uploads.h"
 
 namespace throng::server {
@@ -44,6 +45,7 @@ class Service {
   const JobQueue& queue() const { return queue_; }
   Uploads& uploads() { return uploads_; }
   Calibrations& calibrations() { return calibrations_; }
+  Studies& studies() { return studies_; }
   Housekeeping& housekeeping() { return housekeeping_; }
   Datasets& datasets() { return datasets_; }
   ReportMaker& reports() { return reports_; }
@@ -56,6 +58,7 @@ class Service {
   QueueState state_;
   Uploads uploads_;
   Calibrations calibrations_;
+  Studies studies_;
   JobQueue queue_;
   Housekeeping housekeeping_;
   ReportMaker reports_;

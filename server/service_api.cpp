@@ -61,7 +61,7 @@ void send_readiness(const Call& call, const Request& request, Response& response
 
 void send_figures(const Call& call, const Request&, Response& response) {
   std::string text =
-      "# HELP throng_jobs Jobs and calibrations by state.\n# TYPE throng_jobs gauge\n";
+      "# HELP throng_jobs Jobs, calibrations and studies by state.\n# TYPE throng_jobs gauge\n";
   for (const auto& [state, count] : call.queue.count()) {
     text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", name_of(state), count);
   }

@@ -20,7 +20,15 @@ fs::path ServiceFolders::dataset_of(const std::string& id) const {
 }
 
 fs::path ServiceFolders::folder_of(const jobs::JobRow& row) const {
-  return row.kind == jobs::JobKind::calibration ? calibration_folder(row.id) : job_folder(row.id);
+  switch (row.kind) {
+    case jobs::JobKind::calibration:
+      return calibration_folder(row.id);
+    case jobs::JobKind::study:
+      return study_folder(row.id);
+    case jobs::JobKind::dataset:
+      break;
+  }
+  return job_folder(row.id);
 }
 
 std::string ServiceFolders::without_paths(std::string message) const {

@@ -29,7 +29,10 @@ class ServiceFolders {
   std::filesystem::path calibration_folder(const std::string& id) const {
     return calibrations() / id;
   }
-  /// The folder of a job or a calibration.
+  std::filesystem::path studies() const { return data_ / "studies"; }
+  /// Folder of a study (study/spec/study_files.h).
+  std::filesystem::path study_folder(const std::string& id) const { return studies() / id; }
+  /// The folder of a job, a calibration or a study.
   std::filesystem::path folder_of(const jobs::JobRow& row) const;
 
   /// A message without the places of this machine's folders.

@@ -22,12 +22,24 @@ namespace {
 constexpr std::string_view kOwnBundle = "bundle/";
 constexpr int kJobsAtOnce = 500;
 
-/// The upload that a job's scenario may belong to; "" for a calibration.
-std::string upload_of_job(const JobRow& row) {
-  const json spec = parse_json_or_discard(row.spec_json);
+/// The upload that the scenario of a job, or of a study's case, may belong to; "" for none.
+std::string upload_in(const json& spec) {
   const auto named = spec.is_object() ? spec.find("scenario") : spec.end();
   if (!spec.is_object() || named == spec.end() || !named->is_string()) return "";
   return upload_of(named->get<std::string>());
+}
+
+/// Uploads that scenarios of a job or study may belong to; none of a calibration's.
+std::set<std::string> uploads_of(const JobRow& row) {
+  const json spec = parse_json_or_discard(row.spec_json);
+  std::set<std::string> uploads;
+  if (row.kind != jobs::JobKind::study) {
+    uploads.insert(upload_in(spec));
+  } else if (spec.is_object() && spec.contains("cases")) {
+    for (const json& one : spec["cases"]) uploads.insert(upload_in(one));
+  }
+  uploads.erase("");
+  return uploads;
 }
 
 }  // namespace
@@ -54,22 +66,26 @@ Uploads::Uploads(const ServiceFolders& folders, jobs::Store& jobs, const Confine
 }
 
 std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
-                                            std::vector<jobs::JobState> states) const {
+                                            const std::vector<jobs::JobState>& states) const {
   // Without parsing those that cannot: texts hold the id as it is.
   const std::string beginning = fmt::format("\"{}/", upload);
   std::vector<JobRow> found;
-  jobs::JobFilter filter;
-  filter.states = std::move(states);
-  filter.limit = kJobsAtOnce;
-  while (true) {
-    std::vector<JobRow> rows = jobs_.list(filter);
-    for (const JobRow& row : rows) {
-      if (row.spec_json.find(beginning) == std::string::npos) continue;
-      if (upload_of_job(row) == upload) found.push_back(row);
+  for (const jobs::JobKind kind : {jobs::JobKind::dataset, jobs::JobKind::study}) {
+    jobs::JobFilter filter;
+    filter.kind = kind;
+    filter.states = states;
+    filter.limit = kJobsAtOnce;
+    while (true) {
+      std::vector<JobRow> rows = jobs_.list(filter);
+      for (const JobRow& row : rows) {
+        if (row.spec_json.find(beginning) == std::string::npos) continue;
+        if (uploads_of(row).contains(upload)) found.push_back(row);
+      }
+      if (static_cast<int>(rows.size()) < kJobsAtOnce) break;
+      filter.after = rows.back().id;
     }
-    if (static_cast<int>(rows.size()) < kJobsAtOnce) return found;
-    filter.after = rows.back().id;
   }
+  return found;
 }
 
 Uploads::Pinned::Pinned(Uploads& uploads, std::string_view bundle, const std::string& owner)
@@ -102,8 +118,8 @@ bool Uploads::remove(const std::string& name) {
   const std::unique_lock lock(mutex_);
   const auto users = jobs_that_name(name, {jobs::JobState::queued, jobs::JobState::running});
   if (!users.empty()) {
-    throw ConflictError(fmt::format("{} jobs that wait or run use it, {} among them", users.size(),
-                                    users.front().id));
+    throw ConflictError(fmt::format("{} jobs or studies that wait or run use it, {} among them",
+                                    users.size(), users.front().id));
   }
   return scenarios_.remove(name);
 }
@@ -114,10 +130,11 @@ void Uploads::drop_if_unused(const std::string& bundle) {
 }
 
 void Uploads::drop_bundle_of(const JobRow& removed) {
-  const std::string name = upload_of_job(removed);
-  if (!is_bundle_name(name)) return;
-  const std::unique_lock lock(mutex_);
-  drop_if_unused(name);
+  for (const std::string& name : uploads_of(removed)) {
+    if (!is_bundle_name(name)) continue;
+    const std::unique_lock lock(mutex_);
+    drop_if_unused(name);
+  }
 }
 
 }  // namespace throng::server

@@ -51,7 +51,7 @@ class Uploads {
 
  private:
   std::vector<jobs::JobRow> jobs_that_name(const std::string& upload,
-                                           std::vector<jobs::JobState> states) const;
+                                           const std::vector<jobs::JobState>& states) const;
   void drop_if_unused(const std::string& bundle);
 
   jobs::Store& jobs_;

@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "study/page.h"
 #include "study/summary_tables.h"
+#include "study/values.h"
 
 namespace throng::study {
 
@@ -299,13 +300,18 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
 
 }  // namespace
 
+json summary_json(const Study& study, const Outcomes& outcomes) {
+  return json_of(study, {summarize(study, outcomes), compare_cases(study, outcomes)});
+}
+
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
   const Summary summary{summarize(study, outcomes), compare_cases(study, outcomes)};
-  write_file_atomically(folder / "report.html", html_of_study(study, outcomes, summary));
-  write_file_atomically(folder / "summary.csv", csv_of(study, summary.rows));
-  write_file_atomically(folder / "summary.json", json_of(study, summary).dump(2) + "\n");
-  write_file_atomically(folder / "summary.md", markdown_of(study, summary));
+  write_file_atomically(folder / kReportName, html_of_study(study, outcomes, summary));
+  write_file_atomically(folder / kCsvName, csv_of(study, summary.rows));
+  write_file_atomically(folder / kMarkdownName, markdown_of(study, summary));
+  write_file_atomically(folder / kValuesName, values_json(study, all_runs(outcomes)).dump() + "\n");
+  write_file_atomically(folder / kSummaryName, json_of(study, summary).dump(2) + "\n");
 }
 
 }  // namespace throng::study

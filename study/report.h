@@ -2,13 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "study/summary.h"
 
 namespace throng::study {
 
-/// Writes summary.csv, summary.json, summary.md and report.html, which has the tables and the
-/// escape curves of each case as charts, into the folder. Equal outcomes give equal bytes.
+/// The summary as summary.json holds it.
+nlohmann::json summary_json(const Study& study, const Outcomes& outcomes);
+
+/// Writes summary.csv, summary.json, summary.md, values.json (study/values.h) and report.html,
+/// which has the tables and the charts of each case, into the folder. Equal outcomes give equal
+/// bytes.
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder);
 

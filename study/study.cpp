@@ -40,10 +40,12 @@ void check_unique(const JsonValue& id, const std::string& text, std::set<std::st
 // Reads the document's own fields; what belongs to jobs is checked with them.
 class StudyReader {
  public:
-  StudyReader(const json& document, const std::string& source, const fs::path& scenarios)
+  StudyReader(const json& document, const std::string& source, const fs::path& scenarios,
+              const std::optional<Cell>& only)
       : document_(document),
         source_(source),
         scenarios_(scenarios),
+        only_(only),
         root_(document, source, problems_) {}
 
   Study read() {
@@ -209,6 +211,11 @@ class StudyReader {
       auto& jobs = study_.jobs.emplace_back();
       auto& fingerprints = study_.fingerprints.emplace_back();
       for (std::size_t p = 0; p < study_.policies.size(); ++p) {
+        if (only_ && (only_->one_case != c || only_->policy != p)) {
+          jobs.emplace_back();
+          fingerprints.emplace_back();
+          continue;
+        }
         jobs.push_back(make_job(c, p));
         json job = jobs::to_json(jobs.back());
         job.erase("runs");  // more of them leave those that there are as they are
@@ -233,7 +240,10 @@ class StudyReader {
     const auto default_drones =
         nobody_flies ? jobs::DefaultDrones::none : jobs::DefaultDrones::of_scenario;
     try {
-      return jobs::resolve_job(job.dump(), source_, scenarios_, default_drones).spec();
+      const jobs::ResolvedJob resolved =
+          jobs::resolve_job(job.dump(), source_, scenarios_, default_drones);
+      study_.people = std::max(study_.people, resolved.spec().agents.value_or(resolved.people()));
+      return resolved.spec();
     } catch (const InputError& error) {
       for (Problem problem : error.problems()) {
         const bool of_policy = problem.where.rfind("/drones", 0) == 0;
@@ -248,6 +258,7 @@ class StudyReader {
   const json& document_;
   const std::string& source_;
   const fs::path& scenarios_;
+  const std::optional<Cell>& only_;
   std::vector<Problem> problems_;
   JsonValue root_;
   Study study_;
@@ -263,8 +274,13 @@ Study load_study(const fs::path& file, const fs::path& scenarios) {
   } catch (const EnvironmentError&) {
     throw InputError({source, "", "no readable file", "a study's file"});
   }
+  return read_study(text, source, scenarios);
+}
+
+Study read_study(std::string_view text, const std::string& source, const fs::path& scenarios,
+                 const std::optional<Cell>& only) {
   const json document = parse_json(text, source);
-  return StudyReader(document, source, scenarios).read();
+  return StudyReader(document, source, scenarios, only).read();
 }
 
 }  // namespace throng::study

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jobs/spec/spec.h"
@@ -42,6 +43,7 @@ struct Study {
   std::vector<Case> cases;
   std::vector<PolicyRow> policies;
   std::vector<std::vector<jobs::JobSpec>> jobs;  ///< per case and policy; without drones: none fly
+  int people = 0;                                ///< most that a run begins with
   /// Per case and policy: of everything that results depend on beside the run's number.
   std::vector<std::vector<std::string>> fingerprints;
 };
@@ -49,5 +51,16 @@ struct Study {
 /// Reads and checks a study's file (docs/guidance.md). Throws InputError, naming file and JSON
 /// pointer, also for anything that the jobs it makes would be refused for.
 Study load_study(const std::filesystem::path& file, const std::filesystem::path& scenarios);
+
+/// A case and a policy, by their indices.
+struct Cell {
+  std::size_t one_case = 0;
+  std::size_t policy = 0;
+};
+
+/// Likewise from a text; `source` names it in messages. With `only`, jobs and fingerprints of all
+/// other cells stay empty, which takes a fraction of the time.
+Study read_study(std::string_view text, const std::string& source,
+                 const std::filesystem::path& scenarios, const std::optional<Cell>& only = {});
 
 }  // namespace throng::study

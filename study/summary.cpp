@@ -134,9 +134,11 @@ void adjust_p_values(std::size_t baseline, std::vector<SummaryRow>& rows) {
 
 CaseDifference case_difference(const std::vector<double>& times, const std::vector<double>& base) {
   CaseDifference result;
-  result.runs = static_cast<int>(times.size());
   std::vector<double> differences;
-  for (std::size_t i = 0; i < times.size(); ++i) differences.push_back(times[i] - base[i]);
+  for (std::size_t i = 0; i < std::min(times.size(), base.size()); ++i) {
+    differences.push_back(times[i] - base[i]);
+  }
+  result.runs = static_cast<int>(differences.size());
   if (!all_finite(differences)) {
     result.difference_s = kNotKnown;
     result.difference_95 = {kNotKnown, kNotKnown};
@@ -155,6 +157,7 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) 
   std::vector<SummaryRow> rows;
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
+      if (outcomes[c][p].empty()) continue;
       rows.push_back(
           summarize_one(study.cases[c], outcomes[c][p], outcomes[c][study.baseline], study.seed));
       rows.back().one_case = c;
@@ -171,6 +174,7 @@ std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& ou
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     if (c == *study.baseline_case) continue;
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
+      if (outcomes[c][p].empty() || outcomes[*study.baseline_case][p].empty()) continue;
       for (const int percent : kIntervalPercents) {
         CaseDifference one = case_difference(times_s(outcomes[c][p], percent),
                                              times_s(outcomes[*study.baseline_case][p], percent));

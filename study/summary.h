@@ -63,7 +63,7 @@ struct CaseDifference {
   std::size_t one_case = 0;
   std::size_t policy = 0;
   int percent = 0;          ///< of kIntervalPercents
-  int runs = 0;             ///< pairs in which the time is known in both
+  int runs = 0;             ///< pairs of runs
   double difference_s = 0;  ///< mean of this case's time less the baseline case's, over those pairs
   Interval difference_95;   ///< Student's interval of it
   SignedRank test;
@@ -79,7 +79,7 @@ struct Convergence {
 inline constexpr int kSummaryPercents[] = {25, 50, 75, 90, 95, 99};
 inline constexpr int kIntervalPercents[] = {50, 90, 95};  ///< those that reports give intervals of
 
-/// A row for each case and policy, in the study's order.
+/// A row for each case and policy, in the study's order; those without outcomes have none.
 std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
 
 /// Every other case against Study::baseline_case; nothing where the study compares no cases.

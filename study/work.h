@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "study/outcome.h"
+#include "study/spec/study_files.h"
 #include "study/study.h"
 
 namespace throng::study {
@@ -22,5 +23,17 @@ using StudyProgress = std::function<void(std::size_t done, std::size_t total)>;
 /// Throws Cancelled when `stop` asks, after the runs at work have ended early.
 Outcomes do_runs(const Study& study, const std::filesystem::path& folder, int threads,
                  const StudyProgress& progress = {}, const std::stop_token& stop = {});
+
+/// Does one run likewise; of the study only its cell needs to have been read.
+void do_run(const Study& study, const std::filesystem::path& folder, const StudyRun& run,
+            const std::stop_token& stop = {});
+
+/// Results that lie in `folder`, under whatever fingerprint, in the order of their numbers. Of a
+/// case only those that every policy has.
+struct KnownRuns {
+  Outcomes outcomes;
+  std::vector<std::vector<int>> numbers;  ///< per case
+};
+KnownRuns known_runs(const Study& study, const std::filesystem::path& folder);
 
 }  // namespace throng::study

@@ -2,7 +2,10 @@
 // that loads a scenario, or needs the engine.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 namespace throng::jobs {
 
@@ -20,7 +23,10 @@ namespace throng::jobs {
 ///                  {"max_image_pixels": ...}
 ///   catalog        names that jobs may use (jobs/pipeline/catalog.h)
 ///   people         the character library, or null
-/// Throws InputError and EnvironmentError.
-nlohmann::json do_confined_work(const nlohmann::json& request);
+/// or one of `others`, by its name: work of modules above this one. Throws InputError and
+/// EnvironmentError.
+nlohmann::json do_confined_work(
+    const nlohmann::json& request,
+    const std::map<std::string, std::function<nlohmann::json(const nlohmann::json&)>>& others = {});
 
 }  // namespace throng::jobs

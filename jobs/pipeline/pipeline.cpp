@@ -122,7 +122,9 @@ void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::pat
       return collect_dataset(folder, job);
     case Task::Kind::calibrate:
     case Task::Kind::report:
-      check(false, "the program has tasks of its own for calibrations and reports");
+    case Task::Kind::study_run:
+    case Task::Kind::study_report:
+      check(false, "the program has tasks of its own for calibrations, reports and studies");
   }
 }
 

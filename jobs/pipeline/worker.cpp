@@ -165,8 +165,9 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
     provoke_faults(task_name, attempt);
     const JobFolder folder(job_folder);
     const auto on_progress = [&](const TaskProgress& progress) { reporter.report(progress); };
-    if (const auto other = others.find(task_name); other != others.end()) {
-      other->second(folder, on_progress);
+    if (const auto other = others.find(task_name.substr(0, task_name.find('/')));
+        other != others.end()) {
+      other->second(folder, task_name, on_progress);
     } else {
       const ResolvedJob job = folder.read_job();
       do_task(folder, job, scenarios, task_named(job.spec(), task_name), on_progress);

@@ -11,11 +11,12 @@
 
 namespace throng::jobs {
 
-/// Tasks that belong to no job's plan, by name (name_of(Task)): they publish their output in the
-/// folder. Throw InputError and EnvironmentError.
+/// Tasks that belong to no job's plan, by name (name_of(Task)), or the part of it before a slash:
+/// they publish their output in the folder. `name` is the whole name. Throw InputError and
+/// EnvironmentError.
 using OtherTasks =
-    std::map<std::string,
-             std::function<void(const JobFolder& folder, const OnTaskProgress& on_progress)>>;
+    std::map<std::string, std::function<void(const JobFolder& folder, const std::string& name,
+                                             const OnTaskProgress& on_progress)>>;
 
 /// Runs the task in the job's folder and returns the process's exit code. Writes
 ///   {"done":3,"total":30}

@@ -10,6 +10,7 @@
 #include "calibrate/spec/request_files.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/spec.h"
+#include "study/spec/study_files.h"
 
 namespace throng::jobs {
 
@@ -82,6 +83,8 @@ fs::path JobFolder::output_of(const Task& task) const {
   if (task.kind == Task::Kind::collect) return dataset();
   if (task.kind == Task::Kind::calibrate) return path_ / calibrate::kCameraName;
   if (task.kind == Task::Kind::report) return path_ / "report.html";
+  if (task.kind == Task::Kind::study_report) return path_ / study::kSummaryName;
+  check(task.kind != Task::Kind::study_run, "results of a study's runs are named by the study");
   const fs::path output = path_ / "work" / name_of(task);
   return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
 }

@@ -41,7 +41,8 @@ class JobFolder {
   void remove_leftovers() const;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Output of the task: a file for a simulation, a calibration and a report, else a folder.
+  /// Output of the task: a file for a simulation, a calibration and a report, else a folder. Not
+  /// for a study's runs (study/spec/study_files.h).
   std::filesystem::path output_of(const Task& task) const;
   std::filesystem::path log_of(const Task& task) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }

@@ -36,7 +36,15 @@ Store::Store(const std::filesystem::path& folder, Clock clock, Clock steady)
 Store::~Store() = default;
 
 std::string_view name_of(JobKind kind) {
-  return kind == JobKind::calibration ? "calibration" : "dataset";
+  switch (kind) {
+    case JobKind::calibration:
+      return "calibration";
+    case JobKind::study:
+      return "study";
+    case JobKind::dataset:
+      break;
+  }
+  return "dataset";
 }
 
 Added Store::add(const NewJob& job) {

@@ -2,6 +2,7 @@
 // that a call has returned survive the death of the process and of the machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -16,7 +17,9 @@
 namespace throng::jobs {
 
 /// Kind of a queued job's result.
-enum class JobKind { dataset, calibration };
+enum class JobKind { dataset, calibration, study };
+
+inline constexpr std::array kJobKinds = {JobKind::dataset, JobKind::calibration, JobKind::study};
 
 std::string_view name_of(JobKind kind);
 
@@ -27,7 +30,7 @@ struct JobRow {
   std::string name;
   JobState state = JobState::queued;
   int attempt = 0;              ///< how often a supervisor took it up
-  std::string spec_json;        ///< the job with all defaults; a calibration's request
+  std::string spec_json;        ///< the job with all defaults; a calibration's or study's request
   std::string progress_json;    ///< the last that was saved; "" for none
   std::string error_json;       ///< why it failed; "" for none
   std::int64_t created_ms = 0;  ///< Unix time

@@ -39,8 +39,10 @@ JobRow row_of(SQLite::Statement& query) {
   row.created_ms = query.getColumn(7);
   row.started_ms = query.getColumn(8);
   row.ended_ms = query.getColumn(9);
-  const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
-  row.kind = calibration ? JobKind::calibration : JobKind::dataset;
+  const std::string kind = query.getColumn(10).getString();
+  for (const JobKind known : kJobKinds) {
+    if (kind == name_of(known)) row.kind = known;
+  }
   row.priority = query.getColumn(11);
   row.labels = labels_of(query.getColumn(12).getString());
   row.owner = query.getColumn(13).getString();

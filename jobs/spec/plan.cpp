@@ -86,6 +86,10 @@ std::string name_of(const Task& task) {
       return "calibration";
     case Task::Kind::report:
       return "report";
+    case Task::Kind::study_run:
+      return fmt::format("{}/{:06}", kStudyRunName, task.shard);
+    case Task::Kind::study_report:
+      return "study";
     case Task::Kind::collect:
       break;
   }

@@ -40,17 +40,29 @@ bool has_preview(const JobSpec& job, std::int64_t frame);
 
 /// Unit of work of one worker.
 struct Task {
-  /// The last two belong to no job's plan: a calibration's folder, and a report of a finished job.
-  enum class Kind { simulate, measure, render, collect, calibrate, report };
+  /// The last ones belong to no job's plan: a calibration's folder, a report of a finished job, and
+  /// a study's simulations and report.
+  enum class Kind {
+    simulate,
+    measure,
+    render,
+    collect,
+    calibrate,
+    report,
+    study_run,
+    study_report
+  };
   Kind kind = Kind::collect;
   int run = 0;    ///< simulate, measure, render
-  int shard = 0;  ///< render
+  int shard = 0;  ///< render; study_run: the number of the run (study/spec/study_files.h)
   auto operator<=>(const Task&) const = default;
 };
 
-/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "calibration", "report": what
-/// the task publishes.
+/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "calibration", "report",
+/// "simulation/000012", "study": what the task publishes.
 std::string name_of(const Task& task);
+
+inline constexpr const char* kStudyRunName = "simulation";
 
 /// The reverse, for tasks of the job's plan. Throws InputError when the job has no such task.
 Task task_named(const JobSpec& job, const std::string& name);

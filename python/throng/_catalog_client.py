@@ -1,4 +1,4 @@
-"""The part of the client that is about scenarios, calibrations, keys, webhooks and the service itself."""
+"""The part of the client that is about scenarios, calibrations, studies, keys, webhooks and the service itself."""
 
 # Answers are JSON, which openapi.json describes and api_types.py names; nothing checks them once more.
 # mypy: disable-error-code="no-any-return"
@@ -22,6 +22,10 @@ from .api_types import (
     KeyList,
     Scenario,
     Session,
+    Study,
+    StudyList,
+    StudyPlan,
+    StudyValues,
     Upload,
     Webhook,
     WebhookList,
@@ -134,6 +138,64 @@ class CatalogClient:
 
     def remove_calibration(self, calibration_id: str) -> None:
         self._remove(f"/v1/calibrations/{part(calibration_id)}")
+
+    # Studies.
+
+    def submit_study(self, study: Mapping[str, Any]) -> Study:
+        """Queues a study: cases times policies times paired runs (docs/guidance.md)."""
+        return self._send("POST", "/v1/studies", plain(study))
+
+    def check_study(self, study: Mapping[str, Any]) -> StudyPlan:
+        """The plan of a study that is not queued; InvalidRequestError with everything that is wrong with it."""
+        return self._http.request("POST", "/v1/studies", query={"dry_run": True}, json_body=plain(study)).json()
+
+    def study(self, study_id: str) -> Study:
+        """State and progress, its `plan`, and the `summary` of the runs that are there so far."""
+        return self._get(f"/v1/studies/{part(study_id)}")
+
+    def studies(self) -> Iterator[Study]:
+        after: str | None = None
+        while True:
+            answer: StudyList = self._get("/v1/studies", {"limit": 100, "after": after})
+            yield from answer["studies"]
+            after = answer["next"]
+            if after is None:
+                return
+
+    def wait_for_study(self, study_id: str, *, timeout_s: float = 86_400.0, check: bool = True) -> Study:
+        """Waits for its end; JobFailedError where it failed or was cancelled, unless check=False."""
+        deadline = time.monotonic() + timeout_s
+        while True:
+            study = self.study(study_id)
+            if study["state"] not in ("queued", "running"):
+                if check and study["state"] != "succeeded":
+                    raise JobFailedError(why(study), study)
+                return study
+            if time.monotonic() > deadline:
+                raise TimeoutError("the study has not ended in time")
+            time.sleep(1.0)
+
+    def cancel_study(self, study_id: str) -> Study:
+        """Finished runs are kept for a retry."""
+        return self._send("POST", f"/v1/studies/{part(study_id)}/cancel")
+
+    def retry_study(self, study_id: str) -> Study:
+        return self._send("POST", f"/v1/studies/{part(study_id)}/retry")
+
+    def remove_study(self, study_id: str) -> None:
+        self._remove(f"/v1/studies/{part(study_id)}")
+
+    def study_values(self, study_id: str) -> StudyValues:
+        """The figures of each run; there while the study runs, too."""
+        return self._get(f"/v1/studies/{part(study_id)}/files/values.json")
+
+    def study_file(self, study_id: str, name: str) -> bytes:
+        """summary.json, summary.csv, summary.md, values.json or runs/CASE/POLICY/000.json."""
+        return self._bytes(f"/v1/studies/{part(study_id)}/files/{path_of(name)}")
+
+    def study_report(self, study_id: str) -> str:
+        """The report as one HTML page."""
+        return self._bytes(f"/v1/studies/{part(study_id)}/report").decode("utf-8")
 
     # Keys (administrators).
 

@@ -300,6 +300,192 @@ class CalibrationPoints(TypedDict):
     views: list[CalibrationPointsView]
 
 
+class StudyProgress(TypedDict):
+    """StudyProgress of the service."""
+
+    stage: NotRequired[Literal["simulating", "summing up", "finished"]]
+    runs_done: NotRequired[int]
+    runs_total: NotRequired[int]
+    cells: NotRequired[list[list[int]]]
+    """Finished runs, per case and policy."""
+    remaining_s: NotRequired[float | None]
+
+
+class Study(TypedDict):
+    """Study of the service."""
+
+    id: str
+    name: str
+    state: Literal["queued", "running", "succeeded", "failed", "cancelled"]
+    attempt: int
+    """How often work on it was begun or taken up."""
+    priority: int
+    labels: list[str]
+    owner: str | None
+    """The id of the key that it came with."""
+    created_at: str | None
+    started_at: str | None
+    ended_at: str | None
+    expires_at: str | None
+    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    keep: bool
+    """Never to be removed for its age."""
+    bytes: int
+    """Disk that its files take, measured when it ended."""
+    waiting_for: str | None
+    """Why nobody works on it although it is its turn."""
+    progress: StudyProgress
+    error: JobError | None
+    links: dict[str, str]
+    study: dict[str, Any] | None
+    """The document as it was sent."""
+    plan: NotRequired[StudyPlan]
+    summary: NotRequired[StudySummary | None]
+
+
+class StudyList(TypedDict):
+    """StudyList of the service."""
+
+    studies: list[Study]
+    next: str | None
+
+
+class StudyPlanCase(TypedDict):
+    """StudyPlanCase of the service."""
+
+    id: str
+    title: str
+    scenario: str
+    duration_s: float
+    horizons_s: list[float]
+
+
+class StudyPlanPolicie(TypedDict):
+    """StudyPlanPolicie of the service."""
+
+    id: str
+    title: str
+
+
+class StudyPlan(TypedDict):
+    """StudyPlan of the service."""
+
+    name: str
+    seed: int
+    runs: int
+    """Pairs: runs of each case and policy."""
+    baseline: str
+    """The policy that others are compared with."""
+    cases: list[StudyPlanCase]
+    policies: list[StudyPlanPolicie]
+    simulations: int
+    """In all."""
+    people: int
+    """Most that a run begins with."""
+    memory_mib: int
+    """Of the largest simulation, by estimate."""
+    valid: NotRequired[Literal[True]]
+
+
+class StudySummaryRowTimes(TypedDict):
+    """StudySummaryRowTimes of the service."""
+
+    median: float | None
+    low: float | None
+    high: float | None
+
+
+class StudySummaryRowRestrictedMeanRestrictedMeanS(TypedDict):
+    """StudySummaryRowRestrictedMeanRestrictedMeanS of the service."""
+
+    median: float | None
+    low: float | None
+    high: float | None
+
+
+class StudySummaryRowRestrictedMeanWilcoxon(TypedDict):
+    """StudySummaryRowRestrictedMeanWilcoxon of the service."""
+
+    n: int
+    w_plus: float
+    p: float
+
+
+class StudySummaryRowRestrictedMean(TypedDict):
+    """StudySummaryRowRestrictedMean of the service."""
+
+    until_s: float
+    restricted_mean_s: StudySummaryRowRestrictedMeanRestrictedMeanS
+    mean_s: float | None
+    inside: float
+    ratio_to_baseline: float | None
+    difference_s: float | None
+    difference_95_s: list[float | None]
+    wilcoxon: StudySummaryRowRestrictedMeanWilcoxon
+    holm_p: float | None
+
+
+class StudySummaryRow(TypedDict):
+    """StudySummaryRow of the service."""
+
+    case: str
+    policy: str
+    runs: int
+    times: dict[str, StudySummaryRowTimes]
+    """t25_s to t99_s: median and quartiles."""
+    all_out: int
+    not_escaped: float
+    casualties: float
+    restricted_means: list[StudySummaryRowRestrictedMean]
+    t90_to_bound: float | None
+    mean_to_bound: float | None
+    t90_to_reference: float | None
+    mean_to_reference: float | None
+    followed: float
+    exit_use: dict[str, float]
+
+
+class StudySummary(TypedDict):
+    """As summary.json of `throng study`: of the runs that every policy of a case has."""
+
+    name: str
+    seed: int
+    generator: str
+    baseline: str
+    rows: list[StudySummaryRow]
+    took_s: NotRequired[float]
+    """To make it; of a summary of what is there so far."""
+
+
+class StudyValuesCasePolicie(TypedDict):
+    """StudyValuesCasePolicie of the service."""
+
+    id: str
+    means_s: list[list[float | None]]
+    """Restricted means up to either horizon."""
+    t50_s: list[float | None]
+    t90_s: list[float | None]
+    t95_s: list[float | None]
+    not_escaped: list[float | None]
+
+
+class StudyValuesCase(TypedDict):
+    """StudyValuesCase of the service."""
+
+    id: str
+    horizons_s: list[float]
+    runs: list[int]
+    """Numbers of the runs that every policy has."""
+    policies: list[StudyValuesCasePolicie]
+
+
+class StudyValues(TypedDict):
+    """The figures of each run, in the order of `runs`."""
+
+    baseline: str
+    cases: list[StudyValuesCase]
+
+
 class ScenarioExit(TypedDict):
     """ScenarioExit of the service."""
 
@@ -501,6 +687,14 @@ OPERATIONS = (
     ("DELETE", "/v1/calibrations/{id}"),
     ("GET", "/v1/calibrations/{id}/{name}"),
     ("GET", "/v1/calibrations/{id}/images/{path}"),
+    ("POST", "/v1/studies"),
+    ("GET", "/v1/studies"),
+    ("GET", "/v1/studies/{id}"),
+    ("DELETE", "/v1/studies/{id}"),
+    ("POST", "/v1/studies/{id}/cancel"),
+    ("POST", "/v1/studies/{id}/retry"),
+    ("GET", "/v1/studies/{id}/report"),
+    ("GET", "/v1/studies/{id}/files/{path}"),
     ("GET", "/v1/scenarios"),
     ("POST", "/v1/scenarios"),
     ("GET", "/v1/scenarios/{path}"),

@@ -105,6 +105,38 @@ class Client(unittest.TestCase):
         self.throng("remove", id_)
         self.assertIn(id_, self.throng("watch", id_, code=2))
 
+    def test_studies_survive_a_kill_of_the_server(self):
+        study = {
+            "name": "killed",
+            "runs": 20,
+            "cases": [{"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "duration_s": 20}],
+            "policies": [{"id": "none"}, {"id": "same"}],
+        }
+        file = self.base / "study.json"
+        file.write_text(json.dumps(study))
+        self.assertIn("40 simulations", self.throng("studies", "submit", file, "--dry-run"))
+        self.assertIn("expected a study; a job is for `throng run`", self.throng("studies", "submit", self.job, code=2))
+        id_ = self.throng("studies", "submit", file).strip()
+        runs = self.base / "data" / "studies" / id_ / "runs"
+        wait_until(lambda: len(list(runs.glob("*/*/*.json"))) >= 5)
+        self.server.kill()
+        self.server.wait(20)
+        finished = {path: path.stat().st_mtime_ns for path in runs.glob("*/*/*.json")}
+        self.assertLess(len(finished), 40)
+        self.start()
+        self.throng("studies", "watch", id_)
+        self.assertEqual({path: path.stat().st_mtime_ns for path in finished}, finished)
+        self.assertRegex(self.throng("studies", "list"), rf"{id_} +succeeded +100%")
+        self.throng("studies", "fetch", id_, "-o", self.base / "fetched")
+        self.throng("study", file, "-o", self.base / "here")
+        for name in ("summary.json", "summary.csv", "summary.md", "values.json", "report.html"):
+            self.assertEqual((self.base / "fetched" / name).read_bytes(), (self.base / "here" / name).read_bytes(), name)
+        self.throng("studies", "cancel", id_, code=2)
+        self.throng("studies", "retry", id_, code=2)
+        self.assertIn(id_, self.throng("studies", "watch", id_[:-1], code=2))
+        self.throng("studies", "remove", id_)
+        self.assertNotIn(id_, self.throng("studies", "list"))
+
     def test_scenarios_of_ones_own(self):
         place = pathlib.Path(__file__).resolve().parents[2] / "scenarios" / "city_square"
         ids = self.throng("scenarios", "upload", place, "--name", "mine").split()

@@ -315,6 +315,32 @@ class WithService(unittest.TestCase):
         with self.assertRaises(throng.InvalidRequestError):
             self.client.calibrate({"kind": "magic"})
 
+    def test_studies(self):
+        study = {
+            "name": "two",
+            "runs": 2,
+            "cases": [{"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 10}, "duration_s": 20}],
+            "policies": [{"id": "none"}, {"id": "also_none"}],
+        }
+        self.assertEqual(self.client.check_study(study)["simulations"], 4)
+        queued = self.client.submit_study(study)
+        done = self.client.wait_for_study(queued["id"], timeout_s=120)
+        self.assertEqual([row["runs"] for row in done["summary"]["rows"]], [2, 2])
+        self.assertEqual(json.loads(self.client.study_file(queued["id"], "summary.json")), done["summary"])
+        values = self.client.study_values(queued["id"])["cases"][0]
+        self.assertEqual(values["policies"][0]["t50_s"], values["policies"][1]["t50_s"])
+        self.assertIn("People out", self.client.study_report(queued["id"]))
+        self.assertIn(queued["id"], [entry["id"] for entry in self.client.studies()])
+        with self.assertRaises(throng.ConflictError):
+            self.client.cancel_study(queued["id"])
+        with self.assertRaises(throng.ConflictError):
+            self.client.retry_study(queued["id"])
+        self.client.remove_study(queued["id"])
+        with self.assertRaises(throng.NotFoundError):
+            self.client.study(queued["id"])
+        with self.assertRaisesRegex(throng.InvalidRequestError, "policies"):
+            self.client.submit_study({"cases": []})
+
     def test_the_service_itself(self):
         self.assertEqual(
             self.client.version(),

@@ -156,9 +156,9 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
     expect_described("get", path, get("/v1/jobs/jnosuchjob00000" + tail));
   }
   for (const std::string path :
-       {"/v1/jobs", "/v1/events", "/v1/calibrations", "/v1/scenarios", "/v1/airframes",
-        "/v1/policies", "/v1/formats", "/v1/schema", "/v1/version", "/openapi.json", "/metrics",
-        "/healthz", "/readyz", "/v1/session"}) {
+       {"/v1/jobs", "/v1/events", "/v1/calibrations", "/v1/studies", "/v1/scenarios",
+        "/v1/airframes", "/v1/policies", "/v1/formats", "/v1/schema", "/v1/version",
+        "/openapi.json", "/metrics", "/healthz", "/readyz", "/v1/session"}) {
     expect_described("get", path, get(path));
     EXPECT_EQ(get(path)->status, 200) << path;
   }
@@ -188,6 +188,38 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("post", "/v1/session", posted("/v1/session", "{}"));
   expect_described("delete", "/v1/session", client().Delete("/v1/session"));
   EXPECT_GT(described_.size(), 45U);
+}
+
+TEST_F(OpenApi, DescribesStudies) {
+  SKIP_WITHOUT_PROGRAM();
+  ::setenv("THRONG_SCENARIOS", service.folders().scenarios().c_str(), 1);
+  const auto posted = [&](const std::string& path, const std::string& body) {
+    return client().Post(path, body, "application/json");
+  };
+  const std::string study = R"({"runs": 1, "policies": [{"id": "none"}], "cases": [{"id": "yard",
+    "scenario": "yard", "alarm_s": 0, "duration_s": 3}]})";
+  expect_described("post", "/v1/studies", posted("/v1/studies?dry_run", study));
+  expect_described("post", "/v1/studies", posted("/v1/studies", "{}"));
+  const httplib::Result made = posted("/v1/studies", study);
+  expect_described("post", "/v1/studies", made);
+  const std::string self = made->get_header_value("Location");
+  expect_described("get", "/v1/studies/{id}", get(self));
+  EXPECT_TRUE(wait_until([&] { return get_json(self)["state"] == "succeeded"; }));
+  ::unsetenv("THRONG_SCENARIOS");
+  expect_described("get", "/v1/studies/{id}", get(self));
+  expect_described("get", "/v1/studies", get("/v1/studies"));
+  expect_described("get", "/v1/studies/{id}/report", get(self + "/report"));
+  for (const char* file : {"summary.json", "summary.csv", "summary.md", "values.json", "x"}) {
+    expect_described("get", "/v1/studies/{id}/files/{path}", get(self + "/files/" + file));
+  }
+  expect_described("post", "/v1/studies/{id}/cancel", posted(self + "/cancel", ""));
+  expect_described("post", "/v1/studies/{id}/retry", posted(self + "/retry", ""));
+  expect_described("delete", "/v1/studies/{id}", client().Delete(self));
+  expect_described("get", "/v1/studies/{id}", get(self));
+  EXPECT_THAT(described_,
+              ::testing::IsSupersetOf(
+                  {"post /v1/studies 200", "post /v1/studies 201", "get /v1/studies/{id} 200",
+                   "get /v1/studies/{id}/report 200", "delete /v1/studies/{id} 204"}));
 }
 
 TEST_F(OpenApi, DescribesKeys) {

@@ -18,6 +18,9 @@ let differences;
 let elements;
 let kinds;
 let camera;
+let names;
+let running;
+let subjects;
 
 before(async () => {
   coco = await importStudio(packages, "dataset/coco.ts");
@@ -31,6 +34,9 @@ before(async () => {
   elements = await importStudio(packages, "place/elements.ts");
   kinds = await importStudio(packages, "place/kinds.ts");
   camera = await importStudio(packages, "calibration/camera.ts");
+  names = await importStudio(packages, "place/names.ts");
+  running = await importStudio(packages, "study/running.ts");
+  subjects = await importStudio(packages, "compare/subjects.ts");
   ({ footprint } = await importStudio(packages, "form/footprint.ts"));
 });
 
@@ -347,4 +353,33 @@ test("a calibration's cells, digits and residuals", () => {
   assert.deepEqual(camera.valueText({ name: "k3", value: 0.5, deviation: 0 }), ["0.5", "fixed"]);
   assert.equal(camera.residualScale({ width: 1280, rms_px: 0.13 }), 200);
   assert.equal(camera.residualScale({ width: 1280, rms_px: 100 }), 1);
+});
+
+test("a running mean is the mean of the first values, with the interval of Student's t", () => {
+  const values = [3, 5, null, 4, 12, 6.5];
+  const known = values.filter((value) => value !== null);
+  const means = running.runningMeans(values);
+  assert.equal(means.length, known.length);
+  means.forEach(({ count, mean, margin }, index) => {
+    const { mean: expected, margin: half } = statistics.summaryOf(known.slice(0, index + 1));
+    assert.equal(count, index + 1);
+    assert.ok(Math.abs(mean - expected) < 1e-12);
+    assert.ok(half === null ? margin === null : Math.abs(margin - half) < 1e-9);
+  });
+  assert.deepEqual(running.differencesOf([3, null, 5], [1, 2, null]), [2, null, null]);
+});
+
+test("names that would cover another one are left out, but for the selected element's", () => {
+  const document = { buildings: [{ id: "left", box: [0, 0, 1, 1] }, { id: "right", box: [2, 0, 3, 1] }] };
+  const list = elements.elementsOf(document);
+  const shown = (selected, unit) => [...names.placedNames(list, selected, unit).values()].map((name) => name.text).sort();
+  assert.deepEqual(shown(null, 0.1), ["left", "right"]);
+  assert.deepEqual(shown(null, 1), ["left"]);
+  assert.deepEqual(shown(list[1], 1), ["right"]);
+});
+
+test("an address names jobs and single runs to compare", () => {
+  const choices = subjects.choicesOf(new URLSearchParams("job=ja1&job=ja1:2&job=ja1&job=../x&job=jb:99999&job=jb:0"));
+  assert.deepEqual(choices, [{ id: "ja1", run: null }, { id: "ja1", run: 2 }, { id: "jb", run: 0 }]);
+  assert.equal(subjects.addressOf(choices, 1.25), "/compare?job=ja1&job=ja1:2&job=jb:0&t=1.3");
 });

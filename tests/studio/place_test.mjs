@@ -204,7 +204,7 @@ test("the place is uploaded and becomes a job's", async () => {
 test("places of throng are opened and changed", async () => {
   await page.goto(`${service.address}/place`);
   await page.getByLabel("Start from").selectOption("city_square/emergency");
-  await element("/exits/4").waitFor();
+  await element("/exits/4").waitFor({ state: "attached" }); // a line along an axis has no area
   const opened = await place();
   assert.equal(opened.exits.length, 5, "of the file that it extends");
   assert.equal(opened.extends, undefined);

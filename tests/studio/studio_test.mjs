@@ -223,6 +223,17 @@ test("jobs are compared", async () => {
   const upper = page.locator(".swipe .upper");
   assert.match(await upper.evaluate((image) => image.style.clipPath), /^inset\(0(px)? 0(px)? 0(px)? 25%\)$/);
   await check(page, "comparison");
+  // A run of a job beside the job that it is of.
+  await go(`/jobs/${ids[0]}/runs/0`);
+  await page.getByRole("link", { name: /^Compare with/ }).click();
+  await page.getByLabel("Add a job or a run").selectOption(ids[1]);
+  await row.waitFor();
+  assert.deepEqual(new URL(page.url()).searchParams.getAll("job"), [`${ids[0]}:0`, ids[1]]);
+  assert.deepEqual(await row.locator("td").allInnerTexts(), cells);
+  await page.getByLabel("Add a job or a run").selectOption(`${ids[1]}:0`);
+  await page.getByRole("link", { name: /, run 0$/ }).nth(1).waitFor();
+  await page.locator(".swipe .upper").waitFor();
+  await check(page, "runs compared");
   await service.remove(`/v1/jobs/${other.id}`);
   await page.reload();
   await page.getByText(`there is no job ${other.id}`).waitFor();

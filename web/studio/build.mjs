@@ -23,22 +23,23 @@ const kTypes = {
   ".txt": "text/plain; charset=utf-8",
 };
 
-/// The jobs of scenarios/ as the module "presets".
-const presets = {
-  name: "presets",
+/// The documents of scenarios/ whose names end with `suffix` as a module, each as the field `key` beside its `file`.
+const documents = (module, suffix, key) => ({
+  name: module,
   setup(build) {
-    build.onResolve({ filter: /^presets$/ }, () => ({ path: "presets", namespace: "presets" }));
-    build.onLoad({ filter: /.*/, namespace: "presets" }, () => {
+    build.onResolve({ filter: new RegExp(`^${module}$`) }, () => ({ path: module, namespace: module }));
+    build.onLoad({ filter: /.*/, namespace: module }, () => {
       const folder = path.join(root, "scenarios");
-      const names = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".job.json"));
+      const names = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(suffix));
       const list = names.sort().map((name) => ({
         file: name,
-        job: JSON.parse(readFileSync(path.join(folder, name), "utf8")),
+        [key]: JSON.parse(readFileSync(path.join(folder, name), "utf8")),
       }));
       return { contents: JSON.stringify(list), loader: "json" };
     });
   },
-};
+});
+const modules = [documents("presets", ".job.json", "job"), documents("study_presets", "study.json", "study")];
 
 const options = {
   absWorkingDir: here,
@@ -60,7 +61,7 @@ const options = {
   legalComments: "none",
   metafile: true,
   logLevel: "warning",
-  plugins: [presets],
+  plugins: modules,
 };
 
 /// The packages in the bundle with their licenses, which their notices have to accompany.
@@ -154,7 +155,7 @@ if (existsSync(files)) rmSync(files, { recursive: true });
 mkdirSync(files, { recursive: true });
 if (process.argv.includes("--watch")) {
   const end = { name: "end", setup: (build) => build.onEnd((result) => result.errors.length || finish(result)) };
-  const context = await esbuild.context({ ...options, minify: false, plugins: [presets, end] });
+  const context = await esbuild.context({ ...options, minify: false, plugins: [...modules, end] });
   await context.watch();
 } else {
   finish(await esbuild.build(options));

@@ -24,6 +24,8 @@ const loadCompare = () => import("./compare/compare_screen").then((module) => mo
 const loadCalibrations = () => import("./calibration/calibrations_screen").then((module) => module.CalibrationsScreen);
 const loadCalibration = () => import("./calibration/calibration_screen").then((module) => module.CalibrationScreen);
 const loadPlace = () => import("./place/place_screen").then((module) => module.PlaceScreen);
+const loadStudies = () => import("./study/studies_screen").then((module) => module.StudiesScreen);
+const loadStudy = () => import("./study/study_screen").then((module) => module.StudyScreen);
 const loadRun = () => import("./run/run_screen").then((module) => module.RunScreen);
 
 function screenOf(path: string): Screen {
@@ -35,6 +37,9 @@ function screenOf(path: string): Screen {
   if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
   if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
   if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };
+  if (path === "/studies") return { title: "Studies", element: <Lazy load={loadStudies} props={{}} /> };
+  const study = /^\/studies\/([a-z0-9]+)\/?$/.exec(path);
+  if (study) return { title: "Study", element: <Lazy key={path} load={loadStudy} props={{ id: study[1]! }} /> };
   const calibration = /^\/calibrations\/([a-z0-9]+)\/?$/.exec(path);
   if (calibration) return { title: "Calibration", element: <Lazy key={path} load={loadCalibration} props={{ id: calibration[1]! }} /> };
   const run = /^\/jobs\/([a-z0-9]+)\/runs\/(\d{1,4})\/?$/.exec(path);

@@ -3,3 +3,8 @@ declare module "presets" {
   const list: { file: string; job: unknown }[];
   export default list;
 }
+// The studies of scenarios/, likewise.
+declare module "study_presets" {
+  const list: { file: string; study: unknown }[];
+  export default list;
+}

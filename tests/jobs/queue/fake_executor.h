@@ -25,7 +25,7 @@ class FakeExecutor : public Executor {
   std::function<TaskResult(const JobFolder&, const Task&)> before_in =
       [](const JobFolder&, const Task&) { return TaskResult{}; };
 
-  /// Does calibrations and reports, which this executor cannot.
+  /// Does calibrations, reports and studies, which this executor cannot.
   std::function<TaskResult(const JobFolder&, const Task&, const OnProgress&, std::stop_token)>
       other = [](const auto&...) {
         return TaskResult{Outcome::environment_error, 1, "not done here", {}};
@@ -37,7 +37,7 @@ class FakeExecutor : public Executor {
                               const Share& /*share*/) override {
     std::vector<TaskResult> results(tasks.size());
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      if (tasks[i].kind == Task::Kind::calibrate || tasks[i].kind == Task::Kind::report) {
+      if (is_other(tasks[i].kind)) {
         results[i] = other(folder, tasks[i], on_progress, stop);
         continue;
       }
@@ -59,6 +59,11 @@ class FakeExecutor : public Executor {
   }
 
  private:
+  static bool is_other(Task::Kind kind) {
+    return kind == Task::Kind::calibrate || kind == Task::Kind::report ||
+           kind == Task::Kind::study_run || kind == Task::Kind::study_report;
+  }
+
   static void publish(const JobFolder& folder, const Task& task) {
     const std::filesystem::path output = folder.output_of(task);
     if (task.kind == Task::Kind::simulate) return write_file_atomically(output, "trace");

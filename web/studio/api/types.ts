@@ -221,6 +221,144 @@ export interface CalibrationPoints {
   })[];
 }
 
+export interface Study {
+  id: string;
+  name: string;
+  state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+  /** How often work on it was begun or taken up. */
+  attempt: number;
+  priority: number;
+  labels: string[];
+  /** The id of the key that it came with. */
+  owner: string | null;
+  created_at: string | null;
+  started_at: string | null;
+  ended_at: string | null;
+  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  expires_at: string | null;
+  /** Never to be removed for its age. */
+  keep: boolean;
+  /** Disk that its files take, measured when it ended. */
+  bytes: number;
+  /** Why nobody works on it although it is its turn. */
+  waiting_for: string | null;
+  progress: {
+    stage?: "simulating" | "summing up" | "finished";
+    runs_done?: number;
+    runs_total?: number;
+    /** Finished runs, per case and policy. */
+    cells?: number[][];
+    remaining_s?: number | null;
+  };
+  error: JobError | null;
+  links: Record<string, string>;
+  /** The document as it was sent. */
+  study: Record<string, unknown> | null;
+  plan?: StudyPlan;
+  summary?: StudySummary | null;
+}
+
+export interface StudyList {
+  studies: Study[];
+  next: string | null;
+}
+
+export interface StudyPlan {
+  name: string;
+  seed: number;
+  /** Pairs: runs of each case and policy. */
+  runs: number;
+  /** The policy that others are compared with. */
+  baseline: string;
+  cases: {
+    id: string;
+    title: string;
+    scenario: string;
+    duration_s: number;
+    horizons_s: number[];
+  }[];
+  policies: {
+    id: string;
+    title: string;
+  }[];
+  /** In all. */
+  simulations: number;
+  /** Most that a run begins with. */
+  people: number;
+  /** Of the largest simulation, by estimate. */
+  memory_mib: number;
+  valid?: true;
+}
+
+/** As summary.json of `throng study`: of the runs that every policy of a case has. */
+export interface StudySummary {
+  name: string;
+  seed: number;
+  generator: string;
+  baseline: string;
+  /** To make it; of a summary of what is there so far. */
+  took_s?: number;
+  rows: ({
+    case: string;
+    policy: string;
+    runs: number;
+    /** t25_s to t99_s: median and quartiles. */
+    times: Record<string, {
+      median: number | null;
+      low: number | null;
+      high: number | null;
+    }>;
+    all_out: number;
+    not_escaped: number;
+    casualties: number;
+    restricted_means: ({
+      until_s: number;
+      restricted_mean_s: {
+        median: number | null;
+        low: number | null;
+        high: number | null;
+      };
+      mean_s: number | null;
+      inside: number;
+      ratio_to_baseline: number | null;
+      difference_s: number | null;
+      difference_95_s: (number | null)[];
+      wilcoxon: {
+        n: number;
+        w_plus: number;
+        p: number;
+      };
+      holm_p: number | null;
+    })[];
+    t90_to_bound: number | null;
+    mean_to_bound: number | null;
+    t90_to_reference: number | null;
+    mean_to_reference: number | null;
+    followed: number;
+    exit_use: Record<string, number>;
+  })[];
+}
+
+/** The figures of each run, in the order of `runs`. */
+export interface StudyValues {
+  baseline: string;
+  cases: ({
+    id: string;
+    horizons_s: number[];
+    /** Numbers of the runs that every policy has. */
+    runs: number[];
+    policies: ({
+      id: string;
+      /** Restricted means up to either horizon. */
+      means_s: ((number | null)[])[];
+      t50_s: (number | null)[];
+      t90_s: (number | null)[];
+      t95_s: (number | null)[];
+      not_escaped: (number | null)[];
+    })[];
+  })[];
+}
+
 export interface Scenario {
   id: string;
   name?: string;

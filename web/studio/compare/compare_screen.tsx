@@ -1,4 +1,4 @@
-// Two to six jobs side by side: their fields, escape curves, figures and images.
+// Two to six jobs or runs side by side: their fields, escape curves, figures and images.
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
@@ -8,68 +8,93 @@ import type { Json } from "../form/json";
 import { Empty, ErrorBox } from "../parts/elements";
 import { navigate, usePlace } from "../parts/router";
 import type { Metrics } from "../run/metrics";
-import { type Curve, Curves, Swatch } from "./curves";
+import { Curves, Swatch } from "./curves";
 import { type Difference, differencesOf } from "./differences";
 import { FigureTable } from "./figures";
+import { addressOf, type Choice, choiceOf, choicesOf, keyOf, kMaxSubjects, nameOf, pageOf, runsOf, type Subject } from "./subjects";
 import { Swipe } from "./swipe";
 
-const kMaxJobs = 6;
-
 interface Compared {
-  ids: string;
-  jobs: Job[];
-  runs: Metrics[][];
+  keys: string;
+  subjects: Subject[];
 }
 
-function useJobs(ids: string[]) {
+async function subjectOf({ id, run }: Choice, signal: AbortSignal): Promise<Subject> {
+  const job = await getJson<Job>(`/v1/jobs/${id}`, signal);
+  const runs = run === null ? (await getJson<{ runs: Metrics[] }>(`/v1/jobs/${id}/metrics`, signal)).runs : [await getJson<Metrics>(`/v1/jobs/${id}/runs/${run}/metrics`, signal)];
+  return { id, run, name: nameOf(job, run), job, runs };
+}
+
+function useSubjects(choices: Choice[]) {
   const [state, setState] = useState<Compared | null>(null);
   const [error, setError] = useState<ApiError | null>(null);
   const { round } = useSession();
-  const wanted = ids.join();
+  const wanted = choices.map(keyOf).join();
   useEffect(() => {
     const controller = new AbortController();
     const { signal } = controller;
     const load = async () => {
-      const jobs = await Promise.all(ids.map((id) => getJson<Job>(`/v1/jobs/${id}`, signal)));
-      const metrics = await Promise.all(ids.map((id) => getJson<{ runs: Metrics[] }>(`/v1/jobs/${id}/metrics`, signal)));
-      setState({ ids: wanted, jobs, runs: metrics.map((entry) => entry.runs) });
+      setState({ keys: wanted, subjects: await Promise.all(choices.map((choice) => subjectOf(choice, signal))) });
       setError(null);
     };
     load().catch((reason: unknown) => signal.aborted || setError(asApiError(reason)));
     return () => controller.abort();
   }, [wanted, round]);
-  return { compared: state?.ids === wanted ? state : null, error };
+  return { compared: state?.keys === wanted ? state : null, error };
 }
 
-function addressOf(ids: string[], time_s?: number): string {
-  const query = new URLSearchParams(ids.map((id) => ["job", id]));
-  if (time_s !== undefined) query.set("t", String(Math.round(10 * time_s) / 10));
-  return `/compare?${query}`;
+/** Runs of the chosen jobs that are not chosen yet. */
+function otherRuns(choices: Choice[], jobs: Job[]): { choice: Choice; name: string }[] {
+  const chosen = choices.map(keyOf);
+  const ids = [...new Set(choices.map((choice) => choice.id))];
+  const known = ids.flatMap((id) => jobs.filter((job) => job.id === id).slice(0, 1));
+  const all = known.flatMap((job) => Array.from({ length: runsOf(job) }, (_, run) => ({ choice: { id: job.id, run }, name: nameOf(job, run) })));
+  return all.filter(({ choice }) => !chosen.includes(keyOf(choice)));
 }
 
-function Chosen({ ids, jobs }: { ids: string[]; jobs: Job[] }) {
+function Chosen({ choices, subjects }: { choices: Choice[]; subjects: Subject[] }) {
   const list = useJson<JobList>("/v1/jobs?state=succeeded&state=partial&limit=50");
-  const others = (list.value?.jobs ?? []).filter((job) => !ids.includes(job.id));
+  const keys = choices.map(keyOf);
+  const others = (list.value?.jobs ?? []).filter((job) => !keys.includes(job.id));
+  const runs = otherRuns(
+    choices,
+    subjects.map(({ job }) => job),
+  );
+  const add = (text: string) => navigate(addressOf([...choices, choiceOf(text)!]));
   return (
     <div class="row wrap">
-      {ids.map((id, index) => (
-        <span key={id} class="chosen">
-          <Swatch index={index} /> <a href={`/jobs/${id}`}>{jobs.find((job) => job.id === id)?.name ?? id}</a>
-          <button type="button" class="link" aria-label={`Leave out ${jobs.find((job) => job.id === id)?.name ?? id}`} onClick={() => navigate(addressOf(ids.filter((other) => other !== id)))}>
-            ×
-          </button>
-        </span>
-      ))}
-      {ids.length < kMaxJobs && others.length > 0 && (
-        <select aria-label="Add a job" value="" onChange={(event) => navigate(addressOf([...ids, event.currentTarget.value]))}>
+      {choices.map((choice, index) => {
+        const name = subjects[index]?.name ?? keyOf(choice);
+        return (
+          <span key={keyOf(choice)} class="chosen">
+            <Swatch index={index} /> <a href={pageOf(choice)}>{name}</a>
+            <button type="button" class="link" aria-label={`Leave out ${name}`} onClick={() => navigate(addressOf(choices.filter((other) => other !== choice)))}>
+              ×
+            </button>
+          </span>
+        );
+      })}
+      {choices.length < kMaxSubjects && others.length + runs.length > 0 && (
+        <select aria-label="Add a job or a run" value="" onChange={(event) => add(event.currentTarget.value)}>
           <option value="" disabled>
-            Add a job
+            Add a job or a run
           </option>
-          {others.map((job) => (
-            <option key={job.id} value={job.id}>
-              {job.name} ({job.id})
-            </option>
-          ))}
+          {runs.length > 0 && (
+            <optgroup label="Single runs">
+              {runs.map(({ choice, name }) => (
+                <option key={keyOf(choice)} value={keyOf(choice)}>
+                  {name} ({choice.id})
+                </option>
+              ))}
+            </optgroup>
+          )}
+          <optgroup label="Jobs">
+            {others.map((job) => (
+              <option key={job.id} value={job.id}>
+                {job.name} ({job.id})
+              </option>
+            ))}
+          </optgroup>
         </select>
       )}
     </div>
@@ -112,16 +137,16 @@ function Differences({ list, names }: { list: Difference[]; names: string[] }) {
   );
 }
 
-function SwipePair({ jobs, time_s }: { jobs: Job[]; time_s: number }) {
+function SwipePair({ subjects, time_s }: { subjects: Subject[]; time_s: number }) {
   const [pair, setPair] = useState<[number, number]>([0, 1]);
-  const [left, right] = pair.map((index) => Math.min(index, jobs.length - 1)) as [number, number];
+  const [left, right] = pair.map((index) => Math.min(index, subjects.length - 1)) as [number, number];
   const select = (label: string, value: number, change: (index: number) => void) => (
     <label class="row">
       {label}
       <select value={String(value)} onChange={(event) => change(Number(event.currentTarget.value))}>
-        {jobs.map((job, index) => (
-          <option key={job.id} value={String(index)}>
-            {job.name}
+        {subjects.map((subject, index) => (
+          <option key={keyOf(subject)} value={String(index)}>
+            {subject.name}
           </option>
         ))}
       </select>
@@ -129,31 +154,30 @@ function SwipePair({ jobs, time_s }: { jobs: Job[]; time_s: number }) {
   );
   return (
     <>
-      {jobs.length > 2 && (
+      {subjects.length > 2 && (
         <div class="row wrap">
           {select("Left", left, (index) => setPair([index, right]))}
           {select("Right", right, (index) => setPair([left, index]))}
         </div>
       )}
-      <Swipe key={`${jobs[left]!.id} ${jobs[right]!.id}`} jobs={[jobs[left]!, jobs[right]!]} indices={[left, right]} time_s={time_s} />
+      <Swipe key={`${keyOf(subjects[left]!)} ${keyOf(subjects[right]!)}`} subjects={[subjects[left]!, subjects[right]!]} indices={[left, right]} time_s={time_s} />
     </>
   );
 }
 
-function Comparison({ compared, ids }: { compared: Compared; ids: string[] }) {
+function Comparison({ subjects }: { subjects: Subject[] }) {
   const { query } = usePlace();
-  const { jobs, runs } = compared;
-  const curves: Curve[] = useMemo(() => jobs.map((job, index) => ({ name: job.name, runs: runs[index]! })), [compared]);
-  const differences = useMemo(() => differencesOf(jobs.map((job) => job.job as Json)), [compared]);
-  const end_s = Math.max(1, ...runs.flat().map((run) => run.duration_s));
+  const differences = useMemo(() => differencesOf(subjects.map(({ job }) => job.job as Json)), [subjects]);
+  const end_s = Math.max(1, ...subjects.flatMap(({ runs }) => runs.map((run) => run.duration_s)));
   const time_s = Math.min(end_s, Math.max(0, Number(query.get("t") ?? 0) || 0));
-  const onTime = (time: number) => navigate(addressOf(ids, time), { replace: true });
+  const onTime = (time: number) => navigate(addressOf(subjects, time), { replace: true });
+  const hasSeveral = subjects.some(({ runs }) => runs.length > 1);
   return (
     <>
       <section class="card run-charts" aria-labelledby="curves">
         <h2 id="curves">Escaped by time</h2>
-        <p class="quiet-text">Median of the runs; bands are from the first to the third quartile.</p>
-        <Curves curves={curves} time_s={time_s} onTime={onTime} />
+        {hasSeveral && <p class="quiet-text">Of several runs the median; bands are from the first to the third quartile.</p>}
+        <Curves curves={subjects} time_s={time_s} onTime={onTime} />
         <div class="row time-row">
           <input type="range" aria-label="Time" aria-valuetext={`${time_s.toFixed(1)} s`} min={0} max={end_s} step={0.5} value={time_s} onInput={(event) => onTime(Number(event.currentTarget.value))} />
           <output>{time_s.toFixed(1)} s</output>
@@ -161,16 +185,16 @@ function Comparison({ compared, ids }: { compared: Compared; ids: string[] }) {
       </section>
       <section aria-labelledby="figures">
         <h2 id="figures">Figures</h2>
-        <FigureTable curves={curves} />
-        <p class="quiet-text table-note">± half the width of the mean's 95 % interval over the runs (Student's t). A figure that some run does not reach has no mean.</p>
+        <FigureTable curves={subjects} />
+        {hasSeveral && <p class="quiet-text table-note">± half the width of the mean's 95 % interval over the runs (Student's t). A figure that some run does not reach has no mean.</p>}
       </section>
       <section aria-labelledby="images" class="swipe-section">
         <h2 id="images">Images at {time_s.toFixed(1)} s</h2>
-        <SwipePair jobs={jobs} time_s={time_s} />
+        <SwipePair subjects={subjects} time_s={time_s} />
       </section>
       <section aria-labelledby="fields">
         <h2 id="fields">Different fields</h2>
-        <Differences list={differences} names={jobs.map((job) => job.name)} />
+        <Differences list={differences} names={subjects.map(({ name }) => name)} />
       </section>
     </>
   );
@@ -178,24 +202,24 @@ function Comparison({ compared, ids }: { compared: Compared; ids: string[] }) {
 
 export function Compare() {
   const { query } = usePlace();
-  const ids = [...new Set(query.getAll("job"))].filter((id) => /^[a-z0-9]+$/.test(id)).slice(0, kMaxJobs);
-  const { compared, error } = useJobs(ids);
+  const choices = choicesOf(query);
+  const { compared, error } = useSubjects(choices);
   return (
     <div class="screen">
       <div class="heading">
         <h1>Compare</h1>
-        <Chosen ids={ids} jobs={compared?.jobs ?? []} />
+        <Chosen choices={choices} subjects={compared?.subjects ?? []} />
       </div>
       {error?.status !== 401 && <ErrorBox error={error} />}
-      {ids.length < 2 && (
-        <Empty title="Choose two to six finished jobs">
+      {choices.length < 2 && (
+        <Empty title="Choose two to six finished jobs or runs">
           <a class="button" href="/jobs?state=succeeded&state=partial">
-            Select them in the list of jobs
+            Select jobs in their list
           </a>
         </Empty>
       )}
-      {ids.length >= 2 && !compared && !error && <p class="loading">Loading …</p>}
-      {ids.length >= 2 && compared && <Comparison compared={compared} ids={ids} />}
+      {choices.length >= 2 && !compared && !error && <p class="loading">Loading …</p>}
+      {choices.length >= 2 && compared && <Comparison subjects={compared.subjects} />}
     </div>
   );
 }

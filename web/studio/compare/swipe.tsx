@@ -1,4 +1,4 @@
-// Two jobs' images of the same run, camera and time, one above the other; a slider moves the edge between them.
+// Images of two jobs or runs by the same camera at the same time, one above the other; a slider moves the edge between them.
 import { useState } from "preact/hooks";
 import { useSource } from "../api/resource";
 import type { Job } from "../api/types";
@@ -7,10 +7,11 @@ import { useDataset } from "../dataset/stage";
 import { captureOf, frameAt, timeOf } from "../run/capture";
 import { Swatch } from "./curves";
 import { DensityMap, useDensities } from "./density";
+import { runName, type Subject } from "./subjects";
 
 interface SwipeProps {
-  jobs: [Job, Job];
-  indices: [number, number]; ///< among the compared jobs, which have their colors
+  subjects: [Subject, Subject];
+  indices: [number, number]; ///< among those that are compared, which have their colors
   time_s: number;
 }
 
@@ -21,9 +22,20 @@ function nearestImage(dataset: Dataset, job: Job, run: string, camera: string, t
   return dataset.imageAt(run, camera, frame);
 }
 
-function commonCameras(a: Dataset, b: Dataset): { run: string; camera: string }[] {
-  return a.runs.flatMap(({ run, cameras }) =>
-    cameras.filter(({ camera }) => b.camerasOf(run).some((entry) => entry.camera === camera)).map(({ camera }) => ({ run, camera })),
+interface Pair {
+  runs: [string, string];
+  camera: string;
+}
+
+/** Cameras of the same name, in the chosen runs, or in runs of the same name. */
+function commonCameras(datasets: [Dataset, Dataset], subjects: [Subject, Subject]): Pair[] {
+  const nameOf = ({ run }: Subject) => (run === null ? null : runName(run));
+  const [left, right] = [nameOf(subjects[0]), nameOf(subjects[1])];
+  const first = datasets[0].runs.filter(({ run }) => left === null || run === left);
+  // A single run is held against any run of a job.
+  const second = (run: string) => (right !== null ? [right] : left !== null ? datasets[1].runs.map((entry) => entry.run) : [run]);
+  return first.flatMap(({ run, cameras }) =>
+    second(run).flatMap((other) => cameras.filter(({ camera }) => datasets[1].camerasOf(other).some((entry) => entry.camera === camera)).map(({ camera }): Pair => ({ runs: [run, other], camera }))),
   );
 }
 
@@ -31,22 +43,22 @@ interface ImagesProps extends SwipeProps {
   datasets: [Dataset, Dataset];
 }
 
-function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
+function Images({ subjects, indices, datasets, time_s }: ImagesProps) {
   const [choice, setChoice] = useState(0);
   const [edge, setEdge] = useState(50);
-  const cameras = commonCameras(...datasets);
+  const cameras = commonCameras(datasets, subjects);
   const chosen = cameras[Math.min(choice, cameras.length - 1)];
-  const images = datasets.map((dataset, side) => chosen && nearestImage(dataset, jobs[side]!, chosen.run, chosen.camera, time_s));
+  const images = datasets.map((dataset, side) => chosen && nearestImage(dataset, subjects[side]!.job, chosen.runs[side]!, chosen.camera, time_s));
   const [left, right] = images;
   const sources = [useSource(left ? datasets[0].address(left) : null), useSource(right ? datasets[1].address(right) : null)];
   const [hasDensity, setDensity] = useState(false);
   const sides = [left, right].map((image, side) => (image ? { dataset: datasets[side]!, image } : null));
   const densities = useDensities(sides[0] ?? null, sides[1] ?? null, hasDensity);
   const maps = typeof densities === "object" ? densities : null;
-  if (!chosen || !left || !right) return <p class="quiet-text">These two jobs have no run and camera of the same name.</p>;
+  if (!chosen || !left || !right) return <p class="quiet-text">These two have no run and camera of the same name.</p>;
   const caption = (side: 0 | 1, image: ImageName) => (
     <span>
-      <Swatch index={indices[side]} /> {jobs[side].name}, {timeOf(captureOf(jobs[side]), image.frame).toFixed(1)} s
+      <Swatch index={indices[side]} /> {subjects[side].name}, {timeOf(captureOf(subjects[side].job), image.frame).toFixed(1)} s
     </span>
   );
   return (
@@ -54,9 +66,9 @@ function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
       <label class="row">
         Run and camera
         <select value={String(choice)} onChange={(event) => setChoice(Number(event.currentTarget.value))}>
-          {cameras.map(({ run, camera }, index) => (
-            <option key={`${run} ${camera}`} value={String(index)}>
-              {run}, {camera}
+          {cameras.map(({ runs: [run, other], camera }, index) => (
+            <option key={`${run} ${other} ${camera}`} value={String(index)}>
+              {run === other ? run : `${run} and ${other}`}, {camera}
             </option>
           ))}
         </select>
@@ -77,10 +89,10 @@ function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
       )}
       <figure>
         <div class="stage swipe">
-          {sources[0] && <img src={sources[0]} alt={`${jobs[0].name}: ${left.path}`} />}
-          {sources[1] && <img class="upper" src={sources[1]} alt={`${jobs[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />}
-          {maps && <DensityMap raster={maps.rasters[0]} scale={maps.scale} label={`density of ${jobs[0].name}`} clip={`inset(0 ${100 - edge}% 0 0)`} />}
-          {maps && <DensityMap raster={maps.rasters[1]} scale={maps.scale} label={`density of ${jobs[1].name}`} clip={`inset(0 0 0 ${edge}%)`} />}
+          {sources[0] && <img src={sources[0]} alt={`${subjects[0].name}: ${left.path}`} />}
+          {sources[1] && <img class="upper" src={sources[1]} alt={`${subjects[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />}
+          {maps && <DensityMap raster={maps.rasters[0]} scale={maps.scale} label={`density of ${subjects[0].name}`} clip={`inset(0 ${100 - edge}% 0 0)`} />}
+          {maps && <DensityMap raster={maps.rasters[1]} scale={maps.scale} label={`density of ${subjects[1].name}`} clip={`inset(0 0 0 ${edge}%)`} />}
           <div class="edge" style={{ left: `${edge}%` }} />
         </div>
         <figcaption class="row swipe-caption">
@@ -94,8 +106,8 @@ function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
 }
 
 export function Swipe(props: SwipeProps) {
-  const first = useDataset(props.jobs[0].id);
-  const second = useDataset(props.jobs[1].id);
+  const first = useDataset(props.subjects[0].id);
+  const second = useDataset(props.subjects[1].id);
   if (first.error ?? second.error) return <p class="field-error">{(first.error ?? second.error)!.message}</p>;
   if (!first.dataset || !second.dataset) return <p class="loading">Loading …</p>;
   return <Images {...props} datasets={[first.dataset, second.dataset]} />;

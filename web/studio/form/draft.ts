@@ -22,13 +22,13 @@ export function draftOf(text: string): Draft {
   }
 }
 
-export function storedDraft(): Draft | null {
-  const text = sessionStorage.getItem(kStorage);
+export function storedDraft(storage = kStorage): Draft | null {
+  const text = sessionStorage.getItem(storage);
   return text ? draftOf(text) : null;
 }
 
-export function forgetDraft(): void {
-  sessionStorage.removeItem(kStorage);
+export function forgetDraft(storage = kStorage): void {
+  sessionStorage.removeItem(storage);
 }
 
 export interface Form {
@@ -43,30 +43,36 @@ export function changedDraft(draft: Draft, path: Path, value: Json | undefined):
   return { text: textOf(next), value: next };
 }
 
-export interface Check {
+export interface Check<Plan = DryRun> {
   isPending: boolean;
-  plan: DryRun | null;
+  plan: Plan | null;
   errors: Mistake[];
   message: string | null; ///< of an error that belongs to no field
 }
 
-const kUnchecked: Check = { isPending: true, plan: null, errors: [], message: null };
+/** Where drafts are checked, and what keeps them for this tab's life. */
+export interface DraftPlace {
+  path: string;
+  storage: string;
+}
 
-/** Has the service check the job a moment after each change and after each sign-in, and keeps it for this tab's life. */
-export function useCheck(draft: Draft | null): Check {
-  const [check, setCheck] = useState<Check>(kUnchecked);
+const kJobs: DraftPlace = { path: "/v1/jobs?dry_run", storage: kStorage };
+
+/** Has the service check the draft (of a job, where nothing else is said) a moment after each change and after each sign-in, and keeps it for this tab's life. */
+export function useCheck<Plan = DryRun>(draft: Draft | null, place = kJobs): Check<Plan> {
+  const [check, setCheck] = useState<Check<Plan>>({ isPending: true, plan: null, errors: [], message: null });
   const [round, setRound] = useState(0);
   const { round: session } = useSession();
   const controller = useRef<AbortController | null>(null);
   useEffect(() => {
     if (!draft) return;
-    sessionStorage.setItem(kStorage, draft.text);
+    sessionStorage.setItem(place.storage, draft.text);
     setCheck((last) => ({ ...last, isPending: true }));
     let retry = 0;
     const timer = setTimeout(() => {
       controller.current?.abort();
       const { signal } = (controller.current = new AbortController());
-      sendJson<DryRun>("POST", "/v1/jobs?dry_run", draft.text, signal).then(
+      sendJson<Plan>("POST", place.path, draft.text, signal).then(
         (plan) => setCheck({ isPending: false, plan, errors: [], message: null }),
         (error: unknown) => {
           if (signal.aborted) return;

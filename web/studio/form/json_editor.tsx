@@ -1,4 +1,4 @@
-// The job as JSON text, with the service's findings at their lines.
+// A document as JSON text, with the service's findings at their lines.
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { json, jsonParseLinter } from "@codemirror/lang-json";
 import { bracketMatching, ensureSyntaxTree, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
@@ -10,6 +10,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Mistake } from "../api/types";
 
 export interface JsonEditorProps {
+  what?: string; ///< "The job"
   text: string;
   errors: Mistake[];
   focus: string | null; ///< pointer to show
@@ -79,7 +80,7 @@ function diagnosticsOf(view: EditorView, errors: Mistake[]): Diagnostic[] {
   });
 }
 
-export function JsonEditor({ text, errors, focus, onChange }: JsonEditorProps) {
+export function JsonEditor({ what = "The job", text, errors, focus, onChange }: JsonEditorProps) {
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);
   const handler = useRef(onChange);
@@ -105,7 +106,7 @@ export function JsonEditor({ text, errors, focus, onChange }: JsonEditorProps) {
           kTheme,
           syntaxHighlighting(kColors),
           EditorView.lineWrapping,
-          EditorView.contentAttributes.of({ tabindex: "0", "aria-label": "The job as JSON. Escape, then Tab, leaves the editor." }),
+          EditorView.contentAttributes.of({ tabindex: "0", "aria-label": `${what} as JSON. Escape, then Tab, leaves the editor.` }),
           keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap, indentWithTab]),
           EditorView.updateListener.of((update) => update.docChanged && handler.current(update.state.doc.toString())),
         ],

@@ -40,6 +40,7 @@ const kScreens = [
   { address: "/jobs", label: "Jobs" },
   { address: "/new", label: "New job" },
   { address: "/place", label: "Place" },
+  { address: "/studies", label: "Studies" },
   { address: "/calibrations", label: "Calibration" },
 ];
 

@@ -9,7 +9,7 @@ import { type History, useHistory } from "./history";
 import { kKinds, type Point } from "./kinds";
 import { focusElement, PlanEditor, type Tool } from "./plan_editor";
 import { PlaceFields, Properties } from "./properties";
-import { middleOfPoints } from "./shapes";
+import { middleOfPoints } from "./names";
 import { type Underlay, UnderlayPanel } from "./underlay";
 import { middleOf, useView, type View, zoomed } from "./view";
 

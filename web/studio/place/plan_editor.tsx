@@ -1,10 +1,11 @@
 // The plan of a blueprint, in which elements are drawn, moved and reshaped by pointer or keyboard.
 import type { TargetedKeyboardEvent, TargetedPointerEvent } from "preact";
-import { useRef, useState } from "preact/hooks";
+import { useMemo, useRef, useState } from "preact/hooks";
 import type { JsonObject } from "../form/json";
 import { added, boxCorners, type Element, moved, rectangleOf, removed, withCorner, withNewCorner, withoutCorner } from "./elements";
 import type { History } from "./history";
 import { type Kind, kindNamed, type Point } from "./kinds";
+import { placedNames } from "./names";
 import { Name, Shape } from "./shapes";
 import type { Underlay } from "./underlay";
 import { middleOf, placeOf, snapped, useUnit, type View, zoomed } from "./view";
@@ -62,6 +63,7 @@ export function PlanEditor(props: PlanEditorProps) {
   const svg = useRef<SVGSVGElement>(null);
   const [drag, setDrag] = useState<Drag | null>(null);
   const unit = useUnit(svg, view);
+  const names = useMemo(() => placedNames(elements, selected ?? null, unit), [elements, selected, unit]);
   const step = grid > 0 ? grid : 0.1;
   const place = (event: PointerEvent) => placeOf(svg.current!, event.clientX, event.clientY);
 
@@ -192,10 +194,15 @@ export function PlanEditor(props: PlanEditorProps) {
             onKeyDown={(event) => onElementKey(event, element)}
           >
             <Shape element={element} unit={unit} />
-            <Name element={element} unit={unit} />
           </g>
         ),
       )}
+      {/* Above all elements, whose labels say the same. */}
+      <g aria-hidden="true">
+        {[...names].map(([element, name]) => (
+          <Name key={element.pointer} name={name} unit={unit} />
+        ))}
+      </g>
       {canGrab && selected && selected.kind.shape !== "point" && (
         <Handles
           element={selected}

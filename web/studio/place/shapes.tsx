@@ -1,6 +1,7 @@
 // Elements of a blueprint as they are drawn. Sizes of signs are in units of the view, so that they stay as large.
 import { type Element } from "./elements";
 import type { Point } from "./kinds";
+import { kNameSize, type PlacedName } from "./names";
 
 interface ShapeProps {
   element: Element;
@@ -9,12 +10,6 @@ interface ShapeProps {
 
 const at = ([x, y]: Point) => `${x},${-y}`;
 const numberOf = (value: unknown, usual: number) => (typeof value === "number" ? value : usual);
-
-/** Where the name of an element is written: the middle of its corners. */
-export function middleOfPoints(points: Point[]): Point {
-  const sum = points.reduce(([x, y], point): Point => [x + point[0], y + point[1]], [0, 0] as Point);
-  return [sum[0] / Math.max(1, points.length), sum[1] / Math.max(1, points.length)];
-}
 
 function PointSign({ element, unit }: ShapeProps) {
   const [x, y] = element.points[0]!;
@@ -56,18 +51,10 @@ export function Shape({ element, unit }: ShapeProps) {
   return <polygon class={`plan-${kind.name} ${material}`} points={points.map(at).join(" ")} stroke-width={0.2 * unit} />;
 }
 
-const kNamed = ["building", "exit", "group", "source", "queue", "drone", "hazard"];
-
-export function Name({ element, unit }: ShapeProps) {
-  const { kind, points, value } = element;
-  if (!kNamed.includes(kind.name)) return null;
-  const [x, y] = middleOfPoints(points);
-  const count = value["count"] ?? value["per_minute"];
-  const text = value["id"] ?? (kind.shape === "point" ? value["kind"] : `${String(value["doing"] ?? kind.label)} ${String(count ?? "")}`);
-  const isAside = kind.shape !== "polygon";
+export function Name({ name, unit }: { name: PlacedName; unit: number }) {
   return (
-    <text class="plan-name" x={x} y={-y + (isAside ? 3 * unit : 0)} font-size={1.5 * unit} stroke-width={0.35 * unit}>
-      {String(text)}
+    <text class="plan-name" x={name.x} y={name.y} font-size={kNameSize * unit} stroke-width={0.35 * unit}>
+      {name.text}
     </text>
   );
 }

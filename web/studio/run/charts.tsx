@@ -17,7 +17,7 @@ const kRowHeight = 22;
 const kAxisHeight = 26;
 const kFullTicks = 9;
 
-function useWidth() {
+export function useWidth() {
   const element = useRef<HTMLDivElement>(null);
   const [width, setWidth] = useState(0);
   useEffect(() => {
@@ -29,7 +29,7 @@ function useWidth() {
 }
 
 /** 1, 2 or 5 times a power of ten, so that there are few ticks. */
-function stepOf(end_s: number, count: number): number {
+export function stepOf(end_s: number, count: number): number {
   const power = 10 ** Math.floor(Math.log10(Math.max(end_s, 1) / count));
   return [1, 2, 5, 10].map((digit) => digit * power).find((step) => end_s / step <= count) ?? 10 * power;
 }

@@ -4,6 +4,7 @@ import { ApiError, request } from "../api/client";
 import { useInterval, useJson, useSource } from "../api/resource";
 import type { Job, Scenario } from "../api/types";
 import type { Dataset, ImageName, Labels } from "../dataset/coco";
+import { addressOf, runsOf } from "../compare/subjects";
 import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
@@ -151,6 +152,7 @@ export function RunScreen({ id, number }: { id: string; number: number }) {
   const scenario = useJson<Scenario>(typeof place === "string" ? `/v1/scenarios/${place}` : null);
   const run = `run${String(number).padStart(3, "0")}`;
   if (job.error?.status === 404) return <GoneJob id={id} />;
+  const others = job.value ? Array.from({ length: runsOf(job.value) }, (_, other) => other).filter((other) => other !== number) : [];
   const hasRun = (dataset?.camerasOf(run).length ?? 0) > 0;
   return (
     <div class="screen">
@@ -161,6 +163,13 @@ export function RunScreen({ id, number }: { id: string; number: number }) {
         <h1>
           {run} of {job.value?.name ?? id}
         </h1>
+        {hasRun && (
+          <div class="actions">
+            <a class="button" href={addressOf([{ id, run: number }, ...others.slice(0, 1).map((other) => ({ id, run: other }))])}>
+              Compare with {others.length > 0 ? "another run" : "a job or a run"}
+            </a>
+          </div>
+        )}
       </div>
       {error?.status !== 401 && <ErrorBox error={error} />}
       {!dataset && !error && <p class="loading">Loading …</p>}
