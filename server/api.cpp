@@ -20,6 +20,7 @@
 #include "server/http.h"
 #include "server/jobs_api.h"
 #include "server/keys_api.h"
+#include "server/live_api.h"
 #include "server/requests.h"
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
@@ -81,6 +82,13 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
       Route{Method::get, "/v1/calibrations/{id}/images/{path}", Scope::read,
             &send_calibration_image},
+      Route{Method::post, "/v1/live", Scope::submit, &begin_live},
+      Route{Method::get, "/v1/live", Scope::submit, &list_live},
+      Route{Method::get, "/v1/live/{id}", Scope::submit, &send_live},
+      Route{Method::get, "/v1/live/{id}/stream", Scope::submit, &stream_live},
+      Route{Method::post, "/v1/live/{id}/commands", Scope::submit, &command_live},
+      Route{Method::post, "/v1/live/{id}/stop", Scope::submit, &stop_live},
+      Route{Method::remove, "/v1/live/{id}", Scope::submit, &remove_live},
       Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
       Route{Method::get, kScenarios, Scope::read, &list_scenarios},
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
@@ -237,8 +245,10 @@ void record(AuditLog& audit, const std::string& key, const Request& request, int
                 request.get_header_value("X-Forwarded-For")});
 }
 
-bool is_audited(const std::string& method, int status) {
-  return (method != "GET" && method != "HEAD") || status == 401 || status == 403;
+// Commands of live flights, twenty a second, are none that anybody would look up.
+bool is_audited(const std::string& method, const Route& route, int status) {
+  const bool is_refused = status == 401 || status == 403;
+  return (method != "GET" && method != "HEAD" && route.handler != &command_live) || is_refused;
 }
 
 HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
@@ -280,12 +290,13 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
       guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         key = caller.key_id;
-        entry.handler({service.queue(), service.uploads(), service.calibrations(),
-                       service.housekeeping(), service.datasets(), service.reports(),
-                       service.confined(), service.folders(), hooks, keys, sessions_, caller},
-                      request, response);
+        entry.handler(
+            {service.queue(), service.uploads(), service.calibrations(), service.housekeeping(),
+             service.datasets(), service.reports(), service.confined(), service.folders(), hooks,
+             service.live(), keys, sessions_, caller},
+            request, response);
       });
-      if (is_audited(request.method, response.status)) {
+      if (is_audited(request.method, entry, response.status)) {
         record(audit_, key, request, response.status);
       }
       if (!response.has_header("Content-Security-Policy")) {

@@ -120,20 +120,20 @@ void RemotePilots::advance(const std::vector<RemoteCommand>& commands) {
     if (change.norm() > max_change) change *= max_change / change.norm();
     const Vector3d v = velocities_[i] + change;
     // Along a wall, over a roof, or else not at all.
-    const std::array<Vector3d, 5> ways = {v, Vector3d(v.x(), v.y(), 0), Vector3d(v.x(), 0, v.z()),
-                                          Vector3d(0, v.y(), v.z()), Vector3d(0, 0, v.z())};
+    const std::array<Vector3d, 5> moves = {v, Vector3d(v.x(), v.y(), 0), Vector3d(v.x(), 0, v.z()),
+                                           Vector3d(0, v.y(), v.z()), Vector3d(0, 0, v.z())};
     const double yaw_rate =
         std::clamp(command.yaw_rate_deg_s, -kMaxRemoteYawDegS, kMaxRemoteYawDegS);
     const double yaw_deg = last.yaw_rad / kDegree + yaw_rate * dt_s;
     const double time_s = run_.time_s() + dt_s;
     PilotSample next = sample_at(time_s, last.position, yaw_deg, command.beacon);
     velocities_[i].setZero();
-    for (const Vector3d& way : ways) {
+    for (const Vector3d& move : moves) {
       const PilotSample tried =
-          sample_at(time_s, last.position + way * dt_s, yaw_deg, command.beacon);
+          sample_at(time_s, last.position + move * dt_s, yaw_deg, command.beacon);
       if (!is_free(i, tried.position)) continue;
       next = tried;
-      velocities_[i] = way;
+      velocities_[i] = move;
       break;
     }
     logs_[i].push_back(next);

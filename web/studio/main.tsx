@@ -24,6 +24,7 @@ const loadCompare = () => import("./compare/compare_screen").then((module) => mo
 const loadCalibrations = () => import("./calibration/calibrations_screen").then((module) => module.CalibrationsScreen);
 const loadCalibration = () => import("./calibration/calibration_screen").then((module) => module.CalibrationScreen);
 const loadPlace = () => import("./place/place_screen").then((module) => module.PlaceScreen);
+const loadFly = () => import("./live/fly_screen").then((module) => module.FlyScreen);
 const loadRun = () => import("./run/run_screen").then((module) => module.RunScreen);
 
 function screenOf(path: string): Screen {
@@ -34,6 +35,7 @@ function screenOf(path: string): Screen {
   if (path === "/keys") return { title: "Keys and webhooks", element: <Lazy load={loadAccess} props={{}} /> };
   if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
   if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
+  if (path === "/fly") return { title: "Live flight", element: <Lazy load={loadFly} props={{}} /> };
   if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };
   const calibration = /^\/calibrations\/([a-z0-9]+)\/?$/.exec(path);
   if (calibration) return { title: "Calibration", element: <Lazy key={path} load={loadCalibration} props={{ id: calibration[1]! }} /> };
