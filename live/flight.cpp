@@ -118,9 +118,9 @@ class Flight::Recorder : public sim::RunObserver {
 };
 
 Flight::Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
-               std::filesystem::path folder)
+               const std::filesystem::path& folder)
     : job_(job),
-      trace_file_(std::move(folder) / "trace.h5"),
+      trace_file_(folder / "trace.h5"),
       spec_(jobs::run_spec(job, 0)),
       recorder_(std::make_unique<Recorder>(trace_file_)) {
   spec_.duration_s = kMaxFlightS;

@@ -44,7 +44,8 @@ struct Moment {
 class Flight {
  public:
   /// Writes the trace into the folder. Throws InputError and EnvironmentError.
-  Flight(const jobs::JobSpec& job, const world::Scenario& scenario, std::filesystem::path folder);
+  Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
+         const std::filesystem::path& folder);
   ~Flight();
   Flight(const Flight&) = delete;
   Flight& operator=(const Flight&) = delete;

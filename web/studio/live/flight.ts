@@ -7,7 +7,7 @@ import { type FlightEvent, type Hello, type Message, messagesOf, type CameraImag
 const kSendMs = 50;
 const kRepeatMs = 400; ///< drones whose pilot says nothing for a second hover
 const kRetryMs = 1000;
-const kKeptDelays = 21;
+const kKeptDelays = 9;
 
 export interface Listener {
   hello: (hello: Hello) => void;

@@ -10,6 +10,7 @@ interface PlanViewProps {
 }
 
 const kMargin = 0.08; // of the canvas
+const kDotPx = 2.5; ///< smaller people are squares: thousands are drawn faster
 const kDegree = Math.PI / 180;
 
 interface Sheet {
@@ -59,8 +60,13 @@ function drawPeople(context: CanvasRenderingContext2D, sheet: Sheet, hello: Hell
   for (let index = 0; index < people.x.length; ++index) {
     if (!isShown(hello, people, index)) continue;
     context.fillStyle = colorOfPerson(hello, people, index);
+    const [x, y] = sheet.toPx(people.x[index]!, people.y[index]!);
+    if (radius < kDotPx) {
+      context.fillRect(x - radius, y - radius, 2 * radius, 2 * radius);
+      continue;
+    }
     context.beginPath();
-    context.arc(...sheet.toPx(people.x[index]!, people.y[index]!), radius, 0, 2 * Math.PI);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
     context.fill();
   }
 }
@@ -103,6 +109,7 @@ export function PlanView({ hello, world, drone }: PlanViewProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     let frame = 0;
+    let drawn: World | null = null;
     const draw = () => {
       frame = requestAnimationFrame(draw);
       const element = canvas.current;
@@ -110,7 +117,10 @@ export function PlanView({ hello, world, drone }: PlanViewProps) {
       if (!element || !context || element.clientWidth === 0) return;
       const ratio = Math.min(2, devicePixelRatio);
       const [width, height] = [Math.round(element.clientWidth * ratio), Math.round(element.clientHeight * ratio)];
-      if (element.width !== width || element.height !== height) [element.width, element.height] = [width, height];
+      const isResized = element.width !== width || element.height !== height;
+      if (!isResized && drawn === world.current && drawn) return;
+      drawn = world.current;
+      if (isResized) [element.width, element.height] = [width, height];
       const sheet = sheetOf(hello, world.current, width, height);
       drawPlace(context, sheet, hello);
       if (!world.current) return;

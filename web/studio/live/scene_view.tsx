@@ -14,6 +14,7 @@ interface SceneViewProps {
 const kBehindM = 14;
 const kAboveM = 6;
 const kBodyM = 1.7;
+const kManyPeople = 1000;
 const kFollow = 0.12; ///< share of the way that the view goes in a frame
 
 function placeOf(hello: Hello): any {
@@ -83,7 +84,7 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     const element = holder.current!;
     let renderer: any;
     try {
-      renderer = new THREE.WebGLRenderer({ antialias: true });
+      renderer = new THREE.WebGLRenderer({ antialias: hello.people <= kManyPeople });
     } catch {
       setError("This browser has no WebGL for the 3-D view; the plan shows the same.");
       return;
@@ -98,7 +99,8 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     const sun = new THREE.DirectionalLight("#ffffff", 2.2);
     sun.position.set(60, -40, 120);
     scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f86", 1.6), sun, placeOf(hello));
-    const body = new THREE.CapsuleGeometry(0.24, kBodyM - 0.48, 3, 8);
+    // Thousands are boxes: without a graphics card each triangle counts.
+    const body = hello.people > kManyPeople ? new THREE.BoxGeometry(0.4, kBodyM, 0.4) : new THREE.CapsuleGeometry(0.24, kBodyM - 0.48, 2, 7);
     body.rotateX(Math.PI / 2);
     const people = new THREE.InstancedMesh(body, new THREE.MeshLambertMaterial(), hello.people);
     people.frustumCulled = false;
