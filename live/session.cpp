@@ -165,8 +165,8 @@ class Session {
   /// A step whenever its time has come.
   void fly() {
     auto next = Clock::now();
-    double reached_factor = 1;
-    std::optional<Clock::time_point> last;  // step; none after a rest
+    std::optional<double> mean_step_s;  // lately; none after a rest
+    std::optional<Clock::time_point> last;
     while (flight_.time_s() + flight_.dt_s() <= kMaxFlightS) {
       std::unique_lock lock(mutex_);
       if (!wishes_.runs() && !wishes_.stop) {
@@ -174,6 +174,7 @@ class Session {
         changed_.wait(lock, [this] { return wishes_.runs() || wishes_.stop || failure_; });
         next = Clock::now();
         last.reset();
+        mean_step_s.reset();
       }
       if (wishes_.stop || failure_) return;
       changed_.wait_until(lock, next, [this] { return !wishes_.runs() || failure_; });
@@ -185,6 +186,7 @@ class Session {
       for (const json& event : flight_.take_events()) {
         output_.send(MessageType::event, event.dump());
       }
+      const double reached_factor = mean_step_s ? flight_.dt_s() / *mean_step_s : wishes.factor;
       output_.send(MessageType::state, state_bytes(*moment, reached_factor, false));
 
       const auto now = Clock::now();
@@ -194,10 +196,10 @@ class Session {
       factor_ = wishes.factor;
       lock.unlock();
       changed_.notify_all();
-      constexpr double kNew = 0.1;  // of a mean over some steps
+      constexpr double kNew = 0.1;  // share of the newest in the mean
       if (last && now > *last) {
         const double step_s = std::chrono::duration<double>(now - *last).count();
-        reached_factor += kNew * (flight_.dt_s() / step_s - reached_factor);
+        mean_step_s = mean_step_s ? *mean_step_s + kNew * (step_s - *mean_step_s) : step_s;
       }
       last = now;
       next += std::chrono::duration_cast<Clock::duration>(

@@ -9,7 +9,7 @@ interface PlanViewProps {
   drone: number;
 }
 
-const kMargin = 0.08; // of the canvas
+const kMargin = 0.12; // of the canvas
 const kDotPx = 2.5; ///< smaller people are squares: thousands are drawn faster
 const kDegree = Math.PI / 180;
 
@@ -18,9 +18,10 @@ interface Sheet {
   toPx: (x: number, y: number) => [number, number];
 }
 
-/** The place that people leave, and the drones wherever they are. */
+/** The place between its exits, and the drones wherever they are. */
 function sheetOf(hello: Hello, world: World | null, width: number, height: number): Sheet {
-  const places = [hello.inside.min, hello.inside.max, ...(world?.drones ?? []).map((drone) => drone.position)];
+  const edges = hello.exits.length > 2 ? hello.exits.flatMap((exit) => [exit.from, exit.to]) : [hello.inside.min, hello.inside.max];
+  const places = [...edges, ...(world?.drones ?? []).map((drone) => drone.position)];
   const [left, right] = [Math.min(...places.map((place) => place[0]!)), Math.max(...places.map((place) => place[0]!))];
   const [bottom, top] = [Math.min(...places.map((place) => place[1]!)), Math.max(...places.map((place) => place[1]!))];
   const scale = Math.min(width / (right - left), height / (top - bottom)) * (1 - 2 * kMargin);

@@ -99,8 +99,8 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     const sun = new THREE.DirectionalLight("#ffffff", 2.2);
     sun.position.set(60, -40, 120);
     scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f86", 1.6), sun, placeOf(hello));
-    // Thousands are boxes: without a graphics card each triangle counts.
-    const body = hello.people > kManyPeople ? new THREE.BoxGeometry(0.4, kBodyM, 0.4) : new THREE.CapsuleGeometry(0.24, kBodyM - 0.48, 2, 7);
+    // Thousands are cones of four sides: without a graphics card each triangle counts.
+    const body = hello.people > kManyPeople ? new THREE.CylinderGeometry(0.12, 0.3, kBodyM, 4, 1, true) : new THREE.CapsuleGeometry(0.24, kBodyM - 0.48, 2, 7);
     body.rotateX(Math.PI / 2);
     const people = new THREE.InstancedMesh(body, new THREE.MeshLambertMaterial(), hello.people);
     people.frustumCulled = false;
@@ -112,7 +112,8 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     const eye = new THREE.Vector3();
     const matrix = new THREE.Matrix4();
     const lying = new THREE.Matrix4().makeRotationY(Math.PI / 2);
-    const color = new THREE.Color();
+    const shades = new Map<string, any>();
+    const shadeOf = (name: string) => shades.get(name) ?? shades.set(name, new THREE.Color(name)).get(name);
     const steps = new Steps();
     let isFirst = true;
 
@@ -134,7 +135,7 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
         else matrix.identity();
         matrix.setPosition(mixed(before.people.x[index]!, now.people.x[index]!, share), mixed(before.people.y[index]!, now.people.y[index]!, share), isLying ? 0.25 : kBodyM / 2);
         people.setMatrixAt(count, matrix);
-        people.setColorAt(count++, color.set(colorOfPerson(hello, now.people, index)));
+        people.setColorAt(count++, shadeOf(colorOfPerson(hello, now.people, index)));
       }
       people.count = count;
       people.instanceMatrix.needsUpdate = true;
