@@ -48,6 +48,11 @@ void add_serve(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
+      ->add_option("--live-timeout", options->live_timeout_s,
+                   "Seconds after which a live flight ends that nobody looks at")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+  command
       ->add_option("--task-timeout", options->max_task_s,
                    "Seconds after which a worker counts as hung (0: no limit)")
       ->check(CLI::NonNegativeNumber);

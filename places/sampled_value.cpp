@@ -14,8 +14,8 @@ constexpr const char* kExpected =
     "a number, or an object with one of \"uniform\", \"normal\" and \"lognormal\"";
 constexpr double kMaxLogStddev = 3;
 
-/// Where a normal distribution ends unless the blueprint says so, three standard deviations from
-/// its mean.
+/// Normal values end, unless the blueprint says so, this number of standard deviations from
+/// their mean.
 constexpr double kDeviations = 3;
 
 double to_three_digits(double value) { return std::stod(significant_text(value, 3)); }

@@ -26,7 +26,7 @@ struct SampledValue {
   std::vector<crowd::Attribute> attributes() const;
 };
 
-/// What a blueprint may say for a value.
+/// Values that a blueprint may give.
 struct SampledLimits {
   double low = 0;  ///< of all values; a normal distribution is cut off there
   double high = 0;

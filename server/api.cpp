@@ -20,6 +20,7 @@
 #include "server/http.h"
 #include "server/jobs_api.h"
 #include "server/keys_api.h"
+#include "server/live_api.h"
 #include "server/requests.h"
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
@@ -91,6 +92,13 @@ std::span<const Route> routes() {
       Route{Method::post, "/v1/studies/{id}/retry", Scope::submit, &retry_study},
       Route{Method::get, "/v1/studies/{id}/report", Scope::read, &send_study_report},
       Route{Method::get, "/v1/studies/{id}/files/{path}", Scope::read, &send_study_file},
+      Route{Method::post, "/v1/live", Scope::submit, &begin_live},
+      Route{Method::get, "/v1/live", Scope::submit, &list_live},
+      Route{Method::get, "/v1/live/{id}", Scope::submit, &send_live},
+      Route{Method::get, "/v1/live/{id}/stream", Scope::submit, &stream_live},
+      Route{Method::post, "/v1/live/{id}/commands", Scope::submit, &command_live},
+      Route{Method::post, "/v1/live/{id}/stop", Scope::submit, &stop_live},
+      Route{Method::remove, "/v1/live/{id}", Scope::submit, &remove_live},
       Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
       Route{Method::get, kScenarios, Scope::read, &list_scenarios},
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
@@ -110,6 +118,8 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/policies", Scope::read, &list_policies},
       Route{Method::get, "/v1/formats", Scope::read, &list_formats},
       Route{Method::get, "/v1/schema", Scope::read, &send_schema},
+      Route{Method::get, "/v1/schemas", Scope::read, &list_schemas},
+      Route{Method::get, "/v1/schemas/{name}", Scope::read, &send_file_schema},
       Route{Method::post, kSession, Scope::anybody, &open_session},
       Route{Method::get, kSession, Scope::anybody, &send_session},
       Route{Method::remove, kSession, Scope::anybody, &close_session},
@@ -247,8 +257,10 @@ void record(AuditLog& audit, const std::string& key, const Request& request, int
                 request.get_header_value("X-Forwarded-For")});
 }
 
-bool is_audited(const std::string& method, int status) {
-  return (method != "GET" && method != "HEAD") || status == 401 || status == 403;
+// Commands of live flights, twenty a second, are none that anybody would look up.
+bool is_audited(const std::string& method, const Route& route, int status) {
+  const bool is_refused = status == 401 || status == 403;
+  return (method != "GET" && method != "HEAD" && route.handler != &command_live) || is_refused;
 }
 
 HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
@@ -293,10 +305,10 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         entry.handler(
             {service.queue(), service.uploads(), service.calibrations(), service.studies(),
              service.housekeeping(), service.datasets(), service.reports(), service.confined(),
-             service.folders(), hooks, keys, sessions_, caller},
+             service.folders(), hooks, service.live(), keys, sessions_, caller},
             request, response);
       });
-      if (is_audited(request.method, response.status)) {
+      if (is_audited(request.method, entry, response.status)) {
         record(audit_, key, request, response.status);
       }
       if (!response.has_header("Content-Security-Policy")) {

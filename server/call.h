@@ -7,6 +7,7 @@
 #include "server/housekeeping.h"
 #include "server/job_queue.h"
 #include "server/keys.h"
+#include "server/live_flights.h"
 #include "server/report_maker.h"
 #include "server/service_folders.h"
 #include "server/sessions.h"
@@ -27,6 +28,7 @@ struct Call {
   const ConfinedChecks& confined;
   const ServiceFolders& folders;
   WebhookSender& hooks;
+  LiveFlights& live;
   Keys& keys;
   Sessions& sessions;
   const Caller& caller;

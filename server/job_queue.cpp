@@ -34,13 +34,16 @@ std::string JobQueue::with_cameras(std::string_view job_json) const {
       job_json, [this](const std::string& id) { return calibrations_.camera_of(id); });
 }
 
+jobs::ResolvedJob JobQueue::resolve(std::string_view job_json) const {
+  return confined_.job(with_cameras(job_json), folders_.scenarios());
+}
+
 json JobQueue::dry_run(std::string_view job_json) const {
   return confined_.dry_run(with_cameras(job_json), folders_.scenarios());
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {
-  const jobs::ResolvedJob resolved =
-      confined_.job(with_cameras(submission.job_json), folders_.scenarios());
+  const jobs::ResolvedJob resolved = resolve(submission.job_json);
   const jobs::JobSpec& job = resolved.spec();
   const auto lock = uploads_.hold();
   require_scenario(job);

@@ -44,6 +44,9 @@ class JobQueue {
   JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState& state, Uploads& uploads,
            const Calibrations& calibrations, const ConfinedChecks& confined);
 
+  /// The job, checked and completed; queues nothing. Throws InputError.
+  jobs::ResolvedJob resolve(std::string_view job_json) const;
+
   /// Checks and estimates of a job before it runs (ConfinedChecks::dry_run()); queues nothing.
   /// Throws InputError.
   nlohmann::json dry_run(std::string_view job_json) const;

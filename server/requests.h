@@ -53,7 +53,8 @@ std::optional<std::string> viewer_of(const Caller& caller);
 /// The job that the path names. Throws HttpError 404, also for one that the caller does not see.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 
-/// Throws HttpError 403 unless the caller owns the job, calibration or study, or is an administrator.
+/// Throws HttpError 403 unless the caller owns the job, calibration or study, or is an
+/// administrator.
 void require_own(const Call& call, const jobs::JobRow& row);
 
 /// Likewise one of this kind.

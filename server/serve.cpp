@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -127,7 +129,8 @@ int serve(const ServeOptions& options) {
        .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
                         .min_free_bytes = options.min_free_mib << kMibShift},
        .max_active_jobs = options.max_active_jobs,
-       .max_task_mib = max_task_mib(options, memory_mib)},
+       .max_task_mib = max_task_mib(options, memory_mib),
+       .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s))}},
       executor);
   WebhookSender hooks(service.queue(), options.data,
                       {.post = {.allow_private = options.webhook_private}});

@@ -16,6 +16,7 @@ struct ServeOptions {
   bool insecure = false;        ///< listen on addresses that other machines can reach without a key
   int workers = 0;              ///< processes at once; 0: one per core
   int max_active_jobs = 16;     ///< worked on at once
+  double live_timeout_s = 30;   ///< after which a live flight ends that nobody looks at
   double max_task_s = 0;        ///< a worker that takes longer has hung; 0: any time
   int worker_memory_mib = 0;    ///< address space of each; 0: by what its task needs
   std::int64_t memory_mib = 0;  ///< that all workers may need together; 0: 7/8 of the machine's

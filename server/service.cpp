@@ -13,6 +13,7 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
       queue_(folders_, store_, state_, uploads_, calibrations_, confined_),
       housekeeping_(folders_, store_, state_, uploads_, options.housekeeping),
       reports_(executor),
+      live_(options.data, options.live),
       runner_(
           folders_, store_, state_, executor, [this] { return housekeeping_.look_at_disk(); },
           options.max_active_jobs) {}

@@ -12,6 +12,7 @@
 #include "server/housekeeping.h"
 #include "server/job_queue.h"
 #include "server/job_runner.h"
+#include "server/live_flights.h"
 #include "server/queue_state.h"
 #include "server/report_maker.h"
 #include "server/service_folders.h"
@@ -28,6 +29,7 @@ struct ServiceOptions {
   HousekeepingOptions housekeeping = {};
   int max_active_jobs = 16;        ///< worked on at once (server/job_runner.h)
   std::int64_t max_task_mib = 0;   ///< memory for a task (server/confined_checks.h); 0: any
+  LiveLimits live = {};            ///< of live flights
   jobs::Store::Clock clock = {};   ///< default: the system's
   jobs::Store::Clock steady = {};  ///< of jobs::ServiceClock
 };
@@ -49,6 +51,7 @@ class Service {
   Housekeeping& housekeeping() { return housekeeping_; }
   Datasets& datasets() { return datasets_; }
   ReportMaker& reports() { return reports_; }
+  LiveFlights& live() { return live_; }
 
  private:
   // Each uses those above it.
@@ -63,6 +66,7 @@ class Service {
   Housekeeping housekeeping_;
   ReportMaker reports_;
   Datasets datasets_;
+  LiveFlights live_;
   JobRunner runner_;
 };
 

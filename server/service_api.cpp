@@ -1,12 +1,14 @@
 #include "server/service_api.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "jobs/spec/published_schemas.h"
 #include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -85,6 +87,20 @@ void send_version(const Call&, const Request&, Response& response) {
 
 void send_schema(const Call&, const Request&, Response& response) {
   response.set_content(std::string(jobs::job_schema_text()), "application/schema+json");
+}
+
+void list_schemas(const Call&, const Request&, Response& response) {
+  write_json(response, 200, {{"schemas", jobs::schema_names()}});
+}
+
+void send_file_schema(const Call&, const Request& request, Response& response) {
+  const std::string name = request.matches[1];
+  const std::string schema = jobs::published_schema(name);
+  if (schema.empty()) {
+    throw HttpError{404, fmt::format("there is no schema \"{}\", but there are: {}", name,
+                                     fmt::join(jobs::schema_names(), ", "))};
+  }
+  response.set_content(schema, "application/schema+json");
 }
 
 void send_openapi(const Call&, const Request&, Response& response) {

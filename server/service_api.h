@@ -13,6 +13,9 @@ void send_readiness(const Call& call, const httplib::Request& request, httplib::
 void send_figures(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_version(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_schema(const Call& call, const httplib::Request& request, httplib::Response& response);
+void list_schemas(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_file_schema(const Call& call, const httplib::Request& request,
+                      httplib::Response& response);
 void send_openapi(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 // Each list comes with the part of the job's schema for selecting one.

@@ -62,6 +62,7 @@ std::span<const Route> studio_routes() {
       Route{Method::get, "/", Scope::anybody, &send_studio},
       Route{Method::get, "/new", Scope::anybody, &send_studio},
       Route{Method::get, "/compare", Scope::anybody, &send_studio},
+      Route{Method::get, "/fly", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs/{path}", Scope::anybody, &send_studio},
       Route{Method::get, "/calibrations", Scope::anybody, &send_studio},

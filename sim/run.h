@@ -25,13 +25,6 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec);
 
-/// Whether the mission names a goal to move that the scenario does not give this drone anyway.
-bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario);
-
-/// Problems of goals that drones are to move but that the behavior file does not have. Moves them.
-void check_moved_goals(const std::vector<DroneMission>& missions, crowd::Simulation& crowd,
-                       std::vector<Problem>& problems);
-
 /// Called with simulated seconds done and the total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 

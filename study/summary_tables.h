@@ -23,11 +23,11 @@ Table interval_table(const Study& study, const std::vector<SummaryRow>& rows);
 /// The other cases against the baseline case.
 Table case_difference_table(const Study& study, const std::vector<CaseDifference>& differences);
 
-/// What the cells of case_table() are.
+/// Meaning of the cells of case_table().
 std::string case_explanation(const Study& study);
-/// What the cells of interval_table() are.
+/// Meaning of the cells of interval_table().
 std::string interval_explanation();
-/// What the cells of case_difference_table() are.
+/// Meaning of the cells of case_difference_table().
 std::string case_difference_explanation(const Study& study);
 
 }  // namespace throng::study

@@ -41,7 +41,7 @@ export function convergenceOfPolicies({ cases }, element) {
       grid: { left: 62, right: 24, top: 56, bottom: 48 },
       legend: { top: 22, data: convergence.map((curve) => curve.name), type: 'scroll' },
       xAxis: axis('number of runs', { min: FIRST_COUNT, max: 'dataMax', minInterval: 1 }),
-      yAxis: axis('time (s)', { nameGap: 38, ...limits }),
+      yAxis: axis('time (s)', { nameGap: 38, axisLabel: { showMinLabel: false, showMaxLabel: false }, ...limits }),
       tooltip: { trigger: 'axis', formatter: tooltipText },
       series,
     },

@@ -17,6 +17,7 @@
 #include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
 #include "sim/people/participants.h"
+#include "sim/planning/moved_goals.h"
 #include "sim/planning/plan.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"

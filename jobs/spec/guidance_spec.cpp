@@ -1,6 +1,7 @@
 #include "jobs/spec/guidance_spec.h"
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "geometry/angle.h"
@@ -128,11 +129,20 @@ ordered_json setpoint_rules() {
   return rules;
 }
 
+/// Degrees that are read back as the same angle: a job is printed and read several times on its
+/// way.
+double degrees_of(double angle_rad) {
+  constexpr double kParts = 1e9;
+  const double degrees = angle_rad / kDegree;
+  const double rounded = std::round(degrees * kParts) / kParts;
+  return rounded * kDegree == angle_rad ? rounded : degrees;
+}
+
 json setpoints_json(const DroneSpec& drone) {
   json list;
   for (const sim::PilotSample& sample : drone.mission.guidance.setpoints) {
     list.push_back({sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
-                    sample.yaw_rad / kDegree, sample.beacon ? 1 : 0});
+                    degrees_of(sample.yaw_rad), sample.beacon ? 1 : 0});
   }
   return list;
 }

@@ -3,11 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/field_table.h"
+#include "base/json_text.h"
 #include "jobs/spec/job_fields.h"
+#include "jobs/spec/schema.h"
 #include "schemas/schemas.h"
 
 namespace throng::jobs {
 
+using nlohmann::json;
 using nlohmann::ordered_json;
 
 namespace {
@@ -22,11 +25,11 @@ ordered_json job() {
   return schema;
 }
 
-/// What a study takes over from jobs is described as in a job.
-ordered_json study(std::string_view text) {
-  ordered_json schema = ordered_json::parse(text);
+/// The parts that a study takes over from jobs are described as in a job.
+json study(std::string_view text) {
+  json schema = parse_json(text, "study.schema.json");
   for (const char* part : {"crowd", "drones"}) {
-    schema["definitions"][part] = ordered_job_schema()["properties"][part];
+    schema["definitions"][part] = job_schema()["properties"][part];
   }
   return schema;
 }

@@ -32,6 +32,7 @@ from .errors import (
     TraceError,
     UnavailableError,
 )
+from ._live import LiveFlight, LiveMessage, LiveImage, LiveState
 from .frame import Frame
 from .plotting import animate, show
 from .program import find_program, metrics, run, simulate, study
@@ -57,6 +58,10 @@ __all__ = [
     "InvalidRequestError",
     "JobFailedError",
     "KeypointDataset",
+    "LiveFlight",
+    "LiveMessage",
+    "LiveImage",
+    "LiveState",
     "MissingPackageError",
     "Mistake",
     "NotFoundError",

@@ -262,6 +262,14 @@ class CatalogClient:
         """The JSON Schema of a job."""
         return self._get("/v1/schema")
 
+    def schemas(self) -> Any:
+        """The kinds of files that have a JSON Schema."""
+        return self._get("/v1/schemas")
+
+    def file_schema(self, name: str) -> Any:
+        """The JSON Schema of a kind of file, such as blueprint."""
+        return self._get(f"/v1/schemas/{path_of(name)}")
+
     def session(self) -> Session:
         """Whether the service needs a key, and the scope of this client's."""
         return self._get("/v1/session")

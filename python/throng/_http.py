@@ -80,6 +80,21 @@ class Http:
             )
         return http.client.HTTPConnection(host, port, timeout=timeout_s)
 
+    def kept_connection(self) -> http.client.HTTPConnection:
+        """A connection for several requests, one after the other; the caller closes it."""
+        return self._connect(self._timeout_s)
+
+    def path_of(self, path: str) -> str:
+        """A path of the service in requests."""
+        return self._parts.path.rstrip("/") + path
+
+    def headers(self, more: Mapping[str, str] | None = None) -> dict[str, str]:
+        """Headers of a request, the key's included."""
+        sent = dict(more or {})
+        if self._key is not None:
+            sent["Authorization"] = f"Bearer {self._key}"
+        return sent
+
     @contextmanager
     def open(
         self,
@@ -93,10 +108,7 @@ class Http:
         """One attempt. The response is that of any status; BROKEN exceptions pass through."""
         connection = self._connect(self._timeout_s if timeout_s is None else min(timeout_s, self._timeout_s))
         try:
-            sent = dict(headers or {})
-            if self._key is not None:
-                sent["Authorization"] = f"Bearer {self._key}"
-            connection.request(method, self._parts.path.rstrip("/") + path, body=body, headers=sent)
+            connection.request(method, self.path_of(path), body=body, headers=self.headers(headers))
             yield connection.getresponse()
         finally:
             connection.close()

@@ -656,6 +656,86 @@ class Session(TypedDict):
     """read, submit or admin; null without a good key."""
 
 
+class LiveFlightError(TypedDict):
+    """LiveFlightError of the service."""
+
+    kind: str
+    message: str
+
+
+class LiveFlightLinks(TypedDict):
+    """LiveFlightLinks of the service."""
+
+    self: str
+    stream: str
+
+
+class LiveFlight(TypedDict):
+    """LiveFlight of the service."""
+
+    id: str
+    name: str
+    """Of the job."""
+    state: Literal["starting", "flying", "ended", "failed"]
+    time_s: float
+    """Simulated so far."""
+    viewers: int
+    """Streams that are read."""
+    drones: list[str]
+    error: LiveFlightError | None
+    links: LiveFlightLinks
+    result: NotRequired[LiveResult | None]
+    """Once it has ended; not in lists."""
+
+
+class LiveResultDrone(TypedDict):
+    """LiveResultDrone of the service."""
+
+    id: str
+    csv: str
+    """The pilot log (docs/guidance.md)."""
+
+
+class LiveResult(TypedDict):
+    """LiveResult of the service."""
+
+    duration_s: float
+    steps: int
+    trace_sha256: str
+    """Of the flight's trace; that of the job's run000 is equal."""
+    drones: list[LiveResultDrone]
+    job: dict[str, Any]
+    """Flies the logs (as set-points of the policy pilot_log): for POST /v1/jobs."""
+    warnings: list[str]
+
+
+class LiveCommandsDrone(TypedDict):
+    """LiveCommandsDrone of the service."""
+
+    id: str
+    velocity_mps: NotRequired[list[float]]
+    """Ahead, to the left, up. At most 10 m/s over the ground and 3 m/s up or down are flown."""
+    yaw_rate_deg_s: NotRequired[float]
+    """Counter-clockwise; at most 120 are flown."""
+    beacon: NotRequired[bool]
+    """Whether people may follow the drone."""
+    return_home: NotRequired[bool]
+    """To its start, until it is steered again."""
+
+
+class LiveCommands(TypedDict):
+    """LiveCommands of the service."""
+
+    sequence: NotRequired[int]
+    """Comes back with the states and images in which the commands are in force."""
+    paused: NotRequired[bool]
+    factor: NotRequired[float]
+    """Simulated seconds per second; 1 at first."""
+    view: NotRequired[str]
+    """The drone whose camera is shown; the first at first."""
+    drones: NotRequired[list[LiveCommandsDrone]]
+
+
 OPERATIONS = (
     ("POST", "/v1/jobs"),
     ("GET", "/v1/jobs"),
@@ -687,6 +767,13 @@ OPERATIONS = (
     ("DELETE", "/v1/calibrations/{id}"),
     ("GET", "/v1/calibrations/{id}/{name}"),
     ("GET", "/v1/calibrations/{id}/images/{path}"),
+    ("POST", "/v1/live"),
+    ("GET", "/v1/live"),
+    ("GET", "/v1/live/{id}"),
+    ("DELETE", "/v1/live/{id}"),
+    ("GET", "/v1/live/{id}/stream"),
+    ("POST", "/v1/live/{id}/commands"),
+    ("POST", "/v1/live/{id}/stop"),
     ("POST", "/v1/studies"),
     ("GET", "/v1/studies"),
     ("GET", "/v1/studies/{id}"),
@@ -714,6 +801,8 @@ OPERATIONS = (
     ("GET", "/v1/policies"),
     ("GET", "/v1/formats"),
     ("GET", "/v1/schema"),
+    ("GET", "/v1/schemas"),
+    ("GET", "/v1/schemas/{name}"),
     ("GET", "/v1/access/submit"),
     ("POST", "/v1/session"),
     ("GET", "/v1/session"),

@@ -16,8 +16,11 @@ from ._bundle import PathLike, bundle, json_bytes, path_of
 from ._catalog_client import CatalogClient, why
 from ._http import multipart, part, query_of
 from ._job_base import Part, plain
+from ._live import LiveFlight
 from ._progress import ProgressBar
-from .api_types import DryRun, Event, EventList, ImageList, Job, JobList, LogList, PreviewList, Progress
+from .api_types import DryRun, Event, EventList, ImageList, Job, JobList
+from .api_types import LiveFlight as LiveFlightAnswer
+from .api_types import LogList, PreviewList, Progress
 from .errors import JobFailedError
 from .tables import Table, read_csv
 
@@ -283,6 +286,21 @@ class Client(CatalogClient):
     def plan(self, job_id: str) -> str:
         """The floor plan of the job's place as SVG."""
         return self._bytes(f"/v1/jobs/{part(job_id)}/plan").decode("utf-8")
+
+    # Live flights.
+
+    def live(self, job: JobLike) -> LiveFlight:
+        """Begins a live flight of a job's drones: its first run, as the job would simulate it."""
+        answer = self._http.request("POST", "/v1/live", json_body={"job": plain(job)}).json()
+        return LiveFlight(self._http, answer)
+
+    def live_flights(self) -> list[LiveFlightAnswer]:
+        """One's own, also those that have just ended."""
+        return self._http.request("GET", "/v1/live").json()["flights"]
+
+    def live_flight(self, flight_id: str) -> LiveFlight:
+        """One that was begun elsewhere."""
+        return LiveFlight(self._http, self._http.request("GET", f"/v1/live/{part(flight_id)}").json())
 
     def logs(self, job_id: str) -> LogList:
         """Names and sizes of what the workers said."""

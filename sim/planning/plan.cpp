@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/suggest.h"
-#include "geometry/polygon.h"
+#include "sim/planning/clearance.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"
 #include "sim/policies/policy_table.h"
@@ -17,10 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Margin around a vehicle for its deviations from the path.
 constexpr double kClearanceM = kFlightClearanceM;
-// A path is checked at points this far apart, less than the clearance.
-constexpr double kProbeM = 0.25;
 
 std::string text_of(const Vector3d& p) {
   return fmt::format("[{:g}, {:g}, {:g}]", p.x(), p.y(), p.z());
@@ -124,28 +121,17 @@ class MissionCheck {
       if (mission_.start || known_ != nullptr) add(where, "not a number", "[x, y, z]");
       return false;
     }
-    const double lowest_m = 0.5 * frame.height_m + frame.propeller_radius_m;
+    const double lowest_m = lowest_height_m(frame);
     if (point.z() < lowest_m) {
       add(where, text_of(point),
           fmt::format("a point at least {:.2g} m above the ground", lowest_m));
       return false;
     }
-    if (const world::Building* building = building_near(point, frame)) {
+    if (const world::Building* building = building_near(scenario_, point, frame)) {
       add(where, text_of(point), away_from(*building, frame));
       return false;
     }
     return true;
-  }
-
-  const world::Building* building_near(const Vector3d& point, const Airframe& frame) const {
-    const double room_m = frame.radius_m() + kClearanceM;
-    for (const world::Building& building : scenario_.buildings) {
-      if (point.z() < building.height_m + kClearanceM &&
-          geometry::distance_to(building.footprint, point.head<2>()) < room_m) {
-        return &building;
-      }
-    }
-    return nullptr;
   }
 
   static std::string away_from(const world::Building& building, const Airframe& frame) {
@@ -185,21 +171,14 @@ class MissionCheck {
     }
   }
 
-  // Without buildings nothing needs probing, at any length of the leg.
   bool check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,
                  const Airframe& frame) {
-    if (scenario_.buildings.empty()) return true;
-    const double probes = std::ceil((to - from).norm() / kProbeM);
-    for (double i = 1; i < probes; ++i) {
-      const Vector3d point = from + i / probes * (to - from);
-      if (const world::Building* building = building_near(point, frame)) {
-        add(where, fmt::format("a path from {} to {}", text_of(from), text_of(to)),
-            fmt::format("a path at least {:.2g} m away from building \"{}\", which is {:g} m high",
-                        frame.radius_m() + kClearanceM, building->id, building->height_m));
-        return false;
-      }
-    }
-    return true;
+    const world::Building* building = building_between(scenario_, from, to, frame);
+    if (building == nullptr) return true;
+    add(where, fmt::format("a path from {} to {}", text_of(from), text_of(to)),
+        fmt::format("a path at least {:.2g} m away from building \"{}\", which is {:g} m high",
+                    frame.radius_m() + kClearanceM, building->id, building->height_m));
+    return false;
   }
 
   const world::Scenario& scenario_;

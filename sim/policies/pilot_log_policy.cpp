@@ -15,6 +15,8 @@ class PilotLogPolicy : public Policy {
 
   void see(const WorldView& view) override { time_s_ = view.time_s; }
 
+  void fly_on(const PilotSample& setpoint) override { samples_.push_back(setpoint); }
+
   // Straight from one set-point to the next; before the first and after the last it hovers there.
   Setpoint next(const FlightState&, double dt_s) override {
     time_s_ += dt_s;
@@ -35,12 +37,10 @@ class PilotLogPolicy : public Policy {
   }
 
   bool beacon() const override {
-    bool on = samples_.front().beacon;
-    for (const PilotSample& sample : samples_) {
-      if (sample.time_s > time_s_ + kSlackS) break;
-      on = sample.beacon;
-    }
-    return on;
+    const auto after = std::upper_bound(
+        samples_.begin(), samples_.end(), time_s_ + kSlackS,
+        [](double time_s, const PilotSample& sample) { return time_s < sample.time_s; });
+    return after == samples_.begin() ? after->beacon : (after - 1)->beacon;
   }
 
  private:

@@ -38,6 +38,8 @@ class Policy {
   /// Policies that guide: whether people may follow the drone now. Off, the goal that it moves is
   /// out of sight.
   virtual bool beacon() const { return false; }
+  /// The policy "pilot_log" during a live flight: a further set-point, later than all before it.
+  virtual void fly_on(const PilotSample&) {}
   /// Information for the other drones.
   virtual LeadPlan plan() const { return {}; }
 };

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "base/error.h"
+#include "geometry/angle.h"
 
 namespace throng::sim {
 
@@ -64,10 +64,7 @@ class LogReader {
            "a later time than that of the line before");
     }
     if (values[5] != 0 && values[5] != 1) fail(fmt::format("beacon {:g}", values[5]), "0 or 1");
-    return {values[0],
-            {values[1], values[2], values[3]},
-            values[4] * std::numbers::pi / 180,
-            values[5] == 1};
+    return {values[0], {values[1], values[2], values[3]}, values[4] * kDegree, values[5] == 1};
   }
 
   double number(std::string_view text) const {
@@ -91,7 +88,7 @@ std::string pilot_log_csv(const std::vector<PilotSample>& samples) {
   for (const PilotSample& sample : samples) {
     fmt::format_to(std::back_inserter(csv), "{:.10g},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
                    sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
-                   sample.yaw_rad * 180 / std::numbers::pi, sample.beacon ? 1 : 0);
+                   sample.yaw_rad / kDegree, sample.beacon ? 1 : 0);
   }
   return csv;
 }

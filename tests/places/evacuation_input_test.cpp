@@ -1,4 +1,4 @@
-// What a study takes from the literature: pre-movement times and speeds of a blueprint.
+// Input that a study takes from the literature: pre-movement times and speeds of a blueprint.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

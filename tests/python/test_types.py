@@ -59,7 +59,7 @@ class Generated(unittest.TestCase):
 
     def test_the_client_has_every_operation(self):
         """Paths in its source, {x} for whatever is put in."""
-        files = ("client.py", "_catalog_client.py", "_events.py")
+        files = ("client.py", "_catalog_client.py", "_events.py", "_live.py")
         source = "".join((common.ROOT / "python/throng" / name).read_text() for name in files)
         paths = {
             re.sub(r"\{[^{}]*(\([^()]*\))?[^{}]*\}", "{}", text)

@@ -236,6 +236,19 @@ TEST_F(ApiTest, PagesOfOtherSitesAreRefused) {
   EXPECT_EQ(get("/v1/jobs", {{"Host", "[::1]:1234"}})->status, 200);
 }
 
+TEST_F(ApiTest, SchemasOfFiles) {
+  const auto names = client().Get("/v1/schemas");
+  ASSERT_EQ(names->status, 200);
+  for (const json& name : json::parse(names->body)["schemas"]) {
+    const auto schema = client().Get("/v1/schemas/" + name.get<std::string>());
+    ASSERT_EQ(schema->status, 200) << name;
+    EXPECT_EQ(json::parse(schema->body)["type"], "object") << name;
+  }
+  const auto study = json::parse(client().Get("/v1/schemas/study")->body);
+  EXPECT_TRUE(study.at("/definitions/crowd/properties/agents"_json_pointer).is_object());
+  EXPECT_EQ(client().Get("/v1/schemas/nothing")->status, 404);
+}
+
 TEST_F(ApiTest, HealthAndSchema) {
   EXPECT_EQ(get_json("/healthz")["status"], "ok");
   EXPECT_EQ(get_json("/v1/schema"), jobs::job_schema());

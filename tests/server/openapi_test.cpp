@@ -184,6 +184,18 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
   expect_webhooks_described();
+  expect_described("get", "/v1/live", get("/v1/live"));
+  expect_described("post", "/v1/live", posted("/v1/live", "{}"));
+  expect_described("post", "/v1/live", posted("/v1/live", R"({"job": {"runs": 0}})"));
+  for (const char* path : {"/stream", ""}) {
+    expect_described("get", std::string("/v1/live/{id}") + path,
+                     get(std::string("/v1/live/l0") + path));
+  }
+  for (const char* path : {"/commands", "/stop"}) {
+    expect_described("post", std::string("/v1/live/{id}") + path,
+                     posted(std::string("/v1/live/l0") + path, "{}"));
+  }
+  expect_described("delete", "/v1/live/{id}", client().Delete("/v1/live/l0"));
   expect_described("post", "/v1/session", posted("/v1/session", R"({"key": "any"})"));
   expect_described("post", "/v1/session", posted("/v1/session", "{}"));
   expect_described("delete", "/v1/session", client().Delete("/v1/session"));

@@ -383,3 +383,58 @@ test("an address names jobs and single runs to compare", () => {
   assert.deepEqual(choices, [{ id: "ja1", run: null }, { id: "ja1", run: 2 }, { id: "jb", run: 0 }]);
   assert.equal(subjects.addressOf(choices, 1.25), "/compare?job=ja1&job=ja1:2&job=jb:0&t=1.3");
 });
+
+test("messages of a live flight are read however they arrive", async () => {
+  const { messagesOf } = await importStudio(packages, "live/messages.ts");
+  const framed = (type, body) => {
+    const head = Buffer.alloc(5);
+    head.write(type, "latin1");
+    head.writeUInt32LE(body.length, 1);
+    return Buffer.concat([head, body]);
+  };
+  const state = Buffer.alloc(24 + 36 + 2 * 12);
+  state.writeUInt8(1, 0);
+  state.writeUInt8(1, 1);
+  state.writeUInt16LE(1, 2);
+  state.writeUInt32LE(2, 4);
+  state.writeDoubleLE(12.5, 8);
+  state.writeFloatLE(0.5, 16);
+  state.writeUInt32LE(9, 20);
+  [1, 2, 30, Math.SQRT1_2, 0, 0, Math.SQRT1_2, 4].forEach((value, index) => state.writeFloatLE(value, 24 + 4 * index));
+  state.writeUInt32LE(1 | 4, 24 + 32);
+  [[3, -4, 15708, 2, 1], [5, 6, -1, 0, 5]].forEach(([x, y, yaw, kind, flags], index) => {
+    const at = 60 + 12 * index;
+    state.writeFloatLE(x, at);
+    state.writeFloatLE(y, at + 4);
+    state.writeInt16LE(yaw, at + 8);
+    state.writeUInt8(kind, at + 10);
+    state.writeUInt8(flags, at + 11);
+  });
+  const image = Buffer.alloc(16 + 3);
+  image.writeDoubleLE(12.4, 0);
+  image.writeUInt32LE(8, 8);
+  image.writeUInt32LE(1, 12);
+  image.write("jpg", 16);
+  const bytes = Buffer.concat([framed("H", Buffer.from('{"people":2}')), framed("A", Buffer.alloc(0)), framed("S", state), framed("P", image), framed("E", Buffer.from('{"message":"it is over"}'))]);
+  for (const part of [1, 17, bytes.length]) {
+    const body = new ReadableStream({
+      start(controller) {
+        for (let at = 0; at < bytes.length; at += part) controller.enqueue(new Uint8Array(bytes.subarray(at, at + part)));
+        controller.close();
+      },
+    });
+    const messages = [];
+    for await (const message of messagesOf(body)) messages.push(message);
+    assert.deepEqual(messages.map(({ type }) => type), ["hello", "world", "image", "end"]);
+    const { value } = messages[1];
+    assert.deepEqual([value.timeS, value.factor, value.sequence, value.isPaused], [12.5, 0.5, 9, true]);
+    assert.deepEqual(value.drones[0].position, [1, 2, 30]);
+    assert.ok(Math.abs(value.drones[0].yaw - Math.PI / 2) < 1e-6);
+    assert.deepEqual([value.drones[0].hasBeacon, value.drones[0].isOnMission, value.drones[0].isRunning], [true, false, true]);
+    assert.deepEqual([...value.people.y], [-4, 6]);
+    assert.ok(Math.abs(value.people.yaw[0] - 1.5708) < 1e-6);
+    assert.deepEqual([...value.people.flags], [1, 5]);
+    assert.equal(await messages[2].value.jpeg.text(), "jpg");
+    assert.equal(messages[3].error, "it is over");
+  }
+});

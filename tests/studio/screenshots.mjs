@@ -9,7 +9,7 @@ import { launch, TestService } from "./service.mjs";
 
 const [program, packages, output, ...names] = process.argv.slice(2);
 const isWanted = (list) => names.length === 0 || list.some((name) => names.includes(name));
-const kWithoutJobs = ["calibration", "place", "study"];
+const kWithoutJobs = ["calibration", "place", "study", "fly"];
 const camera = { width: 1280, height: 720 };
 const kJobs = [
   { name: "Square, 200 people", seed: 4, crowd: { agents: 200 } },
@@ -60,6 +60,29 @@ async function studied() {
   }
 }
 
+/** The id of a live flight. */
+async function begunFlight() {
+  const job = {
+    scenario: "city_square/emergency",
+    drones: [{ id: "d1", start: [20, 18, 12], camera: { pitch_deg: -30 }, moves_goal: [99, 0] }, { id: "d2", start: [-10, 6, 22], camera: { pitch_deg: -60 } }],
+    capture: { from_s: 1, to_s: 2 },
+  };
+  const { id } = await service.json("/v1/live", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ job }) });
+  return id;
+}
+
+async function flyAbout(page) {
+  await page.keyboard.press("KeyB");
+  await page.keyboard.down("ArrowLeft");
+  await page.waitForTimeout(1200);
+  await page.keyboard.up("ArrowLeft");
+  await page.getByRole("button", { name: "3-D" }).click();
+  await page.waitForTimeout(3000); // the scene is loaded
+  await page.getByRole("button", { name: "Camera" }).click();
+  await page.keyboard.down("KeyW");
+  await page.waitForTimeout(1500);
+}
+
 const service = new TestService(program);
 await service.start();
 const browser = await launch(packages);
@@ -70,6 +93,7 @@ try {
   for (const job of needsJobs ? kJobs : []) ids.push(await service.finished(job));
   const calibration = isWanted(["calibration"]) ? await calibrated() : "";
   const study = isWanted(["study"]) ? await studied() : "";
+  const flight = isWanted(["fly"]) ? await begunFlight() : "";
   const kScreens = [
     { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=2`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
     { name: "image", address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`, height: 800, ready: 'canvas.overlay[data-drawn$=" boxes,masks"]' },
@@ -81,9 +105,10 @@ try {
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
     { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
     { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
+    { name: "fly", address: `/fly?flight=${flight}`, height: 940, ready: ".badge.recording", action: flyAbout },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  for (const { name, address, height, ready, keys = "", start = "", pending = "" } of kScreens.filter((screen) => isWanted([screen.name]))) {
+  for (const { name, address, height, ready, keys = "", start = "", pending = "", action = null } of kScreens.filter((screen) => isWanted([screen.name]))) {
     await page.setViewportSize({ width: 1280, height });
     await page.goto(service.address + address);
     if (start) await page.getByLabel("Start from").selectOption(start);
@@ -91,6 +116,7 @@ try {
     for (const key of keys) await page.keyboard.press(key);
     await page.locator(ready).first().waitFor();
     if (pending) await page.getByText(pending).waitFor({ state: "hidden" });
+    if (action) await action(page);
     await page.waitForFunction(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0));
     await page.waitForTimeout(500); // the plan, a large drawing, is painted after it has loaded
     await page.screenshot({ path: path.join(output, `${name}.jpg`), type: "jpeg", quality: 72 });

@@ -26,6 +26,7 @@ const loadCalibration = () => import("./calibration/calibration_screen").then((m
 const loadPlace = () => import("./place/place_screen").then((module) => module.PlaceScreen);
 const loadStudies = () => import("./study/studies_screen").then((module) => module.StudiesScreen);
 const loadStudy = () => import("./study/study_screen").then((module) => module.StudyScreen);
+const loadFly = () => import("./live/fly_screen").then((module) => module.FlyScreen);
 const loadRun = () => import("./run/run_screen").then((module) => module.RunScreen);
 
 function screenOf(path: string): Screen {
@@ -36,6 +37,7 @@ function screenOf(path: string): Screen {
   if (path === "/keys") return { title: "Keys and webhooks", element: <Lazy load={loadAccess} props={{}} /> };
   if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
   if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
+  if (path === "/fly") return { title: "Live flight", element: <Lazy load={loadFly} props={{}} /> };
   if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };
   if (path === "/studies") return { title: "Studies", element: <Lazy load={loadStudies} props={{}} /> };
   const study = /^\/studies\/([a-z0-9]+)\/?$/.exec(path);

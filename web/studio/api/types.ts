@@ -493,3 +493,61 @@ export interface Session {
   /** read, submit or admin; null without a good key. */
   scope: string | null;
 }
+
+export interface LiveFlight {
+  id: string;
+  /** Of the job. */
+  name: string;
+  state: "starting" | "flying" | "ended" | "failed";
+  /** Simulated so far. */
+  time_s: number;
+  /** Streams that are read. */
+  viewers: number;
+  drones: string[];
+  /** Once it has ended; not in lists. */
+  result?: LiveResult | null;
+  error: {
+    kind: string;
+    message: string;
+  } | null;
+  links: {
+    self: string;
+    stream: string;
+  };
+}
+
+export interface LiveResult {
+  duration_s: number;
+  steps: number;
+  /** Of the flight's trace; that of the job's run000 is equal. */
+  trace_sha256: string;
+  drones: {
+    id: string;
+    /** The pilot log (docs/guidance.md). */
+    csv: string;
+  }[];
+  /** Flies the logs (as set-points of the policy pilot_log): for POST /v1/jobs. */
+  job: Record<string, unknown>;
+  warnings: string[];
+}
+
+export interface LiveCommands {
+  /** Comes back with the states and images in which the commands are in force. */
+  sequence?: number;
+  paused?: boolean;
+  /** Simulated seconds per second; 1 at first. */
+  factor?: number;
+  /** The drone whose camera is shown; the first at first. */
+  view?: string;
+  drones?: {
+    id: string;
+    /** Ahead, to the left, up. At most 10 m/s over the ground and 3 m/s up or down are flown. */
+    velocity_mps?: number[];
+    /** Counter-clockwise; at most 120 are flown. */
+    yaw_rate_deg_s?: number;
+    /** Whether people may follow the drone. */
+    beacon?: boolean;
+    /** To its start, until it is steered again. */
+    return_home?: boolean;
+  }[];
+}

@@ -39,6 +39,7 @@ const kScreens = [
   { address: "/", label: "Home" },
   { address: "/jobs", label: "Jobs" },
   { address: "/new", label: "New job" },
+  { address: "/fly", label: "Fly" },
   { address: "/place", label: "Place" },
   { address: "/studies", label: "Studies" },
   { address: "/calibrations", label: "Calibration" },

@@ -65,6 +65,9 @@ function Actions({ job, onChange }: { job: Job; onChange: () => void }) {
           Retry
         </button>
       )}
+      <a class="button" href={`/fly?clone=${job.id}`}>
+        Fly
+      </a>
       <button type="button" class="button" onClick={() => editCopy(job.id)}>
         Copy and edit
       </button>

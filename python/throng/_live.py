@@ -1,0 +1,198 @@
+"""Live flights: a job's drones flown by commands, as they happen (docs/studio.md)."""
+
+# Answers are JSON, which openapi.json describes and api_types.py names; nothing checks them once more.
+# mypy: disable-error-code="no-any-return"
+
+from __future__ import annotations
+
+import http.client
+import json
+import struct
+import threading
+from dataclasses import dataclass
+from typing import Any, Iterator, Mapping, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._http import BROKEN, Http, part, problem
+from .api_types import LiveFlight as LiveFlightAnswer
+from .errors import ConnectionFailedError, ServiceError
+
+_HEAD = struct.Struct("<cI")
+_STATE = struct.Struct("<BBHIdfI")
+_IMAGE = struct.Struct("<dII")
+_MAX_BYTES = 64 << 20
+_DRONE = np.dtype([("position", "<f4", 3), ("quaternion", "<f4", 4), ("speed_mps", "<f4"), ("flags", "<u4")])
+_PERSON = np.dtype([("position", "<f4", 2), ("yaw", "<i2"), ("state", "u1"), ("flags", "u1")])
+
+
+@dataclass(frozen=True)
+class LiveState:
+    """Everybody at the end of a step."""
+
+    time_s: float
+    #: Of the newest commands in force.
+    sequence: int
+    paused: bool
+    #: Simulated seconds per second that are reached.
+    factor: float
+    #: Fields position (m), quaternion (w, x, y, z; body to world), speed_mps, flags (1 beacon, 2 on its mission, 4 rotors turn).
+    drones: NDArray[Any]
+    #: Fields position (m), yaw (1e-4 rad), state, flags (1 present, 2 in panic, 4 fallen, 8 follows a drone).
+    people: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class LiveImage:
+    """A drone's camera."""
+
+    time_s: float
+    sequence: int
+    drone: int
+    jpeg: bytes
+
+
+@dataclass(frozen=True)
+class LiveMessage:
+    """kind is hello, event, result or failure."""
+
+    kind: str
+    value: dict[str, Any]
+
+
+_JSON_KINDS = {b"H": "hello", b"V": "event", b"R": "result", b"E": "failure"}
+Received = Union[LiveState, LiveImage, LiveMessage]
+
+
+def message_of(kind: bytes, data: bytes) -> Received | None:
+    """One message of the stream; None for a sign of life."""
+    if kind == b"S":
+        _, flags, drones, people, time_s, factor, sequence = _STATE.unpack_from(data)
+        at = _STATE.size + drones * _DRONE.itemsize
+        return LiveState(
+            time_s,
+            sequence,
+            bool(flags & 1),
+            factor,
+            np.frombuffer(data, _DRONE, drones, _STATE.size),
+            np.frombuffer(data, _PERSON, people, at),
+        )
+    if kind == b"P":
+        time_s, sequence, drone = _IMAGE.unpack_from(data)
+        return LiveImage(time_s, sequence, drone, data[_IMAGE.size :])
+    return LiveMessage(_JSON_KINDS[kind], json.loads(data)) if kind in _JSON_KINDS else None
+
+
+class LiveFlight:
+    """A live flight of the service. Time runs while messages() is read.
+
+    >>> flight = client.live(job)
+    >>> for message in flight.messages():
+    ...     if isinstance(message, throng.LiveState) and message.time_s < 20:
+    ...         flight.fly("d1", velocity_mps=(3, 0, 0), yaw_rate_deg_s=20)
+    ...     elif isinstance(message, throng.LiveState):
+    ...         break
+    >>> client.submit(flight.stop()["job"])
+    """
+
+    def __init__(self, service: Http, answer: LiveFlightAnswer) -> None:
+        self._http = service
+        self.id: str = answer["id"]
+        self._name = part(self.id)
+        self._lock = threading.Lock()
+        self._connection: http.client.HTTPConnection | None = None
+
+    def __enter__(self) -> LiveFlight:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.remove()
+
+    def state(self) -> LiveFlightAnswer:
+        """The flight as the service has it."""
+        return self._http.request("GET", f"/v1/live/{self._name}").json()
+
+    def messages(self) -> Iterator[Received]:
+        """All messages until the flight ends; of states and images those that there is time for."""
+        try:
+            with self._http.open("GET", f"/v1/live/{self._name}/stream") as response:
+                if response.status != 200:
+                    raise self._http.read_problem(response)
+                while head := response.read(_HEAD.size):
+                    kind, length = _HEAD.unpack(head)
+                    if length > _MAX_BYTES:
+                        raise ServiceError(200, "Unreadable answer", f"found a message of {length} bytes")
+                    message = message_of(kind, response.read(length))
+                    if message is not None:
+                        yield message
+        except BROKEN as broken:
+            raise ConnectionFailedError(f"{self._http.url}: {broken}") from broken
+
+    def fly(
+        self,
+        drone: str,
+        *,
+        velocity_mps: Sequence[float] | None = None,
+        yaw_rate_deg_s: float | None = None,
+        beacon: bool | None = None,
+        return_home: bool | None = None,
+        sequence: int | None = None,
+    ) -> None:
+        """Commands a drone: velocity ahead, to the left and up. To be repeated at least once a second."""
+        one = {
+            "id": drone,
+            "velocity_mps": None if velocity_mps is None else list(velocity_mps),
+            "yaw_rate_deg_s": yaw_rate_deg_s,
+            "beacon": beacon,
+            "return_home": return_home,
+        }
+        body: dict[str, Any] = {"drones": [{key: value for key, value in one.items() if value is not None}]}
+        if sequence is not None:
+            body["sequence"] = sequence
+        self.command(body)
+
+    def command(self, commands: Mapping[str, Any]) -> None:
+        """Commands as POST /v1/live/{id}/commands takes them, over a connection that is kept."""
+        body = json.dumps(commands, allow_nan=False).encode()
+        with self._lock:
+            for is_last in (False, True):
+                if self._connection is None:
+                    self._connection = self._http.kept_connection()
+                try:
+                    self._connection.request(
+                        "POST",
+                        self._http.path_of(f"/v1/live/{self._name}/commands"),
+                        body,
+                        self._http.headers({"Content-Type": "application/json"}),
+                    )
+                    answer = self._connection.getresponse()
+                    data = answer.read()
+                    break
+                except BROKEN as broken:
+                    # The service closes connections that rest for two seconds.
+                    self._connection.close()
+                    self._connection = None
+                    if is_last:
+                        raise ConnectionFailedError(f"{self._http.url}: {broken}") from broken
+        if answer.status >= 400:
+            raise problem(answer.status, answer.reason, data)
+
+    def stop(self) -> dict[str, Any]:
+        """Ends the flight: its job repeats it, drones have the pilot logs as CSV, trace_sha256 is the trace's."""
+        answer = self._http.request("POST", f"/v1/live/{self._name}/stop", body=b"").json()
+        if answer["error"]:
+            raise ServiceError(200, "The flight failed", answer["error"]["message"])
+        return answer["result"]
+
+    def remove(self) -> None:
+        """Ends the flight without an outcome; nothing if there is none any more."""
+        with self._lock:
+            if self._connection is not None:
+                self._connection.close()
+                self._connection = None
+        try:
+            self._http.request("DELETE", f"/v1/live/{self._name}")
+        except ServiceError as error:
+            if error.status != 404:
+                raise

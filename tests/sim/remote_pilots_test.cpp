@@ -1,0 +1,156 @@
+// Drones flown by commands: their pilot logs repeat the flight exactly.
+#include "sim/remote/remote_pilots.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/files.h"
+#include "sim/recording/pilot_log.h"
+#include "sim/recording/trace_recorder.h"
+#include "sim/run.h"
+#include "tests/world/temporary_folder.h"
+#include "world/scenario.h"
+
+namespace throng::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSteps = 120;
+
+world::Scenario square() {
+  return world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios",
+                              "city_square/nearest_exit");
+}
+
+RunSpec spec_of(int drones) {
+  RunSpec spec;
+  spec.seed = 11;
+  spec.duration_s = 600;
+  spec.wind.speed_mps = 4;
+  for (int i = 0; i < drones; ++i) {
+    DroneMission& mission = spec.drones.emplace_back();
+    mission.id = "own" + std::to_string(i + 1);  // the scenario does not know it
+    mission.start = Eigen::Vector3d(1.0 / 3 + 8 * i, 2, 12 + 1.0 / 7);
+  }
+  return spec;
+}
+
+/// Ahead with turns, sideways, up and down, the beacon now and then, home.
+RemoteCommand command_at(int step, int drone) {
+  RemoteCommand command;
+  command.velocity_mps = {6 * std::cos(0.11 * step), 4 * std::sin(0.07 * step + drone),
+                          step % 40 < 10 ? -1.5 : 0.7};
+  command.yaw_rate_deg_s = step % 30 < 20 ? 77.7 : -45;
+  command.beacon = step % 25 < 12;
+  command.goes_home = step > 90;
+  return command;
+}
+
+/// Flies, writes the trace, and returns the drones' logs.
+std::vector<std::vector<PilotSample>> fly(const world::Scenario& scenario, const RunSpec& asked,
+                                          const fs::path& trace) {
+  RunSpec spec = asked;
+  fly_remotely(spec, scenario);
+  TraceRecorder recorder(trace, {});
+  SteppedRun run(scenario, spec, recorder);
+  RemotePilots pilots(scenario, run, spec);
+  for (int step = 0; step < kSteps; ++step) {
+    std::vector<RemoteCommand> commands;
+    for (std::size_t i = 0; i < spec.drones.size(); ++i) {
+      commands.push_back(command_at(step, static_cast<int>(i)));
+    }
+    pilots.advance(commands);
+    run.step();
+  }
+  run.finish();
+  recorder.finish();
+  std::vector<std::vector<PilotSample>> logs;
+  for (std::size_t i = 0; i < spec.drones.size(); ++i) logs.push_back(pilots.log(i));
+  return logs;
+}
+
+RunSpec replay_of(const RunSpec& flown, const std::vector<std::vector<PilotSample>>& logs) {
+  RunSpec spec = flown;
+  spec.duration_s = kSteps * 0.1;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    spec.drones[i].policy = "pilot_log";
+    // By the text, as people keep it.
+    spec.drones[i].guidance.setpoints = parse_pilot_log(pilot_log_csv(logs[i]), "log.csv");
+  }
+  return spec;
+}
+
+TEST(RemotePilots, TheLogRepeatsTheFlightByteForByte) {
+  const ::throng::testing::TemporaryFolder folder;
+  const world::Scenario scenario = square();
+  const RunSpec spec = spec_of(2);
+  const auto logs = fly(scenario, spec, folder.path() / "flown.h5");
+  simulate(scenario, replay_of(spec, logs), folder.path() / "replayed.h5");
+  EXPECT_EQ(read_file(folder.path() / "flown.h5"), read_file(folder.path() / "replayed.h5"));
+  const world::Trace trace = world::read_trace(folder.path() / "flown.h5");
+  EXPECT_GT((trace.drone_at(0, 6).position - trace.drone_at(0, 0).position).norm(), 3)
+      << "the drone has flown somewhere";
+}
+
+TEST(RemotePilots, KeepOutOfBuildingsAndOffTheGround) {
+  const ::throng::testing::TemporaryFolder folder;
+  world::Scenario scenario = square();
+  scenario.buildings = {{"wall", {{15, -50}, {20, -50}, {20, 50}, {15, 50}}, 40}};
+  RunSpec spec = spec_of(1);
+  spec.wind = {};
+  fly_remotely(spec, scenario);
+  TraceRecorder recorder(folder.path() / "trace.h5", {});
+  SteppedRun run(scenario, spec, recorder);
+  RemotePilots pilots(scenario, run, spec);
+  RemoteCommand into_the_wall;
+  into_the_wall.velocity_mps = {99, 40, -99};
+  for (int step = 0; step < kSteps; ++step) {
+    pilots.advance({into_the_wall});
+    run.step();
+  }
+  const PilotSample& last = pilots.log(0).back();
+  EXPECT_LT(last.position.x(), 15 - 0.5);
+  EXPECT_GT(last.position.x(), 10) << "it goes on along the wall";
+  EXPECT_GT(last.position.y(), 5);
+  EXPECT_LT(last.position.z(), 2);
+  EXPECT_GT(last.position.z(), 0);
+  // A job may fly it, too.
+  EXPECT_NO_THROW(SteppedRun(scenario, replay_of(spec, {pilots.log(0)}), recorder));
+}
+
+TEST(RemotePilots, KeepAwayFromEachOther) {
+  const ::throng::testing::TemporaryFolder folder;
+  const world::Scenario scenario = square();
+  RunSpec spec = spec_of(2);
+  spec.wind = {};
+  fly_remotely(spec, scenario);
+  TraceRecorder recorder(folder.path() / "trace.h5", {});
+  SteppedRun run(scenario, spec, recorder);
+  RemotePilots pilots(scenario, run, spec);
+  RemoteCommand ahead;
+  ahead.velocity_mps = {10, 0, 0};
+  double min_m = 1e9;
+  for (int step = 0; step < kSteps; ++step) {
+    pilots.advance({ahead, {}});
+    run.step();
+    min_m = std::min(min_m, (pilots.log(0).back().position - pilots.log(1).back().position).norm());
+  }
+  EXPECT_GT(min_m, 2);
+  EXPECT_LT(pilots.log(0).back().position.x(), pilots.log(1).back().position.x());
+  EXPECT_NO_THROW(simulate(scenario, replay_of(spec, {pilots.log(0), pilots.log(1)}),
+                           folder.path() / "replayed.h5"));
+}
+
+TEST(RemotePilots, ComeHome) {
+  const ::throng::testing::TemporaryFolder folder;
+  const world::Scenario scenario = square();
+  const RunSpec spec = spec_of(1);
+  const auto logs = fly(scenario, spec, folder.path() / "trace.h5");
+  const double at_90 = (logs[0][90].position - logs[0][0].position).norm();
+  EXPECT_LT((logs[0].back().position - logs[0][0].position).norm(), at_90 - 5);
+}
+
+}  // namespace
+}  // namespace throng::sim
