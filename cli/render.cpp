@@ -11,6 +11,7 @@
 #include "cli/trace_file.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
+#include "jobs/spec/spec.h"
 #include "world/trace.h"
 #include "world/trace_scenario.h"
 

@@ -50,9 +50,9 @@ class Alone(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr if code else done.stdout
 
-    def simulated(self, **fields):
+    def simulated(self, job=JOB):
         self.throng("scenario", "make", "yard.place.json", "-o", "mine")
-        (self.folder / "job.json").write_text(json.dumps({**JOB, **fields}))
+        (self.folder / "job.json").write_text(json.dumps(job))
         self.throng("simulate", "job.json", "-o", "run.h5")
 
     def test_a_trace_needs_no_scenario(self):
@@ -69,7 +69,7 @@ class Alone(unittest.TestCase):
         self.throng("report", "out", "-o", "again.html", scenarios="gone")
 
     def test_no_drone_is_needed_to_simulate(self):
-        self.simulated(drones=[])
+        self.simulated({"scenario": "yard", "capture": {"to_s": 2}})
         self.assertGreater(json.loads(self.throng("metrics", "run.h5"))["people"], 0)
         self.assertIn("at least one drone", self.throng("check", "job.json", code=2))
 

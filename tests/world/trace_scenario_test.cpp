@@ -25,7 +25,7 @@ TraceHeader header_of(const Scenario& scenario) {
 }
 
 TEST(ScenarioInTrace, IsTheScenarioWithoutItsCrowd) {
-  for (const char* id : {"city_square/emergency", "station/everyday", "bridge/emergency"}) {
+  for (const char* id : {"city_square/emergency", "station/everyday", "campus/emergency"}) {
     const Scenario scenario = shipped(id);
     const auto kept = scenario_in_trace(header_of(scenario), "run.h5", TraceMeshes::needed);
     ASSERT_TRUE(kept) << id;
