@@ -338,7 +338,7 @@ class WithService(unittest.TestCase):
         self.client.remove_study(queued["id"])
         with self.assertRaises(throng.NotFoundError):
             self.client.study(queued["id"])
-        with self.assertRaisesRegex(throng.InvalidRequestError, "policies"):
+        with self.assertRaisesRegex(throng.InvalidRequestError, "cases"):
             self.client.submit_study({"cases": []})
 
     def test_the_service_itself(self):
