@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -209,9 +210,10 @@ json curve_of(const std::string& name, const std::vector<Outcome>& runs, double 
 }
 
 double median_t95_s(const std::vector<Outcome>& runs) {
-  std::vector<double> times_s;
-  for (const Outcome& run : runs) times_s.push_back(run.percentile_s(95));
-  return median(std::move(times_s));
+  std::vector<double> times_s(runs.size());
+  std::transform(runs.begin(), runs.end(), times_s.begin(),
+                 [](const Outcome& run) { return run.percentile_s(95); });
+  return median(times_s);
 }
 
 // Until nearly everybody is out under most policies.

@@ -186,6 +186,7 @@ std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& ou
     }
   }
   std::vector<double> p_values;
+  p_values.reserve(all.size());
   for (const CaseDifference& one : all) p_values.push_back(one.test.p_value);
   const std::vector<double> adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < all.size(); ++i) all[i].holm_p = adjusted[i];

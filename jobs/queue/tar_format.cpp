@@ -15,30 +15,30 @@ namespace {
 using Header = std::array<char, kTarBlock>;
 
 // Places of the fields of a ustar header (POSIX.1-1988).
-struct Field {
+struct HeaderField {
   std::size_t offset;
   std::size_t length;
 };
-constexpr Field kName{0, 100};
-constexpr Field kMode{100, 8};
-constexpr Field kOwner{108, 8};
-constexpr Field kGroup{116, 8};
-constexpr Field kSize{124, 12};
-constexpr Field kTime{136, 12};
-constexpr Field kChecksum{148, 8};
-constexpr Field kType{156, 1};
-constexpr Field kLink{157, 100};
-constexpr Field kMagic{257, 8};
-constexpr Field kPrefix{345, 155};
+constexpr HeaderField kName{0, 100};
+constexpr HeaderField kMode{100, 8};
+constexpr HeaderField kOwner{108, 8};
+constexpr HeaderField kGroup{116, 8};
+constexpr HeaderField kSize{124, 12};
+constexpr HeaderField kTime{136, 12};
+constexpr HeaderField kChecksum{148, 8};
+constexpr HeaderField kType{156, 1};
+constexpr HeaderField kLink{157, 100};
+constexpr HeaderField kMagic{257, 8};
+constexpr HeaderField kPrefix{345, 155};
 
-void put(Header& header, Field field, std::string_view text) {
+void put(Header& header, HeaderField field, std::string_view text) {
   check(text.size() <= field.length, "a tar field holds its text");
   std::copy(text.begin(), text.end(), header.begin() + static_cast<std::ptrdiff_t>(field.offset));
 }
 
 // Octal digits with a closing zero byte; sizes of 8 GiB and more in the binary form that all
 // readers know.
-void put_number(Header& header, Field field, std::int64_t value) {
+void put_number(Header& header, HeaderField field, std::int64_t value) {
   const std::string digits = fmt::format("{:0{}o}", value, field.length - 1);
   if (digits.size() < field.length) return put(header, field, digits);
   for (std::size_t i = field.length; i-- > 0; value >>= 8) {
