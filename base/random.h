@@ -29,6 +29,8 @@ enum class Stream : std::uint32_t {
   camera_noise = 18,
   perception = 24,  ///< what guides count wrongly
   bootstrap = 25,   ///< resampling of statistics
+  aim = 26,         ///< people at whom drones aim, and from where
+  place = 27,       ///< places generated for single runs of a job
 };
 
 /// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.

@@ -11,6 +11,7 @@
 #include "cli/trace_file.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
 #include "world/trace.h"
 #include "world/trace_scenario.h"
@@ -45,17 +46,26 @@ void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
   if (!problems.empty()) throw InputError(problems);
 }
 
+/// A job of several scenarios in that of the trace.
+jobs::JobSpec job_of_trace(const jobs::JobSpec& job, const world::Trace& trace) {
+  for (const int run : jobs::first_runs(job)) {
+    jobs::JobSpec one = jobs::in_scenario_of_run(job, run);
+    if (one.scenario == trace.header.scenario_id) return one;
+  }
+  return jobs::in_scenario_of_run(job, 0);  // check_fits() reports it
+}
+
 /// The job, in the scenario that the trace holds, so that a job's folder is enough; else in the
 /// shipped one.
 jobs::JobSpec job_for(const world::Trace& trace, const RenderArguments& arguments) {
   const auto kept =
       world::scenario_in_trace(trace.header, arguments.trace_file, world::TraceMeshes::needed);
-  if (!kept) return read_job_file(arguments.job_file).spec();
+  if (!kept) return job_of_trace(read_job_file(arguments.job_file).spec(), trace);
   std::vector<Problem> problems;
   jobs::JobSpec job =
       jobs::parse_job(read_job_text(arguments.job_file), arguments.job_file, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
-  return jobs::resolve(std::move(job), *kept, arguments.job_file).spec();
+  return jobs::resolve(job_of_trace(job, trace), *kept, arguments.job_file).spec();
 }
 
 void render(const RenderArguments& arguments) {

@@ -23,6 +23,7 @@
 #include "drawing/drawing.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/spec/scenario_mix.h"
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "places/generate.h"
@@ -84,7 +85,8 @@ void draw_plan(const PlanArguments& arguments) {
   std::vector<world::DronePath> paths;
   std::optional<world::Scenario> scenario;
   if (is_job(arguments.name)) {
-    const jobs::JobSpec job = read_job_file(arguments.name, jobs::DefaultDrones::if_any).spec();
+    const jobs::JobSpec job = jobs::in_scenario_of_run(
+        read_job_file(arguments.name, jobs::DefaultDrones::if_any).spec(), 0);
     scenario = jobs::scenario_of(job, world::scenarios_folder());
     paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
   } else {

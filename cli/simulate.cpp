@@ -11,6 +11,7 @@
 #include "cli/progress_bar.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/spec/scenario_mix.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 
@@ -36,8 +37,8 @@ void simulate(const SimulateArguments& arguments) {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
     warnings = sim::simulate(
-        jobs::scenario_of(job, world::scenarios_folder()), jobs::run_spec(job, arguments.run),
-        arguments.trace_file,
+        jobs::scenario_of(jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder()),
+        jobs::run_spec(job, arguments.run), arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 
+#include "formats/cvat_labels.h"
 #include "formats/makers.h"
 #include "formats/xml_text.h"
 
@@ -11,30 +12,15 @@ namespace throng::formats {
 
 namespace {
 
-constexpr double kOccluded = 0.005;
-
 class CvatExporter : public Exporter {
  public:
   CvatExporter(const DatasetInfo& info, Output output)
       : info_(info), output_(std::move(output)), xml_(output_.open("annotations.xml")) {
-    std::string labels;
-    for (const std::string& name : info.categories) {
-      labels += fmt::format("      <label>\n        <name>{}</name>\n        <attributes>\n",
-                            xml_text(name));
-      for (const char* attribute : {"track_id", "visibility", "state"}) {
-        labels += fmt::format(
-            "          <attribute>\n            <name>{}</name>\n            "
-            "<mutable>True</mutable>\n"
-            "            <input_type>text</input_type>\n          </attribute>\n",
-            attribute);
-      }
-      labels += "        </attributes>\n      </label>\n";
-    }
     xml_.write(
         fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n"
                     "  <version>1.1</version>\n  <meta>\n    <task>\n      <name>{}</name>\n"
-                    "      <labels>\n{}      </labels>\n    </task>\n  </meta>\n",
-                    xml_text(info.name), labels));
+                    "{}    </task>\n  </meta>\n",
+                    xml_text(info.name), cvat_labels(info, {"track_id", "visibility", "state"})));
   }
 
   void add(const Image& image) override {
@@ -64,7 +50,7 @@ class CvatExporter : public Exporter {
         "      <attribute name=\"track_id\">{}</attribute>\n"
         "      <attribute name=\"visibility\">{:.4f}</attribute>\n"
         "      <attribute name=\"state\">{}</attribute>\n    </box>\n",
-        xml_text(info_.categories[person.category]), person.visibility < 1 - kOccluded ? 1 : 0,
+        xml_text(info_.categories[person.category]), person.visibility < 1 - kCvatOccluded ? 1 : 0,
         box.x, box.y, box.x + box.width, box.y + box.height, person.track_id, person.visibility,
         xml_text(person.state));
   }
@@ -76,6 +62,23 @@ class CvatExporter : public Exporter {
 };
 
 }  // namespace
+
+std::string cvat_labels(const DatasetInfo& info, const std::vector<std::string_view>& attributes) {
+  std::string labels = "      <labels>\n";
+  for (const std::string& name : info.categories) {
+    labels += fmt::format("      <label>\n        <name>{}</name>\n        <attributes>\n",
+                          xml_text(name));
+    for (const std::string_view attribute : attributes) {
+      labels += fmt::format(
+          "          <attribute>\n            <name>{}</name>\n            "
+          "<mutable>True</mutable>\n"
+          "            <input_type>text</input_type>\n          </attribute>\n",
+          attribute);
+    }
+    labels += "        </attributes>\n      </label>\n";
+  }
+  return labels + "      </labels>\n";
+}
 
 ExporterPointer make_cvat(const DatasetInfo& info, Output output) {
   return std::make_unique<CvatExporter>(info, std::move(output));

@@ -1,9 +1,13 @@
-// Hugging Face's ImageFolder: images and a metadata.jsonl beside them, equal keys on each line.
+// Hugging Face's ImageFolder: images and a metadata.jsonl beside them, equal keys on each line, and
+// the card of a dataset of their Hub.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <string>
 
+#include "annotate/spec/license.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -11,6 +15,14 @@ namespace throng::formats {
 using nlohmann::json;
 
 namespace {
+
+/// The Hub's classes of a dataset's size.
+std::string_view size_category(std::int64_t images) {
+  constexpr std::int64_t kThousand = 1000;
+  if (images < kThousand) return "n<1K";
+  if (images < 10 * kThousand) return "1K<n<10K";
+  return images < 100 * kThousand ? "10K<n<100K" : "100K<n<1M";
+}
 
 class ImageFolderExporter : public Exporter {
  public:
@@ -43,13 +55,35 @@ class ImageFolderExporter : public Exporter {
         {"height", image.height}, {"run", image.run},       {"camera", image.camera},
         {"frame", image.frame},   {"time_s", image.time_s}, {"objects", std::move(objects)}};
     lines_.at(image.split).write(line.dump() + "\n");
+    ++images_;
   }
 
   void finish() override {
     for (auto& [split, lines] : lines_) lines.close();
+    output_.write("README.md", card());
   }
 
  private:
+  std::string card() const {
+    std::string license(annotate::kImageLicense);
+    std::transform(license.begin(), license.end(), license.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string classes;
+    for (std::size_t i = 0; i < info_.categories.size(); ++i) {
+      classes += fmt::format("| {} | {} |\n", i, info_.categories[i]);
+    }
+    return fmt::format(
+        "---\nlicense: {}\npretty_name: {}\ntask_categories:\n- object-detection\n"
+        "tags:\n- synthetic\n- aerial\n- crowd\n- drone\nsize_categories:\n- {}\n---\n\n# {}\n\n"
+        "{} synthetic images of crowds seen from drones, made by {}. `objects.bbox` is x, y, "
+        "width, "
+        "height in pixels; `objects.categories`:\n\n| number | class |\n|---|---|\n{}\n"
+        "```python\nfrom datasets import load_dataset\n\n"
+        "dataset = load_dataset(\"imagefolder\", data_dir=\".\")\n```\n",
+        license, json(info_.name).dump(), size_category(images_), info_.name, images_,
+        info_.generator, classes);
+  }
+
   /// The loader's own names of splits.
   static std::string_view folder_of(Split split) {
     return split == Split::val ? "validation" : name_of(split);
@@ -58,6 +92,7 @@ class ImageFolderExporter : public Exporter {
   const DatasetInfo& info_;
   Output output_;
   std::map<Split, OutputStream> lines_;
+  std::int64_t images_ = 0;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "jobs/spec/calibrations.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/report_maker.h"
@@ -83,10 +84,14 @@ json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view b
 }
 
 void JobQueue::require_scenario(const jobs::JobSpec& job) const {
-  if (job.generate || std::filesystem::exists(folders_.scenarios() / (job.scenario + ".json")))
-    return;
-  throw InputError(Problem{"", "/scenario", fmt::format("scenario \"{}\"", job.scenario),
-                           "one that has not been removed"});
+  for (const int run : jobs::first_runs(job)) {
+    const jobs::JobSpec one = jobs::in_scenario_of_run(job, run);
+    if (one.generate || std::filesystem::exists(folders_.scenarios() / (one.scenario + ".json"))) {
+      continue;
+    }
+    throw InputError(Problem{"", "/scenario", fmt::format("scenario \"{}\"", one.scenario),
+                             "one that has not been removed"});
+  }
 }
 
 std::shared_ptr<void> JobQueue::begin_watch(int max) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "jobs/spec/scenario_mix.h"
 #include "live/spec/commands.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -75,7 +76,10 @@ jobs::ResolvedJob job_in(const Call& call, const json& body) {
   }
   try {
     jobs::ResolvedJob resolved = call.queue.resolve(text_of(*job));
-    if (!resolved.spec().drones.empty()) return resolved;
+    // A flight takes place in one scenario: that of the job's first run.
+    if (!resolved.spec().drones.empty()) {
+      return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.people());
+    }
   } catch (const InputError& error) {
     throw HttpError{400, "the job cannot be done as it stands",
                     problems_below(error.problems(), "/job")};

@@ -22,11 +22,23 @@ namespace {
 constexpr std::string_view kOwnBundle = "bundle/";
 constexpr int kJobsAtOnce = 500;
 
-/// The upload that the scenario of a job, or of a study's case, may belong to; "" for none.
-std::string upload_in(const json& spec) {
-  const auto named = spec.is_object() ? spec.find("scenario") : spec.end();
-  if (!spec.is_object() || named == spec.end() || !named->is_string()) return "";
-  return upload_of(named->get<std::string>());
+/// The places of scenarios' ids in the value of a job's "scenario", or of a study's case's.
+std::vector<json*> ids_in(json& scenario) {
+  if (scenario.is_string()) return {&scenario};
+  std::vector<json*> ids;
+  if (!scenario.is_array()) return ids;
+  for (json& one : scenario) {
+    if (one.is_string()) ids.push_back(&one);
+    if (one.is_object() && one.contains("id") && one["id"].is_string()) ids.push_back(&one["id"]);
+  }
+  return ids;
+}
+
+/// Adds the uploads that the scenarios of a job, or of a study's case, may belong to.
+void add_uploads(const json& spec, std::set<std::string>& uploads) {
+  if (!spec.is_object() || !spec.contains("scenario")) return;
+  json scenario = spec["scenario"];
+  for (const json* id : ids_in(scenario)) uploads.insert(upload_of(id->get<std::string>()));
 }
 
 /// Uploads that scenarios of a job or study may belong to; none of a calibration's.
@@ -34,9 +46,9 @@ std::set<std::string> uploads_of(const JobRow& row) {
   const json spec = parse_json_or_discard(row.spec_json);
   std::set<std::string> uploads;
   if (row.kind != jobs::JobKind::study) {
-    uploads.insert(upload_in(spec));
+    add_uploads(spec, uploads);
   } else if (spec.is_object() && spec.contains("cases")) {
-    for (const json& one : spec["cases"]) uploads.insert(upload_in(one));
+    for (const json& one : spec["cases"]) add_uploads(one, uploads);
   }
   uploads.erase("");
   return uploads;
@@ -47,13 +59,19 @@ std::set<std::string> uploads_of(const JobRow& row) {
 std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
   json job = parse_json(job_json, "", kJobJsonLimits);
   if (!job.is_object()) throw InputError(Problem{"", "", "no JSON object", "a job"});
-  const json scenario = job.value("scenario", json());
-  const std::string name = scenario.is_string() ? scenario.get<std::string>() : "";
-  if (!name.starts_with(kOwnBundle)) {
+  json scenario = job.value("scenario", json());
+  bool uses_bundle = false;
+  for (json* id : ids_in(scenario)) {
+    const auto name = id->get<std::string>();
+    if (!name.starts_with(kOwnBundle)) continue;
+    *id = bundle_name_of(bundle) + "/" + name.substr(kOwnBundle.size());
+    uses_bundle = true;
+  }
+  if (!uses_bundle) {
     throw InputError(Problem{"", "/scenario", scenario.dump(),
                              "\"bundle/NAME\", a scenario of the bundle that came with the job"});
   }
-  job["scenario"] = bundle_name_of(bundle) + "/" + name.substr(kOwnBundle.size());
+  job["scenario"] = std::move(scenario);
   return text_of(job);
 }
 

@@ -12,8 +12,9 @@
 #include "base/error.h"
 #include "sim/guidance_loop.h"
 #include "sim/people/crowd_source.h"
-#include "sim/people/participants.h"
 #include "sim/people/prop_watch.h"
+#include "sim/people/starting_people.h"
+#include "sim/planning/aimed_start.h"
 #include "sim/planning/moved_goals.h"
 #include "sim/planning/plan.h"
 #include "sim/planning/separation.h"
@@ -130,23 +131,6 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
   return header;
 }
 
-// In a recording everybody is a person: the scenario's dangers are agents of its own crowd.
-std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const RunSpec& spec,
-                                       const CrowdSource& crowd, std::vector<Problem>& problems) {
-  const std::size_t agents = crowd.positions().size();
-  const std::vector<int> none;
-  std::vector<world::AgentRole> roles =
-      choose_roles(scenario.id, spec.recorded ? none : scenario.disaster_agents, agents,
-                   spec.people, spec.seed, problems);
-  for (const world::Disaster& disaster : scenario.disasters) {
-    const auto agent = static_cast<std::size_t>(disaster.agent);
-    if (disaster.kind != world::DisasterKind::attacker || spec.recorded || agent >= agents)
-      continue;
-    roles[agent] = world::AgentRole::attacker;
-  }
-  return roles;
-}
-
 std::vector<Problem> warnings_of(const CrowdSource& crowd, const std::vector<PlannedDrone>& drones,
                                  const HoldWarnings& hold, const PropWatch& props) {
   std::vector<Problem> warnings = crowd.warnings();
@@ -169,14 +153,13 @@ Checked checked(const world::Scenario& scenario, const RunSpec& spec,
   check_times(spec, problems);
   check_exits(scenario, problems);
   Checked run;
-  run.drones = plan_drones(scenario, spec.drones, spec.duration_s, problems);
-  run.crowd = spec.recorded ? replayed(spec.recorded, spec.seed)
-                            : simulated(load_crowd(scenario, spec.seed, spec.crowd));
-  run.roles = roles_of(scenario, spec, *run.crowd, problems);
+  StartingPeople people = starting_people(scenario, spec, problems);
+  std::vector<DroneMission> missions = spec.drones;
+  aim_drones(scenario, people.places(), spec.seed, missions, problems);
+  run.drones = plan_drones(scenario, missions, spec.duration_s, problems);
+  run.crowd = std::move(people.crowd);
+  run.roles = std::move(people.roles);
   check_goals(run.drones, *run.crowd, problems);
-  for (std::size_t i = 0; i < run.roles.size(); ++i) {
-    run.crowd->set_present(i, run.roles[i] != world::AgentRole::absent);
-  }
   return run;
 }
 

@@ -17,6 +17,7 @@
 #include "jobs/queue/people.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
 
 namespace throng::jobs {
@@ -42,6 +43,9 @@ class Collector {
       metrics.back().update(measured.at("metrics"));
       runs.push_back(take_frames(run.index));
       runs.back()["seed"] = measured.at("seed");
+      if (!job_.mix.empty()) {
+        runs.back()["scenario"] = in_scenario_of_run(job_, run.index).scenario;
+      }
       runs.back()["drawn"] = samples_of_run(job_, run.index);
       runs.back()["environment"] = to_json(environment_of_run(job_.environment, run.seed));
     }

@@ -16,6 +16,7 @@
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/pipeline/scenario_check.h"
+#include "jobs/spec/scenario_mix.h"
 #include "places/blueprint.h"
 #include "places/plan.h"
 #include "sim/planning/planned_paths.h"
@@ -51,7 +52,7 @@ json draw_scenario(const json& request) {
 }
 
 json draw_job(const json& request) {
-  const JobSpec job = read_resolved_job(text_at(request, "job"), "").spec();
+  const JobSpec job = in_scenario_of_run(read_resolved_job(text_at(request, "job"), "").spec(), 0);
   const world::Scenario scenario = scenario_of(job, text_at(request, "scenarios"));
   const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
   return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};

@@ -11,6 +11,7 @@
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
 #include "sim/run.h"
@@ -56,11 +57,17 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
 
 }  // namespace
 
-CheckedJob check_job(std::string_view text, const std::string& source,
-                     const std::filesystem::path& scenarios) {
-  CheckedJob checked{resolve_job(text, source, scenarios)};
-  const JobSpec& job = checked.job.spec();
-  const world::Scenario scenario = scenario_of(job, scenarios, source);
+namespace {
+
+/// A job in one of its scenarios.
+struct InPlace {
+  std::int64_t people = 0;
+  std::vector<CameraView> views;
+  std::vector<Problem> warnings;
+};
+
+InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int run) {
+  InPlace checked;
   StartingCrowd crowd;
   if (job.recorded) {
     const world::Trace recording = read_recording(*job.recorded);
@@ -69,20 +76,44 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
     const crowd::Simulation simulation =
-        sim::load_crowd(scenario, plan_runs(job).front().seed, job.crowd);
+        sim::load_crowd(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
     checked.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
   }
   if (job.agents) checked.people = *job.agents;
-  checked.cost = estimate_cost(job, checked.people);
-  checked.warnings = deprecated_fields(text);
-  const std::vector<Problem> settings = warnings_of_settings(job, scenario);
-  checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
-  for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, 0)) {
+  for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
     if (view) checked.views.push_back(std::move(*view));
   }
-  const std::vector<Problem> more = warnings_of_views(job, scenario, crowd);
-  checked.warnings.insert(checked.warnings.end(), more.begin(), more.end());
+  checked.warnings = warnings_of_place(job, scenario, crowd, run);
+  return checked;
+}
+
+}  // namespace
+
+CheckedJob check_job(std::string_view text, const std::string& source,
+                     const std::filesystem::path& scenarios) {
+  CheckedJob checked{resolve_job(text, source, scenarios)};
+  const JobSpec& job = checked.job.spec();
+  checked.warnings = deprecated_fields(text);
+  const std::vector<Problem> settings = warnings_of_settings(job);
+  checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
+  const std::vector<std::size_t> shares = shares_of_runs(job);
+  std::int64_t people_of_runs = 0;
+  for (const int run : first_runs(job)) {
+    const JobSpec one = in_scenario_of_run(job, run);
+    InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
+    const auto runs = job.mix.empty() ? job.runs
+                                      : std::count(shares.begin(), shares.end(),
+                                                   shares[static_cast<std::size_t>(run)]);
+    people_of_runs += static_cast<std::int64_t>(runs) * place.people;
+    for (Problem& warning : place.warnings) {
+      if (!job.mix.empty()) warning.found += " in " + one.scenario;
+      checked.warnings.push_back(std::move(warning));
+    }
+    if (run == 0) checked.views = std::move(place.views);
+  }
+  checked.people = people_of_runs / job.runs;
+  checked.cost = estimate_cost(job, checked.people);
   for (Problem& warning : checked.warnings) warning.source = source;
   return checked;
 }

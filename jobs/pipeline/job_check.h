@@ -18,7 +18,8 @@ namespace throng::jobs {
 
 struct CheckedJob {
   ResolvedJob job;
-  std::int64_t people = 0;  ///< those that take part in its first run, arrivals included
+  /// Number of people who take part in a run, arrivals included; the mean of the job's scenarios.
+  std::int64_t people = 0;
   JobCost cost = {};
   std::vector<CameraView> views = {};  ///< of the first run's cameras with a known path
   std::vector<Problem> warnings = {};  ///< JSON pointers into the job

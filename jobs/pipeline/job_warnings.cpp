@@ -10,6 +10,7 @@
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/spec/environment.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
 #include "sim/planning/planned_paths.h"
 
@@ -42,6 +43,18 @@ void check_smoke(const JobSpec& job, const world::Scenario& scenario,
   warnings.push_back({"", "/environment/smoke",
                       fmt::format("smoke in {}, which has no hazard to rise from", scenario.id),
                       "a scenario with hazards"});
+}
+
+// Scenarios of which the job has no run.
+void check_shares(const JobSpec& job, std::vector<Problem>& warnings) {
+  const std::vector<std::size_t> shares = shares_of_runs(job);
+  for (std::size_t i = 0; i < job.mix.size(); ++i) {
+    if (std::find(shares.begin(), shares.end(), i) != shares.end()) continue;
+    warnings.push_back(
+        {"", fmt::format("/scenario/{}", i),
+         fmt::format("\"{}\", which has no run of {}", job.mix[i].scenario, job.runs),
+         "more runs, or a greater weight"});
+  }
 }
 
 void check_ground_truth(const JobSpec& job, std::vector<Problem>& warnings) {
@@ -77,11 +90,11 @@ double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& pl
   return (on_ground - area.nearest_point(on_ground, 0)).norm();
 }
 
-void check_distances(const JobSpec& job, const world::Scenario& scenario,
+void check_distances(const JobSpec& job, const world::Scenario& scenario, int run,
                      std::vector<Problem>& warnings) {
   world::Rectangle area = scenario.ground;
   area.extend(scenario.inside);
-  const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
+  const auto paths = sim::planned_paths(scenario, run_spec(job, run));
   for (std::size_t i = 0; i < paths.size(); ++i) {
     double max_distance_m = 0;
     for (const Eigen::Vector3d& place : paths[i].places) {
@@ -110,22 +123,23 @@ void check_view(const CameraView& view, std::size_t drone, std::vector<Problem>&
 
 }  // namespace
 
-std::vector<Problem> warnings_of_settings(const JobSpec& job, const world::Scenario& scenario) {
+std::vector<Problem> warnings_of_settings(const JobSpec& job) {
   std::vector<Problem> warnings;
   check_rain(job, warnings);
-  check_smoke(job, scenario, warnings);
+  check_shares(job, warnings);
   check_ground_truth(job, warnings);
   check_splits(job, warnings);
   return warnings;
 }
 
-std::vector<Problem> warnings_of_views(const JobSpec& job, const world::Scenario& scenario,
-                                       const StartingCrowd& crowd) {
+std::vector<Problem> warnings_of_place(const JobSpec& job, const world::Scenario& scenario,
+                                       const StartingCrowd& crowd, int first_run) {
   std::vector<Problem> warnings;
-  check_distances(job, scenario, warnings);
+  check_smoke(job, scenario, warnings);
+  check_distances(job, scenario, first_run, warnings);
   std::vector<CameraView> best(job.drones.size());
   std::vector<bool> is_known(job.drones.size(), true);
-  for (int run = 0; run < std::min(job.runs, kMaxRuns); ++run) {
+  for (int run = first_run; run < std::min(job.runs, first_run + kMaxRuns); ++run) {
     const auto views = views_of_run(job, scenario, crowd, run);
     for (std::size_t i = 0; i < best.size(); ++i) {
       is_known[i] = is_known[i] && views[i].has_value();

@@ -10,13 +10,13 @@
 
 namespace throng::jobs {
 
-/// Settings without effect: rain in dry weather, smoke without hazards, ground truth that is part
-/// of a kind that is not asked for, splits without runs. JSON pointers in `where`, no source.
-std::vector<Problem> warnings_of_settings(const JobSpec& job, const world::Scenario& scenario);
+/// Settings without effect: rain in dry weather, ground truth that is part of a kind that is not
+/// asked for, splits and scenarios without runs. JSON pointers in `where`, no source.
+std::vector<Problem> warnings_of_settings(const JobSpec& job);
 
-/// Drones far from the scenario, and cameras that show nobody, or people of a few pixels, in any
-/// image. Looks at the first few runs.
-std::vector<Problem> warnings_of_views(const JobSpec& job, const world::Scenario& scenario,
-                                       const StartingCrowd& crowd);
+/// A job in one of its scenarios: smoke without hazards, drones far away, and cameras that show
+/// nobody, or people of a few pixels, in any image. Looks at a few runs from `first_run` on.
+std::vector<Problem> warnings_of_place(const JobSpec& job, const world::Scenario& scenario,
+                                       const StartingCrowd& crowd, int first_run);
 
 }  // namespace throng::jobs

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@
 #include "jobs/queue/publication.h"
 #include "jobs/queue/trace_seal.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
@@ -58,9 +60,12 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
     if (on_progress) on_progress({done_s, total_s});
   };
   const std::vector<Problem> warnings =
-      sim::simulate(scenario_of(job, scenarios), run_spec(job, run), trace, progress, stop);
+      sim::simulate(scenario_of(in_scenario_of_run(job, run), scenarios), run_spec(job, run), trace,
+                    progress, stop);
   seal_trace(trace);
-  if (run > 0) return;  // all runs read the same files
+  // All runs of a scenario read the same files.
+  const std::vector<int> first = first_runs(job);
+  if (std::find(first.begin(), first.end(), run) == first.end()) return;
   for (const Problem& warning : warnings) {
     fmt::print(stderr, "warning: {}\n",
                without_folders(warning.text(), {folder.path(), scenarios}));
@@ -90,7 +95,8 @@ void add_cameras(const JobSpec& job, int run, Publication& output) {
 
 void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
-  const world::Scenario scenario = scenario_of_run(job, scenarios, trace.header);
+  const world::Scenario scenario =
+      scenario_of_run(in_scenario_of_run(job, run), scenarios, trace.header);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
 

@@ -14,9 +14,11 @@
 #include "jobs/pipeline/lens_check.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
 #include "sim/people/participants.h"
+#include "sim/planning/aimed_start.h"
 #include "sim/planning/moved_goals.h"
 #include "sim/planning/plan.h"
 #include "sim/recording/pilot_log.h"
@@ -70,8 +72,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
     const bool is_alike = camera.sampled.empty() && job.randomize.empty();
     for (const RunPlan& run : plan_runs(job)) {
-      const render::Quality quality =
-          job.randomize.empty() ? job.quality : job_of_run(job, run.index).quality;
+      const render::Quality quality = job_of_run(job, run.index).quality;
       check_lens(camera_of_run(camera, run.seed, pointer), quality, pointer, problems);
       if (is_alike || problems.size() > before) break;
     }
@@ -81,7 +82,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
 // Gives the job what the scenario knows: its model, and its drones to a job without any.
 void take_from_scenario(JobSpec& job, const world::Scenario& scenario,
                         DefaultDrones default_drones) {
-  job.crowd.model = sim::model_for(scenario, job.crowd);
+  if (job.mix.empty()) job.crowd.model = sim::model_for(scenario, job.crowd);
   if (job.drones.empty() && default_drones != DefaultDrones::none) {
     for (const world::DroneStart& known : scenario.drones) {
       job.drones.emplace_back().mission.id = known.id;
@@ -125,8 +126,11 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
 
 void check_has_drones(const JobSpec& job, std::vector<Problem>& problems) {
   if (!job.drones.empty()) return;
-  problems.push_back(
-      {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
+  problems.push_back({"", "/drones", "nothing",
+                      job.mix.empty()
+                          ? "at least one drone, since the scenario has none of its own"
+                          : "at least one drone, since a job of several scenarios takes none of "
+                            "theirs; \"aim\" places it in each"});
 }
 
 // Whether it comes from the trace of a run, which was simulated and has no need of its crowd.
@@ -134,14 +138,57 @@ bool is_of_trace(const world::Scenario& scenario) {
   return !scenario.has_crowd() && scenario.alarm.has_value();
 }
 
-// Checks that need the simulation: whether the drones can fly and whether there are people enough.
-void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
-                           std::vector<Problem>& problems) {
+/// The missions of a run with its cameras, as its simulation has them.
+std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed) {
   std::vector<sim::DroneMission> missions;
-  for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
-  sim::plan_drones(scenario, missions, job.capture.to_s, problems);
+  for (std::size_t i = 0; i < run_job.drones.size(); ++i) {
+    sim::DroneMission& mission = missions.emplace_back(run_job.drones[i].mission);
+    mission.camera = camera_of_run(run_job.drones[i].camera, run_seed, camera_pointer(i));
+  }
+  return missions;
+}
+
+/// A scenario of the job: where its runs are checked.
+struct Place {
+  JobSpec job;  ///< of this scenario only
+  const world::Scenario& scenario;
+  std::vector<int> runs;
+  std::vector<Eigen::Vector2d> people;  ///< at whom drones aim, in one of the runs
+};
+
+/// Nobody where the crowd cannot be loaded, which the simulation will explain.
+std::vector<Eigen::Vector2d> people_in(const Place& place) {
+  if (is_of_trace(place.scenario)) return {};
+  const RunPlan run = plan_runs(place.job).at(static_cast<std::size_t>(place.runs.front()));
+  sim::RunSpec spec;
+  spec.seed = run.seed;
+  spec.people = place.job.agents;
+  spec.crowd = place.job.crowd;
+  spec.drones = missions_of(place.job, run.seed);
   try {
-    crowd::find_model(job.crowd.model);
+    if (place.job.recorded) {
+      spec.recorded = std::make_shared<const world::Trace>(read_recording(*place.job.recorded));
+    }
+    return sim::people_to_aim_at(place.scenario, spec);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+void check_flight(const Place& place, const JobSpec& run_job, int run,
+                  std::vector<Problem>& problems) {
+  const std::uint64_t seed = plan_runs(run_job).at(static_cast<std::size_t>(run)).seed;
+  std::vector<sim::DroneMission> missions = missions_of(run_job, seed);
+  sim::aim_drones(place.scenario, place.people, seed, missions, problems);
+  sim::plan_drones(place.scenario, missions, run_job.capture.to_s, problems);
+}
+
+// Checks that need the simulation: whether the drones can fly and whether there are people enough.
+void check_with_simulation(const Place& place, const JobSpec& job, std::vector<Problem>& problems) {
+  const world::Scenario& scenario = place.scenario;
+  check_flight(place, job, place.runs.front(), problems);
+  try {
+    crowd::find_model(sim::model_for(scenario, job.crowd));
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     problems.push_back({"", "/crowd/model", problem.found, problem.expected});
@@ -149,6 +196,7 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   }
   if (job.recorded) return check_recording(job, problems);
   if (is_of_trace(scenario)) return;
+  const std::vector<sim::DroneMission> missions = missions_of(job, job.seed);
   const bool moves_goals = std::any_of(
       missions.begin(), missions.end(),
       [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
@@ -179,20 +227,18 @@ bool has_own_airframe(const JobSpec& job) {
 
 // Checks the fields that may differ between runs in each of them, and the largest of their crowds.
 // Problems are reported at the distributions.
-void check_runs(const JobSpec& job, const world::Scenario& scenario,
-                std::vector<Problem>& problems) {
-  JobSpec largest = job;
+void check_runs(const Place& place, std::vector<Problem>& problems) {
+  JobSpec largest = place.job;
   const std::size_t before = problems.size();
-  for (int run = 0; run < job.runs && problems.size() == before; ++run) {
-    const JobSpec run_job = job_of_run(job, run);
+  for (const int run : place.runs) {
+    const JobSpec run_job = job_of_run(place.job, run);
     if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
-    std::vector<sim::DroneMission> missions;
-    for (const DroneSpec& drone : run_job.drones) missions.push_back(drone.mission);
-    sim::plan_drones(scenario, missions, run_job.capture.to_s, problems);
+    check_flight(place, run_job, run, problems);
+    if (problems.size() > before) break;
   }
-  if (problems.size() == before) check_with_simulation(largest, scenario, problems);
+  if (problems.size() == before) check_with_simulation(place, largest, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {
-    for (const RandomField& field : job.randomize) {
+    for (const RandomField& field : place.job.randomize) {
       if (field.pointer.starts_with(problems[i].where)) {
         problems[i].where = "/randomize/" + field.path;
       }
@@ -200,31 +246,66 @@ void check_runs(const JobSpec& job, const world::Scenario& scenario,
   }
 }
 
-ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::string& source,
-                     std::vector<Problem> problems, DefaultDrones default_drones) {
+void check_place(const Place& place, std::vector<Problem>& problems) {
+  if (problems.empty() && !place.job.randomize.empty()) {
+    check_runs(place, problems);
+  } else if (problems.empty() || !has_own_airframe(place.job)) {
+    check_with_simulation(place, place.job, problems);
+  }
+}
+
+// Checks the job in its scenarios, in the order of first_runs(). Of several, each problem says in
+// which.
+void check_places(const JobSpec& job, const std::vector<world::Scenario>& scenarios,
+                  std::vector<Problem>& problems) {
+  const std::vector<int> first = first_runs(job);
+  const bool was_sound = problems.empty();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    Place place{in_scenario_of_run(job, first[i]), scenarios[i], {}, {}};
+    place.runs = runs_alike(job, first[i]);
+    place.people = people_in(place);
+    std::vector<Problem> found;
+    if (was_sound || job.mix.empty()) {
+      if (job.mix.empty()) found = problems;
+      check_place(place, found);
+    }
+    if (job.mix.empty()) {
+      problems = std::move(found);
+      continue;
+    }
+    for (Problem& problem : found) {
+      problem.found += fmt::format(" in {}", place.scenario.id);
+      problems.push_back(std::move(problem));
+    }
+  }
+}
+
+ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
+                     const std::string& source, std::vector<Problem> problems,
+                     DefaultDrones default_drones) {
   read_files(job, problems);
   check_formats(job.outputs, problems);
-  take_from_scenario(job, scenario, default_drones);
+  if (job.mix.empty()) take_from_scenario(job, scenarios.front(), default_drones);
   if (default_drones == DefaultDrones::of_scenario) check_has_drones(job, problems);
   check_image_count(job, problems);
   if (problems.empty()) check_cameras(job, problems);
-  if (problems.empty() && !job.randomize.empty()) {
-    check_runs(job, scenario, problems);
-  } else if (problems.empty() || !has_own_airframe(job)) {
-    check_with_simulation(job, scenario, problems);
-  }
+  check_places(job, scenarios, problems);
   for (Problem& problem : problems) {
     if (problem.source.empty()) problem.source = source;
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  const int people = people_of(job, scenario);
+  int people = 0;
+  const std::vector<int> first = first_runs(job);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    people = std::max(people, people_of(in_scenario_of_run(job, first[i]), scenarios[i]));
+  }
   return ResolvedJob(std::move(job), people);
 }
 
 }  // namespace
 
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source) {
-  return resolved(std::move(job), scenario, source, {}, DefaultDrones::of_scenario);
+  return resolved(std::move(job), {scenario}, source, {}, DefaultDrones::of_scenario);
 }
 
 namespace {
@@ -233,16 +314,22 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
                           const std::filesystem::path& scenarios, DefaultDrones default_drones) {
   std::vector<Problem> problems;
   JobSpec job = parse_job(text, source, problems);
-  world::Scenario scenario;
-  try {
-    scenario = scenario_of(job, scenarios, source);
-  } catch (const InputError& error) {
+  std::vector<world::Scenario> places;
+  std::vector<Problem> of_places;
+  for (const int run : first_runs(job)) {
+    try {
+      places.push_back(scenario_of(in_scenario_of_run(job, run), scenarios, source));
+    } catch (const InputError& error) {
+      add(error, of_places);
+    }
+  }
+  if (!of_places.empty()) {
     check_formats(job.outputs, problems);
     for (Problem& problem : problems) problem.source = source;
-    add(error, problems);
+    problems.insert(problems.end(), of_places.begin(), of_places.end());
     throw InputError(std::move(problems));
   }
-  return resolved(std::move(job), scenario, source, std::move(problems), default_drones);
+  return resolved(std::move(job), places, source, std::move(problems), default_drones);
 }
 
 }  // namespace

@@ -33,6 +33,33 @@ void set_goal(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) 
   drone.mission.moves_goal = world::GoalRef{value.at(0).get<int>(), value.at(1).get<int>()};
 }
 
+const FieldTable<sim::AimSpec>& aim_fields() {
+  static const FieldTable<sim::AimSpec> fields = [] {
+    FieldTable<sim::AimSpec> table;
+    table
+        .add("height_m", "Height", "m", numbers(2, 500), at(&sim::AimSpec::height_m),
+             "Height of the drone above the ground.")
+        .randomized();
+    table
+        .add("max_distance_m", "Max distance", "m", numbers(0, 1000),
+             at(&sim::AimSpec::max_distance_m),
+             "Maximum distance on the ground between drone and person; a camera that looks less "
+             "steeply has the person below its axis.")
+        .randomized();
+    return table;
+  }();
+  return fields;
+}
+
+json aim_json(const DroneSpec& drone) {
+  const auto& aim = drone.mission.aim;
+  return aim ? aim_fields().print(*aim) : json();
+}
+
+void set_aim(DroneSpec& drone, const json& value, const FieldPlace& place) {
+  aim_fields().read(value, drone.mission.aim.emplace(), place);
+}
+
 FieldTable<DroneSpec> make_drone_fields() {
   FieldTable<DroneSpec> table;
   table
@@ -55,6 +82,11 @@ FieldTable<DroneSpec> make_drone_fields() {
             at(&DroneSpec::mission, &sim::DroneMission::start),
             "Position where the drone hovers when the run begins; default: the scenario's start "
             "for this id.");
+  table.add("aim", "Aim", "", object_of(aim_fields().schema()), aim_json, set_aim,
+            "Instead of a start: in every run the drone begins where its camera's optical axis "
+            "meets one of the people, from a direction with free sight, both sampled by the seed. "
+            "For jobs of several scenarios, and for any scenario of which nobody knows the "
+            "coordinates.");
   table.add("moves_goal", "Moved goal", "", lists(2, 2, integers(0, 1'000'000'000).rules),
             goal_json, set_goal,
             "The goal of the behavior file, [goal set, goal], that follows the drone over the "

@@ -75,7 +75,7 @@ JobCost estimate_cost(const JobSpec& job, std::int64_t people) {
   JobCost cost;
   cost.runs = job.runs;
   for (const RunPlan& run : plan_runs(job)) {
-    const JobSpec of_run = job.randomize.empty() ? job : job_of_run(job, run.index);
+    const JobSpec of_run = job_of_run(job, run.index);
     add_run(of_run, run, static_cast<double>(of_run.agents.value_or(static_cast<int>(people))),
             cost);
   }

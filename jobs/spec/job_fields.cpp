@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "crowd/project.h"
 #include "jobs/spec/randomize.h"
+#include "jobs/spec/scenario_mix.h"
 #include "render/spec/quality.h"
 
 namespace throng::jobs {
@@ -16,10 +17,12 @@ using nlohmann::ordered_json;
 namespace {
 
 json scenario_json(const JobSpec& job) {
+  if (!job.mix.empty()) return mix_json(job.mix);
   return job.generate ? json{{"generate", places::to_json(*job.generate)}} : json(job.scenario);
 }
 
 void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
+  if (value.is_array()) return read_mix(job, value, place);
   if (value.is_string()) {
     value.get_to(job.scenario);
     return;
@@ -153,10 +156,15 @@ FieldTable<JobSpec> make_job_fields() {
   table
       .add(
           "scenario", "Scenario", "",
-          raw({{"type", {"string", "object"}}, {"minLength", 1}, {"maxLength", 200}},
-              R"(the id of a scenario, or {"generate": ...})"),
+          raw({{"type", {"string", "object", "array"}},
+               {"minLength", 1},
+               {"maxLength", 200},
+               {"minItems", 1},
+               {"maxItems", 64},
+               {"items", share_rules()}},
+              R"(the id of a scenario, {"generate": ...}, or a list of scenarios)"),
           scenario_json, set_scenario,
-          R"(Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit. Or {"generate": {"kind": "plaza", "seed": 5}}, a scenario generated from a seed; docs/blueprint.md lists its parameters.)")
+          R"(Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit. Or {"generate": {"kind": "plaza", "seed": 5}}, a scenario generated from a seed; docs/blueprint.md lists its parameters. Or a list of these, among which the runs are shared out: ["campus/everyday", {"id": "station/everyday", "weight": 2, "agents": 120}, {"generate": {"kind": "street"}}], where a generated scenario without a seed is another one in each run.)")
       .required();
   table.add("seed", "Seed", "", integers(0, 9007199254740991), at(&JobSpec::seed),
             "All randomness comes from it: equal jobs with equal seeds give equal bytes.");
@@ -204,7 +212,8 @@ FieldTable<JobSpec> make_job_fields() {
                     "a field of a drone of the job, and a start only where it is given"});
 }
 
-/// Sets a field of an object, or an element of a field that is a list. `pointer` is that of the
+/// Sets a field of an object, or an element of a field that is a list or a member of one that is an
+/// object. `pointer` is that of the
 /// whole job, for messages.
 template <typename Object>
 void set_at(const FieldTable<Object>& table, Object& object, const std::string& path,
@@ -219,9 +228,14 @@ void set_at(const FieldTable<Object>& table, Object& object, const std::string& 
     const Field<Object>* list = table.find(path.substr(0, end));
     check(list != nullptr, "the block randomize names fields of the tables");
     json whole = list->get(object);
-    const std::size_t index = std::stoul(path.substr(end + 1));
-    if (index >= whole.size()) refuse_place(pointer);
-    whole[index] = value;
+    const std::string last = path.substr(end + 1);
+    if (list->values.rules.contains("properties")) {
+      whole[last] = value;
+    } else {
+      const std::size_t index = std::stoul(last);
+      if (index >= whole.size()) refuse_place(pointer);
+      whole[index] = value;
+    }
     list->set(object, whole, place);
   }
   check(problems.empty(), "a sampled value is a permitted value");

@@ -42,10 +42,22 @@ struct OutputSpec {
   formats::ExportOptions exports;
 };
 
+/// One of several scenarios of a job.
+struct ScenarioShare {
+  std::string scenario;                       ///< as JobSpec::scenario
+  std::optional<places::PlaceSpec> generate;  ///< as JobSpec::generate
+  bool is_new_each_run = false;               ///< generated from another seed for each run
+  double weight = 1;                          ///< runs are shared out by it
+  std::optional<int> agents;                  ///< instead of the job's
+};
+
 struct JobSpec {
   std::string name;
   std::string scenario;  ///< its id; of one that is generated: "generated/" and its parameters
   std::optional<places::PlaceSpec> generate;  ///< the place is made from a seed
+  /// Several scenarios, each of which has a share of the runs (jobs/spec/scenario_mix.h); scenario
+  /// and generate are then those of the first. Empty for a job of one scenario.
+  std::vector<ScenarioShare> mix;
   std::uint64_t seed = 1;
   int runs = 1;
   std::optional<int> agents;

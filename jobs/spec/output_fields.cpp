@@ -5,9 +5,11 @@
 #include <array>
 
 #include "annotate/spec/ground_truth.h"
+#include "base/suggest.h"
 #include "formats/spec/options.h"
 #include "jobs/spec/job_fields.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/scenario_mix.h"
 
 namespace throng::jobs {
 
@@ -65,6 +67,38 @@ FieldTable<JobSpec>::Set set_runs_of(Split split) {
   };
 }
 
+/// Runs of scenarios, which are runs from there on.
+FieldTable<JobSpec>::Set set_scenarios_of(Split split) {
+  return [split](JobSpec& job, const json& value, const FieldPlace& place) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const auto& id = value[i].get_ref<const std::string&>();
+      const std::string pointer = place.below(std::to_string(i)).pointer;
+      std::size_t found = 0;
+      for (int run = 0; run < job.runs; ++run) {
+        if (in_scenario_of_run(job, run).scenario != id) continue;
+        ++found;
+        if (job.outputs.exports.splits.runs.emplace(run_name(run), split).second) continue;
+        place.problems.push_back(
+            {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
+      }
+      if (found > 0) continue;
+      std::vector<std::string> ids;
+      for (const int run : first_runs(job)) ids.push_back(in_scenario_of_run(job, run).scenario);
+      place.problems.push_back(unknown_name("", pointer, "scenario", id,
+                                            std::vector<std::string_view>(ids.begin(), ids.end())));
+    }
+  };
+}
+
+Values split_scenarios() {
+  return raw({{"type", "array"},
+              {"maxItems", 64},
+              {"items", {{"type", "string"}, {"minLength", 1}, {"maxLength", 200}}}});
+}
+
+/// They are printed as runs.
+json no_scenarios(const JobSpec& /*job*/) { return {}; }
+
 json class_names_json(const JobSpec& job) {
   json names = json::array();
   for (const auto& [value, name] : job.outputs.exports.classes.names) {
@@ -97,14 +131,23 @@ void add_export_fields(FieldTable<JobSpec>& table) {
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::train), set_runs_of(Split::train),
             "Runs that are in train regardless of the shares.");
+  table.add("outputs/splits/train_scenarios", "Training runs by scenario", "", split_scenarios(),
+            no_scenarios, set_scenarios_of(Split::train),
+            "Scenarios of which every run is in train regardless of the shares.");
   table.add("outputs/splits/val_runs", "Validation runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::val), set_runs_of(Split::val),
             "Runs that are in val regardless of the shares.");
+  table.add("outputs/splits/val_scenarios", "Validation runs by scenario", "", split_scenarios(),
+            no_scenarios, set_scenarios_of(Split::val),
+            "Scenarios of which every run is in val regardless of the shares.");
   table.add("outputs/splits/test_runs", "Test runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::test), set_runs_of(Split::test),
             "Runs that are in test regardless of the shares.");
+  table.add("outputs/splits/test_scenarios", "Test runs by scenario", "", split_scenarios(),
+            no_scenarios, set_scenarios_of(Split::test),
+            "Scenarios of which every run is in test regardless of the shares.");
   table.group("outputs/filters", "Filters",
               "Limits for a label in other formats; people beyond them become ignore regions if a "
               "format has them.");

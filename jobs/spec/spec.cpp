@@ -11,6 +11,7 @@
 #include "jobs/spec/job_fields.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/resolved_job.h"
+#include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/schema.h"
 
 namespace throng::jobs {
@@ -25,7 +26,7 @@ constexpr std::size_t kMaxNameLength = 120;  // as in the schema
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
-  if (job.name.empty()) job.name = first_characters(job.scenario, kMaxNameLength);
+  if (job.name.empty()) job.name = first_characters(scenario_names(job), kMaxNameLength);
   formats::settle_shares(value_at(value, "outputs/splits/train") != nullptr, "/outputs/splits",
                          job.outputs.exports.splits, problems);
   return job;
@@ -35,6 +36,21 @@ void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
   if (capture.to_s >= capture.from_s) return;
   problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
                       fmt::format("at least from_s, which is {}", capture.from_s)});
+}
+
+// A drone begins at its start or where it aims at somebody.
+void check_starts(const JobSpec& job, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    if (!job.drones[i].mission.start) continue;
+    const std::string pointer = fmt::format("/drones/{}/aim", i);
+    const auto refuse = [&](const std::string& where) {
+      problems.push_back({"", where, "an aim beside a start", "one of them"});
+    };
+    if (job.drones[i].mission.aim) refuse(pointer);
+    for (const RandomField& field : job.randomize) {
+      if (field.pointer.starts_with(pointer + "/")) refuse("/randomize/" + field.path);
+    }
+  }
 }
 
 json parse_with_schema(std::string_view text, const std::string& source) {
@@ -76,6 +92,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   const std::size_t before = problems.size();
   JobSpec job = job_from_json(std::move(value), source, problems);
   check_times(job.capture, problems);
+  check_starts(job, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {
     if (problems[i].source.empty()) problems[i].source = source;
   }
@@ -106,10 +123,12 @@ ResolvedJob read_resolved_job(std::string_view text, const std::string& source) 
 
 json to_json(const JobSpec& job) { return job_fields().print(job); }
 
+bool differs_between_runs(const JobSpec& job) { return !job.randomize.empty() || !job.mix.empty(); }
+
 JobSpec job_of_run(const JobSpec& job, int run) {
-  if (job.randomize.empty()) return job;
+  if (!differs_between_runs(job)) return job;
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
-  JobSpec run_job = job;
+  JobSpec run_job = in_scenario_of_run(job, run);
   run_job.randomize.clear();
   for (const RandomField& field : job.randomize) {
     set_field(run_job, field.pointer, field.draw(seed));
@@ -136,6 +155,7 @@ void add_sampled(const json& asked, const json& had, const std::string& path, js
 json samples_of_run(const JobSpec& job, int run) {
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
   json drawn = json::object();
+  if (!job.mix.empty()) drawn["scenario"] = in_scenario_of_run(job, run).scenario;
   for (const RandomField& field : job.randomize) drawn[field.path] = field.draw(seed);
   const json asked = to_json(job.environment);
   const json had = to_json(environment_of_run(job.environment, seed));

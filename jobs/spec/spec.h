@@ -32,11 +32,15 @@ nlohmann::json to_json(const JobSpec& job);
 /// How people look in this weather: umbrellas are up when it rains.
 skinning::Styling styling_in(const JobSpec& job, render::Weather weather);
 
-/// The job as one of its runs has it: the fields of `randomize` have their sampled values there.
+/// Whether runs have other fields than the job: several scenarios, or `randomize`.
+bool differs_between_runs(const JobSpec& job);
+
+/// The job as one of its runs has it: its scenario, and the fields of `randomize` with their
+/// sampled values.
 JobSpec job_of_run(const JobSpec& job, int run);
 
 /// Everything that was sampled for a run, by dotted path: fields of `randomize`, of the environment
-/// and of the cameras.
+/// and of the cameras; also the scenario, of a job that has several.
 nlohmann::json samples_of_run(const JobSpec& job, int run);
 
 }  // namespace throng::jobs

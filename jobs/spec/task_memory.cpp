@@ -67,7 +67,7 @@ double render_mib(const JobSpec& job, std::uint64_t run_seed) {
 
 TaskMemory::TaskMemory(const JobSpec& job, int people_of_scenario) {
   for (const RunPlan& run : plan_runs(job)) {
-    const JobSpec of_run = job.randomize.empty() ? job : job_of_run(job, run.index);
+    const JobSpec of_run = job_of_run(job, run.index);
     const double people = of_run.agents.value_or(people_of_scenario) * kMibPerPerson;
     runs_.push_back({static_cast<std::int64_t>(kSimulateMib + people),
                      static_cast<std::int64_t>(render_mib(of_run, run.seed) + people)});

@@ -217,8 +217,8 @@ class Dataset(Sequence[Frame]):
     def split(self, *, by: str = "run", seed: int = 0, **shares: float) -> dict[str, Dataset]:
         """Random parts, for example split(train=0.8, val=0.2), that sum to at most 1.
 
-        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario,
-        for merged datasets) or "frame". Each part gets the whole groups that come nearest to its share of the groups,
+        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario),
+        or "frame". Each part gets the whole groups that come nearest to its share of the groups,
         at least one where its share is above 0.
         """
         total = math.fsum(shares.values())
@@ -250,7 +250,7 @@ class Dataset(Sequence[Frame]):
         if by == "sequence":
             return frame.sequence
         if by == "place":
-            return str(self._sources[place[0]].description.get("job", {}).get("scenario"))
+            return frame.place
         if by == "frame":
             return place
         raise ValueError(f'by: found {by!r}, expected "run", "sequence", "place" or "frame"')

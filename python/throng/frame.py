@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Mapping
 
@@ -79,6 +80,19 @@ class Frame:
     def split(self) -> str | None:
         """The split that the job put the frame's run in."""
         return self._source.split_of(self.run)
+
+    @property
+    def drawn(self) -> Mapping[str, Any]:
+        """Values that were sampled for the frame's run, by dotted path ("drones.0.camera.pitch_deg")."""
+        return dict(self.record.get("drawn") or {})
+
+    @property
+    def place(self) -> str:
+        """Id of the scenario in which the frame's run took place."""
+        scenario = self.drawn.get("scenario") or self._source.description.get("job", {}).get("scenario")
+        if isinstance(scenario, str):
+            return scenario
+        return json.dumps(scenario, sort_keys=True)
 
     @property
     def environment(self) -> Mapping[str, Any]:

@@ -43,7 +43,7 @@ class MissionCheck {
     drone.airframe = airframe_from(airframes);
     drone.policy = policy();
     drone.start = start();
-    drone.yaw_rad = known_ != nullptr ? known_->yaw_rad : 0;
+    drone.yaw_rad = mission_.start_yaw_rad.value_or(known_ != nullptr ? known_->yaw_rad : 0);
     drone.moves_goal = mission_.moves_goal;
     if (!drone.moves_goal && known_ != nullptr) drone.moves_goal = known_->moves_goal;
     if (drone.airframe.mass_kg > 0) {
@@ -89,6 +89,7 @@ class MissionCheck {
   }
 
   Vector3d start() {
+    if (mission_.aim) return Vector3d::Constant(NAN);  // no start was found, which is reported
     if (mission_.start) return *mission_.start;
     if (known_ != nullptr) return known_->position;
     add("/start", "none",
@@ -118,7 +119,8 @@ class MissionCheck {
   // Whether a vehicle can be at `point`. Reports no error for an unknown airframe.
   bool point_is_free(const std::string& where, const Vector3d& point, const Airframe& frame) {
     if (!point.allFinite()) {
-      if (mission_.start || known_ != nullptr) add(where, "not a number", "[x, y, z]");
+      if (!mission_.aim && (mission_.start || known_ != nullptr))
+        add(where, "not a number", "[x, y, z]");
       return false;
     }
     const double lowest_m = lowest_height_m(frame);

@@ -1,5 +1,6 @@
 #include "sim/planning/planned_paths.h"
 
+#include "sim/planning/aimed_start.h"
 #include "sim/planning/plan.h"
 #include "sim/planning/planned_motion.h"
 
@@ -34,7 +35,8 @@ std::vector<PlannedPose> poses_of(const PlannedDrone& drone, std::span<const dou
 
 std::vector<PlannedDrone> checked_drones(const world::Scenario& scenario, const RunSpec& run) {
   std::vector<Problem> problems;
-  std::vector<PlannedDrone> drones = plan_drones(scenario, run.drones, run.duration_s, problems);
+  const std::vector<DroneMission> missions = aimed_missions(scenario, run, problems);
+  std::vector<PlannedDrone> drones = plan_drones(scenario, missions, run.duration_s, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return drones;
 }

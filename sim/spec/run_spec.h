@@ -50,15 +50,23 @@ struct GuidanceSpec {
   std::optional<bool> beacon;
 };
 
+/// A start from which a drone's camera looks at one of the people (sim/planning/aimed_start.h).
+struct AimSpec {
+  double height_m = 20;         ///< of the drone
+  double max_distance_m = 100;  ///< on the ground, from the person
+};
+
 /// Mission of one drone.
 struct DroneMission {
-  std::string id;                            ///< as in the job; unique
-  std::string airframe = "f450";             ///< a name in sim/spec/airframes.json
-  std::optional<Airframe> own_airframe;      ///< flies instead of the named one
-  std::string policy = "hover";              ///< a name in the table of policy_table.cpp
-  std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
-  std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
-  double speed_mps = 3;                      ///< along the path
+  std::string id;                          ///< as in the job; unique
+  std::string airframe = "f450";           ///< a name in sim/spec/airframes.json
+  std::optional<Airframe> own_airframe;    ///< flies instead of the named one
+  std::string policy = "hover";            ///< a name in the table of policy_table.cpp
+  std::optional<Eigen::Vector3d> start;    ///< m; default: the scenario's start for this id
+  std::optional<AimSpec> aim;              ///< instead of a start
+  std::optional<double> start_yaw_rad;     ///< heading at the start; default: the scenario's, or 0
+  std::vector<Eigen::Vector3d> waypoints;  ///< m, in order; the drone hovers at the last one
+  double speed_mps = 3;                    ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
   std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
   GuidanceSpec guidance;

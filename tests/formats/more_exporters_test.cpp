@@ -7,8 +7,10 @@
 #include <hdf5.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -215,6 +217,109 @@ TEST_F(MoreExports, CvatListsEveryImageAndBox) {
   EXPECT_EQ(boxes, coco().at("annotations").size());
 }
 
+// A track of CVAT as its player shows it: the boxes by frame, from keyframe to keyframe.
+std::map<int, const tinyxml2::XMLElement*> shown_boxes(const tinyxml2::XMLElement& track,
+                                                       int frames) {
+  std::map<int, const tinyxml2::XMLElement*> boxes;
+  const tinyxml2::XMLElement* now = nullptr;
+  for (int frame = 0; frame < frames; ++frame) {
+    for (const auto* box = track.FirstChildElement("box"); box != nullptr;
+         box = box->NextSiblingElement("box")) {
+      if (box->IntAttribute("frame") == frame) now = box;
+    }
+    if (now != nullptr && now->IntAttribute("outside") == 0) boxes[frame] = now;
+  }
+  return boxes;
+}
+
+TEST_F(MoreExports, CvatVideosShowEachPersonWhereTheyAreAndNowhereElse) {
+  const fs::path out = exported("cvat-video") / "train";
+  const auto people = people_by_stem(coco());
+  std::size_t boxes = 0;
+  std::size_t tasks = 0;
+  for (const auto& task : fs::directory_iterator(out)) {
+    ++tasks;
+    tinyxml2::XMLDocument xml;
+    ASSERT_EQ(xml.LoadFile((task.path() / "annotations.xml").c_str()), tinyxml2::XML_SUCCESS);
+    const int frames = xml.RootElement()
+                           ->FirstChildElement("meta")
+                           ->FirstChildElement("task")
+                           ->FirstChildElement("size")
+                           ->IntText();
+    EXPECT_EQ(frames, kFrames);
+    for (int frame = 0; frame < frames; ++frame) {
+      EXPECT_TRUE(fs::exists(task.path() / fmt::format("images/frame_{:06}.jpg", frame)));
+    }
+    for (const auto* track = xml.RootElement()->FirstChildElement("track"); track != nullptr;
+         track = track->NextSiblingElement("track")) {
+      for (const auto& [frame, box] : shown_boxes(*track, frames)) {
+        ++boxes;
+        const std::string stem = fmt::format("{}-{:06}", task.path().filename().string(), frame);
+        const auto& present = people.at(stem);
+        const auto person = std::find_if(present.begin(), present.end(), [&](const json& one) {
+          return one.at("track_id") == track->Int64Attribute("id");
+        });
+        ASSERT_NE(person, present.end()) << stem;
+        EXPECT_EQ(box->DoubleAttribute("xtl"), number(person->at("bbox")[0]));
+        EXPECT_EQ(box->DoubleAttribute("ytl"), number(person->at("bbox")[1]));
+      }
+    }
+  }
+  EXPECT_EQ(tasks, 4U);
+  EXPECT_EQ(boxes, coco().at("annotations").size());
+}
+
+TEST_F(MoreExports, LabelStudioTasksHoldEveryBoxInPercent) {
+  const fs::path out = exported("label-studio");
+  const json tasks = json::parse(read_file(out / "tasks.json"));
+  ASSERT_EQ(tasks.size(), 12U);
+  const auto people = people_by_stem(coco());
+  std::size_t boxes = 0;
+  for (const json& task : tasks) {
+    const std::string address = task.at("data").at("image");
+    const std::string root = "/data/local-files/?d=";
+    ASSERT_TRUE(address.starts_with(root));
+    const fs::path image = address.substr(root.size());
+    EXPECT_TRUE(fs::exists(out / image));
+    const json& result = task.at("annotations").at(0).at("result");
+    const auto& expected = people.at(image.stem());
+    ASSERT_EQ(result.size(), expected.size());
+    for (std::size_t i = 0; i < result.size(); ++i, ++boxes) {
+      const json& value = result[i].at("value");
+      EXPECT_NEAR(number(value.at("x")) / 100 * number(result[i].at("original_width")),
+                  number(expected[i].at("bbox")[0]), 1e-9);
+      EXPECT_NEAR(number(value.at("height")) / 100 * number(result[i].at("original_height")),
+                  number(expected[i].at("bbox")[3]), 1e-9);
+    }
+  }
+  EXPECT_EQ(boxes, coco().at("annotations").size());
+  tinyxml2::XMLDocument config;
+  ASSERT_EQ(config.LoadFile((out / "config.xml").c_str()), tinyxml2::XML_SUCCESS);
+  EXPECT_STREQ(config.RootElement()->FirstChildElement("RectangleLabels")->Attribute("toName"),
+               "image");
+}
+
+TEST_F(MoreExports, FiftyOneHasRelativeBoxesPerSplit) {
+  ExportOptions options;
+  options.splits.runs = {{"run001", Split::val}};
+  const fs::path out = exported("fiftyone", options);
+  const auto people = people_by_stem(coco());
+  std::size_t boxes = 0;
+  for (const char* split : {"train", "val"}) {
+    const json labels = json::parse(read_file(out / split / "labels.json"));
+    EXPECT_EQ(labels.at("classes").at(0), "person");
+    for (const auto& [stem, detections] : labels.at("labels").items()) {
+      EXPECT_TRUE(fs::exists(out / split / "data" / (stem + ".jpg")));
+      for (std::size_t i = 0; i < detections.size(); ++i, ++boxes) {
+        const json& box = detections[i].at("bounding_box");
+        EXPECT_NEAR(160 * number(box[0]), number(people.at(stem).at(i).at("bbox")[0]), 1e-9);
+        EXPECT_NEAR(120 * number(box[3]), number(people.at(stem).at(i).at("bbox")[3]), 1e-9);
+      }
+    }
+  }
+  EXPECT_EQ(boxes, coco().at("annotations").size());
+}
+
 TEST_F(MoreExports, ImageFoldersLinesHaveEqualKeys) {
   ExportOptions options;
   options.splits.runs = {{"run001", Split::val}};
@@ -234,6 +339,10 @@ TEST_F(MoreExports, ImageFoldersLinesHaveEqualKeys) {
     EXPECT_FALSE(keys.empty());
   }
   EXPECT_EQ(boxes, coco().at("annotations").size());
+  const std::string card = read_file(out / "README.md");
+  EXPECT_TRUE(card.starts_with("---\nlicense: cc0-1.0\n")) << card;
+  EXPECT_THAT(card, testing::HasSubstr("size_categories:\n- n<1K\n---\n"));
+  EXPECT_THAT(card, testing::HasSubstr("| 0 | person |"));
 }
 
 TEST_F(MoreExports, WebDatasetKeepsSamplesTogether) {

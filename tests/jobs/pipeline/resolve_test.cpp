@@ -172,5 +172,46 @@ TEST_F(Resolve, TheSimulationGetsWhatWasDrawn) {
   }
 }
 
+TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
+  const std::string drones = R"("drones": [{"id": "view", "aim": {"height_m": 15}}])";
+  const JobSpec job = resolved(R"({"scenario": ["yard", {"generate": {"kind": "plaza", "seed": 3}}],
+                                   "runs": 4, )" +
+                               drones + "}");
+  EXPECT_EQ(job.mix.size(), 2U);
+  EXPECT_EQ(to_json(resolved(to_json(job).dump())), to_json(job));
+  EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yrad"], "runs": 4, )" + drones + "}"),
+              ElementsAre("/scenario"));
+  EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yard"], "runs": 4})"), ElementsAre("/drones"))
+      << "the scenarios' own drones are not taken";
+  const auto crowded = problems_of(
+      R"({"scenario": [{"generate": {"kind": "plaza", "seed": 3}}, {"id": "yard", "agents": 3}],
+          "runs": 4, )" +
+      drones + "}");
+  ASSERT_EQ(crowded.size(), 1U);
+  EXPECT_EQ(crowded[0].where, "/crowd/agents");
+  EXPECT_THAT(crowded[0].found, HasSubstr(" in yard"));
+}
+
+TEST_F(Resolve, AnAimThatIsNeverFreeIsRefused) {
+  write_file_atomically(folder.path() / "shaft.json", R"({"extends": "yard.json", "name": "Shaft",
+      "buildings": [{"id": "block", "footprint": [[-90, -90], [90, -90], [90, 90], [-90, 90]],
+                     "height_m": 60}]})");
+  EXPECT_THAT(
+      pointers_of(R"({"scenario": "shaft", "drones": [{"id": "view", "aim": {"height_m": 20}}]})"),
+      ElementsAre("/drones/0/aim"));
+}
+
+TEST_F(Resolve, AnAimWithAHeightForEachRunIsFlown) {
+  const JobSpec job = resolved(R"({"scenario": "yard", "runs": 5,
+    "drones": [{"id": "view", "aim": {}, "camera": {"pitch_deg": {"uniform": [-80, -20]}}}],
+    "randomize": {"drones.0.aim.height_m": {"uniform": [8, 40]}}})");
+  for (int run = 0; run < job.runs; ++run) {
+    const sim::RunSpec spec = run_spec(job, run);
+    ASSERT_TRUE(spec.drones[0].aim);
+    EXPECT_EQ(spec.drones[0].aim->height_m,
+              samples_of_run(job, run)["drones.0.aim.height_m"].get<double>());
+  }
+}
+
 }  // namespace
 }  // namespace throng::jobs

@@ -68,6 +68,7 @@ json two_values(const std::string& path) {
   if (path.ends_with("full_well_e")) return {5000, 6000};
   if (path.ends_with("visibility_m")) return {500, 900};
   if (path.ends_with("image.quality")) return {70, 90};
+  if (path.find(".aim.") != std::string::npos) return {8, 40};
   if (path.ends_with("sigma_px")) return {2, 3};
   return {0.4, 0.5};
 }
@@ -81,6 +82,10 @@ TEST_F(Randomize, DrawsAndRecordsEveryFieldThatTheSchemaMarks) {
     const json values = two_values(path);
     json job = {{"scenario", "yard"}, {"runs", 16}};
     job["drones"] = {{{"id", "d1"}, {"start", {0, 0, 20}}}};
+    if (path.find(".aim.") != std::string::npos) {
+      job["drones"][0].erase("start");
+      job["drones"][0]["aim"] = json::object();
+    }
     if (path.find("distortion") != std::string::npos) {
       job["drones"][0]["camera"]["model"] = "brown_conrady";
     }
@@ -130,6 +135,9 @@ TEST_F(Randomize, MistakesAreNamedInTheBlock) {
               ElementsAre("/randomize/drones.1.camera.pitch_deg"));
   EXPECT_THAT(pointers_of({{"outputs.image.quality", {{"uniform", {50, 101}}}}}),
               ElementsAre("/randomize/outputs.image.quality/uniform/1"));
+  EXPECT_THAT(pointers_of({{"drones.0.aim.height_m", {{"uniform", {8, 40}}}}}),
+              ElementsAre("/randomize/drones.0.aim.height_m"))
+      << "that drone has a start";
 }
 
 TEST(DistributionKinds, NormalStaysInRangeAndHasItsMean) {

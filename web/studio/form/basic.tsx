@@ -37,7 +37,7 @@ function ScenarioField({ form, schema, scenarios }: BasicProps & { scenarios: Sc
     <Field
       form={form}
       path={["scenario"]}
-      schema={isObject(value) ? schemaAt(schema, ["scenario"]) : { ...schemaAt(schema, ["scenario"]), type: "string", "x-expected": undefined }}
+      schema={isObject(value) || Array.isArray(value) ? schemaAt(schema, ["scenario"]) : { ...schemaAt(schema, ["scenario"]), type: "string", "x-expected": undefined }}
       options={usable.map((scenario) => scenario.id)}
       isRequired
     />

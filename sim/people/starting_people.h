@@ -1,0 +1,29 @@
+// People of a run before its first step.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "base/error.h"
+#include "sim/people/crowd_source.h"
+#include "sim/spec/run_spec.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+
+struct StartingPeople {
+  std::unique_ptr<CrowdSource> crowd;  ///< in which only those who take part are present
+  std::vector<world::AgentRole> roles;
+
+  /// Positions (m) of the persons who are present.
+  std::vector<Eigen::Vector2d> places() const;
+};
+
+/// The crowd or the recording of a run, with its participants. Adds to `problems` what cannot be;
+/// throws InputError where the crowd cannot be loaded.
+StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
+                               std::vector<Problem>& problems);
+
+}  // namespace throng::sim
