@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/zip_member.h"
 
 namespace throng::annotate {
 
@@ -110,5 +111,7 @@ std::string npy_bytes(std::span<const int> shape, std::span<const float> values)
 std::string npy_bytes(const DensityMap& map) {
   return npy_bytes(std::array{map.height, map.width}, map.value);
 }
+
+std::string npz_bytes(const DensityMap& map) { return zip_of("density.npy", npy_bytes(map)); }
 
 }  // namespace throng::annotate

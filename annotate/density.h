@@ -31,5 +31,8 @@ DensityMap density_map(std::span<const Eigen::Vector2d> heads, std::span<const d
 std::string npy_bytes(std::span<const int> shape, std::span<const float> values);
 /// That of a map, shape (height, width).
 std::string npy_bytes(const DensityMap& map);
+/// A compressed NumPy .npz file of one array, "density": a small part of npy_bytes(), since most
+/// pixels of a map are 0.
+std::string npz_bytes(const DensityMap& map);
 
 }  // namespace throng::annotate

@@ -37,7 +37,7 @@ void write_density(FrameOutput& output) {
   const std::vector<Eigen::Vector2d> heads = heads_of(output.labels, output.frame.camera);
   output.record.density_file = output.file_of(GroundTruth::density);
   output.add(output.record.density_file,
-             npy_bytes(density_map(heads, width, height, output.density_sigma_px)));
+             npz_bytes(density_map(heads, width, height, output.density_sigma_px)));
   output.record.density_count =
       std::count_if(heads.begin(), heads.end(), [&](const Eigen::Vector2d& head) {
         return head.x() >= 0 && head.y() >= 0 && head.x() < width && head.y() < height;

@@ -81,7 +81,7 @@ import json
 import numpy
 
 image = json.load(open("annotations/instances.json"))["images"][0]
-density = numpy.load(image["density_file"])
+density = numpy.load(image["density_file"])["density"]
 assert abs(density.sum(dtype=numpy.float64) - image["density_count"]) < 0.01 * max(1, image["density_count"])
 ```
 )";

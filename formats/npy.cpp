@@ -7,15 +7,35 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/zip_member.h"
 
 namespace throng::formats {
 
+namespace {
+
+/// The bytes of a .npy file, or of the one in a .npz file.
+std::string npy_file(const std::filesystem::path& path) {
+  std::string bytes = read_file(path);
+  if (path.extension() != ".npz") return bytes;
+  constexpr std::size_t kMaxBytes = 7680UL * 4320UL * sizeof(float) + 4096;  // of the largest image
+  try {
+    return zip_member(bytes, "density.npy", kMaxBytes);
+  } catch (const InputError& error) {
+    Problem problem = error.problems().front();
+    problem.source = path.string();
+    throw InputError(std::move(problem));
+  }
+}
+
+}  // namespace
+
 FloatMap read_npy(const std::filesystem::path& path) {
   const auto refuse = [&](const char* found) -> InputError {
-    return InputError({path.string(), "", found, "a .npy file of float32, C order, 2 dimensions"});
+    return InputError(
+        {path.string(), "", found, "an array of NumPy: float32, C order, 2 dimensions"});
   };
   if (!std::filesystem::is_regular_file(path)) throw refuse("no such file");
-  const std::string bytes = read_file(path);
+  const std::string bytes = npy_file(path);
   constexpr std::size_t kPreamble = 10;
   if (bytes.size() < kPreamble || bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0) {
     throw refuse("another kind of file");

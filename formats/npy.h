@@ -1,4 +1,4 @@
-// NumPy's .npy files of float32 maps, as the dataset has them.
+// NumPy's files of float32 maps, as the dataset has them: .npz, and .npy in earlier versions.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,8 @@ struct FloatMap {
   std::vector<float> value;  ///< row by row
 };
 
-/// Throws InputError unless the file is version 1.0, float32, C order, with two dimensions.
+/// Reads a .npy file, or the array "density" of a .npz file. Throws InputError unless it is version
+/// 1.0, float32, C order, with two dimensions.
 FloatMap read_npy(const std::filesystem::path& path);
 
 }  // namespace throng::formats

@@ -51,20 +51,15 @@ class JobTypes:
         if name == "randomize":
             return "Mapping[str, Distribution]"
         kinds = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
+        plain = [PLAIN[kind] for kind in kinds if kind not in ("object", "array")]
         if "object" in kinds and schema.get("properties"):
-            return self.make(self.class_name(camel(name), parent), schema)
-        if kinds == ["array"]:
+            plain.append(self.make(self.class_name(camel(name), parent), schema))
+        elif "object" in kinds:
+            plain.append("Distribution" if "x-distribution" in schema else "Mapping[str, Any]")
+        if "array" in kinds:
             items = schema["items"]
             title = camel(items.get("title", name).replace(" ", "_").replace("-", "_"))
-            inner = (
-                self.make(self.class_name(title, parent), items)
-                if items.get("properties")
-                else self.type_of(title, items, parent)
-            )
-            return f"Sequence[{inner}]"
-        plain = [PLAIN[kind] for kind in kinds if kind != "object"]
-        if "object" in kinds:
-            plain.append("Distribution" if "x-distribution" in schema else "Mapping[str, Any]")
+            plain.append(f"Sequence[{self.type_of(title, items, parent)}]")
         return " | ".join(plain)
 
     def class_name(self, name: str, parent: str) -> str:

@@ -80,6 +80,20 @@ std::string expected_at(const json& rules) {
   return says ? fields::expectation(rules) : "what the schema describes";
 }
 
+/// A value that the rules do not allow: a misspelled word with the nearest of those that they list.
+Problem problem_of_value(const json& value, const json& rules, const std::string& where,
+                         const std::string& source) {
+  if (value.is_string() && rules.contains("enum") && !rules.contains("x-expected")) {
+    std::vector<std::string_view> words;
+    for (const json& word : rules["enum"]) {
+      if (word.is_string()) words.emplace_back(word.get_ref<const std::string&>());
+    }
+    const auto& word = value.get_ref<const std::string&>();
+    if (closest(word, words)) return unknown_name(source, where, "value", word, words);
+  }
+  return {source, where, describe(value), expected_at(rules)};
+}
+
 void add_field_problems(const json& object, const json& rules, const Rules& all,
                         const json::json_pointer& place, const std::string& source,
                         std::vector<Problem>& problems) {
@@ -156,7 +170,7 @@ std::vector<Problem> JsonSchema::problems(const json& value, const std::string& 
       add_field_problems(at_place, rules, all, place, source, problems);
     }
     if (innermost && problems.size() == before) {
-      problems.push_back({source, place.to_string(), describe(at_place), expected_at(rules)});
+      problems.push_back(problem_of_value(at_place, rules, place.to_string(), source));
     }
   }
   check(!problems.empty(), "a document that breaks the schema has a problem");

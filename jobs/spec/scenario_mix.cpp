@@ -39,13 +39,17 @@ void set_generate(ScenarioShare& share, const json& value, const FieldPlace& pla
 const FieldTable<ScenarioShare>& share_fields() {
   static const FieldTable<ScenarioShare> fields = [] {
     FieldTable<ScenarioShare> table;
-    table.add(
-        "id", "Id", "", texts(1, 200),
-        [](const ScenarioShare& share) { return share.generate ? json() : json(share.scenario); },
-        [](ScenarioShare& share, const json& value, const FieldPlace& /*place*/) {
-          value.get_to(share.scenario);
-        },
-        "Id of a scenario.");
+    table
+        .add(
+            "id", "Id", "", texts(1, 200),
+            [](const ScenarioShare& share) {
+              return share.generate ? json() : json(share.scenario);
+            },
+            [](ScenarioShare& share, const json& value, const FieldPlace& /*place*/) {
+              value.get_to(share.scenario);
+            },
+            "Id of a scenario.")
+        .without_default();
     table.add("generate", "Generate", "", raw({{"type", "object"}}, "the parameters of a place"),
               generate_json, set_generate,
               "Parameters of a generated scenario; without a seed, another one for each run.");
@@ -96,7 +100,11 @@ json mix_json(const std::vector<ScenarioShare>& mix) {
 }
 
 ordered_json share_rules() {
-  ordered_json rules = {{"type", {"string", "object"}}, {"minLength", 1}, {"maxLength", 200}};
+  ordered_json rules = {{"title", "Scenario share"},
+                        {"description", "One of several scenarios of a job."},
+                        {"type", {"string", "object"}},
+                        {"minLength", 1},
+                        {"maxLength", 200}};
   rules.update(share_fields().schema());
   return rules;
 }

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import zipfile
+import zlib
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Mapping
 
@@ -172,7 +174,7 @@ class Frame:
 
     def _label_name(self, kind: str) -> str:
         if kind == "density":
-            return str(self.record.get("density_file") or self._stem("density", "npy"))
+            return str(self.record.get("density_file") or self._stem("density", "npz"))
         return self._stem(kind, "png")
 
     def _stem(self, folder: str, suffix: str) -> str:
@@ -187,6 +189,14 @@ class Frame:
                 f'{storage.where(name)}: found no such file: a job writes it with "{kind}" in ' "outputs.annotations"
             )
         return storage.read(name, 4096 + _BYTES_PER_PIXEL * self.width * self.height), storage.where(name)
+
+    def _unpacked(self, file: Any, where: str) -> Any:
+        """The array of a .npz file, of which nothing is unpacked that is larger than the image's."""
+        limit = 4096 + 4 * self.width * self.height
+        size = file.zip.getinfo("density.npy").file_size
+        if size > limit:
+            raise DatasetError(f"{where}: found an array of {size} bytes, expected {limit} at most")
+        return file["density"]
 
     def _png(self, kind: str, dtype: Any, channels: int) -> NDArray[Any]:
         data, where = self._read_label(kind)
@@ -203,7 +213,11 @@ class Frame:
         data, where = self._read_label("density")
         try:
             values = np.load(io.BytesIO(data), allow_pickle=False)
-        except (ValueError, OSError, EOFError) as error:
+            if isinstance(values, np.lib.npyio.NpzFile):
+                values = self._unpacked(values, where)
+        except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile, zlib.error) as error:
+            if isinstance(error, DatasetError):
+                raise
             raise DatasetError(f"{where}: found no whole NumPy file ({error})") from error
         if (
             not isinstance(values, np.ndarray)

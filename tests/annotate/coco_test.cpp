@@ -55,7 +55,7 @@ class Coco : public testing::Test {
     image.time_s = frames[i].time_s;
     image.camera = frames[i].camera;
     if (i > 0) {
-      image.density_file = "density/" + std::to_string(i) + ".npy";
+      image.density_file = "density/" + std::to_string(i) + ".npz";
       image.density_count = 10 + i;
     }
     return image;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/random.h"
+#include "base/zip_member.h"
 
 namespace throng::annotate {
 namespace {
@@ -79,6 +80,16 @@ TEST(NpyBytes, HasTheHeaderThatNumpyReads) {
   std::vector<float> values(6);
   std::memcpy(values.data(), bytes.data() + 10 + length, 6 * sizeof(float));
   EXPECT_EQ(values, map.value);
+}
+
+TEST(NpzBytes, HoldTheArrayWithoutLossInLittleRoom) {
+  Random random(3, Stream::crowd_generator);
+  Heads heads;
+  for (int i = 0; i < 300; ++i) heads.emplace_back(random.uniform(0, 1280), random.uniform(0, 720));
+  const DensityMap map = density_map(heads, 1280, 720, 4);
+  const std::string zip = npz_bytes(map);
+  EXPECT_EQ(zip_member(zip, "density.npy", 4'000'000), npy_bytes(map));
+  EXPECT_LT(zip.size(), npy_bytes(map).size() / 8);
 }
 
 TEST(NpyBytes, AlignsForAnySize) {

@@ -33,6 +33,16 @@ TEST(UnknownName, FindsSwappedAndUpperCaseLetters) {
             "unknown field \"SEED\"; did you mean \"seed\"?");
 }
 
+TEST(UnknownName, NamesOneThatGoesOnBehindTheWord) {
+  constexpr std::array<std::string_view, 4> kFormats = {"yolo-segment", "yolo-detect", "yolos",
+                                                        "coco"};
+  EXPECT_EQ(unknown_name("", "", "format", "yolo", kFormats).expected, "\"yolos\"")
+      << "a letter too many is nearer";
+  EXPECT_EQ(closest("yolo", std::span(kFormats).first(2)), "yolo-detect");
+  EXPECT_EQ(closest("YOLO", std::span(kFormats).first(2)), "yolo-detect");
+  EXPECT_EQ(closest("yo", std::span(kFormats).first(2)), std::nullopt);
+}
+
 TEST(UnknownName, ListsAllNamesIfNoneIsNear) {
   EXPECT_EQ(unknown_name("", "/weather", "field", "weather", kFields).text(),
             "/weather: unknown field \"weather\"; expected one of: drones, seed, capture");

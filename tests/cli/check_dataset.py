@@ -101,7 +101,7 @@ def check_dataset(folder):
         with Image.open(folder / image["file_name"]) as picture:
             assert picture.size == (image["width"], image["height"])
             picture.load()
-        density = numpy.load(folder / image["density_file"])
+        density = numpy.load(folder / image["density_file"])["density"]
         assert density.shape == (image["height"], image["width"]) and density.dtype == numpy.float32
         assert density.min() >= 0
         count = image["density_count"]

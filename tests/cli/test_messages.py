@@ -102,6 +102,8 @@ class Messages(unittest.TestCase):
 
         self.run_job('/outputs/formats/0: unknown format "yolo-detct"; did you mean "yolo-detect"?', outputs={"formats": ["yolo-detct"]})
         self.run_job('/outputs/formats/0: unknown format "xyz"; expected one of: coco,', outputs={"formats": ["xyz"]})
+        self.run_job('/outputs/formats/0: unknown format "yolo"; did you mean "yolo-pose"?', outputs={"formats": ["yolo"]})
+        self.run_job('/outputs/annotations/1: unknown value "densty"; did you mean "density"?', outputs={"annotations": ["coco", "densty"]})
         self.run_job('unknown airframe "f45"; did you mean "f450"?', drones=drone(airframe="f45"))
         self.run_job('unknown scenario "city_square/nearest_exti"; did you mean', scenario="city_square/nearest_exti")
         self.run_job('unknown path "crowd.agent"; did you mean "crowd.agents"?', randomize={"crowd.agent": {"uniform": [1, 2]}})

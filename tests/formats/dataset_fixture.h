@@ -97,7 +97,7 @@ class SmallDataset : public ::testing::Test {
       }
       heads.push_back(*head);
     }
-    image.density_file = "density/" + place + ".npy";
+    image.density_file = "density/" + place + ".npz";
     image.density_count = static_cast<std::int64_t>(heads.size());
     writer.add(image, labels);
     const auto write = [&](const std::string& path, const std::string& bytes) {
@@ -105,7 +105,7 @@ class SmallDataset : public ::testing::Test {
     };
     write(image.file_name,
           annotate::jpeg_bytes(rendered.rgb, rendered.width(), rendered.height(), 80));
-    write(image.density_file, annotate::npy_bytes(annotate::density_map(heads, rendered.width(),
+    write(image.density_file, annotate::npz_bytes(annotate::density_map(heads, rendered.width(),
                                                                         rendered.height(), 4)));
     rendered.flow.assign(2 * rendered.id.size(), 1.5F);
     write("flow/" + place + ".png", annotate::flow_png(rendered));

@@ -9,6 +9,7 @@
 
 #include "annotate/png.h"
 #include "base/error.h"
+#include "base/zip_member.h"
 #include "formats/comparison.h"
 #include "formats/csv_table.h"
 #include "formats/image_camera.h"
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using throng::testing::TemporaryFolder;
@@ -70,6 +72,23 @@ TEST(NpyFiles, AreFloatsInRows) {
   expect("another kind of file", "NUMPY");
   fs::remove(file);
   EXPECT_THAT(refused([&] { read_npy(file); }), HasSubstr("no such file"));
+}
+
+TEST(Npz, HoldsAnArrayOfItsOwnName) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "a.npz";
+  const std::string inside =
+      npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", {1, 2, 3, 4, 5, 6});
+  write_file_atomically(file, zip_of("density.npy", inside));
+  EXPECT_THAT(read_npy(file).value, ElementsAre(1, 2, 3, 4, 5, 6));
+  const auto expect = [&](const std::string& words, const std::string& bytes) {
+    write_file_atomically(file, bytes);
+    EXPECT_THAT(refused([&] { read_npy(file); }), AllOf(HasSubstr(words), HasSubstr("a.npz")));
+  };
+  expect("no member \"density.npy\"", zip_of("depth.npy", inside));
+  expect("of more than", zip_of("density.npy", std::string(200'000'000, 0)));
+  expect("found ", zip_of("density.npy", inside).substr(0, 60));
+  expect("found ", inside);
 }
 
 TEST(Rasters, KeepTheirSamples) {

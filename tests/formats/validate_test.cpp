@@ -195,13 +195,14 @@ TEST_F(Validate, FilesThatAreMissingCutOffOrTooMany) {
 }
 
 TEST_F(Validate, BytesThatWereChanged) {
-  const fs::path map = root_ / "density/run000/d2/000000.npy";
-  std::string bytes = read_file(map);
-  bytes.back() = '\x41';  // the last value becomes at least 8
-  write_file_atomically(map, bytes);
-  expect("manifest", "density/run000/d2/000000.npy", "");
+  const fs::path map = root_ / "density/run000/d2/000000.npz";
+  const FloatMap whole = read_npy(map);
+  annotate::DensityMap changed{whole.width, whole.height, whole.value};
+  changed.value.back() = 8;
+  write_file_atomically(map, annotate::npz_bytes(changed));
+  expect("manifest", "density/run000/d2/000000.npz", "");
   write_manifest();
-  expect("density-sum", "density/run000/d2/000000.npy", "");
+  expect("density-sum", "density/run000/d2/000000.npz", "");
 }
 
 TEST_F(Validate, ImagesOfInstancesThatAreNotTheMasks) {
@@ -371,12 +372,12 @@ TEST_F(Validate, ImagesThatChangedPlaces) {
 }
 
 TEST_F(Validate, DensityMapsThatAreNotTheHeads) {
-  const std::string path = "density/run000/d2/000000.npy";
+  const std::string path = "density/run000/d2/000000.npz";
   const FloatMap whole = read_npy(root_ / path);
   const auto damaged = [&](const std::function<void(annotate::DensityMap&)>& damage) {
     annotate::DensityMap map{whole.width, whole.height, whole.value};
     damage(map);
-    write(path, annotate::npy_bytes(map));
+    write(path, annotate::npz_bytes(map));
   };
   damaged([](auto& map) {
     for (float& value : map.value) value *= 1.01F;

@@ -51,7 +51,7 @@ def files(**more):
     jpeg = io.BytesIO()
     Image.new("RGB", (6, 4), (200, 10, 10)).save(jpeg, "JPEG")
     density = io.BytesIO()
-    np.save(density, np.zeros((4, 6), np.float32))
+    np.savez_compressed(density, density=np.zeros((4, 6), np.float32))
     lines = json.dumps(record, separators=(",", ":"))
     text = (
         '{"info":{},\n"categories":[],\n"tracks":[\n],\n"images":[\n'
@@ -63,7 +63,7 @@ def files(**more):
     content = {
         LABELS: text.encode(),
         "images/run000/d1/000000.jpg": jpeg.getvalue(),
-        "density/run000/d1/000000.npy": density.getvalue(),
+        "density/run000/d1/000000.npz": density.getvalue(),
         "depth/run000/d1/000000.png": png(np.full((4, 6), 500, np.uint16)),
         "exits/run000.csv": b"frame,exit\n0,a\n",
         "metrics.json": b"{}",
@@ -78,6 +78,13 @@ def files(**more):
     }
     content["manifest.json"] = json.dumps(manifest).encode()
     return content
+
+
+def zeros_of(name: str, count: int) -> io.BytesIO:
+    """A .npz file of one array of zeros."""
+    file = io.BytesIO()
+    np.savez_compressed(file, **{name: np.zeros(count, np.float32)})
+    return file
 
 
 class Damage(unittest.TestCase):
@@ -207,7 +214,7 @@ class Damage(unittest.TestCase):
 
     def test_bombs(self):
         """Small files that would unpack to much: refused by what the record says, or by the ratio."""
-        for name in ("depth/run000/d1/000000.png", "density/run000/d1/000000.npy", "images/run000/d1/000000.jpg"):
+        for name in ("depth/run000/d1/000000.png", "density/run000/d1/000000.npz", "images/run000/d1/000000.jpg"):
             path = self.write(files(**{name: bytes(50 << 20)}), "deflated")
             self.assertLess(path.stat().st_size, 1 << 20)
             kind = name.split("/")[0]
@@ -317,7 +324,7 @@ class Damage(unittest.TestCase):
         Dataset(path).verify(complete=False)
 
     def test_damaged_pictures(self):
-        for name in ("depth/run000/d1/000000.png", "images/run000/d1/000000.jpg", "density/run000/d1/000000.npy"):
+        for name in ("depth/run000/d1/000000.png", "images/run000/d1/000000.jpg", "density/run000/d1/000000.npz"):
             whole = files()[name]
             kind = name.split("/")[0].removesuffix("s")
             other = {
@@ -330,9 +337,20 @@ class Damage(unittest.TestCase):
                 with self.subTest(name=name, data=data[:10]):
                     self.refused(path, name, use=lambda p, kind=kind: getattr(Dataset(p)[0], kind)())
         pickled = io.BytesIO()
-        np.save(pickled, np.array([[print]], dtype=object), allow_pickle=True)
-        path = self.write(files(**{"density/run000/d1/000000.npy": pickled.getvalue()}))
-        self.refused(path, "000000.npy", use=lambda p: Dataset(p)[0].density())
+        np.savez(pickled, density=np.array([[print]], dtype=object))
+        for damaged in (pickled, zeros_of("density", 50 << 20), zeros_of("another", 4), zeros_of("density", 3)):
+            path = self.write(files(**{"density/run000/d1/000000.npz": damaged.getvalue()}))
+            self.refused(path, "000000.npz", use=lambda p: Dataset(p)[0].density())
+
+    def test_density_of_earlier_versions(self):
+        old = io.BytesIO()
+        np.save(old, np.full((4, 6), 0.5, np.float32))
+        content = files()
+        del content["density/run000/d1/000000.npz"]
+        content["density/run000/d1/000000.npy"] = old.getvalue()
+        content[LABELS] = content[LABELS].replace(b'"frame": 0', b'"frame": 0, "density_file": "density/run000/d1/000000.npy"')
+        frame = Dataset(self.write(content))[0]
+        self.assertEqual(float(frame.density().sum()), 12)
 
     def test_all_filters_of_png(self):
         """Pillow chooses filters row by row."""

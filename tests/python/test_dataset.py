@@ -85,7 +85,7 @@ class Reading(unittest.TestCase):
                 with self.subTest(name, frame=stem):
                     with Image.open(self.path / frame.file_name) as picture:
                         np.testing.assert_array_equal(frame.image(), np.array(picture.convert("RGB")))
-                    np.testing.assert_array_equal(frame.density(), np.load(self.path / f"density/{stem}.npy"))
+                    np.testing.assert_array_equal(frame.density(), np.load(self.path / f"density/{stem}.npz")["density"])
                     self.assertAlmostEqual(float(frame.density().sum()), frame.record["density_count"], places=3)
                     with Image.open(self.path / f"depth/{stem}.png") as picture:
                         centimeters = np.array(picture).astype(float)

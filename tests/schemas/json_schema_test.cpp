@@ -16,6 +16,7 @@ JsonSchema example() {
     "type": "object", "additionalProperties": false, "required": ["name"],
     "properties": {
       "name": {"type": "string", "maxLength": 5},
+      "weather": {"type": "string", "enum": ["clear", "overcast", "rain"]},
       "points": {"type": "array", "items": {"$ref": "#/definitions/point"}},
       "speed": {"x-expected": "a number or a distribution",
                 "anyOf": [{"type": "number", "minimum": 0},
@@ -54,6 +55,13 @@ TEST(JsonSchema, NamesThePlaceAndTheExpectation) {
   EXPECT_THAT(violations(R"({"name": "a", "frames": {"x": {"mas": 1}}})"),
               ElementsAre(HasSubstr("/frames/x/mas: unknown field \"mas\" / \"mass\"")));
   EXPECT_THAT(violations("[1]"), ElementsAre(HasSubstr("an object")));
+}
+
+TEST(JsonSchema, NamesTheWordThatAMisspelledOneIsNearestTo) {
+  EXPECT_THAT(violations(R"({"name": "a", "weather": "overcats"})"),
+              ElementsAre("/weather: unknown value \"overcats\" / \"overcast\""));
+  EXPECT_THAT(violations(R"({"name": "a", "weather": "sunny"})"),
+              ElementsAre("/weather: \"sunny\" / one of \"clear\", \"overcast\", \"rain\""));
 }
 
 TEST(JsonSchema, NamesMissingAndUnknownFields) {

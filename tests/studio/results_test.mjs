@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as nodeTest } from "node:test";
+import { inflateRawSync } from "node:zlib";
 import { importStudio } from "./bundle.mjs";
 import { openPage, screenChecker, stepsOf } from "./page.mjs";
 import { launch, TestService } from "./service.mjs";
@@ -134,6 +135,12 @@ test("3-D boxes are drawn", async () => {
   await page.keyboard.press("3");
 });
 
+/** The .npy file in the .npz file at an address of the service. */
+async function arrayIn(path) {
+  const zip = Buffer.from(await (await fetch(service.address + path)).arrayBuffer());
+  return inflateRawSync(zip.subarray(30 + zip.readUInt16LE(26) + zip.readUInt16LE(28)));
+}
+
 test("depth and density at the pointer are those of the files", async () => {
   await page.keyboard.press("x");
   await page.keyboard.press("d");
@@ -153,7 +160,7 @@ test("depth and density at the pointer are those of the files", async () => {
   const ground = -center[2] / down;
   const depth = Number(/depth ([\d.]+) m/.exec(shown)[1]);
   assert.ok(depth <= ground + 0.02 && depth > 0.7 * ground, `${depth} m, ground ${ground} m`);
-  const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${job}/files/${kImage.replace("images", "density").replace("jpg", "npy")}`)).arrayBuffer());
+  const npy = await arrayIn(`/v1/jobs/${job}/files/${kImage.replace("images", "density").replace("jpg", "npz")}`);
   const value = npy.readFloatLE(10 + npy.readUInt16LE(8) + 4 * (120 * image.width + 160));
   assert.ok(Math.abs(Number(/density ([\d.e-]+)/.exec(shown)[1]) - value) <= 0.005 * value + 1e-12, shown);
   await check(page, "values per pixel");
@@ -234,7 +241,7 @@ test("density maps are compared in the same colors", async () => {
   await page.getByRole("checkbox", { name: "Density" }).check();
   await page.getByRole("img", { name: "density of fewer people" }).waitFor();
   const sumOf = async (id) => {
-    const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${id}/files/density/run000/d1/000001.npy`)).arrayBuffer());
+    const npy = await arrayIn(`/v1/jobs/${id}/files/density/run000/d1/000001.npz`);
     let sum = 0;
     for (let at = 10 + npy.readUInt16LE(8); at < npy.length; at += 4) sum += npy.readFloatLE(at);
     return sum.toFixed(1);

@@ -1,6 +1,7 @@
 """PNG, NumPy and run-length files as throng writes them."""
 import io
 import struct
+import zipfile
 import zlib
 
 import numpy
@@ -100,14 +101,29 @@ def segmentation_of(mask):
     return {"size": list(mask.shape), "counts": encode(runs)}
 
 
+def npy_of(data):
+    """The bytes of a .npy file, or of the one in a .npz file."""
+    if not data.startswith(b"PK"):
+        return data
+    with zipfile.ZipFile(io.BytesIO(data)) as file:
+        return file.read("density.npy")
+
+
 def read_npy(path):
-    return numpy.load(io.BytesIO(path.read_bytes()))
+    return numpy.load(io.BytesIO(npy_of(path.read_bytes())))
 
 
 def npy_like(original, array):
     """With the original's header: NumPy's own is written otherwise."""
-    start = 10 + original[8] + 256 * original[9]
-    return original[:start] + numpy.ascontiguousarray(array, "<f4").tobytes()
+    plain = npy_of(original)
+    start = 10 + plain[8] + 256 * plain[9]
+    changed = plain[:start] + numpy.ascontiguousarray(array, "<f4").tobytes()
+    if plain is original:
+        return changed
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("density.npy", changed)
+    return out.getvalue()
 
 
 def change_npy(d, name, change):

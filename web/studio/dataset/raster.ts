@@ -1,8 +1,9 @@
 // Values per pixel of an image: depth, flow and density (docs/formats.md).
 import { decode } from "fast-png";
-import { request } from "../api/client";
+import { ApiError, request } from "../api/client";
 import type { ImageName } from "./coco";
 import { npyOf } from "./npy";
+import { npzOf } from "./npz";
 
 export type RasterKind = "depth" | "flow" | "density";
 
@@ -17,7 +18,7 @@ export interface Raster {
   dy?: Float32Array;
 }
 
-const kSuffixes: Record<RasterKind, string> = { depth: "png", flow: "png", density: "npy" };
+const kSuffixes: Record<RasterKind, string> = { depth: "png", flow: "png", density: "npz" };
 const kFlowZero = 32_768;
 const kFlowPerPixel = 64;
 
@@ -41,16 +42,21 @@ function flowOf(bytes: Uint8Array): Raster {
   return { kind: "flow", width, height, values, dx, dy };
 }
 
-function densityOf(buffer: ArrayBuffer): Raster {
-  const { shape, values } = npyOf(buffer);
+async function densityOf(job: string, folder: string): Promise<Raster> {
+  const read = async (path: string) => (await request(`/v1/jobs/${job}/files/${path}`)).arrayBuffer();
+  const array = read(folder).then(npzOf, async (error: unknown) => {
+    if (!(error instanceof ApiError) || error.status !== 404) throw error;
+    return npyOf(await read(folder.replace(/z$/, "y"))); // a dataset of an earlier version
+  });
+  const { shape, values } = await array;
   return { kind: "density", width: shape[1]!, height: shape[0]!, values };
 }
 
 /** Throws ApiError 404 when the dataset does not have this kind. */
 export async function fetchRaster(job: string, image: ImageName, kind: RasterKind): Promise<Raster> {
   const folder = image.path.replace(/^images/, kind).replace(/\.\w+$/, `.${kSuffixes[kind]}`);
+  if (kind === "density") return densityOf(job, folder);
   const buffer = await (await request(`/v1/jobs/${job}/files/${folder}`)).arrayBuffer();
-  if (kind === "density") return densityOf(buffer);
   return kind === "depth" ? depthOf(new Uint8Array(buffer)) : flowOf(new Uint8Array(buffer));
 }
 
