@@ -82,6 +82,7 @@ nlohmann::json attributes_of(const skinning::Population& population,
                              const skinning::Character& character,
                              const skinning::Appearance& appearance) {
   nlohmann::json attributes = {
+      {"character", character.name},
       {"sex", character.male ? "male" : "female"},
       {"age_years", static_cast<int>(character.age_years)},
       {"age_band", age_band(character.age_years)},

@@ -127,6 +127,8 @@ void DatasetCard::add(const Image& image) {
     ++by_state_[person.state.empty() ? "unknown" : person.state];
     truncated_ += person.truncation >= kTruncated ? 1 : 0;
     ignored_ += person.is_ignored ? 1 : 0;
+    const json attributes = person.track ? person.track->value("attributes", json()) : json();
+    if (attributes.contains("character")) characters_.insert(attributes["character"]);
   }
 }
 
@@ -135,6 +137,7 @@ json DatasetCard::statistics() const {
           {"annotations", people_},
           {"annotations_of_drones", drones_},
           {"most_people_in_an_image", max_in_image_},
+          {"distinct_characters", characters_.size()},
           {"truncated", truncated_},
           {"fail_the_filters", ignored_},
           {"annotations_by_height_px", by_height_},
@@ -195,11 +198,13 @@ json DatasetCard::description() const {
 
 std::string DatasetCard::readme() const {
   std::string text = fmt::format(
-      "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, in "
-      "{}.\n`dataset.json` describes it, `manifest.json` lists every file with its SHA-256. "
+      "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, of "
+      "{} "
+      "distinct characters, in {}.\n`dataset.json` describes it, `manifest.json` lists every file "
+      "with its SHA-256. "
       "`throng "
       "validate` checks it.\n\n",
-      info_.name, info_.generator, images_, people_,
+      info_.name, info_.generator, images_, people_, characters_.size(),
       info_.runs.size() == 1 ? "one run" : fmt::format("{} runs", info_.runs.size()));
   text += "| what | where |\n|---|---|\n";
   const json card = description();

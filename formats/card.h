@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "formats/exporter.h"
@@ -40,6 +41,7 @@ class DatasetCard : public Exporter {
   std::map<std::string, std::int64_t> by_weather_;
   std::map<std::string, std::int64_t> by_state_;
   std::map<std::string, std::int64_t> by_split_;
+  std::set<std::string> characters_;  ///< of the library, that images show
 };
 
 }  // namespace throng::formats

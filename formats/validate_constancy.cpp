@@ -193,14 +193,14 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
     fault(fmt::format("stature_m {}, but box_3d of annotation {} is {:.2f} m high", stature_m,
                       person.id, height_m));
   }
-  // A character is known by stature and age: people who share both are one.
+  // A character is known by its name, in datasets of earlier versions by stature and age.
   json others = *attributes;
   for (auto it = others.begin(); it != others.end();) {
     const std::string& key = it.key();
     const bool is_dyed = key.size() > 7 && key.substr(key.size() - 7) == "_colour";
     it = is_dyed ? others.erase(it) : std::next(it);
   }
-  const std::string key = fmt::format("{}/{}", stature_m, years);
+  const std::string key = attributes->value("character", fmt::format("{}/{}", stature_m, years));
   const auto [known, is_new] = characters_.try_emplace(key, person.track_id, others);
   if (!is_new && known->second.second != others) {
     fault(fmt::format("attributes {} contradict those of track {}, the same character: {}",

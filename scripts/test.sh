@@ -32,7 +32,7 @@ step_release() {
   build release throng_computing_tests
   jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
     sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
-  bake_people
+  bake_people 24  # enough for tests, in a quarter of the time
   say "testing (release)"
   # The tests of the program wait much.
   ctest --preset release -j3 -LE '^sanitized$'
@@ -43,7 +43,7 @@ step_release() {
 step_long() {
   say "testing what lasts"
   build release throng_tests
-  bake_people
+  bake_people 24  # enough for tests, in a quarter of the time
   ctest --preset release -j2 -L '^sanitized$'
   THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
   build asan throng_tests

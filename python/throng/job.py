@@ -12,10 +12,10 @@ from typing import Any, Literal, Mapping, Sequence
 from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 
 __all__ = [
-    "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Crowd", "Density", "Distortion",
+    "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Crowd", "Density", "Distortion",
     "Distribution", "Drone", "Environment", "Filters", "Gimbal", "Guidance", "Image", "Job", "Outputs", "PerFrame",
-    "Perception", "Props", "Recorded", "Sensor", "Splits", "Webdataset", "Wind", "choice", "log_uniform", "normal",
-    "uniform",
+    "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits", "Webdataset", "Wind", "choice",
+    "log_uniform", "normal", "uniform",
 ]
 
 
@@ -66,10 +66,16 @@ class Splits(Part):
     """Share of the runs for tests. Default: 0."""
     train_runs: Sequence[int] | None = None
     """Runs that are in train regardless of the shares."""
+    train_scenarios: Sequence[str] | None = None
+    """Scenarios of which every run is in train regardless of the shares."""
     val_runs: Sequence[int] | None = None
     """Runs that are in val regardless of the shares."""
+    val_scenarios: Sequence[str] | None = None
+    """Scenarios of which every run is in val regardless of the shares."""
     test_runs: Sequence[int] | None = None
     """Runs that are in test regardless of the shares."""
+    test_scenarios: Sequence[str] | None = None
+    """Scenarios of which every run is in test regardless of the shares."""
 
 
 @dataclass
@@ -416,6 +422,20 @@ class Guidance(Part):
 
 
 @dataclass
+class Aim(Part):
+    """Instead of a start: in every run the drone begins where its camera's optical axis meets one of the people,
+    from a direction with free sight, both sampled by the seed. For jobs of several scenarios, and for any
+    scenario of which nobody knows the coordinates."""
+
+    _: KW_ONLY
+    height_m: float | None = None
+    """Height of the drone above the ground. Unit: m. Default: 20."""
+    max_distance_m: float | None = None
+    """Maximum distance on the ground between drone and person; a camera that looks less steeply has the person below
+    its axis. Unit: m. Default: 100."""
+
+
+@dataclass
 class Battery(Part):
     """Limited flight time."""
 
@@ -440,6 +460,10 @@ class Drone(Part):
     """Limited flight time."""
     start: Sequence[float] | None = None
     """Position where the drone hovers when the run begins; default: the scenario's start for this id. Unit: m."""
+    aim: Aim | None = None
+    """Instead of a start: in every run the drone begins where its camera's optical axis meets one of the people,
+    from a direction with free sight, both sampled by the seed. For jobs of several scenarios, and for any
+    scenario of which nobody knows the coordinates."""
     moves_goal: Sequence[int] | None = None
     """The goal of the behavior file, [goal set, goal], that follows the drone over the ground; default: the
     scenario's for this id."""
@@ -521,14 +545,31 @@ class Crowd(Part):
 
 
 @dataclass
+class ScenarioShare(Part):
+    """One of several scenarios of a job."""
+
+    _: KW_ONLY
+    id: str | None = None
+    """Id of a scenario."""
+    generate: Mapping[str, Any] | None = None
+    """Parameters of a generated scenario; without a seed, another one for each run."""
+    weight: float | None = None
+    """Runs are shared out by the weights. Default: 1."""
+    agents: int | None = None
+    """Number of people that take part in these runs, instead of crowd.agents. Unit: people."""
+
+
+@dataclass
 class Job(Part):
     """Request for a dataset: a scenario, number of runs, drones with cameras, and outputs. All fields except
     "scenario" have a default."""
 
-    scenario: str | Mapping[str, Any]
+    scenario: str | Mapping[str, Any] | Sequence[str | ScenarioShare]
     """Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit.
     Or {"generate": {"kind": "plaza", "seed": 5}}, a scenario generated from a seed; docs/blueprint.md lists its
-    parameters."""
+    parameters. Or a list of these, among which the runs are shared out: ["campus/everyday", {"id":
+    "station/everyday", "weight": 2, "agents": 120}, {"generate": {"kind": "street"}}], where a generated scenario
+    without a seed is another one in each run."""
     _: KW_ONLY
     name: str | None = None
     """Name of the dataset; also of the archive and its folder."""

@@ -38,10 +38,11 @@ inline Person person(std::int64_t number, const Box& box, const Box& amodal, dou
   made.area = box.width * box.height;
   made.visibility = visibility;
   made.state = "walking";
-  made.track = std::make_shared<const nlohmann::json>(
-      nlohmann::json{{"id", made.track_id},
-                     {"group", 4},
-                     {"attributes", {{"sex", "female"}, {"age_years", 31}, {"stature_m", 1.71}}}});
+  made.track = std::make_shared<const nlohmann::json>(nlohmann::json{
+      {"id", made.track_id},
+      {"group", 4},
+      {"attributes",
+       {{"character", "person_004"}, {"sex", "female"}, {"age_years", 31}, {"stature_m", 1.71}}}});
   made.record = {{"id", made.id},
                  {"image_id", 7},
                  {"track_id", made.track_id},

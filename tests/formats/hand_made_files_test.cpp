@@ -275,6 +275,7 @@ TEST(HandMadeCard, CountsImagesAndPeople) {
   EXPECT_EQ(counts.at("images"), 2);
   EXPECT_EQ(counts.at("annotations"), 3);
   EXPECT_EQ(counts.at("most_people_in_an_image"), 3);
+  EXPECT_EQ(counts.at("distinct_characters"), 1) << "three people look alike";
   EXPECT_EQ(counts.at("truncated"), 1);
   EXPECT_EQ(counts.at("fail_the_filters"), 1);
   // Whole heights of 30, 24 and 6 px; visibilities of 100, 41.7 and 10 %.
