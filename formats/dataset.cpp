@@ -147,6 +147,13 @@ json sample_of(const Image& image, const DatasetInfo& info) {
   return sample;
 }
 
+std::string Image::scenario() const {
+  const auto drawn = record.find("drawn");
+  if (drawn == record.end() || !drawn->is_object()) return "";
+  const auto scenario = drawn->find("scenario");
+  return scenario == drawn->end() || !scenario->is_string() ? "" : scenario->get<std::string>();
+}
+
 std::string Image::stem() const { return fmt::format("{}-{}-{:06}", run, camera, frame); }
 
 bool DatasetInfo::has(annotate::GroundTruth kind) const {

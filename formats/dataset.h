@@ -91,6 +91,8 @@ struct Image {
   std::string sequence() const { return run + "-" + camera; }
   /// "run000-d1-000012": unique over the dataset, fit for a file's name.
   std::string stem() const;
+  /// Id of the run's scenario, in a dataset of several; else "".
+  std::string scenario() const;
 };
 
 struct DatasetInfo {

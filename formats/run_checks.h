@@ -59,7 +59,8 @@ class ExitsCheck : public GroundTruthCheck {
                     Findings& findings) const;
 
   std::map<std::string, Run> runs_;
-  std::map<std::string, Place> places_;  ///< by exit; the place is one in all runs
+  /// By scenario and exit: the place is one in all runs there.
+  std::map<std::pair<std::string, std::string>, Place> places_;
 };
 
 /// fields/RUN/FRAME.npy against the people that cameras see.

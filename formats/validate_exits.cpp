@@ -185,7 +185,7 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
 void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& findings) {
   const auto id = exit.at("id").get<std::string>();
   const camera::Camera camera = camera_of(image);
-  Place& place = places_[id];
+  Place& place = places_[{image.scenario(), id}];
   for (const char* key : {"door", "zone"}) {
     const json& polygon = exit.at(key);
     if (polygon.empty()) continue;
@@ -252,7 +252,7 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
       continue;
     }
     run.wanted[person.track_id] = id;
-    const auto place = places_.find(id);
+    const auto place = places_.find({image.scenario(), id});
     if (place == places_.end() || place->second.zone.corners.empty()) continue;
     if (!counted.insert(person.track_id).second) continue;
     // Well inside: the table is of the last crowd step before the frame.

@@ -113,14 +113,18 @@ std::vector<std::size_t> shares_of_runs(const JobSpec& job) {
   const double total =
       std::accumulate(job.mix.begin(), job.mix.end(), 0.0,
                       [](double sum, const ScenarioShare& share) { return sum + share.weight; });
+  constexpr double kEqual = 1e-9;  // the first of equals, whatever the sums round to
   // Runs that each share is owed by now; the share that is owed most gets the next one.
   std::vector<double> owed(job.mix.size(), 0);
   std::vector<std::size_t> shares;
   for (int run = 0; run < job.runs && !owed.empty(); ++run) {
     for (std::size_t i = 0; i < owed.size(); ++i) owed[i] += job.mix[i].weight / total;
-    const auto next = std::max_element(owed.begin(), owed.end());
-    *next -= 1;
-    shares.push_back(static_cast<std::size_t>(next - owed.begin()));
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < owed.size(); ++i) {
+      if (owed[i] > owed[next] + kEqual) next = i;
+    }
+    owed[next] -= 1;
+    shares.push_back(next);
   }
   return shares;
 }

@@ -16,7 +16,7 @@ import throng  # noqa: E402
 
 THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
 JOB = {
-    "scenario": ["city_square/nearest_exit", {"id": "campus/everyday", "agents": 30}, {"generate": {"kind": "plaza", "size_m": 40}}],
+    "scenario": ["city_square/nearest_exit", {"id": "campus/everyday", "agents": 700}, {"generate": {"kind": "plaza", "size_m": 40}}],
     "runs": 5,
     "quality": "draft",
     "crowd": {"agents": 40},
@@ -62,7 +62,7 @@ class Mix(unittest.TestCase):
                 continue
             self.assertGreater(len(frame.people), 0, f"{frame}: nobody in sight")
             height = frame.drawn["drones.0.aim.height_m"]
-            self.assertAlmostEqual(float(frame.camera.position[2]), height, delta=0.3)
+            self.assertAlmostEqual(float(frame.camera.center[2]), height, delta=0.3)
             heights.add(height)
             # Somebody is at the middle of the first image: the optical axis meets a person's chest.
             boxes = frame.people.boxes
@@ -81,7 +81,7 @@ class Mix(unittest.TestCase):
     def test_one_run_is_simulated_and_rendered_alone(self):
         self.run_throng("simulate", "job.json", "--run", "1", "-o", "one.h5")
         self.assertIn("campus/everyday", json.dumps(throng.Trace(self.folder / "one.h5").scenario))
-        self.run_throng("render", "one.h5", "job.json", "-o", "one")
+        self.run_throng("render", "job.json", "--trace", "one.h5", "-o", "one")
         self.assertTrue((self.folder / "one/dataset/images/run000/view/000000.jpg").exists())
 
     def test_check_looks_into_every_scenario(self):
