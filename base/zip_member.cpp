@@ -58,7 +58,7 @@ std::string zip_of(std::string_view name, std::string_view bytes) {
   std::size_t used = 0;
   const ZipArchive zip(archive_write_new());
   require_zip(zip.get(), archive_write_set_format_zip(zip.get()));
-  require_zip(zip.get(), archive_write_set_options(zip.get(), "zip:compression-level=1"));
+  require_zip(zip.get(), archive_write_set_options(zip.get(), "zip:compression-level=6"));
   require_zip(zip.get(), archive_write_set_bytes_in_last_block(zip.get(), 1));
   require_zip(zip.get(), archive_write_open_memory(zip.get(), out.data(), out.size(), &used));
   const ZipEntry entry(archive_entry_new());

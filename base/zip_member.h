@@ -7,7 +7,7 @@
 
 namespace throng {
 
-/// A ZIP file that holds `bytes` under `name`, deflated quickly. Equal inputs give equal bytes.
+/// A ZIP file that holds `bytes` under `name`, deflated. Equal inputs give equal bytes.
 std::string zip_of(std::string_view name, std::string_view bytes);
 
 /// The bytes of a member of a ZIP file; nothing of more than `max_bytes` is unpacked. Throws

@@ -153,10 +153,12 @@ Checked checked(const world::Scenario& scenario, const RunSpec& spec,
   check_times(spec, problems);
   check_exits(scenario, problems);
   Checked run;
-  StartingPeople people = starting_people(scenario, spec, problems);
+  std::vector<Problem> of_people;
+  StartingPeople people = starting_people(scenario, spec, of_people);
   std::vector<DroneMission> missions = spec.drones;
   aim_drones(scenario, people.places(), spec.seed, missions, problems);
   run.drones = plan_drones(scenario, missions, spec.duration_s, problems);
+  problems.insert(problems.end(), of_people.begin(), of_people.end());
   run.crowd = std::move(people.crowd);
   run.roles = std::move(people.roles);
   check_goals(run.drones, *run.crowd, problems);

@@ -158,7 +158,10 @@ struct Place {
 
 /// Nobody where the crowd cannot be loaded, which the simulation will explain.
 std::vector<Eigen::Vector2d> people_in(const Place& place) {
-  if (is_of_trace(place.scenario)) return {};
+  const bool aims =
+      std::any_of(place.job.drones.begin(), place.job.drones.end(),
+                  [](const DroneSpec& drone) { return drone.mission.aim.has_value(); });
+  if (!aims || is_of_trace(place.scenario)) return {};
   const RunPlan run = plan_runs(place.job).at(static_cast<std::size_t>(place.runs.front()));
   sim::RunSpec spec;
   spec.seed = run.seed;
@@ -171,6 +174,8 @@ std::vector<Eigen::Vector2d> people_in(const Place& place) {
     }
     return sim::people_to_aim_at(place.scenario, spec);
   } catch (const InputError&) {
+    return {};
+  } catch (const EnvironmentError&) {
     return {};
   }
 }

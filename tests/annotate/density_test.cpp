@@ -89,7 +89,7 @@ TEST(NpzBytes, HoldTheArrayWithoutLossInLittleRoom) {
   const DensityMap map = density_map(heads, 1280, 720, 4);
   const std::string zip = npz_bytes(map);
   EXPECT_EQ(zip_member(zip, "density.npy", 4'000'000), npy_bytes(map));
-  EXPECT_LT(zip.size(), npy_bytes(map).size() / 8);
+  EXPECT_LT(zip.size(), npy_bytes(map).size() / 3);
 }
 
 TEST(NpyBytes, AlignsForAnySize) {

@@ -42,23 +42,32 @@ TEST(ZipMember, IsRefusedIfItIsMissingOrTooLarge) {
   EXPECT_THROW(zip_member("", "a.npy", 2000), InputError);
 }
 
-TEST(ZipMember, DamagesAreFoundOrHarmless) {
+TEST(ZipMember, DamagedDataAreRefused) {
   const std::string bytes = noise(5000);
   const std::string zip = zip_of("a.npy", bytes);
-  for (std::size_t at = 0; at < zip.size(); at += 7) {
+  for (std::size_t at = 100; at < 5000; at += 7) {
     std::string damaged = zip;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x41);
+    EXPECT_THROW(zip_member(damaged, "a.npy", 2 * bytes.size()), InputError) << at;
+  }
+}
+
+TEST(ZipMember, DamagedHeadersGiveAnErrorOrNoMoreThanIsAllowed) {
+  const std::string bytes = noise(5000);
+  const std::string zip = zip_of("a.npy", bytes);
+  const auto read = [&](const std::string& damaged) {
     try {
-      EXPECT_EQ(zip_member(damaged, "a.npy", 2 * bytes.size()), bytes) << at;
+      EXPECT_LE(zip_member(damaged, "a.npy", 2 * bytes.size()).size(), 2 * bytes.size());
     } catch (const InputError&) {
     }
+  };
+  for (std::size_t at = 0; at < zip.size(); ++at) {
+    if (at == 100) at = zip.size() - 150;
+    std::string damaged = zip;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x41);
+    read(damaged);
   }
-  for (std::size_t size = 0; size < zip.size(); size += 97) {
-    try {
-      EXPECT_EQ(zip_member(zip.substr(0, size), "a.npy", 2 * bytes.size()), bytes) << size;
-    } catch (const InputError&) {
-    }
-  }
+  for (std::size_t size = 0; size < zip.size(); size += 97) read(zip.substr(0, size));
 }
 
 }  // namespace

@@ -341,8 +341,8 @@ TEST_F(MoreExports, ImageFoldersLinesHaveEqualKeys) {
   EXPECT_EQ(boxes, coco().at("annotations").size());
   const std::string card = read_file(out / "README.md");
   EXPECT_TRUE(card.starts_with("---\nlicense: cc0-1.0\n")) << card;
-  EXPECT_THAT(card, testing::HasSubstr("size_categories:\n- n<1K\n---\n"));
-  EXPECT_THAT(card, testing::HasSubstr("| 0 | person |"));
+  EXPECT_THAT(card, ::testing::HasSubstr("size_categories:\n- n<1K\n---\n"));
+  EXPECT_THAT(card, ::testing::HasSubstr("| 0 | person |"));
 }
 
 TEST_F(MoreExports, WebDatasetKeepsSamplesTogether) {

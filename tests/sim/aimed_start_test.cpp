@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kChestM = 1.2;
 
-world::Scenario meadow() {
+world::Scenario open_field() {
   world::Scenario scenario;
   scenario.ground = {{-60, -60}, {60, 60}};
   scenario.inside = {{-40, -40}, {40, 40}};
@@ -64,12 +64,12 @@ TEST(AimedStart, TheOpticalAxisMeetsAPerson) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       std::vector<DroneMission> missions = {aiming(15, pitch_deg, 30)};
       std::vector<Problem> problems;
-      aim_drones(meadow(), kPeople, seed, missions, problems);
+      aim_drones(open_field(), kPeople, seed, missions, problems);
       ASSERT_TRUE(problems.empty());
       ASSERT_TRUE(missions[0].start);
       EXPECT_NEAR(missions[0].start->z(), 15, 1e-9);
       EXPECT_LT(nearest_m(aimed_at(missions[0]), kPeople), 1e-6) << pitch_deg << " " << seed;
-      plan_drones(meadow(), missions, 30, problems);
+      plan_drones(open_field(), missions, 30, problems);
       EXPECT_TRUE(problems.empty());
     }
   }
@@ -80,7 +80,7 @@ TEST(AimedStart, SeedsLookAtDifferentPeopleFromDifferentSides) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::vector<DroneMission> missions = {aiming(15, -45)};
     std::vector<Problem> problems;
-    aim_drones(meadow(), kPeople, seed, missions, problems);
+    aim_drones(open_field(), kPeople, seed, missions, problems);
     yaws.push_back(std::remainder(*missions[0].start_yaw_rad, 2 * EIGEN_PI));
   }
   EXPECT_LT(*std::min_element(yaws.begin(), yaws.end()), -2);
@@ -92,13 +92,13 @@ TEST(AimedStart, ALevelCameraStaysWithinTheMaxDistance) {
     std::vector<DroneMission> missions = {aiming(30, pitch_deg)};
     missions[0].aim->max_distance_m = 25;
     std::vector<Problem> problems;
-    aim_drones(meadow(), {{3, 4}}, 7, missions, problems);
+    aim_drones(open_field(), {{3, 4}}, 7, missions, problems);
     EXPECT_NEAR((missions[0].start->head<2>() - Vector2d(3, 4)).norm(), 25, 1e-9);
   }
 }
 
 TEST(AimedStart, KeepsClearOfBuildingsAndLooksPastThem) {
-  world::Scenario scenario = meadow();
+  world::Scenario scenario = open_field();
   // All around the person but for a gap in the east.
   scenario.buildings = {tower({-20, 10}, {20, 12}, 40), tower({-20, -12}, {20, -10}, 40),
                         tower({-22, -12}, {-20, 12}, 40)};
@@ -122,7 +122,7 @@ TEST(AimedStart, DronesStartApart) {
     std::vector<Problem> problems;
     std::vector<Vector2d> people = kPeople;
     people.emplace_back(0, 30);
-    aim_drones(meadow(), people, seed, missions, problems);
+    aim_drones(open_field(), people, seed, missions, problems);
     ASSERT_TRUE(problems.empty());
     for (std::size_t i = 0; i < missions.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -135,12 +135,12 @@ TEST(AimedStart, DronesStartApart) {
 TEST(AimedStart, WithoutPeopleItLooksInside) {
   std::vector<DroneMission> missions = {aiming(20, -60)};
   std::vector<Problem> problems;
-  aim_drones(meadow(), {}, 3, missions, problems);
-  EXPECT_TRUE(meadow().inside.contains(aimed_at(missions[0])));
+  aim_drones(open_field(), {}, 3, missions, problems);
+  EXPECT_TRUE(open_field().inside.contains(aimed_at(missions[0])));
 }
 
 TEST(AimedStart, IsRefusedWhereNoStartIsFree) {
-  world::Scenario scenario = meadow();
+  world::Scenario scenario = open_field();
   scenario.buildings = {tower({-200, -200}, {200, 200}, 50)};
   std::vector<DroneMission> missions = {aiming(20, -60)};
   std::vector<Problem> problems;

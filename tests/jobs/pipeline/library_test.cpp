@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "jobs/pipeline/resolve.h"
+#include "jobs/spec/spec.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {
@@ -35,12 +36,31 @@ std::set<std::string> scenarios_of_jobs(const fs::path& place) {
 TEST(Library, HasReadyJobsForEveryDayAndTheEmergencyOfEveryPlace) {
   std::size_t places = 0;
   for (const auto& entry : fs::directory_iterator(kLibrary)) {
-    if (!entry.is_directory()) continue;
+    if (!entry.is_directory() || entry.path().filename() == "presets") continue;
     ++places;
     EXPECT_THAT(scenarios_of_jobs(entry.path()), IsSupersetOf({"everyday", "emergency"}))
         << entry.path();
   }
   EXPECT_EQ(places, 8U);
+}
+
+// Reading alone: what is checked against eight places and their crowds takes minutes.
+TEST(Library, PresetsAreJobsOfAllPlaces) {
+  std::size_t presets = 0;
+  for (const auto& entry : fs::directory_iterator(kLibrary / "presets")) {
+    ++presets;
+    const JobSpec job = parse_job(read_file(entry.path()), entry.path().string());
+    std::set<std::string> places;
+    for (const ScenarioShare& share : job.mix) {
+      if (share.generate) continue;
+      EXPECT_NO_THROW(world::find_scenario(kLibrary, share.scenario)) << entry.path();
+      places.insert(fs::path(share.scenario).parent_path().string());
+    }
+    EXPECT_EQ(places.size(), 8U) << entry.path();
+    EXPECT_TRUE(job.drones.at(0).mission.aim) << entry.path();
+    EXPECT_FALSE(job.outputs.exports.splits.runs.empty()) << entry.path() << " tests a place";
+  }
+  EXPECT_EQ(presets, 6U);
 }
 
 TEST(Library, HasAReadyJobForEachOfTheFourCasesOfTheCitySquare) {

@@ -193,7 +193,9 @@ TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
 }
 
 TEST_F(Resolve, AnAimThatIsNeverFreeIsRefused) {
-  write_file_atomically(folder.path() / "shaft.json", R"({"extends": "yard.json", "name": "Shaft",
+  write_file_atomically(
+      folder.path() / "shaft.json",
+      R"({"extends": "yard.json", "name": "Shaft", "drones": [{"id": "d1", "start": [0, 0, 80]}],
       "buildings": [{"id": "block", "footprint": [[-90, -90], [90, -90], [90, 90], [-90, 90]],
                      "height_m": 60}]})");
   EXPECT_THAT(
