@@ -2,10 +2,25 @@
 
 #include <fmt/core.h>
 
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace throng::cli {
+
+namespace {
+
+/// The words of a program and its first arguments, and that of the command for workers.
+std::vector<std::string> worker_of(const std::string& program) {
+  std::istringstream text(program);
+  std::vector<std::string> words(std::istream_iterator<std::string>(text), {});
+  words.emplace_back("worker");
+  return words;
+}
+
+}  // namespace
 
 void add_executor_options(CLI::App& command, jobs::ExecutorOptions& options) {
   std::set<std::string> names;
@@ -34,10 +49,11 @@ void add_executor_options(CLI::App& command, jobs::ExecutorOptions& options) {
   command
       .add_option("--slurm-option", slurm.more,
                   "A further option of sbatch, e.g. --slurm-option=--qos=low; repeatable")
-      ->take_all();
-  command.add_option("--slurm-program", slurm.command,
-                     "The program of workers as the nodes know it, with its first arguments up to "
-                     "\"worker\" (default: this program by its path)");
+      ->allow_extra_args(false);
+  command.add_option_function<std::string>(
+      "--slurm-program", [&slurm](const std::string& text) { slurm.command = worker_of(text); },
+      "The program as the nodes know it, e.g. \"apptainer exec /shared/throng.sif throng\" "
+      "(default: this program's path)");
   command.add_option("--slurm-poll", slurm.poll_s, "Seconds between two looks at Slurm's queue")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
