@@ -1,4 +1,4 @@
-// Where files and folders lie until they get their final names, and the one place that renames
+// Paths of files and folders until they get their final names, and the one place that renames
 // them. A process of a cluster stages in a folder of its own: once that folder has been removed,
 // nothing that the process wrote can be published any more, however late it tries (fencing).
 #pragma once
@@ -17,7 +17,7 @@ void stage_in(const std::filesystem::path& folder);
 /// Whether the folder of stage_in() has been removed: nothing can be published any more.
 bool is_staging_revoked();
 
-/// What has been published since stage_in(), in order. Safe to use from many threads.
+/// Paths that have been published since stage_in(), in order. Safe to use from many threads.
 std::vector<std::filesystem::path> published_files();
 
 /// A new name for what is to become `final_path`: PATH.tmp.HOST.PID.RANDOM.NUMBER beside it, or

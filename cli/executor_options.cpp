@@ -24,7 +24,7 @@ std::vector<std::string> worker_of(const std::string& program) {
 
 void add_executor_options(CLI::App& command, jobs::ExecutorOptions& options) {
   std::set<std::string> names;
-  std::string help = "Where tasks run";
+  std::string help = "Machines that run tasks";
   for (const jobs::ExecutorKind& kind : jobs::executor_kinds()) {
     help += fmt::format("{} {} ({})", names.empty() ? ":" : ",", kind.name, kind.help);
     names.insert(kind.name);

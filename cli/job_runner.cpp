@@ -37,7 +37,7 @@ double fraction_of(const jobs::RunProgress& run) {
   return kSimulationShare * simulated + (1 - kSimulationShare) * drawn;
 }
 
-void show(ProgressBar& bar, const jobs::JobProgress& progress) {
+void show_job(ProgressBar& bar, const jobs::JobProgress& progress) {
   double fraction = 0;
   std::int64_t done = 0;
   std::int64_t total = 0;
@@ -62,7 +62,7 @@ std::unique_ptr<jobs::Executor> made_executor(const JobArguments& arguments) {
 }
 
 /// Needs of tasks by estimate, and what they wait for.
-jobs::Share share_of(const jobs::ResolvedJob& job) {
+jobs::Share job_share(const jobs::ResolvedJob& job) {
   jobs::Share share;
   share.memory_mib = [memory = jobs::TaskMemory(job.spec(), job.people())](const jobs::Task& task) {
     return memory.mib_of(task);
@@ -118,8 +118,8 @@ void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved
     const std::unique_ptr<jobs::Executor> executor = made_executor(arguments);
     failures = jobs::run_job(
         folder, resolved, *executor,
-        [&](const jobs::JobProgress& progress) { show(bar, progress); }, interrupt.token(),
-        share_of(resolved));
+        [&](const jobs::JobProgress& progress) { show_job(bar, progress); }, interrupt.token(),
+        job_share(resolved));
   }
   fmt::print("{}\n", folder.dataset().string());
   if (failures.empty()) {

@@ -59,7 +59,7 @@ void revoke_attempt(const JobFolder& folder, const std::string& array, std::size
 /// Removes the array with all its attempts. Throws EnvironmentError.
 void remove_attempts(const JobFolder& folder, const std::string& array);
 
-/// Who began an attempt.
+/// The process that began an attempt.
 struct AttemptClaim {
   std::string node;
   int pid = 0;

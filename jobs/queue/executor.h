@@ -1,4 +1,4 @@
-// Executor of tasks: the plug-in point between a job and the machines. Those that there are:
+// Executor of tasks: the plug-in point between a job and the machines. All are listed in
 // jobs/queue/executors.h.
 #pragma once
 
@@ -42,7 +42,7 @@ struct TaskProgress {
   std::string node = {};  ///< of a cluster; "" on this machine
 };
 
-/// What a node of a cluster did.
+/// The work of a node of a cluster.
 struct NodeWork {
   std::string node = {};
   int running = 0;    ///< tasks now
@@ -91,7 +91,7 @@ class Executor {
   /// them, in whatever process, finds them again. Nothing where tasks end with this process.
   virtual void leave_tasks() {}
 
-  /// What the nodes of a cluster did for the job in a folder, and for all since this process began.
+  /// The work of a cluster's nodes for the job in a folder, and for all since this process began.
   /// Empty where there is no cluster.
   virtual std::vector<NodeWork> nodes_of(const JobFolder& /*folder*/) const { return {}; }
   virtual std::vector<NodeWork> nodes() const { return {}; }

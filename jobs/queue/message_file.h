@@ -16,7 +16,7 @@ class MessageFile {
  public:
   explicit MessageFile(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Reads what is new; false when nothing is. Opens the file anew, which is when a network file
+  /// Reads what is new; false when nothing is. Opens the file again, which is when a network file
   /// system asks for what others have written.
   bool read();
 

@@ -32,7 +32,7 @@ class SlurmArrayNames {
   std::set<std::string> names_;
 };
 
-/// What calls of run() share.
+/// Shared by all calls of run().
 struct SlurmShared {
   SlurmOptions options;
   SlurmController controller;

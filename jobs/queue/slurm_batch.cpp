@@ -83,7 +83,7 @@ std::optional<std::size_t> SlurmBatch::task_named(const std::string& name) const
   return std::nullopt;
 }
 
-// Arrays of an earlier process go on. What they hold that nobody wants any more is taken back.
+// Arrays of an earlier process go on. Attempts in them that nobody wants any more are taken back.
 void SlurmBatch::adopt() {
   for (const AttemptArray& found : read_attempts(folder_)) {
     if (shared_.arrays.take(found.name)) adopt(found);

@@ -1,6 +1,6 @@
 // The way to Slurm's controller: one thread runs Slurm's programs, one at a time, so that the
-// controller is asked at a bounded rate however many jobs wait for answers. What it does not answer
-// now is asked again with growing pauses.
+// controller is asked at a bounded rate however many jobs wait for answers. While it does not
+// answer it is asked again with growing pauses.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ namespace throng::jobs {
 /// Begins the names of all jobs that we submit.
 inline constexpr const char* kSlurmPrefix = "throng-";
 
-/// What squeue said.
+/// An answer of squeue.
 struct SlurmQueue {
   using Clock = std::chrono::steady_clock;
   using Key = std::pair<std::string, int>;  ///< array job, index
@@ -71,7 +71,7 @@ class SlurmController {
     SlurmController& controller_;
   };
 
-  /// What was last seen.
+  /// The newest answer.
   std::shared_ptr<const SlurmQueue> queue() const;
 
   /// Runs sbatch, or sacct, after everything that was asked for before.

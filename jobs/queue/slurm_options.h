@@ -1,4 +1,4 @@
-// What a user asks of Slurm for all tasks.
+// Wishes of a user to Slurm, for all tasks.
 #pragma once
 
 #include <cstdint>

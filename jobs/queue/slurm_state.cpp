@@ -143,7 +143,7 @@ SlurmFate fate_of(const SlurmTask& task) {
                          (task.reason.find("launch failed requeued held") != std::string::npos ||
                           task.reason.find("launch_failed_requeued_held") != std::string::npos);
     if (is_held) return SlurmFate::lost;
-    // Whoever ends it politely is no fault of the task's: a reboot, or a limit of the site.
+    // SIGTERM comes from others, and is no fault of the task's: a reboot, or a limit of the site.
     if (fate == SlurmFate::failed && task.status.signal == SIGTERM) return SlurmFate::lost;
     return fate;
   }

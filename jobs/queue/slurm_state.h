@@ -1,5 +1,5 @@
-// What Slurm says of its jobs, read from the output of its programs, and what that means for an
-// attempt at a task. Pure functions; written for Slurm 20.11 and later.
+// States of Slurm's jobs, read from the output of its programs, and their meaning for an attempt at
+// a task. Pure functions; written for Slurm 20.11 and later.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,7 @@ std::string read_submission(const std::string& text);
 /// rather than because it refuses what was asked.
 bool is_controller_away(std::string_view output);
 
-/// What has become of an attempt.
+/// The fate of an attempt.
 enum class SlurmFate {
   waiting,
   running,

@@ -16,7 +16,7 @@ namespace throng::jobs {
 /// Tasks of an array job; no more than a controller takes with its default MaxArraySize.
 inline constexpr std::size_t kMaxArrayTasks = 1000;
 
-/// What one task needs: those of an array need the same.
+/// The needs of one task: those of an array need the same.
 struct SlurmNeed {
   std::int64_t memory_mib = 0;    ///< 0: the partition's default
   std::int64_t estimate_mib = 0;  ///< of the task's memory, from which memory_mib comes; rounded up

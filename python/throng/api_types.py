@@ -123,7 +123,7 @@ class Progress(TypedDict):
     shards: NotRequired[list[ProgressShard]]
     """Running ones."""
     nodes: NotRequired[list[ProgressNode]]
-    """What the nodes of a cluster did for the job; empty where workers run on the service's machine."""
+    """The work of a cluster's nodes for the job; empty where workers run on the service's machine."""
     frames_per_s: NotRequired[float]
     """0 before the first."""
     remaining_s: NotRequired[float | None]

@@ -79,7 +79,7 @@ export interface Progress {
     /** Of a cluster; not there where workers run on the service's machine. */
     node?: string;
   })[];
-  /** What the nodes of a cluster did for the job; empty where workers run on the service's machine. */
+  /** The work of a cluster's nodes for the job; empty where workers run on the service's machine. */
   nodes?: {
     node: string;
     /** Tasks now. */
