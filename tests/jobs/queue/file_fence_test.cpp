@@ -177,7 +177,7 @@ TEST_F(FileFenceTest, ADataFolderThatIsALinkIsHiddenToo) {
   fs::create_directory_symlink(data, link);
   const pid_t child = ::fork();
   if (child == 0) {
-    const bool fenced = fence_this_process({{link / "jobs/mine"}, link, {}}).empty();
+    const bool fenced = fence_this_process({{link / "jobs/mine"}, {link}, {}}).empty();
     const bool reads =
         can_open(data / "keys.sqlite", O_RDONLY) || can_open(link / "keys.sqlite", O_RDONLY);
     ::_exit(fenced && !reads && can_open(link / "jobs/mine/job.json", O_RDWR) ? 0 : 1);

@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // Keeps a line per task in $FAKE/queue/JOB_INDEX, in squeue's format.
-constexpr const char* kSbatch = R"(#!/bin/sh
+constexpr const char* kSbatch = R"sh(#!/bin/sh
 [ -e $FAKE/away ] && { echo "sbatch: error: Unable to contact slurm controller" >&2; exit 1; }
 [ -e $FAKE/refusal ] && { cat $FAKE/refusal >&2; exit 1; }
 for word in "$@"; do case $word in
   --test-only) exit 0;;
   --job-name=*) name=${word#*=};;
-  --array=*) last=${word#*-}; last=${last#*-}; last=${last%\%*};;
+  --array=*) last=${word##*-}; last=${last%%%*};;
   --wrap=*) script=${word#*=};;
 esac; done
 echo "$*" >> $FAKE/submitted
@@ -38,45 +38,45 @@ i=0; while [ $i -le $last ]; do
   export SLURM_ARRAY_TASK_ID=$i SLURMD_NODENAME=fake$((i % 2))
   line="$job|$i|%s|$SLURMD_NODENAME|None|%s|$name|\n"
   printf "$line" RUNNING 0 > $FAKE/queue/${job}_$i
-  ( sh -c "$script" > /dev/null 2>&1; code=$?
-    if [ -e $FAKE/end ]; then read state raw < $FAKE/end; rm $FAKE/end; else
-    [ $code = 0 ] && state=COMPLETED raw=0 || { state=FAILED; raw=$((code * 256)); }
-    [ $code -gt 128 ] && raw=$((code - 128)); fi
-    [ -e $FAKE/queue/${job}_$i ] && printf "$line" $state $raw > $FAKE/queue/${job}_$i ) > /dev/null 2>&1 &
+  setsid $FAKE/bin/node "$script" "$line" $FAKE/queue/${job}_$i > /dev/null 2>&1 &
   i=$((i + 1))
 done
+sleep 0.1  # until all have left the process group, which ends with this process
 echo $job
-)";
-constexpr const char* kSqueue = R"(#!/bin/sh
+)sh";
+// A task on its node, from its begin to its end.
+constexpr const char* kNode = R"sh(#!/bin/sh
+sh -c "$1"; code=$?
+if [ -e $FAKE/end ]; then read state raw < $FAKE/end; rm $FAKE/end
+elif [ $code = 0 ]; then state=COMPLETED raw=0
+elif [ $code -gt 128 ]; then state=FAILED raw=$((code - 128))
+else state=FAILED raw=$((code * 256)); fi
+[ -e $3 ] && printf "$2" $state $raw > $3
+)sh";
+constexpr const char* kSqueue = R"sh(#!/bin/sh
 [ -e $FAKE/away ] && { echo "slurm_load_jobs error: Unable to contact slurm controller" >&2; exit 1; }
 cat $FAKE/queue/* 2>/dev/null; exit 0
-)";
+)sh";
 constexpr const char* kScancel = "#!/bin/sh\necho \"$*\" >> $FAKE/cancelled\n";
 constexpr const char* kSacct = "#!/bin/sh\necho 'Slurm accounting storage is disabled'; exit 1\n";
 // begin_attempt() without the program: a worker that a test describes.
-constexpr const char* kWorker = R"(#!/bin/sh
+constexpr const char* kWorker = R"sh(#!/bin/sh
 job=$2 array=$4
 own=$job/attempts/$array/$SLURM_ARRAY_TASK_ID
-task=$(sed "s/.*\"tasks\"://" $job/attempts/$array/array.json | tr '{' '\n' | sed -n "$((SLURM_ARRAY_TASK_ID + 2))p" | sed 's/.*"task":"\([^"]*\)".*
-                                    /\1 /') mkdir $own / claimed ||
-                                exit 3 say() {
-  echo "$1" >> $own / messages;
-}
-end() {
-  say "{\"end\":{\"code\":$1,\"published\":[]}}";
-  exit $1;
-}
-begun() {
-  echo x >> $job / begun;
-  wc - l < $job / begun;
-}
-)";
+task=$(sed "s/.*\"tasks\"://" $job/attempts/$array/array.json | tr '{' '\n' |
+  sed -n "$((SLURM_ARRAY_TASK_ID + 2))p" | sed 's/.*"task":"\([^"]*\)".*/\1/')
+mkdir $own/claimed || exit 3
+say() { echo "$1" >> $own/messages; }
+end() { say "{\"end\":{\"code\":$1,\"published\":[]}}"; exit $1; }
+begun() { echo x >> $job/begun; wc -l < $job/begun; }
+)sh";
 
 class SlurmArraysTest : public testing::Test {
  protected:
   SlurmArraysTest() {
     for (const char* name : {"bin", "queue", "jobs"}) fs::create_directories(fake.path() / name);
     install("sbatch", kSbatch);
+    install("node", kNode);
     install("squeue", kSqueue);
     install("scancel", kScancel);
     install("scontrol", kScancel);
