@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::jobs {
 
@@ -63,8 +64,12 @@ void create_attempts(const JobFolder& folder, AttemptArray& array) {
     tasks.push_back({{"task", attempt.task}, {"attempt", attempt.number}});
   }
   make_folders(array_folder(folder, array.name) / "out");
+  // Synced all together, with the array's file.
   for (std::size_t i = 0; i < array.attempts.size(); ++i) {
-    make_folders(attempt_folder(folder, array.name, i));
+    const fs::path own = attempt_folder(folder, array.name, i);
+    std::error_code error;
+    fs::create_directory(own, error);
+    if (error) throw_environment_error("cannot create " + own.string(), error.value());
   }
   write_file_atomically(
       array_folder(folder, array.name) / kArrayName,

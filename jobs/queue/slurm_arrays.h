@@ -51,7 +51,7 @@ class SlurmArrays final : public Executor {
                               const Share& share) override;
   void leave_tasks() override { shared_->leaves_tasks = true; }
   std::vector<NodeWork> nodes_of(const JobFolder& folder) const override {
-    return shared_->book.of(folder);
+    return shared_->book.of(JobFolder(std::filesystem::absolute(folder.path())));
   }
   std::vector<NodeWork> nodes() const override { return shared_->book.all(); }
 

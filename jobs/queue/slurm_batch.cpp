@@ -196,7 +196,7 @@ void SlurmBatch::finish_submission(Array& array) {
     return;
   }
   // It may have been accepted although the answer got lost: then its tasks find no folder.
-  refusal_ = answer.text.substr(0, answer.text.find('\n'));
+  refusal_ = answer.is_away ? "" : answer.text.substr(0, answer.text.find('\n'));
   constexpr int kMaxDoublings = 6;
   const double rest_s = options_.rest_s * std::pow(2.0, std::min(refusals_++, kMaxDoublings));
   shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name)});

@@ -28,7 +28,8 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s) {
+SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s,
+                      const std::stop_token& stop) {
   std::vector<std::string> line = {"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};
   line.insert(line.end(), command.begin(), command.end());
   const auto end = std::chrono::steady_clock::now() + seconds(timeout_s);
@@ -39,7 +40,7 @@ SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s)
       for (const std::string& text : process.read_lines()) answer.text += text + "\n";
     };
     while (!process.has_ended()) {
-      if (std::chrono::steady_clock::now() > end) {
+      if (std::chrono::steady_clock::now() > end || stop.stop_requested()) {
         answer.text += fmt::format("{}: no answer within {} s\n", command[0], timeout_s);
         answer.is_away = true;
         return answer;  // the destructor ends the process
@@ -122,13 +123,13 @@ void SlurmController::work(const std::stop_token& stop) {
       Order order = std::move(orders_.front());
       orders_.pop_front();
       lock.unlock();
-      carry_out(std::move(order));
+      carry_out(std::move(order), stop);
       lock.lock();
       continue;
     }
     if (watches_ > 0 && Clock::now() >= next_look_) {
       lock.unlock();
-      look();
+      look(stop);
       lock.lock();
       continue;
     }
@@ -146,8 +147,8 @@ void SlurmController::work(const std::stop_token& stop) {
   }
 }
 
-void SlurmController::carry_out(Order order) {
-  SlurmAnswer answer = run_slurm(order.command, options_.command_timeout_s);
+void SlurmController::carry_out(Order order, const std::stop_token& stop) {
+  SlurmAnswer answer = run_slurm(order.command, options_.command_timeout_s, stop);
   if (answer.is_away) {
     note_away(answer.text);
   } else {
@@ -161,11 +162,11 @@ void SlurmController::carry_out(Order order) {
   }
 }
 
-void SlurmController::look() {
+void SlurmController::look(const std::stop_token& stop) {
   const Clock::time_point asked = Clock::now();
   const SlurmAnswer answer = run_slurm({"squeue", "--me", "--array", "--states=all", "--noheader",
                                         std::string("--Format=") + kQueueFormat},
-                                       options_.command_timeout_s);
+                                       options_.command_timeout_s, stop);
   if (!answer.is_ok) return note_away(answer.text);
   auto queue = std::make_shared<SlurmQueue>();
   queue->asked = asked;
@@ -202,7 +203,7 @@ void SlurmController::note_back() {
 }
 
 void SlurmController::drain() {
-  constexpr double kTimeoutS = 10;
+  constexpr double kTimeoutS = 5;
   for (const Order& order : orders_) {
     if (order.promise) continue;
     if (run_slurm(order.command, kTimeoutS).is_away) return;

@@ -47,8 +47,10 @@ struct SlurmControllerOptions {
   double command_timeout_s = 30;  ///< of Slurm's programs
 };
 
-/// Runs a program and returns what it prints; ends it when it takes too long. Blocks.
-SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s);
+/// Runs a program and returns what it prints; ends it when it takes too long, or `stop` asks.
+/// Blocks.
+SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s,
+                      const std::stop_token& stop = {});
 
 /// Safe to use from many threads.
 class SlurmController {
@@ -90,8 +92,8 @@ class SlurmController {
   };
 
   void work(const std::stop_token& stop);
-  void carry_out(Order order);
-  void look();
+  void carry_out(Order order, const std::stop_token& stop);
+  void look(const std::stop_token& stop);
   void note_away(const std::string& why);
   void note_back();
   bool has_orders_now() const;
