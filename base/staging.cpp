@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -37,6 +38,11 @@ Area& area() {
 bool is_staging_in_folder() { return area().descriptor != AT_FDCWD; }
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
+
+bool is_within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
 
 /// The path as it is looked up from the area's descriptor.
 fs::path from_area(const fs::path& staged) {
@@ -78,7 +84,8 @@ std::error_code publish_staged(const fs::path& staged, const fs::path& final_pat
   if (::renameat(area().descriptor, from_area(staged).c_str(), AT_FDCWD, final_path.c_str()) != 0) {
     return last_error();
   }
-  if (is_staging_in_folder()) {
+  // A file in a folder under construction is published with that folder.
+  if (is_staging_in_folder() && !is_within(final_path, area().folder)) {
     const std::lock_guard lock(area().mutex);
     area().published.push_back(final_path);
   }

@@ -67,6 +67,9 @@ TEST_F(AttemptsTest, AWorkerBeginsSaysAndPublishes) {
     if (std::string(std::getenv("THRONG_TEST_VARIABLE")) != "set") return 2;
     if (std::string(std::getenv("THRONG_ATTEMPT")) != "2") return 3;
     write_file_atomically(folder.path() / "work/run001/trace.h5", "trace");
+    StagingFolder staging(folder.path() / "work/run001/shard0000");
+    write_file_atomically(staging.path() / "files/image", "part of the folder");
+    staging.commit();
     end_attempt(folder.path(), 0);
     return 0;
   });
@@ -78,7 +81,9 @@ TEST_F(AttemptsTest, AWorkerBeginsSaysAndPublishes) {
   EXPECT_TRUE(messages.read());
   ASSERT_TRUE(messages.end());
   EXPECT_EQ(messages.end()->code, 0);
-  EXPECT_EQ(messages.end()->published, std::vector<std::string>{"work/run001/trace.h5"});
+  const std::vector<std::string> published = {"work/run001/trace.h5", "work/run001/shard0000"};
+  EXPECT_EQ(messages.end()->published, published);
+  EXPECT_EQ(read_file(folder.path() / "work/run001/shard0000/files/image"), "part of the folder");
   EXPECT_FALSE(messages.read()) << "nothing new";
 }
 
