@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -28,6 +29,7 @@ constexpr int kMode = 0644;
 
 // The messages, to be written to when the worker has handed stdout to its own Reporter.
 int messages = -1;
+std::chrono::steady_clock::time_point begun;
 
 void write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
@@ -86,11 +88,13 @@ std::string begin_attempt(const fs::path& job_folder, const std::string& array, 
   messages = opened(own / "messages");
   ::dup2(messages, STDOUT_FILENO);
   stage_in(own);
+  begun = std::chrono::steady_clock::now();
   return name;
 }
 
 void end_attempt(const fs::path& job_folder, int exit_code) {
-  AttemptEnd end{exit_code, {}};
+  const auto took = std::chrono::steady_clock::now() - begun;
+  AttemptEnd end{exit_code, std::chrono::duration<double>(took).count(), {}};
   for (const fs::path& path : published_files()) {
     end.published.push_back(path.lexically_relative(job_folder).string());
   }

@@ -139,8 +139,8 @@ std::optional<AttemptClaim> claim_of(const JobFolder& folder, const std::string&
 }
 
 std::string attempt_end_line(const AttemptEnd& end) {
-  return json{{"end", {{"code", end.code}, {"published", end.published}}}}.dump(
-      -1, ' ', false, json::error_handler_t::replace);
+  return json{{"end", {{"code", end.code}, {"seconds", end.seconds}, {"published", end.published}}}}
+      .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::optional<AttemptEnd> read_attempt_end(const std::string& line) {
@@ -149,7 +149,7 @@ std::optional<AttemptEnd> read_attempt_end(const std::string& line) {
     const json value = parse_json(line, "");
     if (!value.contains("end")) return std::nullopt;
     const json& end = value.at("end");
-    return AttemptEnd{end.at("code"), end.at("published")};
+    return AttemptEnd{end.at("code"), end.at("seconds"), end.at("published")};
   } catch (const InputError&) {
     return std::nullopt;
   } catch (const json::exception&) {

@@ -72,6 +72,7 @@ std::optional<AttemptClaim> claim_of(const JobFolder& folder, const std::string&
 /// How an attempt ended, as its worker says.
 struct AttemptEnd {
   int code = 0;                        ///< WorkerExit
+  double seconds = 0;                  ///< that it took
   std::vector<std::string> published;  ///< paths, relative to the job's folder
 };
 

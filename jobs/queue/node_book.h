@@ -22,7 +22,7 @@ struct NodeRecord {
   std::string node;
   std::string slurm_job;  ///< "17_3"
   std::string outcome;    ///< "succeeded", "lost", or name_of(Outcome)
-  double seconds = 0;     ///< from when it was first seen running
+  double seconds = 0;     ///< by its worker, or from when it was first seen running
   std::string message = {};
 };
 

@@ -30,7 +30,8 @@ void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
   for (Entry& entry : array.entries) {
     if (!entry.is_open) continue;
     const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
-    if (found == queue.tasks.end()) {
+    // Numbers of jobs come again when a controller has lost its state.
+    if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) {
       look_for_absent(array, entry, queue);
     } else {
       entry.absent.reset();
@@ -87,7 +88,8 @@ void SlurmBatch::look_for_absent(Array& array, Entry& entry, const SlurmQueue& q
     if (entry.accounting->wait_for(kNow) != std::future_status::ready) return;
     const SlurmAnswer answer = entry.accounting->get();
     entry.accounting.reset();
-    const auto state = answer.is_ok ? read_accounting(answer.text) : std::nullopt;
+    const auto state =
+        answer.is_ok ? read_accounting(answer.text, job_name_of(array.name)) : std::nullopt;
     const SlurmFate fate = state ? fate_of(*state) : SlurmFate::lost;
     entry.absent = queue.asked;
     if (fate == SlurmFate::running || fate == SlurmFate::waiting) return;
@@ -109,7 +111,7 @@ void SlurmBatch::look_for_absent(Array& array, Entry& entry, const SlurmQueue& q
   if (*entry.absent == queue.asked) return;
   entry.accounting = shared_.controller.ask({"sacct", "-n", "-P", "-X", "-j",
                                              fmt::format("{}_{}", array.job, entry.index), "-o",
-                                             "State,ExitCode,NodeList"});
+                                             "State,ExitCode,NodeList,JobName"});
 }
 
 // Notes where it runs, and reads what it says.
@@ -178,7 +180,9 @@ void SlurmBatch::close(Array& array, Entry& entry, const std::string& outcome,
                        const std::string& message) {
   entry.is_open = false;
   if (entry.node.empty()) return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - entry.begun).count();
+  const double seconds = entry.messages.end()
+                             ? entry.messages.end()->seconds
+                             : std::chrono::duration<double>(Clock::now() - entry.begun).count();
   shared_.book.leave(folder_, entry.node);
   shared_.book.end(folder_,
                    {name_of(tasks_[entry.task]), results_[entry.task].attempts, entry.node,
@@ -231,7 +235,9 @@ void SlurmBatch::lose(std::size_t task, TaskResult result, const SlurmTask& stat
 
 void SlurmBatch::cancel(const Array& array, const Entry& entry) const {
   if (array.job.empty()) return;  // it finds no right to publish
-  shared_.controller.tell({"scancel", "--quiet", fmt::format("{}_{}", array.job, entry.index)});
+  // The number alone may be another's by now.
+  shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name),
+                           fmt::format("{}_{}", array.job, entry.index)});
 }
 
 void SlurmBatch::end_others(const std::function<bool(const Task&)>& condition) {
@@ -255,9 +261,9 @@ void SlurmBatch::end_others(const std::function<bool(const Task&)>& condition) {
     }
     if (ended.empty()) continue;
     // By name also where the number is not known yet: those that begin find no right to publish.
-    if (!array.is_open()) ended.assign(1, "--name=" + job_name_of(array.name));
+    if (!array.is_open()) ended.clear();
     if (array.is_open() && array.job.empty()) continue;
-    ended.insert(ended.begin(), {"scancel", "--quiet"});
+    ended.insert(ended.begin(), {"scancel", "--quiet", "--name=" + job_name_of(array.name)});
     shared_.controller.tell(std::move(ended));
     shared_.controller.look_soon();
   }

@@ -249,7 +249,7 @@ void SlurmBatch::say_why_nothing_runs(const SlurmQueue& queue) {
       for (const Entry& entry : array.entries) {
         if (!entry.is_open) continue;
         const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
-        if (found == queue.tasks.end()) continue;
+        if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) continue;
         const SlurmFate fate = fate_of(found->second);
         if (fate != SlurmFate::waiting) pending = "-";
         if (fate == SlurmFate::waiting && pending.empty()) pending = found->second.reason;

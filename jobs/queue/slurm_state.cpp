@@ -85,14 +85,16 @@ std::vector<SlurmTask> read_queue(const std::string& text, std::string_view pref
   return tasks;
 }
 
-std::optional<SlurmTask> read_accounting(const std::string& text) {
-  constexpr std::size_t kFields = 3;
+std::optional<SlurmTask> read_accounting(const std::string& text, const std::string& name) {
+  constexpr std::size_t kFields = 4;
   for (const std::string& line : split(text, '\n')) {
     const std::vector<std::string> fields = split(line, '|');
-    if (fields.size() < kFields || fields[0].empty()) continue;
+    // Numbers of jobs come again when a controller has lost its state.
+    if (fields.size() < kFields || fields[0].empty() || fields[3] != name) continue;
     const std::vector<std::string> codes = split(fields[1], ':');
     if (codes.size() != 2 || !number_in(codes[0]) || !number_in(codes[1])) continue;
     SlurmTask task;
+    task.name = name;
     // "CANCELLED by 1000"
     task.state = fields[0].substr(0, fields[0].find(' '));
     task.status = {*number_in(codes[0]), *number_in(codes[1])};

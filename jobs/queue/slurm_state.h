@@ -32,9 +32,9 @@ inline constexpr const char* kQueueFormat =
 /// Lines that are no such task are left out.
 std::vector<SlurmTask> read_queue(const std::string& text, std::string_view prefix);
 
-/// State, status and node of one task, from `sacct -n -P -X -o State,ExitCode,NodeList`; nothing
-/// when the accounting knows none.
-std::optional<SlurmTask> read_accounting(const std::string& text);
+/// State, status and node of one task of a job of this name, from `sacct -n -P -X -o
+/// State,ExitCode,NodeList,JobName`; nothing when the accounting knows none.
+std::optional<SlurmTask> read_accounting(const std::string& text, const std::string& name);
 
 /// The number of a submitted job, from `sbatch --parsable`; "" when there is none.
 std::string read_submission(const std::string& text);

@@ -99,7 +99,7 @@ class Cluster:
             self.start_controller()
             for node in NODES:
                 self.start_node(node)
-            wait_until(self._is_idle, what="idle nodes")
+            self.wait_for_nodes()
         except BaseException:
             self.stop()
             raise
@@ -150,9 +150,14 @@ class Cluster:
                           "--Format=ArrayJobID:|,ArrayTaskID:|,State:|,NodeList:|")
         return [tuple(line.split("|")[:4]) for line in answer.stdout.splitlines()]
 
-    def _is_idle(self):
-        states = self.run("sinfo", "--noheader", "--Node", "--format=%T").stdout.split()
-        return states == ["idle"] * len(NODES)
+    def node_states(self):
+        return self.run("sinfo", "--noheader", "--Node", "--format=%T").stdout.split()
+
+    def wait_for_nodes(self):
+        """Until the controller knows all nodes, and none is down."""
+        def is_good(state):
+            return state in ("idle", "mixed", "allocated", "completing")
+        wait_until(lambda: list(map(is_good, self.node_states())) == [True] * len(NODES), what="good nodes")
 
     def _processes(self):
         """(pid, environment) of everything that runs for this cluster, but for this process."""

@@ -178,6 +178,7 @@ class Slurm(unittest.TestCase):
         wait_until(lambda: "does not answer" in str(server.job(name)["waiting_for"]), 40, "a word about the controller")
         self.assertEqual(server.job(name)["state"], "running")
         self.cluster.start_controller()
+        self.cluster.wait_for_nodes()
 
         # The node is cut off from the cluster, with its worker in the midst of its work.
         worker, node = self.worker_of("run000/shard0000")
@@ -185,7 +186,11 @@ class Slurm(unittest.TestCase):
         for pid in cut_off:
             os.kill(pid, signal.SIGSTOP)
         begun = time.monotonic()
-        wait_until(lambda: any(end["outcome"] == "lost" for end in ends_of(folder)), 60, "the loss of the node")
+        try:
+            wait_until(lambda: any("NODE_FAIL" in end["message"] for end in ends_of(folder)), 60, "the loss of the node")
+        except TimeoutError:
+            print(self.cluster.node_states(), self.cluster.jobs(), ends_of(folder), server.job(name), file=sys.stderr)
+            raise
         print(f"node lost after {time.monotonic() - begun:.1f} s", file=sys.stderr)
         # A server that ends politely leaves its tasks to the next one, too.
         server.end(signal.SIGTERM)

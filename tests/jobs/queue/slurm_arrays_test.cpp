@@ -67,7 +67,7 @@ task=$(sed "s/.*\"tasks\"://" $job/attempts/$array/array.json | tr '{' '\n' |
   sed -n "$((SLURM_ARRAY_TASK_ID + 2))p" | sed 's/.*"task":"\([^"]*\)".*/\1/')
 mkdir $own/claimed || exit 3
 say() { echo "$1" >> $own/messages; }
-end() { say "{\"end\":{\"code\":$1,\"published\":[]}}"; exit $1; }
+end() { say "{\"end\":{\"code\":$1,\"seconds\":0.5,\"published\":[]}}"; exit $1; }
 begun() { echo x >> $job/begun; wc -l < $job/begun; }
 )sh";
 
@@ -274,6 +274,21 @@ TEST_F(SlurmArraysTest, TasksThatRunAreTakenUpAgain) {
     fs::remove(folder.path() / "go");
     fs::remove(folder.path() / "begun");
   }
+}
+
+// A controller that has lost its state gives the same numbers to others.
+TEST_F(SlurmArraysTest, ANumberThatCameAgainIsAnothersJob) {
+  AttemptArray lost;
+  lost.attempts = {{"run000/trace", 1}};
+  const JobFolder job(folder.path());
+  create_attempts(job, lost);
+  note_array_job(job, lost.name, "77");
+  write_file_atomically(fake.path() / "queue/77_0", "77|0|RUNNING|fake0|None|0|throng-others|\n");
+  const TaskResult result = run("begun; end 0")[0];
+  EXPECT_EQ(result.outcome, Outcome::succeeded);
+  EXPECT_EQ(text_of(folder.path() / "begun"), "x\n");
+  EXPECT_THAT(text_of(fake.path() / "cancelled"),
+              HasSubstr("--name=throng-" + lost.name + " 77_0"));
 }
 
 TEST_F(SlurmArraysTest, AnArrayThatNeverReachedSlurmIsSubmittedAgain) {

@@ -39,14 +39,16 @@ TEST(SlurmState, TheQueueHoldsOurTasksOnly) {
 }
 
 TEST(SlurmState, TheAccountingKnowsStateStatusAndNode) {
-  const auto cancelled = read_accounting("CANCELLED by 1000|0:15|node2|\n");
+  const auto cancelled = read_accounting("CANCELLED by 1000|0:15|node2|throng-a|\n", "throng-a");
   ASSERT_TRUE(cancelled);
   EXPECT_EQ(cancelled->state, "CANCELLED");
   EXPECT_EQ(cancelled->status.signal, SIGTERM);
   EXPECT_EQ(cancelled->node, "node2");
-  EXPECT_EQ(read_accounting("FAILED|3:0|node1\n")->status.code, 3);
-  EXPECT_FALSE(read_accounting(""));
-  EXPECT_FALSE(read_accounting("Slurm accounting storage is disabled\n"));
+  EXPECT_EQ(read_accounting("FAILED|3:0|node1|throng-a\n", "throng-a")->status.code, 3);
+  EXPECT_FALSE(read_accounting("FAILED|3:0|node1|throng-b\n", "throng-a"))
+      << "the number came again";
+  EXPECT_FALSE(read_accounting("", "throng-a"));
+  EXPECT_FALSE(read_accounting("Slurm accounting storage is disabled\n", "throng-a"));
 }
 
 TEST(SlurmState, ASubmissionGivesANumber) {
