@@ -1,4 +1,6 @@
 // throng worker: one task of a job, for its supervisor.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
@@ -55,7 +57,13 @@ int run_attempt(const std::string& job_folder, const std::string& array) {
     throw InputError(
         Problem{"--array", "$SLURM_ARRAY_TASK_ID", "not set", "an index, as Slurm sets it"});
   }
-  const std::string task = jobs::begin_attempt(job_folder, array, std::atoi(index));
+  std::string task;
+  try {
+    task = jobs::begin_attempt(job_folder, array, std::atoi(index));
+  } catch (const EnvironmentError& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return jobs::worker_not_begun;
+  }
   const int code = jobs::run_worker(job_folder, task, other_tasks());
   jobs::end_attempt(job_folder, code);
   return code;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "jobs/queue/worker_end.h"
+#include "jobs/queue/worker_protocol.h"
 
 namespace throng::jobs {
 
@@ -147,6 +148,8 @@ SlurmFate fate_of(const SlurmTask& task) {
     if (is_held) return SlurmFate::lost;
     // SIGTERM comes from others, and is no fault of the task's: a reboot, or a limit of the site.
     if (fate == SlurmFate::failed && task.status.signal == SIGTERM) return SlurmFate::lost;
+    // A controller that has lost its state starts tasks again that run.
+    if (fate == SlurmFate::failed && task.status.code == worker_not_begun) return SlurmFate::lost;
     return fate;
   }
   return SlurmFate::running;  // a state of a later version: the lease decides

@@ -79,7 +79,7 @@ class Cluster:
             "MpiDefault=none", "SwitchType=switch/none", "SelectType=select/cons_tres",
             "SelectTypeParameters=CR_Core_Memory", "SlurmdParameters=config_overrides", "MailProg=/bin/true",
             "SchedulerParameters=batch_sched_delay=0,sched_interval=1,sched_min_interval=0,bf_interval=1",
-            "SlurmdTimeout=6", "SlurmctldTimeout=5", "MessageTimeout=5", "BatchStartTimeout=5", "KillWait=2",
+            "SlurmdTimeout=3", "SlurmctldTimeout=5", "MessageTimeout=3", "BatchStartTimeout=5", "KillWait=2",
             "ReturnToService=2", "CommunicationParameters=NoCtldInAddrAny", "TCPTimeout=2",
         ]
         for node, port in zip(NODES, ports[1:]):
@@ -121,11 +121,12 @@ class Cluster:
     def start_node(self, node):
         self._start(node, "slurmd", "-D", "-N", node, "-f", str(self.conf))
 
-    def kill(self, name):
+    def end(self, name, number=signal.SIGTERM):
+        """A controller that is killed forgets what it did not write down in the last seconds, numbers of jobs included."""
         process = self.daemons.pop(name)
         with contextlib.suppress(ProcessLookupError):
-            process.kill()
-        process.wait()
+            process.send_signal(number)
+        process.wait(20)
 
     def processes_of(self, node):
         """Processes of the node: its daemon, its steps, and what they started."""

@@ -103,6 +103,7 @@ TEST(SlurmState, WhatIsNoFaultOfTheTaskCostsNoAttempt) {
     EXPECT_TRUE(is_blameless(fate_of(in_state(state)))) << state;
   }
   EXPECT_TRUE(is_blameless(fate_of(in_state("FAILED", {0, SIGTERM}))));
+  EXPECT_TRUE(is_blameless(fate_of(in_state("FAILED", {75, 0})))) << "begun by another process";
   EXPECT_TRUE(is_blameless(fate_of(in_state("PENDING", {}, "launch failed requeued held"))));
   for (const char* state :
        {"COMPLETED", "FAILED", "TIMEOUT", "OUT_OF_MEMORY", "CANCELLED", "RUNNING", "PENDING"}) {
