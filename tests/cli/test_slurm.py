@@ -187,7 +187,7 @@ class Slurm(unittest.TestCase):
             os.kill(pid, signal.SIGSTOP)
         begun = time.monotonic()
         try:
-            wait_until(lambda: any("NODE_FAIL" in end["message"] for end in ends_of(folder)), 60, "the loss of the node")
+            wait_until(lambda: any("NODE_FAIL" in end["message"] for end in ends_of(folder)), 60, "the node's loss")
         except TimeoutError:
             print(self.cluster.node_states(), self.cluster.jobs(), ends_of(folder), server.job(name), file=sys.stderr)
             raise
