@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -13,17 +12,13 @@
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "base/staging.h"
 
 namespace throng {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path temporary_beside(const fs::path& path) {
-  static std::atomic<unsigned> count{0};
-  return fs::path(fmt::format("{}.tmp.{}.{}", path.string(), ::getpid(), count++));
-}
 
 [[noreturn]] void fail(std::string_view what, const fs::path& path, int error = errno) {
   throw_environment_error(fmt::format("cannot {} {}", what, path.string()), error);
@@ -90,7 +85,7 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 }
 
 StagedFile::StagedFile(fs::path final_path)
-    : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
+    : final_(std::move(final_path)), staging_(staging_path_of(final_)) {
   make_folders(parent_of(final_));
   file_.open(staging_, std::ios::binary);
   if (!file_) fail("write", staging_);
@@ -116,14 +111,22 @@ void StagedFile::commit() {
   file_.close();
   if (!file_) fail("write", staging_);
   sync_path(staging_);
-  std::error_code error;
-  fs::rename(staging_, final_, error);
+  const std::error_code error = publish_staged(staging_, final_);
   if (error) fail("write", final_, error.value());
   sync_path(parent_of(final_));
 }
 
+void StagedFile::commit_if_absent() {
+  file_.close();
+  if (!file_) fail("write", staging_);
+  sync_path(staging_);
+  const std::error_code error = link_staged(staging_, final_);
+  if (error && error != std::errc::file_exists) fail("write", final_, error.value());
+  sync_path(parent_of(final_));
+}
+
 StagingFolder::StagingFolder(fs::path final_path)
-    : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
+    : final_(std::move(final_path)), staging_(staging_path_of(final_)) {
   make_folders(parent_of(final_));
   std::error_code error;
   fs::create_directory(staging_, error);
@@ -147,8 +150,7 @@ void StagingFolder::commit_replacing() {
 
 void StagingFolder::commit() {
   sync_tree(staging_);
-  std::error_code error;
-  fs::rename(staging_, final_, error);
+  const std::error_code error = publish_staged(staging_, final_);
   if (error && !fs::exists(final_)) {
     throw EnvironmentError(fmt::format("cannot publish {}: {}", final_.string(), error.message()));
   }

@@ -39,6 +39,8 @@ class StagedFile {
   /// Gives what has been written to the system, so that others can read it at path().
   void flush();
   void commit();
+  /// Likewise unless there is a file of that name: of several processes one succeeds.
+  void commit_if_absent();
 
  private:
   std::filesystem::path final_;
@@ -55,7 +57,7 @@ void remove_temporaries(const std::filesystem::path& folder);
 /// removes it.
 class StagingFolder {
  public:
-  /// Creates `<final>.tmp.<pid>.<n>` beside `final_path`. Throws EnvironmentError.
+  /// Creates a folder at staging_path_of(final_path) (base/staging.h). Throws EnvironmentError.
   explicit StagingFolder(std::filesystem::path final_path);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;

@@ -4,20 +4,23 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "calibrate/spec/camera_file.h"
 #include "cli/document_kind.h"
+#include "cli/executor_options.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "jobs/pipeline/resolve.h"
-#include "jobs/queue/local_processes.h"
+#include "jobs/queue/executors.h"
 #include "jobs/queue/profile.h"
 #include "jobs/queue/supervisor.h"
 #include "jobs/spec/calibrations.h"
+#include "jobs/spec/task_memory.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -34,7 +37,7 @@ double fraction_of(const jobs::RunProgress& run) {
   return kSimulationShare * simulated + (1 - kSimulationShare) * drawn;
 }
 
-void show(ProgressBar& bar, const jobs::JobProgress& progress) {
+void show_job(ProgressBar& bar, const jobs::JobProgress& progress) {
   double fraction = 0;
   std::int64_t done = 0;
   std::int64_t total = 0;
@@ -47,6 +50,29 @@ void show(ProgressBar& bar, const jobs::JobProgress& progress) {
            done == 0 ? std::string("simulating") : fmt::format("{} of {} frames", done, total));
 }
 
+std::unique_ptr<jobs::Executor> made_executor(const JobArguments& arguments) {
+  jobs::ExecutorOptions options = arguments.executor;
+  options.local.workers = arguments.workers;
+  options.slurm.at_once = arguments.workers;
+  const jobs::ExecutorKind& kind = jobs::executor_kind(options.name);
+  if (const std::string problem = kind.check(options); !problem.empty()) {
+    fmt::print(stderr, "throng: {}: {}; waiting for an answer\n", kind.name, problem);
+  }
+  return kind.make(options);
+}
+
+/// Needs of tasks by estimate, and what they wait for.
+jobs::Share job_share(const jobs::ResolvedJob& job) {
+  jobs::Share share;
+  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), job.people())](const jobs::Task& task) {
+    return memory.mib_of(task);
+  };
+  share.on_wait = [](const std::string& reason) {
+    if (!reason.empty()) fmt::print(stderr, "\nthrong: {}\n", reason);
+  };
+  return share;
+}
+
 }  // namespace
 
 void add_job_options(CLI::App& command, JobArguments& arguments) {
@@ -56,11 +82,14 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
           "-o,--output", arguments.output,
           "Folder for the dataset/ and the intermediate files; an interrupted job is resumed")
       ->required();
-  command.add_option("--workers", arguments.workers, "Parallel worker processes (0: one per core)")
+  command
+      .add_option("--workers", arguments.workers,
+                  "Parallel worker processes (0: one per core; in Slurm any number)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_flag("--profile", arguments.profile,
                    "Print a profile of rendering, labeling and writing");
+  add_executor_options(command, arguments.executor);
 }
 
 std::string read_job_text(const std::string& path) {
@@ -86,10 +115,11 @@ void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved
   {
     const Interrupt interrupt;
     ProgressBar bar(job.name.empty() ? "job" : job.name);
-    jobs::LocalProcesses executor({.workers = arguments.workers});
+    const std::unique_ptr<jobs::Executor> executor = made_executor(arguments);
     failures = jobs::run_job(
-        folder, resolved, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
-        interrupt.token());
+        folder, resolved, *executor,
+        [&](const jobs::JobProgress& progress) { show_job(bar, progress); }, interrupt.token(),
+        job_share(resolved));
   }
   fmt::print("{}\n", folder.dataset().string());
   if (failures.empty()) {

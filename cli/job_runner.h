@@ -1,11 +1,12 @@
-// Shared by `throng run` and `throng render`: a job folder processed by local workers, with a
-// progress bar and Ctrl-C.
+// Shared by `throng run` and `throng render`: a job folder worked off, with a progress bar and
+// Ctrl-C.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 #include "jobs/pipeline/resolve.h"
+#include "jobs/queue/executors.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
 
@@ -15,10 +16,11 @@ struct JobArguments {
   std::string job_file;
   std::string output;
   int workers = 0;
+  jobs::ExecutorOptions executor = {};
   bool profile = false;
 };
 
-/// The options JOB, --output, --workers and --profile.
+/// The options JOB, --output, --workers, --profile, and those of executors.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
 /// The job file's text, with the cameras of the calibration files that it names. Throws InputError

@@ -43,7 +43,8 @@ void add_keys(CLI::App& app) {
   command->require_subcommand(1);
   const auto data = std::make_shared<std::string>("throng-data");
   const auto add_data = [data](CLI::App* to) {
-    to->add_option("--data", *data, "Folder of the service")->capture_default_str();
+    to->add_option("--data", *data, "Data folder of the service, or its --database")
+        ->capture_default_str();
   };
 
   auto* create =

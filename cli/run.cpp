@@ -8,7 +8,8 @@
 namespace throng::cli {
 
 void add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Run a job locally: simulate, render, annotate");
+  auto* command =
+      app.add_subcommand("run", "Run a job without a server: simulate, render, annotate");
   const auto arguments = std::make_shared<JobArguments>();
   add_job_options(*command, *arguments);
   command->callback([arguments] {

@@ -5,25 +5,33 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/executor_options.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
 
 void add_serve(CLI::App& app) {
   auto* command =
-      app.add_subcommand("serve", "Serve jobs over HTTP (SQLite, local workers, files)");
+      app.add_subcommand("serve", "Serve jobs over HTTP (SQLite, workers here or in Slurm, files)");
   const auto options = std::make_shared<server::ServeOptions>();
+  const auto executor = std::make_shared<jobs::ExecutorOptions>();
   options->data = "throng-data";
   command->add_option("--data", options->data, "Data folder of the service")->capture_default_str();
+  command->add_option("--database", options->database,
+                      "Folder of jobs, keys and webhooks, on a local disk, where the data folder "
+                      "is on a network file system (default: the data folder)");
   command->add_option("--host", options->host, "Address to listen on")->capture_default_str();
   command->add_option("--port", options->port, "Port to listen on (0: any that is free)")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command->add_option("--port-file", options->port_file,
                       "File for the port number, written when the service is ready");
-  command->add_option("--workers", options->workers, "Parallel worker processes (0: one per core)")
+  command
+      ->add_option("--workers", options->workers,
+                   "Parallel worker processes (0: one per core; in Slurm any number)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  add_executor_options(*command, *executor);
   command
       ->add_option("--max-active-jobs", options->max_active_jobs,
                    "Jobs in progress at once; each key may always have one")
@@ -71,7 +79,9 @@ void add_serve(CLI::App& app) {
       "--insecure", options->insecure,
       "Listen on addresses that other machines can reach while there are no keys: anyone who "
       "reaches them may do everything");
-  command->callback([options] {
+  command->callback([options, executor] {
+    options->executor = executor->name;
+    options->slurm = executor->slurm;
     options->scenarios = world::scenarios_folder();
     server::serve(*options);
   });

@@ -1,13 +1,17 @@
 // throng worker: one task of a job, for its supervisor.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "calibrate/request.h"
 #include "cli/commands.h"
 #include "cli/job_report.h"
 #include "jobs/pipeline/worker.h"
+#include "jobs/queue/worker_side.h"
 #include "study/service_work.h"
 
 namespace throng::cli {
@@ -46,22 +50,50 @@ jobs::OtherTasks other_tasks() {
           {jobs::name_of({jobs::Task::Kind::report}), &write_report}};
 }
 
+/// An attempt on a cluster's node: its supervisor reads the messages and the end from files.
+int run_attempt(const std::string& job_folder, const std::string& array) {
+  const char* index = std::getenv("SLURM_ARRAY_TASK_ID");
+  if (index == nullptr) {
+    throw InputError(
+        Problem{"--array", "$SLURM_ARRAY_TASK_ID", "not set", "an index, as Slurm sets it"});
+  }
+  std::string task;
+  try {
+    task = jobs::begin_attempt(job_folder, array, std::atoi(index));
+  } catch (const EnvironmentError& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return jobs::worker_not_begun;
+  }
+  const int code = jobs::run_worker(job_folder, task, other_tasks());
+  jobs::end_attempt(job_folder, code);
+  return code;
+}
+
 }  // namespace
 
 void add_worker(CLI::App& app) {
   struct Arguments {
     std::string job_folder;
     std::string task;
+    std::string array;
   };
   auto* command =
       app.add_subcommand("worker", "Run one task of a job folder (started by run and serve)");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("--job", arguments->job_folder, "The job's folder")->required();
-  command->add_option("--task", arguments->task, "The task's name, e.g. run000/shard0003")
-      ->required();
+  auto* task =
+      command->add_option("--task", arguments->task, "The task's name, e.g. run000/shard0003");
+  auto* array = command->add_option(
+      "--array", arguments->array,
+      "Instead of --task: an array of the folder's attempts/; the index is $SLURM_ARRAY_TASK_ID");
+  task->excludes(array);
   // The worker's exit codes: its supervisor retries only where that makes sense.
   command->callback([arguments] {
-    std::exit(jobs::run_worker(arguments->job_folder, arguments->task, other_tasks()));
+    if (arguments->array.empty()) {
+      if (arguments->task.empty()) throw CLI::RequiredError("--task or --array");
+      std::exit(jobs::run_worker(arguments->job_folder, arguments->task, other_tasks()));
+    }
+    std::exit(run_attempt(arguments->job_folder, arguments->array));
   });
 }
 

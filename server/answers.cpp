@@ -143,12 +143,22 @@ json progress_json(const jobs::JobProgress& progress) {
                                 {"frames_done", shard.images_done},
                                 {"frames_total", shard.images_total}},
                                shard.pace));
+    if (!shard.node.empty()) shards.back()["node"] = shard.node;
+  }
+  json nodes = json::array();
+  for (const jobs::NodeWork& work : progress.nodes) {
+    nodes.push_back({{"node", work.node},
+                     {"running", work.running},
+                     {"done", work.done},
+                     {"failed", work.failed},
+                     {"busy_s", work.busy_s}});
   }
   return with_pace({{"stage", name_of(stage_of(progress))},
                     {"frames_done", done},
                     {"frames_total", total},
                     {"runs", std::move(runs)},
-                    {"shards", std::move(shards)}},
+                    {"shards", std::move(shards)},
+                    {"nodes", std::move(nodes)}},
                    progress.pace);
 }
 

@@ -305,7 +305,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         entry.handler(
             {service.queue(), service.uploads(), service.calibrations(), service.studies(),
              service.housekeeping(), service.datasets(), service.reports(), service.confined(),
-             service.folders(), hooks, service.live(), keys, sessions_, caller},
+             service.folders(), hooks, service.live(), service.executor(), keys, sessions_, caller},
             request, response);
       });
       if (is_audited(request.method, entry, response.status)) {

@@ -29,6 +29,7 @@ struct Call {
   const ServiceFolders& folders;
   WebhookSender& hooks;
   LiveFlights& live;
+  const jobs::Executor& executor;
   Keys& keys;
   Sessions& sessions;
   const Caller& caller;

@@ -12,13 +12,15 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "jobs/queue/executors.h"
 #include "jobs/queue/file_fence.h"
-#include "jobs/queue/local_processes.h"
+#include "jobs/queue/folder_lock.h"
 #include "jobs/queue/machine_memory.h"
 #include "jobs/queue/worker_limits.h"
 #include "server/api.h"
@@ -28,6 +30,8 @@
 #include "server/webhook_sender.h"
 
 namespace throng::server {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -78,10 +82,40 @@ std::int64_t memory_for_workers_mib(const ServeOptions& options) {
                                 : jobs::total_memory_mib() * (kParts - 1) / kParts;
 }
 
-std::int64_t max_task_mib(const ServeOptions& options, std::int64_t memory_mib) {
+std::int64_t max_task_mib(const ServeOptions& options) {
+  // Nodes may have more memory than this machine.
+  const std::int64_t memory_mib =
+      options.executor == "local" ? memory_for_workers_mib(options) : options.memory_mib;
   if (options.worker_memory_mib == 0) return memory_mib;
   if (memory_mib == 0) return options.worker_memory_mib;
   return std::min<std::int64_t>(memory_mib, options.worker_memory_mib);
+}
+
+/// A database elsewhere has a lock of its own; two servers in one data folder would still mix.
+std::optional<jobs::FolderLock> lock_of_data(const ServeOptions& options) {
+  if (options.database.empty()) return std::nullopt;
+  make_folders(options.data);
+  return std::optional<jobs::FolderLock>(std::in_place, options.data, "lock", "data folder");
+}
+
+std::unique_ptr<jobs::Executor> made_executor(const ServeOptions& options) {
+  jobs::ExecutorOptions wanted{.name = options.executor,
+                               .local = {.workers = options.workers,
+                                         .memory_mib = memory_for_workers_mib(options),
+                                         .waits_for_memory = true,
+                                         .max_task_s = options.max_task_s,
+                                         .worker_memory_mib = options.worker_memory_mib,
+                                         .limits_by_need = true},
+                               .slurm = options.slurm};
+  wanted.slurm.at_once = options.workers;
+  wanted.slurm.max_task_s = options.max_task_s;
+  wanted.slurm.worker_memory_mib = options.worker_memory_mib;
+  wanted.slurm.limits_by_need = true;
+  const jobs::ExecutorKind& kind = jobs::executor_kind(options.executor);
+  if (const std::string problem = kind.check(wanted); !problem.empty()) {
+    spdlog::warn("executor {}: {}; jobs wait until it answers", kind.name, problem);
+  }
+  return kind.make(wanted);
 }
 
 std::string url_of(const std::string& host, int port) {
@@ -93,7 +127,8 @@ std::string url_of(const std::string& host, int port) {
 }  // namespace
 
 int serve(const ServeOptions& options) {
-  Keys keys(options.data);
+  const fs::path database = options.database.empty() ? options.data : options.database;
+  Keys keys(database);
   if (!options.insecure && !is_loopback(options.host) && !keys.are_needed()) {
     throw InputError(Problem{"--host", "", options.host,
                              "a loopback address such as 127.0.0.1; other addresses need keys "
@@ -106,16 +141,12 @@ int serve(const ServeOptions& options) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   // Children read nothing of it but scenarios and their own folder: keys and secrets lie there.
-  ::setenv(jobs::kPrivateFolderVariable, std::filesystem::absolute(options.data).c_str(), 1);
+  ::setenv(jobs::kPrivateFolderVariable, fs::absolute(options.data).c_str(), 1);
+  ::setenv(jobs::kPrivateDatabaseVariable, fs::absolute(database).c_str(), 1);
   // Workers look for scenarios there.
-  ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(options.data).c_str(), 1);
-  const std::int64_t memory_mib = memory_for_workers_mib(options);
-  jobs::LocalProcesses executor({.workers = options.workers,
-                                 .memory_mib = memory_mib,
-                                 .waits_for_memory = true,
-                                 .max_task_s = options.max_task_s,
-                                 .worker_memory_mib = options.worker_memory_mib,
-                                 .limits_by_need = true});
+  ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(fs::absolute(options.data)).c_str(), 1);
+  const std::optional<jobs::FolderLock> lock = lock_of_data(options);
+  const std::unique_ptr<jobs::Executor> executor = made_executor(options);
   const auto checks =
       std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
   constexpr int kMibShift = 20;
@@ -123,16 +154,17 @@ int serve(const ServeOptions& options) {
   constexpr std::int64_t kMsPerDay = 86'400'000;
   Service service(
       {.data = options.data,
+       .database = database,
        .scenarios = options.scenarios,
        .confined = jobs::confined_task_by(checks),
        .uploads = {.max_bytes = options.uploads_gib << kGibShift},
        .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
                         .min_free_bytes = options.min_free_mib << kMibShift},
        .max_active_jobs = options.max_active_jobs,
-       .max_task_mib = max_task_mib(options, memory_mib),
+       .max_task_mib = max_task_mib(options),
        .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s))}},
-      executor);
-  WebhookSender hooks(service.queue(), options.data,
+      *executor);
+  WebhookSender hooks(service.queue(), database,
                       {.post = {.allow_private = options.webhook_private}});
   Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {
@@ -142,6 +174,7 @@ int serve(const ServeOptions& options) {
   std::fflush(stdout);
   const SignalWatch watch([&] {
     spdlog::info("ending");
+    executor->leave_tasks();
     checks->stop();  // requests that wait for one get their answer
     hooks.stop();    // also a ping that a request waits for
     api.stop();

@@ -3,8 +3,10 @@
 namespace throng::server {
 
 Service::Service(const ServiceOptions& options, jobs::Executor& executor)
-    : folders_(options.data, options.scenarios),
-      store_(options.data, options.clock, options.steady),
+    : executor_(executor),
+      folders_(options.data, options.scenarios),
+      store_(options.database.empty() ? options.data : options.database, options.clock,
+             options.steady),
       confined_(options.confined, options.data, options.max_task_mib),
       state_(store_),
       uploads_(folders_, store_, confined_, options.uploads),

@@ -22,7 +22,8 @@
 namespace throng::server {
 
 struct ServiceOptions {
-  std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
+  std::filesystem::path data;       ///< holds a folder per job; one service at a time
+  std::filesystem::path database;   ///< of the store; "": that of `data`
   std::filesystem::path scenarios;  ///< those that come with throng
   jobs::ConfinedTask confined;      ///< checks of what users send
   UploadLimits uploads = {};
@@ -52,8 +53,10 @@ class Service {
   Datasets& datasets() { return datasets_; }
   ReportMaker& reports() { return reports_; }
   LiveFlights& live() { return live_; }
+  const jobs::Executor& executor() const { return executor_; }
 
  private:
+  const jobs::Executor& executor_;
   // Each uses those above it.
   ServiceFolders folders_;
   jobs::Store store_;

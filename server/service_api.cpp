@@ -36,6 +36,30 @@ std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
+/// Of a cluster; "" where tasks run on this machine.
+std::string figures_of_nodes(const std::vector<jobs::NodeWork>& nodes) {
+  if (nodes.empty()) return "";
+  std::string running =
+      "# HELP throng_node_tasks Tasks that run now, by node.\n"
+      "# TYPE throng_node_tasks gauge\n";
+  std::string ended =
+      "# HELP throng_node_attempts_total Attempts at tasks that ended since the start, by node.\n"
+      "# TYPE throng_node_attempts_total counter\n";
+  std::string busy =
+      "# HELP throng_node_busy_seconds_total Time of these attempts.\n"
+      "# TYPE throng_node_busy_seconds_total counter\n";
+  for (const jobs::NodeWork& work : nodes) {
+    running += fmt::format("throng_node_tasks{{node=\"{}\"}} {}\n", work.node, work.running);
+    ended += fmt::format(
+        "throng_node_attempts_total{{node=\"{0}\",outcome=\"succeeded\"}} {1}\n"
+        "throng_node_attempts_total{{node=\"{0}\",outcome=\"failed\"}} {2}\n",
+        work.node, work.done, work.failed);
+    busy += fmt::format("throng_node_busy_seconds_total{{node=\"{}\"}} {:.1f}\n", work.node,
+                        work.busy_s);
+  }
+  return running + ended + busy;
+}
+
 std::int64_t free_bytes(const Call& call) { return disk_of(call.folders.data()).free_bytes; }
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
@@ -75,6 +99,7 @@ void send_figures(const Call& call, const Request&, Response& response) {
   add("throng_event_streams", "gauge", "Clients that watch events.", call.queue.watchers());
   add("throng_queue_paused", "gauge", "1 while the queue is paused because the disk is full.",
       call.queue.paused().empty() ? 0 : 1);
+  text += figures_of_nodes(call.executor.nodes());
   add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
       free_bytes(call));
   add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/staging.h"
 #include "world/hdf5_file.h"
 #include "world/trace.h"
 #include "world/trace_layout.h"
@@ -292,8 +293,7 @@ void sync_to_disk(const fs::path& path) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(fs::path final_path)
-      : final_(std::move(final_path)),
-        path_(fmt::format("{}.tmp.{}", final_.string(), ::getpid())) {}
+      : final_(std::move(final_path)), path_(staging_path_of(final_).string()) {}
   ~TemporaryFile() {
     std::error_code ignored;
     fs::remove(path_, ignored);
@@ -306,9 +306,7 @@ class TemporaryFile {
 
   void publish() {
     sync_to_disk(path_);
-    std::error_code error;
-    fs::rename(path_, final_, error);
-    if (error) {
+    if (const std::error_code error = publish_staged(path_, final_)) {
       throw EnvironmentError(
           fmt::format("cannot rename {} to {}: {}", path_, final_.string(), error.message()));
     }

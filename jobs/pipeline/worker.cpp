@@ -19,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/redact.h"
+#include "base/staging.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/queue/faults.h"
 #include "jobs/queue/file_fence.h"
@@ -59,7 +60,11 @@ class Reporter {
     write(progress_line(progress));
   }
 
-  void give_sign_of_life() { write(sign_of_life_line()); }
+  void give_sign_of_life() {
+    write(sign_of_life_line());
+    // Messages in a file shall arrive on other machines; a pipe refuses, and needs nothing.
+    ::fdatasync(output_);
+  }
 
   int fail(WorkerExit code, const char* kind, const std::string& what,
            std::vector<Problem> problems = {}) {
@@ -100,6 +105,9 @@ class Heartbeat {
           std::unique_lock lock(mutex);
           while (!ended.wait_for(lock, stop, kPause, [&] { return stop.stop_requested(); })) {
             reporter.give_sign_of_life();
+            if (!is_staging_revoked()) continue;
+            spdlog::error("the supervisor has taken this attempt back");
+            std::_Exit(worker_environment_error);
           }
         }) {}
 

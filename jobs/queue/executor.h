@@ -1,5 +1,5 @@
-// Executor of tasks: the plug-in point between a job and the machines. Local processes now; a
-// cluster scheduler implements the same interface.
+// Executor of tasks: the plug-in point between a job and the machines. All are listed in
+// jobs/queue/executors.h.
 #pragma once
 
 #include <cstdint>
@@ -39,6 +39,16 @@ struct TaskProgress {
   double done = 0;
   double total = 0;
   std::string what = {};  ///< what is being done, where the task says so
+  std::string node = {};  ///< of a cluster; "" on this machine
+};
+
+/// The work of a node of a cluster.
+struct NodeWork {
+  std::string node = {};
+  int running = 0;    ///< tasks now
+  int done = 0;       ///< tasks that succeeded
+  int failed = 0;     ///< attempts that did not, for whatever reason
+  double busy_s = 0;  ///< of attempts that ended, in all
 };
 
 /// Owner, job and needs of tasks: decide the order where several jobs have tasks
@@ -76,6 +86,15 @@ class Executor {
                               const OnProgress& on_progress, std::stop_token stop) {
     return run(folder, tasks, on_progress, std::move(stop), Share{});
   }
+
+  /// From now on a stop leaves tasks running that another process can take up: the next run() of
+  /// them, in whatever process, finds them again. Nothing where tasks end with this process.
+  virtual void leave_tasks() {}
+
+  /// The work of a cluster's nodes for the job in a folder, and for all since this process began.
+  /// Empty where there is no cluster.
+  virtual std::vector<NodeWork> nodes_of(const JobFolder& /*folder*/) const { return {}; }
+  virtual std::vector<NodeWork> nodes() const { return {}; }
 };
 
 }  // namespace throng::jobs

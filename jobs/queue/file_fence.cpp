@@ -8,6 +8,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -101,16 +102,28 @@ class Ruleset {
   Descriptor descriptor_;
 };
 
-/// Everything but a folder: whatever lies beside it and beside the folders around it.
-void allow_reading_around(Ruleset& rules, const fs::path& hidden) {
-  fs::path inner = hidden;
-  for (fs::path outer = hidden.parent_path(); inner != outer;
-       inner = outer, outer = outer.parent_path()) {
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(outer, error)) {
-      // Links lead to what has a rule of its own, or to what is hidden.
-      if (entry.path() != inner && !entry.is_symlink(error)) rules.allow(entry.path(), kRead);
-    }
+bool is_within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+/// Everything in a folder but what is hidden: whatever lies beside it and beside the folders around
+/// it.
+void allow_reading_around(Ruleset& rules, const fs::path& folder,
+                          const std::vector<fs::path>& hidden) {
+  const auto is_hidden = [&](const fs::path& path) {
+    return std::find(hidden.begin(), hidden.end(), path) != hidden.end();
+  };
+  const auto holds_hidden = [&](const fs::path& path) {
+    return std::any_of(hidden.begin(), hidden.end(),
+                       [&](const fs::path& one) { return is_within(one, path); });
+  };
+  if (!holds_hidden(folder)) return rules.allow(folder, kRead);
+  if (is_hidden(folder)) return;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    // Links lead to what has a rule of its own, or to what is hidden.
+    if (!entry.is_symlink(error)) allow_reading_around(rules, entry.path(), hidden);
   }
 }
 
@@ -138,13 +151,14 @@ std::string fence_this_process(const FileFence& fence) {
   Ruleset rules(version);
   if (!rules.is_good()) return fmt::format("files: {}", std::strerror(errno));
   std::error_code error;
-  const fs::path hidden =
-      fence.hidden.empty() ? fs::path() : fs::weakly_canonical(fence.hidden, error);
-  if (hidden.empty()) {
-    rules.allow("/", kRead);
-  } else {
-    allow_reading_around(rules, hidden);
+  std::vector<fs::path> hidden;
+  for (const fs::path& folder : fence.hidden) {
+    fs::path canonical = fs::weakly_canonical(folder, error);
+    // "/data/" has an empty last part.
+    if (!canonical.has_filename()) canonical = canonical.parent_path();
+    if (!canonical.empty()) hidden.push_back(std::move(canonical));
   }
+  allow_reading_around(rules, "/", hidden);
   for (const fs::path& path : fence.readable) rules.allow(path, kRead);
   for (const fs::path& path : fence.writable) rules.allow(path, kRead | kWrite | kTruncate);
   allow_devices(rules);
@@ -155,10 +169,12 @@ std::string fence_this_process(const FileFence& fence) {
 FileFence fence_of_folder(const fs::path& folder) {
   FileFence fence;
   fence.writable = {folder};
-  const char* hidden = std::getenv(kPrivateFolderVariable);
-  if (hidden == nullptr || *hidden == '\0') return fence;
-  fence.hidden = hidden;
-  fence.readable = {fence.hidden / "scenarios", fence.hidden / "uploads"};
+  const char* database = std::getenv(kPrivateDatabaseVariable);
+  if (database != nullptr && *database != '\0') fence.hidden.emplace_back(database);
+  const char* data = std::getenv(kPrivateFolderVariable);
+  if (data == nullptr || *data == '\0') return fence;
+  fence.hidden.emplace_back(data);
+  fence.readable = {fs::path(data) / "scenarios", fs::path(data) / "uploads"};
   return fence;
 }
 

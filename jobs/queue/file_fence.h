@@ -11,12 +11,14 @@ namespace throng::jobs {
 /// The service's data folder, whose files children do not read but for what FileFence names. Unset
 /// for `throng run`: there is nothing to hide.
 inline constexpr const char* kPrivateFolderVariable = "THRONG_PRIVATE_FOLDER";
+/// Likewise of its databases, where they lie elsewhere: children read nothing of it.
+inline constexpr const char* kPrivateDatabaseVariable = "THRONG_PRIVATE_DATABASE";
 
 struct FileFence {
   /// Files and folders that may be written, read and removed; those that do not exist are left out.
   std::vector<std::filesystem::path> writable;
-  /// Of this folder nothing may be read but what is in `writable` and `readable`; "": of any.
-  std::filesystem::path hidden;
+  /// Of these folders nothing may be read but what is in `writable` and `readable`.
+  std::vector<std::filesystem::path> hidden = {};
   std::vector<std::filesystem::path> readable;
 };
 
@@ -26,8 +28,8 @@ struct FileFence {
 /// kernel does not allow it, for people; "" when it does.
 std::string fence_this_process(const FileFence& fence);
 
-/// The fence of a child that works in a folder: it reads all but $THRONG_PRIVATE_FOLDER, and of
-/// that the scenarios.
+/// The fence of a child that works in a folder: it reads all but $THRONG_PRIVATE_FOLDER
+/// and $THRONG_PRIVATE_DATABASE, and of the former the scenarios.
 FileFence fence_of_folder(const std::filesystem::path& folder);
 
 /// Mesa's folder of compiled shaders, by its documentation; "" if it keeps none.

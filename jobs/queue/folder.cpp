@@ -89,8 +89,9 @@ fs::path JobFolder::output_of(const Task& task) const {
   return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
 }
 
-fs::path JobFolder::log_of(const Task& task) const {
-  std::string name = name_of(task);
+fs::path JobFolder::log_of(const Task& task) const { return log_of(name_of(task)); }
+
+fs::path JobFolder::log_of(std::string name) const {
   std::replace(name.begin(), name.end(), '/', '_');
   return path_ / "logs" / (name + ".log");
 }

@@ -7,7 +7,8 @@
 //   work/run000/shard0003/    images, density maps, previews, records of its frames
 //   failed_runs.json          runs that the dataset lacks, if any
 //   dataset/                  the result; complete when it is there
-//   logs/                     what the workers said
+//   logs/                     what the workers said; logs/nodes.jsonl: on which nodes of a cluster
+//   attempts/                 of a cluster's workers (jobs/queue/attempts.h)
 #pragma once
 
 #include <filesystem>
@@ -45,6 +46,8 @@ class JobFolder {
   /// for a study's runs (study/spec/study_files.h).
   std::filesystem::path output_of(const Task& task) const;
   std::filesystem::path log_of(const Task& task) const;
+  /// Likewise by the task's name.
+  std::filesystem::path log_of(std::string task_name) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }
   std::filesystem::path dataset() const { return path_ / "dataset"; }
 

@@ -1,8 +1,6 @@
 #include "jobs/queue/people.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -21,11 +19,9 @@ void pin_people(const JobFolder& folder, const std::string& content_hash) {
   const fs::path note = note_of(folder);
   if (!fs::exists(note)) {
     // Only one of several workers can give the note its name; the others read it.
-    const fs::path draft = fmt::format("{}.tmp.{}.0", note.string(), ::getpid());
-    write_file_atomically(draft, content_hash);
-    std::error_code error;
-    fs::create_hard_link(draft, note, error);
-    fs::remove(draft, error);
+    StagedFile draft(note);
+    draft.write(content_hash);
+    draft.commit_if_absent();
   }
   const std::string pinned = pinned_people(folder);
   if (pinned == content_hash) return;

@@ -235,7 +235,7 @@ class Supervision {
       return;
     }
     set_stage(at(task));
-    if (task.kind == Task::Kind::render) set_pace(task);
+    if (task.kind == Task::Kind::render) set_pace(task, progress.node);
     report();
   }
 
@@ -257,7 +257,7 @@ class Supervision {
   }
 
   // How fast the task, its run and the whole job are.
-  void set_pace(const Task& task) {
+  void set_pace(const Task& task, const std::string& node) {
     RunProgress& run = at(task);
     const std::int64_t done = images_[task];
     const std::int64_t total = images_of(task);
@@ -269,9 +269,10 @@ class Supervision {
     auto shard = std::find_if(progress_.shards.begin(), progress_.shards.end(),
                               [&](const ShardProgress& entry) { return entry.task == task; });
     if (shard == progress_.shards.end()) {
-      shard = progress_.shards.insert(shard, {task, 0, total, {}});
+      shard = progress_.shards.insert(shard, {task, 0, total, {}, {}});
     }
     shard->images_done = done;
+    shard->node = node;
     shard->pace = speed(task, done).pace(done, total);
     if (done == total) progress_.shards.erase(shard);
     std::int64_t all_done = 0;
@@ -292,7 +293,8 @@ class Supervision {
 
   RunProgress& at(const Task& task) { return progress_.runs[static_cast<std::size_t>(task.run)]; }
 
-  void report() const {
+  void report() {
+    progress_.nodes = executor_.nodes_of(folder_);
     if (on_progress_) on_progress_(progress_);
   }
 

@@ -45,11 +45,13 @@ struct ShardProgress {
   std::int64_t images_done = 0;
   std::int64_t images_total = 0;
   Pace pace;
+  std::string node = {};  ///< of a cluster; "" on this machine
 };
 
 struct JobProgress {
   std::vector<RunProgress> runs;
   std::vector<ShardProgress> shards;  ///< begun and not at their end
+  std::vector<NodeWork> nodes = {};   ///< of a cluster, by name
   Pace pace;
 };
 

@@ -11,6 +11,8 @@ enum WorkerExit : int {
   worker_environment_error = 3,  ///< the machine failed
   worker_out_of_memory = 4,
   worker_bug = 70,  ///< an exception nobody expected
+  /// The attempt was taken back, or another process has begun it: nothing was done.
+  worker_not_begun = 75,
 };
 
 /// The supervising process's id; a worker that finds itself without that parent ends at once.

@@ -2,6 +2,7 @@
 // limits.
 #pragma once
 
+#include "jobs/queue/attempt_side.h"
 #include "jobs/queue/worker_limits.h"
 #include "jobs/queue/worker_messages.h"
 #include "jobs/queue/worker_protocol.h"

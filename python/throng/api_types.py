@@ -95,6 +95,22 @@ class ProgressShard(TypedDict):
     frames_total: int
     frames_per_s: float
     remaining_s: float | None
+    node: NotRequired[str]
+    """Of a cluster; not there where workers run on the service's machine."""
+
+
+class ProgressNode(TypedDict):
+    """ProgressNode of the service."""
+
+    node: str
+    running: int
+    """Tasks now."""
+    done: int
+    """Tasks that succeeded."""
+    failed: int
+    """Attempts at tasks that did not, also those that were lost with the node."""
+    busy_s: float
+    """Seconds of all attempts that ended."""
 
 
 class Progress(TypedDict):
@@ -106,6 +122,8 @@ class Progress(TypedDict):
     runs: NotRequired[list[ProgressRun]]
     shards: NotRequired[list[ProgressShard]]
     """Running ones."""
+    nodes: NotRequired[list[ProgressNode]]
+    """The work of a cluster's nodes for the job; empty where workers run on the service's machine."""
     frames_per_s: NotRequired[float]
     """0 before the first."""
     remaining_s: NotRequired[float | None]

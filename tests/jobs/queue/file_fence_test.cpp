@@ -30,6 +30,7 @@ class FileFenceTest : public testing::Test {
     version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
     has_landlock = version >= 2;
     write_file_atomically(data / "keys.sqlite", "secret");
+    write_file_atomically(database / "jobs.sqlite", "secret");
     write_file_atomically(data / "jobs/mine/job.json", "{}");
     write_file_atomically(data / "jobs/other/job.json", "theirs");
     write_file_atomically(data / "uploads/plaza/files/plaza.json", "plaza");
@@ -44,7 +45,8 @@ class FileFenceTest : public testing::Test {
   bool succeeds(const std::function<bool()>& attempt, bool hides = true) const {
     const pid_t child = ::fork();
     if (child == 0) {
-      FileFence fence{{mine}, hides ? data : fs::path(), {data / "scenarios", data / "uploads"}};
+      FileFence fence{{mine}, {}, {data / "scenarios", data / "uploads"}};
+      if (hides) fence.hidden = {data, database};
       if (!fence_this_process(fence).empty()) ::_exit(2);
       ::_exit(attempt() ? 0 : 1);
     }
@@ -62,6 +64,8 @@ class FileFenceTest : public testing::Test {
 
   TemporaryFolder base;
   TemporaryFolder elsewhere;
+  TemporaryFolder local;
+  fs::path database = local.path() / "database";
   fs::path data = base.path() / "data";
   fs::path mine = data / "jobs/mine";
   fs::path outside = elsewhere.path();
@@ -135,7 +139,8 @@ TEST_F(FileFenceTest, OfTheDataFolderOnlyScenariosAndItsOwnFolderAreRead) {
   SKIP_WITHOUT_LANDLOCK();
   for (const fs::path& file :
        {data / "keys.sqlite", data / "jobs/other/job.json", mine / "to_keys",
-        mine / "../../keys.sqlite", fs::path("/proc/self/root" + data.string()) / "keys.sqlite"}) {
+        mine / "../../keys.sqlite", fs::path("/proc/self/root" + data.string()) / "keys.sqlite",
+        database / "jobs.sqlite"}) {
     EXPECT_FALSE(succeeds([&] { return can_open(file, O_RDONLY); })) << file;
     EXPECT_TRUE(succeeds([&] { return can_open(file, O_RDONLY); }, false)) << file;
   }
@@ -172,7 +177,7 @@ TEST_F(FileFenceTest, ADataFolderThatIsALinkIsHiddenToo) {
   fs::create_directory_symlink(data, link);
   const pid_t child = ::fork();
   if (child == 0) {
-    const bool fenced = fence_this_process({{link / "jobs/mine"}, link, {}}).empty();
+    const bool fenced = fence_this_process({{link / "jobs/mine"}, {link}, {}}).empty();
     const bool reads =
         can_open(data / "keys.sqlite", O_RDONLY) || can_open(link / "keys.sqlite", O_RDONLY);
     ::_exit(fenced && !reads && can_open(link / "jobs/mine/job.json", O_RDWR) ? 0 : 1);

@@ -76,7 +76,21 @@ export interface Progress {
     frames_total: number;
     frames_per_s: number;
     remaining_s: number | null;
+    /** Of a cluster; not there where workers run on the service's machine. */
+    node?: string;
   })[];
+  /** The work of a cluster's nodes for the job; empty where workers run on the service's machine. */
+  nodes?: {
+    node: string;
+    /** Tasks now. */
+    running: number;
+    /** Tasks that succeeded. */
+    done: number;
+    /** Attempts at tasks that did not, also those that were lost with the node. */
+    failed: number;
+    /** Seconds of all attempts that ended. */
+    busy_s: number;
+  }[];
   /** 0 before the first. */
   frames_per_s?: number;
   /** At this rate; null before the first frame. */
