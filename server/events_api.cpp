@@ -121,10 +121,9 @@ void send_page(const Call& call, const Request& request, Response& response,
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
 
-}  // namespace
-
-void send_events(const Call& call, const Request& request, Response& response) {
-  const std::string job = request.matches.size() > 1 ? find_job(call, request).id : std::string();
+/// Of the job, calibration or study with this id; "" for all.
+void send_events_of(const Call& call, const Request& request, Response& response,
+                    const std::string& job) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(call, request, response, job);
   }
@@ -135,6 +134,17 @@ void send_events(const Call& call, const Request& request, Response& response) {
   response.set_chunked_content_provider(
       "text/event-stream",
       [stream](std::size_t, httplib::DataSink& sink) { return stream->step(sink); });
+}
+
+}  // namespace
+
+void send_events(const Call& call, const Request& request, Response& response) {
+  const bool is_of_one = request.matches.size() > 1;
+  send_events_of(call, request, response, is_of_one ? find_job(call, request).id : std::string());
+}
+
+void send_study_events(const Call& call, const Request& request, Response& response) {
+  send_events_of(call, request, response, find_row(call, request, jobs::JobKind::study).id);
 }
 
 }  // namespace throng::server

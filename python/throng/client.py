@@ -148,7 +148,7 @@ class Client(CatalogClient):
     ) -> Iterator[Event]:
         """Past events of a job, or of all jobs. follow=True: also future ones, until the job has ended."""
         if follow and job_id is not None:
-            for kind, event in _events.follow(self._http, job_id, after, None):
+            for kind, event in _events.follow(self._http, f"/v1/jobs/{part(job_id)}", after, None):
                 if kind != "progress":
                     yield event  # type: ignore[misc]
             return
@@ -178,7 +178,7 @@ class Client(CatalogClient):
         bar = ProgressBar(job["name"]) if progress else None
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         try:
-            for kind, data in _events.follow(self._http, job_id, 0, deadline):
+            for kind, data in _events.follow(self._http, f"/v1/jobs/{part(job_id)}", 0, deadline):
                 if kind != "progress":
                     continue
                 if callback is not None:

@@ -324,6 +324,11 @@ class WithService(unittest.TestCase):
         }
         self.assertEqual(self.client.check_study(study)["simulations"], 4)
         queued = self.client.submit_study(study)
+        followed = list(self.client.study_events(queued["id"], follow=True))
+        self.assertEqual([followed[0][0], followed[-1][0]], ["submitted", "succeeded"])
+        progress = [data["runs_done"] for kind, data in followed if kind == "progress" and "runs_done" in data]
+        self.assertEqual(progress, sorted(progress))
+        self.assertTrue(progress)
         done = self.client.wait_for_study(queued["id"], timeout_s=120)
         self.assertEqual([row["runs"] for row in done["summary"]["rows"]], [2, 2])
         self.assertEqual(json.loads(self.client.study_file(queued["id"], "summary.json")), done["summary"])
@@ -331,6 +336,14 @@ class WithService(unittest.TestCase):
         self.assertEqual(values["policies"][0]["t50_s"], values["policies"][1]["t50_s"])
         self.assertIn("People out", self.client.study_report(queued["id"]))
         self.assertIn(queued["id"], [entry["id"] for entry in self.client.studies()])
+        changed = self.client.change_study(queued["id"], labels=["paper"], keep=True)
+        self.assertEqual((changed["labels"], changed["keep"], changed["priority"]), (["paper"], True, 0))
+        self.assertEqual(
+            [kind for kind, _ in self.client.study_events(queued["id"])],
+            [kind for kind, _ in followed if kind != "progress"] + ["changed"],
+        )
+        with self.assertRaisesRegex(throng.InvalidRequestError, "priority"):
+            self.client.change_study(queued["id"], priority=1000)
         with self.assertRaises(throng.ConflictError):
             self.client.cancel_study(queued["id"])
         with self.assertRaises(throng.ConflictError):

@@ -1,23 +1,24 @@
-// Escape curve and exits over the time of a run; a click moves the time.
-import type { TargetedPointerEvent } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
-import { type ExitHistory, kExitStates, stateAt } from "./exit_states";
+// The frame of charts over time: axes and a cursor, which a click moves. Studio and HTML reports draw with it.
+import { createContext, type TargetedPointerEvent } from "preact";
+import { useContext, useEffect, useRef, useState } from "preact/hooks";
 
-interface ChartProps {
+export interface ChartProps {
   time_s: number;
   end_s: number;
   onTime: (time_s: number) => void;
 }
 
 export const kLeft = 74;
-const kRight = 14;
-const kTop = 10;
-const kCurveHeight = 170;
-const kRowHeight = 22;
+export const kRight = 14;
+export const kTop = 10;
 const kAxisHeight = 26;
 const kFullTicks = 9;
 
+/** The width of all charts in px where it is not that of their place: on paper. */
+export const FixedWidth = createContext<number | null>(null);
+
 export function useWidth() {
+  const fixed = useContext(FixedWidth);
   const element = useRef<HTMLDivElement>(null);
   const [width, setWidth] = useState(0);
   useEffect(() => {
@@ -25,7 +26,7 @@ export function useWidth() {
     observer.observe(element.current!);
     return () => observer.disconnect();
   }, []);
-  return { element, width };
+  return { element, width: fixed ?? width };
 }
 
 /** 1, 2 or 5 times a power of ten, so that there are few ticks. */
@@ -86,70 +87,6 @@ export function ShareAxis({ width, toY }: { width: number; toY: (share: number) 
           </text>
         </g>
       ))}
-    </>
-  );
-}
-
-interface CurveProps extends ChartProps {
-  shares: number[]; ///< by 0, 1, 2, ... s
-  alarm_s: number | null;
-}
-
-export function EscapeCurve({ shares, alarm_s, ...chart }: CurveProps) {
-  const toY = shareToY(kCurveHeight);
-  const now = shares[Math.min(shares.length - 1, Math.round(chart.time_s))] ?? 0;
-  return (
-    <TimeFrame {...chart} height={kCurveHeight} label={`Share of the people who have escaped: ${Math.round(100 * now)} % at ${chart.time_s.toFixed(1)} s`}>
-      {(toX, width) => (
-        <>
-          <ShareAxis width={width} toY={toY} />
-          {alarm_s !== null && alarm_s <= chart.end_s && (
-            <>
-              <line class="chart-mark" x1={toX(alarm_s)} x2={toX(alarm_s)} y1="0" y2={kCurveHeight} />
-              <text class="chart-mark-text" x={toX(alarm_s) + 5} y={kTop + 9}>
-                alarm
-              </text>
-            </>
-          )}
-          <polyline class="chart-line" points={shares.map((share, second) => `${toX(second)},${toY(share)}`).join(" ")} />
-          <circle class="chart-point" cx={toX(chart.time_s)} cy={toY(now)} r="4.5" />
-        </>
-      )}
-    </TimeFrame>
-  );
-}
-
-export function ExitChart({ histories, ...chart }: ChartProps & { histories: ExitHistory[] }) {
-  const states = histories.map((history) => `${history.id} ${stateAt(history, chart.time_s) ?? "unknown"}`).join(", ");
-  return (
-    <>
-      <TimeFrame {...chart} height={histories.length * kRowHeight} label={`States of the exits at ${chart.time_s.toFixed(1)} s: ${states}`}>
-        {(toX) => (
-          <>
-            {histories.map((history, row) => (
-              <g key={history.id}>
-                <text x={kLeft - 8} y={row * kRowHeight + 15} text-anchor="end">
-                  {history.id.length > 10 ? `${history.id.slice(0, 9)}…` : history.id}
-                </text>
-                {history.spans.map((span) => (
-                  <rect key={span.from_s} class={`exit-${span.state}`} x={toX(span.from_s)} y={row * kRowHeight + 3} width={Math.max(1, toX(span.to_s) - toX(span.from_s))} height={kRowHeight - 6}>
-                    <title>
-                      {history.id}: {span.state}, {span.from_s} to {span.to_s} s
-                    </title>
-                  </rect>
-                ))}
-              </g>
-            ))}
-          </>
-        )}
-      </TimeFrame>
-      <ul class="legend">
-        {kExitStates.map((state) => (
-          <li key={state}>
-            <i class={`swatch exit-${state}`} /> {state}
-          </li>
-        ))}
-      </ul>
     </>
   );
 }

@@ -1,5 +1,5 @@
 // Round numbers of an axis.
-import { stepOf } from "../run/charts";
+import { stepOf } from "./time_frame";
 
 export interface Scale {
   low: number;
