@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test as nodeTest } from "node:test";
 import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { attacked, launch, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
 const test = stepsOf(nodeTest);
@@ -109,6 +109,23 @@ test("differences and times are those of the summary", async () => {
   const spread = (name) => `${text(rows[0].times[name].median)} [${text(rows[0].times[name].low)}–${text(rows[0].times[name].high)}]`;
   assert.deepEqual(cells.slice(0, 4), [String(kRuns), spread("t50_s"), spread("t90_s"), spread("t95_s")]);
   await check(page, "a study");
+});
+
+test("pages of other sites neither see nor change studies", async () => {
+  const self = `/v1/studies/${idOf(address)}`;
+  const json = { "Content-Type": "application/json" };
+  const outcomes = await attacked(browser, service.address, [
+    ["/v1/studies", { method: "POST", mode: "no-cors", body: JSON.stringify(kStudy) }],
+    ["/v1/studies", { method: "POST", headers: json, body: JSON.stringify(kStudy) }],
+    ["/v1/studies", {}],
+    [`${self}/events`, {}],
+    [self, { method: "PATCH", headers: json, body: '{"keep": true}' }],
+    [`${self}/cancel`, { method: "POST", mode: "no-cors" }],
+    [self, { method: "DELETE" }],
+  ]);
+  assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
+  const { studies } = await service.json("/v1/studies");
+  assert.deepEqual(studies.map(({ id, state, keep }) => [id, state, keep]), [[idOf(address), "succeeded", false]]);
 });
 
 test("the running mean ends at the mean of all runs", async () => {
