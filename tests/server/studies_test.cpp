@@ -124,6 +124,15 @@ TEST_F(StudyApi, MistakesComeBackAtOnceWithTheirPointers) {
   wrong = small_study();
   wrong["policies"][1]["drones"][0]["start"] = "high";
   EXPECT_THAT(pointers(wrong), ::testing::Contains("/policies/1/drones/0/start"));
+  // Named once, however many cases a policy has, and policies a case.
+  wrong = small_study();
+  wrong["cases"].push_back(wrong["cases"][0]);
+  wrong["cases"][1]["id"] = "again";
+  wrong["cases"][1]["crowd"] = {{"agents", 0}};
+  wrong["policies"][1]["drones"][0]["guidance"] = {{"policy", "balance"}, {"speed_mps", 99}};
+  EXPECT_THAT(pointers(wrong),
+              ::testing::UnorderedElementsAre("/cases/1/crowd/agents",
+                                              "/policies/1/drones/0/guidance/speed_mps"));
   wrong = small_study();
   wrong["colour"] = 1;
   wrong["baseline"] = "noone";

@@ -10,6 +10,7 @@ interface CurveProps extends ChartProps {
 
 export function EscapeCurve({ shares, alarm_s, ...chart }: CurveProps) {
   const toY = shareToY(kCurveHeight);
+  const isLate = (time_s: number) => time_s > 0.8 * chart.end_s; // its name would leave the chart
   const now = shares[Math.min(shares.length - 1, Math.round(chart.time_s))] ?? 0;
   return (
     <TimeFrame {...chart} height={kCurveHeight} label={`Share of the people who have escaped: ${Math.round(100 * now)} % at ${chart.time_s.toFixed(1)} s`}>
@@ -19,7 +20,7 @@ export function EscapeCurve({ shares, alarm_s, ...chart }: CurveProps) {
           {alarm_s !== null && alarm_s <= chart.end_s && (
             <>
               <line class="chart-mark" x1={toX(alarm_s)} x2={toX(alarm_s)} y1="0" y2={kCurveHeight} />
-              <text class="chart-mark-text" x={toX(alarm_s) + 5} y={kTop + 9}>
+              <text class="chart-mark-text" x={toX(alarm_s) + (isLate(alarm_s) ? -5 : 5)} y={kTop + 9} text-anchor={isLate(alarm_s) ? "end" : "start"}>
                 alarm
               </text>
             </>

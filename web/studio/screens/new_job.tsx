@@ -3,7 +3,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import presets from "presets";
 import { type ApiError, asApiError, getJson, sendJson } from "../api/client";
 import { useJson } from "../api/resource";
-import type { Job, JobList } from "../api/types";
+import type { DryRun, Job, JobList } from "../api/types";
 import { AllFields } from "../form/all_fields";
 import { Basic } from "../form/basic";
 import { calibratedDraft } from "../form/calibrated";
@@ -43,18 +43,17 @@ async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft
   return calibration ? calibratedDraft(draft, calibration) : draft;
 }
 
-/** Time and disk per image of jobs that were done lately, as a forecast. */
-function Forecast({ images }: { images: number }) {
+/** What the service expects of the job, and how long it takes at the pace of jobs that were done lately. */
+function Forecast({ plan }: { plan: DryRun }) {
   const list = useJson<JobList>("/v1/jobs?state=succeeded&limit=5");
   const done = (list.value?.jobs ?? []).filter((job) => (job.progress.frames_total ?? 0) > 0);
   const total = done.reduce((sum, job) => sum + (job.progress.frames_total ?? 0), 0);
-  if (total === 0) return null;
   const seconds = done.reduce((sum, job) => sum + secondsBetween(job.started_at, job.ended_at), 0);
-  const bytes = done.reduce((sum, job) => sum + job.bytes, 0);
+  const { cpu_s, disk_bytes } = plan.estimate;
   return (
     <span class="quiet-text">
-      about {durationText((images * seconds) / total)} and {bytesText((images * bytes) / total)}, judging by the{" "}
-      {done.length === 1 ? "last job" : `last ${done.length} jobs`}
+      about {durationText(Math.max(1, cpu_s))} of one core and {bytesText(disk_bytes)} of disk
+      {total > 0 && `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
     </span>
   );
 }
@@ -86,7 +85,7 @@ function SubmitBar({ draft, check, onErrors }: SubmitBarProps) {
         {check.isPending && !plan && errors.length === 0 && <span class="quiet-text">checking …</span>}
         {plan && (
           <>
-            <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast images={plan.frames} />
+            <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast plan={plan} />
           </>
         )}
         {plan && plan.warnings.length > 0 && (
