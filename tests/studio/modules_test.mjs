@@ -21,6 +21,7 @@ let camera;
 let names;
 let running;
 let subjects;
+let scale;
 
 before(async () => {
   coco = await importStudio(packages, "dataset/coco.ts");
@@ -35,6 +36,7 @@ before(async () => {
   kinds = await importStudio(packages, "place/kinds.ts");
   camera = await importStudio(packages, "calibration/camera.ts");
   names = await importStudio(packages, "place/names.ts");
+  scale = await importStudio(packages, "charts/scale.ts");
   running = await importStudio(packages, "study/running.ts");
   subjects = await importStudio(packages, "compare/subjects.ts");
   ({ footprint } = await importStudio(packages, "form/footprint.ts"));
@@ -437,4 +439,13 @@ test("messages of a live flight are read however they arrive", async () => {
     assert.equal(await messages[2].value.jpeg.text(), "jpg");
     assert.equal(messages[3].error, "it is over");
   }
+});
+
+test("an axis has round ticks around its values, with zero only where it is asked for", () => {
+  const values = [30.7, 38.2, 48.9];
+  assert.deepEqual(scale.scaleOf(values, 5, false), { low: 30, high: 50, ticks: [30, 35, 40, 45, 50] });
+  assert.deepEqual(scale.scaleOf(values).ticks, [0, 10, 20, 30, 40, 50]);
+  assert.deepEqual(scale.scaleOf([-3, 8]).ticks, [-5, 0, 5, 10]);
+  const { low, high } = scale.scaleOf([7, 7], 5, false);
+  assert.ok(low <= 7 && high > low && high >= 7);
 });

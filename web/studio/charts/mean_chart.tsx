@@ -22,10 +22,7 @@ function rangeOf(series: MeanSeries[], isDifference: boolean): Scale {
   const later = (means: RunningMean[]) => means.slice(Math.min(means.length - 1, Math.max(kFewRuns, Math.floor(means.length / 4))));
   const ends = series.flatMap(({ means }) => later(means).flatMap(({ mean, margin }) => [mean - (margin ?? 0), mean + (margin ?? 0)]));
   const values = [...ends, ...series.flatMap(({ means }) => means.map(({ mean }) => mean))];
-  if (isDifference || values.length === 0) return scaleOf(values);
-  const least = Math.min(...values);
-  const shifted = scaleOf(values.map((value) => value - least));
-  return { low: shifted.low + least, high: shifted.high + least, ticks: shifted.ticks.map((tick) => tick + least) };
+  return scaleOf(values, 5, isDifference);
 }
 
 export function MeanChart({ series, runs, isDifference, label }: { series: MeanSeries[]; runs: number; isDifference: boolean; label: string }) {

@@ -1,6 +1,6 @@
 // The frame of charts over time: axes and a cursor, which a click moves. Studio and HTML reports draw with it.
 import { createContext, type TargetedPointerEvent } from "preact";
-import { useContext, useEffect, useRef, useState } from "preact/hooks";
+import { useContext, useLayoutEffect, useRef, useState } from "preact/hooks";
 
 export interface ChartProps {
   time_s: number;
@@ -21,10 +21,18 @@ export function useWidth() {
   const fixed = useContext(FixedWidth);
   const element = useRef<HTMLDivElement>(null);
   const [width, setWidth] = useState(0);
-  useEffect(() => {
-    const observer = new ResizeObserver(([entry]) => setWidth(entry!.contentRect.width));
+  useLayoutEffect(() => {
+    setWidth(element.current!.clientWidth);
+    let frame = 0;
+    // In the next frame: what is drawn changes the height of what is observed.
+    const observer = new ResizeObserver(([entry]) => {
+      frame = requestAnimationFrame(() => setWidth(entry!.contentRect.width));
+    });
     observer.observe(element.current!);
-    return () => observer.disconnect();
+    return () => {
+      observer.disconnect();
+      cancelAnimationFrame(frame);
+    };
   }, []);
   return { element, width: fixed ?? width };
 }
