@@ -211,7 +211,7 @@ test("a study is cancelled, goes on, is repeated with changes and deleted", asyn
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("dialog").getByRole("button", { name: "Delete the study" }).click();
   await page.waitForURL(/\/studies$/);
-  await page.getByRole("link", { name: "studio test" }).waitFor();
+  await page.getByRole("link", { name: "studio test", exact: true }).waitFor();
   assert.equal((await service.json("/v1/studies")).studies.length, 1);
   await check(page, "the list of studies");
   await go("/studies/nowhere");
