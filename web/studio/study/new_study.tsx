@@ -3,13 +3,11 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
 import type { Study, StudyPlan } from "../api/types";
-import { changedDraft, type Check, type Draft, draftOf, type DraftPlace, type Form, storedDraft, useCheck } from "../form/draft";
-import { idOf } from "../form/field";
+import { DocumentViews, OpenDraft } from "../form/document_views";
+import { type Check, type Draft, draftOf, type DraftPlace, type Form, storedDraft, useCheck } from "../form/draft";
 import { type Json, textOf } from "../form/json";
-import type { JsonEditorProps } from "../form/json_editor";
 import type { Schema } from "../form/schema";
-import { ErrorBox, FileButton, Tabs } from "../parts/elements";
-import { Lazy } from "../parts/lazy";
+import { ErrorBox } from "../parts/elements";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { kPresets } from "./presets";
 import { StartBar } from "./start_bar";
@@ -17,17 +15,10 @@ import { StudyForm } from "./study_form";
 import { type StudySchema, withJobParts } from "./study_schema";
 
 const kPlace: DraftPlace = { path: "/v1/studies?dry_run", storage: "throng.study" };
-const loadEditor = () => import("../form/json_editor").then((module) => module.JsonEditor);
 
 const firstDraft = () => storedDraft(kPlace.storage) ?? draftOf(textOf(kPresets[0]!.study));
 
 function Sources({ studies, onDraft }: { studies: Study[]; onDraft: (draft: Draft) => void }) {
-  const [error, setError] = useState<string | null>(null);
-  const readFile = async (file: File) => {
-    const draft = draftOf(await file.text());
-    setError(draft.value ? null : `${file.name} holds no JSON object`);
-    if (draft.value) onDraft(draft);
-  };
   const choose = (id: string) => {
     const preset = kPresets.find((entry) => entry.id === id);
     const study = preset?.study ?? studies.find((entry) => entry.id === id)?.study;
@@ -57,14 +48,7 @@ function Sources({ studies, onDraft }: { studies: Study[]; onDraft: (draft: Draf
           </optgroup>
         </select>
       </label>
-      <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
-        Open a file
-      </FileButton>
-      {error && (
-        <span class="field-error" role="alert">
-          {error}
-        </span>
-      )}
+      <OpenDraft onDraft={onDraft} />
     </div>
   );
 }
@@ -81,47 +65,10 @@ interface EditorProps {
   onDraft: (draft: Draft) => void;
 }
 
-/** Two views of one draft. */
 function Editor({ draft, check, onDraft }: EditorProps) {
-  const { query } = usePlace();
   const schema = useSchema();
-  const [focus, setFocus] = useState<string | null>(null);
-  const tab = query.get("tab") === "json" ? "json" : "form";
-  const select = (id: string) => navigate(withQuery(query, { tab: id === "form" ? null : id }), { replace: true });
-  const form: Form = { value: draft.value ?? {}, errors: check.errors, change: (path, value) => onDraft(changedDraft(draft, path, value)) };
-  const showError = (pointer: string) => {
-    setFocus(pointer);
-    const field = tab === "form" ? document.getElementById(idOf(pointer.split("/").slice(1))) : null;
-    if (field) {
-      field.scrollIntoView({ block: "center" });
-      field.focus();
-    } else select("json");
-  };
-  const editor: JsonEditorProps = { what: "The study", text: draft.text, errors: check.errors, focus, onChange: (text) => onDraft(draftOf(text)) };
-  const tabs = [
-    { id: "form", label: "Form" },
-    { id: "json", label: <>JSON{check.errors.length > 0 && <span class="count">{check.errors.length}</span>}</> },
-  ];
-  return (
-    <>
-      <Tabs label="Views of the study" tabs={tabs} selected={tab} onSelect={select} />
-      <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab}`}>
-        {tab === "json" ? (
-          <Lazy load={loadEditor} props={editor} />
-        ) : draft.value === null ? (
-          <div class="notice bad">
-            <p>The text is not a JSON object, so it cannot be shown as fields.</p>
-            <button type="button" class="button" onClick={() => select("json")}>
-              Go to the text
-            </button>
-          </div>
-        ) : (
-          schema && <StudyForm form={form} schema={schema} />
-        )}
-      </div>
-      <StartBar draft={draft} place={kPlace} check={check} onErrors={showError} />
-    </>
-  );
+  const views = [{ id: "form", label: "Form", show: (form: Form) => schema && <StudyForm form={form} schema={schema} /> }];
+  return <DocumentViews what="The study" views={views} draft={draft} check={check} onDraft={onDraft} bar={(onErrors) => <StartBar draft={draft} place={kPlace} check={check} onErrors={onErrors} />} />;
 }
 
 /** With `?from=ID` the document of another study, to be changed. `studies`: those that can be copied. */
