@@ -38,7 +38,7 @@ json exits_of(const world::Scenario& scenario) {
   return list;
 }
 
-/// What smoke rises from: dangers that stay where they are.
+/// Sources of smoke: dangers that stay where they are.
 json dangers_of(const world::Scenario& scenario) {
   json list = json::array();
   for (const world::Disaster& disaster : scenario.disasters) {

@@ -1,4 +1,4 @@
-// What may be changed of a job or a study that is there: priority, labels, keep.
+// Changes of a job or a study that is there: priority, labels, keep.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ void check_labels(const std::vector<std::string>& labels, const std::string& poi
 /// Throws HttpError 403 for a priority that the caller may not give; `pointer` says where it is.
 void require_priority(const Call& call, int priority, const std::string& pointer);
 
-/// What the body of a PATCH, {"priority", "labels", "keep"} or some of them, makes of the row.
-/// Throws HttpError 400, 403 and 415.
+/// The row's values with those in the body of a PATCH: {"priority", "labels", "keep"} or some of
+/// them. Throws HttpError 400, 403 and 415.
 jobs::JobChange change_of(const Call& call, const httplib::Request& request,
                           const jobs::JobRow& row);
 

@@ -255,8 +255,7 @@ class StudyReader {
     }
   }
 
-  /// What is wrong with a crowd is wrong with every policy, and with drones in every case: named
-  /// once.
+  /// Once: a mistake in a crowd is found with every policy, one in drones in every case.
   void note(Problem problem) {
     const bool is_known =
         std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {

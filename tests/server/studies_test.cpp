@@ -221,7 +221,7 @@ TEST_F(StudyApi, PriorityLabelsAndKeepAreChanged) {
   expect_problem(change(mine, R"({"labels": [""]})"), 400);
   EXPECT_THAT(change(mine, R"({"title": "b"})")->body, HasSubstr("priority, labels, keep"));
   expect_problem(client().Patch(self, mine, "{}", "text/plain"), 415);
-  // Another owner sees what is labelled as shared, its events too, and changes nothing.
+  // Another owner sees what is labeled as shared, its events too, and changes nothing.
   ASSERT_EQ(change(mine, R"({"labels": ["shared"]})")->status, 200);
   EXPECT_EQ(get(self + "/events", other)->status, 200);
   expect_problem(change(other, R"({"keep": false})"), 403);

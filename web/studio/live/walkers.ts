@@ -1,5 +1,5 @@
-// People of a flight in space. What changes with a step of the simulation is sent once; between two steps the vertex shader
-// moves everybody, swings their legs by the way that they have walked, and lays down who has fallen.
+// People of a flight in space. Each step of the simulation is sent to the graphics card once; between two steps the vertex
+// shader moves everybody, swings their legs by the way that they have walked, and lays down who has fallen.
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { type Hello, kFallen, type World } from "./messages";
@@ -10,7 +10,7 @@ const kCycleM = 1.4; ///< walked with two steps
 const kStrollMps = 1.2; ///< from this speed on legs swing in full
 const kNearM = 45; ///< to the drone; those farther away have no legs to see
 const kFewPeople = 1000; ///< all of them have legs
-const kMaxStepM = 3; ///< people who come anew have not walked there
+const kMaxStepM = 3; ///< people who are new have not walked there
 
 const kVertexHead = /* glsl */ `
 attribute vec4 aFrom, aTo, aLook;

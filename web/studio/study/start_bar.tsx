@@ -1,4 +1,4 @@
-// What a study comes to before it is started: simulations, memory, a forecast of the time; and its mistakes.
+// Before a study is started: its simulations, memory and expected time, or its mistakes.
 import { useState } from "preact/hooks";
 import { type ApiError, asApiError, sendJson } from "../api/client";
 import { useJson } from "../api/resource";
