@@ -27,6 +27,7 @@
 #include "server/session_api.h"
 #include "server/studies_api.h"
 #include "server/studio.h"
+#include "server/trajectories_api.h"
 #include "server/webhooks_api.h"
 
 namespace throng::server {
@@ -76,6 +77,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/trace", Scope::read, &send_run_trace},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trajectories", Scope::read, &send_trajectories},
       Route{Method::get, "/v1/events", Scope::read, &send_events},
       Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
       Route{Method::get, kCalibrations, Scope::read, &list_calibrations},

@@ -44,17 +44,6 @@ jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   return row;
 }
 
-/// The run that the path names. Throws HttpError 404 when the job has none of this number.
-int run_of(const Request& request, const jobs::JobRow& row) {
-  const std::string number = request.matches[2];
-  constexpr std::size_t kMaxDigits = 6;
-  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
-  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
-    throw HttpError{404, fmt::format("the job has no run {}", number)};
-  }
-  return run;
-}
-
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
@@ -173,6 +162,16 @@ std::vector<Preview> previews_of(const fs::path& job) {
 }
 
 }  // namespace
+
+int run_of(const Request& request, const jobs::JobRow& row) {
+  const std::string number = request.matches[2];
+  constexpr std::size_t kMaxDigits = 6;
+  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
+  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
+    throw HttpError{404, fmt::format("the job has no run {}", number)};
+  }
+  return run;
+}
 
 void send_archive(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_succeeded(call, request);

@@ -1,6 +1,7 @@
 // Downloads of a finished job: its archive, its figures, each of its files.
 #pragma once
 
+#include "jobs/queue/store.h"
 #include "server/call.h"
 #include "server/http_fwd.h"
 
@@ -20,6 +21,9 @@ void send_run_metrics_csv(const Call& call, const httplib::Request& request,
                           httplib::Response& response);
 /// A run's trace (docs/trace.md), whatever becomes of the job.
 void send_run_trace(const Call& call, const httplib::Request& request, httplib::Response& response);
+
+/// The run of a job that the path names. Throws HttpError 404.
+int run_of(const httplib::Request& request, const jobs::JobRow& row);
 
 /// The report of all runs as one HTML page; 202 as long as it is being made.
 void send_report(const Call& call, const httplib::Request& request, httplib::Response& response);

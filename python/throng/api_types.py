@@ -760,6 +760,7 @@ OPERATIONS = (
     ("GET", "/v1/jobs/{id}/runs/{n}/metrics"),
     ("GET", "/v1/jobs/{id}/runs/{n}/metrics.csv"),
     ("GET", "/v1/jobs/{id}/runs/{n}/trace"),
+    ("GET", "/v1/jobs/{id}/runs/{n}/trajectories"),
     ("GET", "/v1/events"),
     ("POST", "/v1/calibrations"),
     ("GET", "/v1/calibrations"),

@@ -126,6 +126,25 @@ class WithService(unittest.TestCase):
         self.assertGreater(self.client.exits(id_).rows, 3)
         trace = throng.Trace(self.client.trace(id_, 0, self.folder() / "run.h5"))
         self.assertGreater(trace.positions.shape[1], 0)
+        # Between two steps half of the way; elsewhere a step as it is.
+        there = self.client.trajectories(id_, 0, from_s=1, to_s=3, every_s=0.25)
+        np.testing.assert_allclose(there.time_s, np.arange(1, 3.1, 0.25))
+        np.testing.assert_array_equal(there.role, trace.roles)
+        first = round(1 / trace.dt_s)
+        for index, step in ((0, first), (2, first + 5)):
+            present = trace.present[step]
+            np.testing.assert_array_equal(np.isnan(there.position[index, :, 0]), ~present)
+            np.testing.assert_allclose(there.position[index][present], trace.positions[step][present], atol=0.002)
+            np.testing.assert_array_equal(there.state[index], trace.states[step])
+            np.testing.assert_array_equal(there.flags[index] & 1, present)
+        stays = trace.present[first + 2] & trace.present[first + 3]
+        between = (trace.positions[first + 2] + trace.positions[first + 3]) / 2
+        np.testing.assert_allclose(there.position[1][stays], between[stays], atol=0.002)
+        self.assertEqual(len(self.client.trajectories(id_, 0, from_s=1000).time_s), 0)
+        with self.assertRaisesRegex(throng.InvalidRequestError, "every_s"):
+            self.client.trajectories(id_, 0, every_s=0)
+        with self.assertRaises(throng.NotFoundError):
+            self.client.trajectories(id_, 9)
         self.assertIn("alarm_s", self.client.metrics(id_, run=0))
         self.assertIn("<svg", self.client.plan(id_))
         self.assertIn("<html", self.client.report(id_).lower())
