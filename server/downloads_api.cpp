@@ -341,6 +341,19 @@ void send_log(const Call& call, const Request& request, Response& response) {
   answer_with_growing_file(request, response, file, "text/plain; charset=utf-8");
 }
 
+std::string newest_preview(const fs::path& job_folder) {
+  std::string newest;
+  fs::file_time_type written;
+  for (const Preview& preview : previews_of(job_folder)) {
+    std::error_code error;
+    const auto time = fs::last_write_time(preview.drawn, error);
+    if (error || (!newest.empty() && time <= written)) continue;
+    newest = preview.name;
+    written = time;
+  }
+  return newest;
+}
+
 void list_previews(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   json previews = json::array();

@@ -1,6 +1,9 @@
 // Downloads of a finished job: its archive, its figures, each of its files.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "jobs/queue/store.h"
 #include "server/call.h"
 #include "server/http_fwd.h"
@@ -31,6 +34,8 @@ void send_report(const Call& call, const httplib::Request& request, httplib::Res
 /// Logs of the workers, and the images with annotation overlays: also while the job is running.
 void list_logs(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_log(const Call& call, const httplib::Request& request, httplib::Response& response);
+/// The name of the preview that was written last; empty while there is none.
+std::string newest_preview(const std::filesystem::path& job_folder);
 void list_previews(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_preview(const Call& call, const httplib::Request& request, httplib::Response& response);
 

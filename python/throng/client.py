@@ -150,7 +150,7 @@ class Client(CatalogClient):
         """Past events of a job, or of all jobs. follow=True: also future ones, until the job has ended."""
         if follow and job_id is not None:
             for kind, event in _events.follow(self._http, f"/v1/jobs/{part(job_id)}", after, None):
-                if kind != "progress":
+                if kind not in ("progress", "preview"):
                     yield event  # type: ignore[misc]
             return
         path = "/v1/events" if job_id is None else f"/v1/jobs/{part(job_id)}/events"
