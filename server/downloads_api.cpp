@@ -275,15 +275,18 @@ void send_run_metrics(const Call& call, const Request& request, Response& respon
   send_run_file(call, request, response, "metrics", ".json", "application/json");
 }
 
+fs::path trace_of(const Call& call, const jobs::JobRow& row, int run) {
+  fs::path trace =
+      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
+  if (fs::exists(trace)) return trace;
+  throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
+                                   name_of(row.state), run)};
+}
+
 void send_run_trace(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   const int run = run_of(request, row);
-  const fs::path trace =
-      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
-  if (!fs::exists(trace)) {
-    throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
-                                     name_of(row.state), run)};
-  }
+  const fs::path trace = trace_of(call, row, run);
   response.set_header(
       "Content-Disposition",
       fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));

@@ -27,6 +27,8 @@ void send_run_trace(const Call& call, const httplib::Request& request, httplib::
 
 /// The run of a job that the path names. Throws HttpError 404.
 int run_of(const httplib::Request& request, const jobs::JobRow& row);
+/// The trace of a run. Throws HttpError 409 until it was simulated.
+std::filesystem::path trace_of(const Call& call, const jobs::JobRow& row, int run);
 
 /// The report of all runs as one HTML page; 202 as long as it is being made.
 void send_report(const Call& call, const httplib::Request& request, httplib::Response& response);

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "jobs/queue/folder.h"
 #include "server/downloads_api.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -125,13 +124,7 @@ void send_trajectories(const Call& call, const Request& request, Response& respo
   // The library may not be called by several threads.
   static std::mutex mutex;
   const jobs::JobRow row = find_job(call, request);
-  const int run = run_of(request, row);
-  const fs::path trace =
-      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
-  if (!fs::exists(trace)) {
-    throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
-                                     name_of(row.state), run)};
-  }
+  const fs::path trace = trace_of(call, row, run_of(request, row));
   const std::lock_guard lock(mutex);
   const world::TrajectoryReader reader(trace);
   response.set_content(bytes_of(reader.at(times_of(request, reader))), "application/octet-stream");

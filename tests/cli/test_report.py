@@ -1,5 +1,5 @@
-"""`throng report` as a reader opens it: well-formed, nothing fetched, and in headless Chromium, where that is
-installed (Debian: chromium), without a word on the console and with every chart drawn."""
+"""`throng report` as a reader opens it: well-formed, nothing fetched, and in headless Chromium (Debian: chromium)
+without a word on the console and with every chart drawn."""
 import html.parser
 import json
 import pathlib
@@ -73,6 +73,7 @@ class Report(unittest.TestCase):
         self.assertIn("<td>greatest density</td>", markup)
 
     def chromium(self, *arguments):
+        self.assertIsNotNone(CHROMIUM, "Chromium is missing (Debian package chromium; scripts/setup.sh installs it)")
         options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                    f"--user-data-dir={self.base / 'profile'}", "--enable-logging=stderr", "--window-size=1000,3200",
                    "--virtual-time-budget=10000"]
@@ -81,7 +82,6 @@ class Report(unittest.TestCase):
         self.assertEqual([line for line in done.stderr.splitlines() if ":CONSOLE" in line], [])
         return done.stdout
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_opens_in_chromium(self):
         page = f"file://{self.base / 'report.html'}"
         picture = self.base / "report.png"
@@ -102,7 +102,6 @@ class Report(unittest.TestCase):
         self.assertRegex(shown, r'class="series-band series-0" points="\d')
         self.assertRegex(shown, r'<rect class="exit-flowing"')
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_another_run_can_be_chosen(self):
         chosen = self.text.replace('id="run0" checked', 'id="run0"').replace('id="run1"', 'id="run1" checked')
         (self.base / "chosen.html").write_text(chosen)
@@ -111,7 +110,6 @@ class Report(unittest.TestCase):
         self.assertEqual(len(re.findall(r"_echarts_instance_=", section)), MAPS_OF_A_RUN)
         self.assertEqual(len(re.findall(r'<svg class="chart"', section)), 1)
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_prints_all_runs(self):
         paper = self.base / "report.pdf"
         self.chromium(f"--print-to-pdf={paper}", f"file://{self.base / 'report.html'}")
