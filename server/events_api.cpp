@@ -72,10 +72,7 @@ class EventStream {
     const auto events = queue_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
     if (!events.empty()) after_ = events.back().seq;
     std::string text;
-    for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
-      text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
-                          text_of(event_json(event)));
-    }
+    // As it was before the events: none comes behind the end.
     if (row && row->state == jobs::JobState::running && row->progress_json != progress_) {
       progress_ = row->progress_json;
       if (!progress_.empty()) text += fmt::format("event: progress\ndata: {}\n\n", progress_);
@@ -85,6 +82,10 @@ class EventStream {
         now - last_look_ > kPreviewPause) {
       last_look_ = now;
       text += preview_event();
+    }
+    for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
+      text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
+                          text_of(event_json(event)));
     }
     if (text.empty() && now - last_write_ > kKeepAlive) text = ": still here\n\n";
     if (!text.empty()) {

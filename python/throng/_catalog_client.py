@@ -193,12 +193,11 @@ class CatalogClient:
     def study_events(self, study_id: str, *, after: int = 0, follow: bool = False) -> Iterator[tuple[str, Any]]:
         """(type, event) of a study's past events. follow=True: also future ones, and ("progress", figures) in between,
         until the study has ended."""
-        path = f"/v1/studies/{part(study_id)}"
         if follow:
-            yield from _events.follow(self._http, path, after, None)
+            yield from _events.follow(self._http, f"/v1/studies/{part(study_id)}", after, None)
             return
         while True:
-            page: EventList = self._get(f"{path}/events", {"after": after})
+            page: EventList = self._get(f"/v1/studies/{part(study_id)}/events", {"after": after})
             for event in page["events"]:
                 yield event["type"], event
             if not page["events"]:

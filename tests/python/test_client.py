@@ -16,6 +16,7 @@ import unittest.mock
 import zipfile
 
 import common
+import numpy as np
 import throng
 from throng import Client, job
 from throng._download import file_name_of
@@ -306,7 +307,6 @@ class WithService(unittest.TestCase):
 
     def test_calibrations(self):
         """A board seen by a known pinhole; the service finds its focal length."""
-        import numpy as np
 
         rng = np.random.default_rng(1)
         board = np.array([[x * 0.1, y * 0.1, 0.0] for y in range(6) for x in range(9)])
