@@ -34,6 +34,7 @@ await service.start();
 const browser = await launch(packages);
 try {
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  page.setDefaultTimeout(120_000); // thousands of people keep a page without a graphics card busy
   const job = { scenario, crowd: { agents: Number(people) }, environment: { smoke: 1 }, drones: [{ id: "d1", start: [-24, -6, 20], camera: { pitch_deg: -45 } }] };
   await page.goto(`${service.address}/new`);
   await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(job)) });

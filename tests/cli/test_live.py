@@ -113,6 +113,7 @@ class Live(unittest.TestCase):
         self.assertEqual([d["id"] for d in hello["drones"]], ["d1", "d2"])
         self.assertEqual(hello["dt_s"], 0.1)
         self.assertGreater(len(hello["exits"]), 3)
+        self.assertEqual((hello["smoke"], [danger["kind"] for danger in hello["dangers"]]), (0, ["explosion"]))
         last = received["states"][-1]
         self.assertEqual(len(last.people), hello["people"])
         self.assertEqual(sum(1 for p, role in zip(last.people, hello["roles"]) if p["flags"] & 1 and role == 0), 40)
