@@ -466,6 +466,12 @@ test("people of a flight walk as far as they have gone, and lie where they have 
   close(aLook.getW(0), 1);
   close(aTo.getW(1) - aFrom.getW(1), 0);
   close(aLook.getW(1), -1);
+  // Of thousands only those next to the drone have legs.
+  const many = { timeS: 0, people: { x: Float32Array.from({ length: 2000 }, (_, i) => i / 100), y: new Float32Array(2000), yaw: new Float32Array(2000), state: new Uint8Array(2000), flags: new Uint8Array(2000).fill(1) } };
+  const crowd = new Walkers({ people: 2000, roles: Array(2000).fill(0) });
+  for (let step = 0; step < 20; ++step) crowd.step(many, many, 0, 0);
+  const counts = crowd.group.children.map((mesh) => mesh.geometry.instanceCount);
+  assert.ok(counts[0] > 200 && counts[0] < 400 && counts[0] + counts[1] === 2000, `${counts}`);
   walkers.step(now, worldOf(0.2, [0.28, 5, 0], [1, 5, 1]), 0, 0);
   close(aFrom.getW(0), (2 * Math.PI * 0.14) / 1.4);
 });

@@ -8,8 +8,10 @@ import { colorOfPerson, isShown } from "./people";
 const kFloats = 4;
 const kCycleM = 1.4; ///< walked with two steps
 const kStrollMps = 1.2; ///< from this speed on legs swing in full
-const kNearM = 45; ///< to the drone; those farther away have no legs to see
 const kFewPeople = 1000; ///< all of them have legs
+const kMaxNear = 300; ///< of more people, so many next to the drone have
+const kFirstNearM = 12;
+const kMaxNearM = 45;
 const kMaxStepM = 3; ///< people who are new have not walked there
 
 const kVertexHead = /* glsl */ `
@@ -57,7 +59,7 @@ class Group {
   private readonly from: any;
   private readonly to: any;
   private readonly look: any;
-  private count = 0;
+  size = 0;
 
   constructor(shape: any, capacity: number, material: any) {
     const geometry = new THREE.InstancedBufferGeometry();
@@ -73,22 +75,22 @@ class Group {
   }
 
   begin(): void {
-    this.count = 0;
+    this.size = 0;
   }
 
   add(from: readonly number[], to: readonly number[], look: readonly number[]): void {
-    const at = kFloats * this.count++;
+    const at = kFloats * this.size++;
     this.from.array.set(from, at);
     this.to.array.set(to, at);
     this.look.array.set(look, at);
   }
 
   end(): void {
-    this.mesh.geometry.instanceCount = this.count;
-    this.mesh.visible = this.count > 0;
+    this.mesh.geometry.instanceCount = this.size;
+    this.mesh.visible = this.size > 0;
     for (const attribute of [this.from, this.to, this.look]) {
       attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, kFloats * this.count);
+      attribute.addUpdateRange(0, kFloats * this.size);
       attribute.needsUpdate = true;
     }
   }
@@ -102,10 +104,12 @@ export class Walkers {
   private readonly near: Group;
   private readonly far: Group;
   private readonly phases: Float32Array;
+  private nearM: number;
   private readonly shades = new Map<string, number[]>();
 
   constructor(private readonly hello: Hello) {
     this.phases = new Float32Array(hello.people);
+    this.nearM = hello.people <= kFewPeople ? Infinity : kFirstNearM;
     const material = new THREE.MeshLambertMaterial();
     material.onBeforeCompile = (shader: any) => {
       shader.uniforms["uShare"] = this.share;
@@ -127,7 +131,6 @@ export class Walkers {
 
   /** A step of the simulation: everybody goes from `before` to `now`. `x`, `y`: from where they are seen. */
   step(before: World, now: World, x: number, y: number): void {
-    const isFew = this.hello.people <= kFewPeople;
     const seconds = Math.max(1e-3, now.timeS - before.timeS);
     this.near.begin();
     this.far.begin();
@@ -142,9 +145,10 @@ export class Walkers {
       this.phases[index] = wrapped(next);
       const yaw = before.people.yaw[index]!;
       const amplitude = now.people.flags[index]! & kFallen ? -1 : isNew ? 0 : Math.min(1, walked / seconds / kStrollMps);
-      const group = isFew || Math.hypot(toX - x, toY - y) < kNearM ? this.near : this.far;
+      const group = Math.hypot(toX - x, toY - y) < this.nearM ? this.near : this.far;
       group.add([fromX, fromY, yaw, phase], [toX, toY, yaw + wrapped(now.people.yaw[index]! - yaw), next], [...this.shadeOf(colorOfPerson(this.hello, now.people, index)), amplitude]);
     }
+    if (this.nearM < Infinity) this.nearM = Math.min(kMaxNearM, this.nearM * (this.near.size > kMaxNear ? 0.8 : 1.1));
     this.near.end();
     this.far.end();
   }
