@@ -28,19 +28,27 @@ function(throng_web_packages)
   file(WRITE "${folder}/installed.sha256" "${wanted}")
 endfunction()
 
-# throng_bundle(TARGET SYMBOL FILE): FILE of web/ and all that it imports as one script, embedded like throng_embed's text.
+# throng_bundle(TARGET SYMBOL FILE): FILE of web/, a script or a style sheet, and all that it imports, embedded like
+# throng_embed's text.
 function(throng_bundle target symbol file)
   throng_web_packages()
   find_program(NODE_PROGRAM NAMES node nodejs REQUIRED)
   set(packages "${PROJECT_SOURCE_DIR}/build/web/node_modules")
-  set(bundle "${CMAKE_CURRENT_BINARY_DIR}/${symbol}.js")
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/web/*.js")
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
+  get_filename_component(extension "${file}" EXT)
+  set(bundle "${CMAKE_CURRENT_BINARY_DIR}/${symbol}${extension}")
+  # Reports and Studio share charts and colors.
+  set(web "${PROJECT_SOURCE_DIR}/web")
+  file(GLOB sources CONFIGURE_DEPENDS "${web}/*.js" "${web}/*.css" "${web}/studio/charts/*")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources} "${web}/studio/run/exit_states.ts"
+    "${web}/studio/styles/colors.css" "${web}/studio/styles/charts.css")
+  set(script_options "")
+  if(extension STREQUAL ".js")
+    set(script_options --format=iife --target=es2020 --jsx=automatic --jsx-import-source=preact
+      "--banner:js=/*! Apache ECharts (Apache License 2.0) with zrender (BSD 3-Clause), Preact (MIT License) and throng */")
+  endif()
   execute_process(
     COMMAND "${CMAKE_COMMAND}" -E env "NODE_PATH=${packages}" "${NODE_PROGRAM}" "${packages}/esbuild/bin/esbuild"
-      "${PROJECT_SOURCE_DIR}/web/${file}" --bundle --minify --format=iife --target=es2020 --charset=ascii
-      --log-level=warning "--banner:js=/*! Apache ECharts (Apache License 2.0) with zrender (BSD 3-Clause) and throng */"
-      "--outfile=${bundle}"
+      "${web}/${file}" --bundle --minify --charset=ascii --log-level=warning --legal-comments=none ${script_options} "--outfile=${bundle}"
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "esbuild could not bundle web/${file}:\n${output}")

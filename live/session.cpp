@@ -130,7 +130,7 @@ class Session {
   [[noreturn]] void run() {
     std::thread([this] { read(); }).detach();
     try {
-      output_.send(MessageType::hello, hello_of(flight_, scenario_).dump());
+      output_.send(MessageType::hello, hello_of(flight_, scenario_, smoke_of(job_)).dump());
       output_.send(MessageType::state, state_bytes(*moment_, 0, true));
       {
         const std::jthread camera([this](const std::stop_token& stop) { show(stop); });

@@ -38,6 +38,21 @@ json exits_of(const world::Scenario& scenario) {
   return list;
 }
 
+/// Sources of smoke: dangers that stay where they are.
+json dangers_of(const world::Scenario& scenario) {
+  json list = json::array();
+  for (const world::Disaster& disaster : scenario.disasters) {
+    if (disaster.kind == world::DisasterKind::attacker) continue;
+    list.push_back({{"kind", world::kDisasterKinds.at(static_cast<std::size_t>(disaster.kind))},
+                    {"position", point(disaster.position)},
+                    {"start_s", disaster.start_s},
+                    {"radius_m", disaster.radius_m},
+                    {"growth_mps", disaster.growth_mps},
+                    {"max_radius_m", disaster.max_radius_m}});
+  }
+  return list;
+}
+
 json drones_of(const Flight& flight) {
   json list = json::array();
   for (const sim::PlannedDrone& drone : flight.drones()) {
@@ -56,7 +71,7 @@ json drones_of(const Flight& flight) {
 
 }  // namespace
 
-json hello_of(const Flight& flight, const world::Scenario& scenario) {
+json hello_of(const Flight& flight, const world::Scenario& scenario, double smoke) {
   const world::TraceHeader& header = flight.header();
   json roles = json::array();
   for (const world::AgentRole role : header.role) roles.push_back(static_cast<int>(role));
@@ -72,6 +87,8 @@ json hello_of(const Flight& flight, const world::Scenario& scenario) {
           {"inside", rectangle(scenario.inside)},
           {"buildings", buildings_of(scenario)},
           {"exits", exits_of(scenario)},
+          {"smoke", smoke},
+          {"dangers", dangers_of(scenario)},
           {"image", {{"width", kImageWidth}, {"height", kImageHeight}}},
           {"max_speed_mps", sim::kMaxRemoteSpeedMps},
           {"max_climb_mps", sim::kMaxRemoteClimbMps},

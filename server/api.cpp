@@ -27,6 +27,7 @@
 #include "server/session_api.h"
 #include "server/studies_api.h"
 #include "server/studio.h"
+#include "server/trajectories_api.h"
 #include "server/webhooks_api.h"
 
 namespace throng::server {
@@ -76,6 +77,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/trace", Scope::read, &send_run_trace},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trajectories", Scope::read, &send_trajectories},
       Route{Method::get, "/v1/events", Scope::read, &send_events},
       Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
       Route{Method::get, kCalibrations, Scope::read, &list_calibrations},
@@ -87,9 +89,11 @@ std::span<const Route> routes() {
       Route{Method::post, kStudies, Scope::submit, &submit_study},
       Route{Method::get, kStudies, Scope::read, &list_studies},
       Route{Method::get, "/v1/studies/{id}", Scope::read, &send_study},
+      Route{Method::patch, "/v1/studies/{id}", Scope::submit, &change_study},
       Route{Method::remove, "/v1/studies/{id}", Scope::submit, &remove_study},
       Route{Method::post, "/v1/studies/{id}/cancel", Scope::submit, &cancel_study},
       Route{Method::post, "/v1/studies/{id}/retry", Scope::submit, &retry_study},
+      Route{Method::get, "/v1/studies/{id}/events", Scope::read, &send_study_events},
       Route{Method::get, "/v1/studies/{id}/report", Scope::read, &send_study_report},
       Route{Method::get, "/v1/studies/{id}/files/{path}", Scope::read, &send_study_file},
       Route{Method::post, "/v1/live", Scope::submit, &begin_live},

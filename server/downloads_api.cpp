@@ -44,17 +44,6 @@ jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   return row;
 }
 
-/// The run that the path names. Throws HttpError 404 when the job has none of this number.
-int run_of(const Request& request, const jobs::JobRow& row) {
-  const std::string number = request.matches[2];
-  constexpr std::size_t kMaxDigits = 6;
-  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
-  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
-    throw HttpError{404, fmt::format("the job has no run {}", number)};
-  }
-  return run;
-}
-
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
@@ -174,6 +163,16 @@ std::vector<Preview> previews_of(const fs::path& job) {
 
 }  // namespace
 
+int run_of(const Request& request, const jobs::JobRow& row) {
+  const std::string number = request.matches[2];
+  constexpr std::size_t kMaxDigits = 6;
+  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
+  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
+    throw HttpError{404, fmt::format("the job has no run {}", number)};
+  }
+  return run;
+}
+
 void send_archive(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_succeeded(call, request);
   const fs::path dataset = call.folders.dataset_of(row.id);
@@ -276,15 +275,18 @@ void send_run_metrics(const Call& call, const Request& request, Response& respon
   send_run_file(call, request, response, "metrics", ".json", "application/json");
 }
 
+fs::path trace_of(const Call& call, const jobs::JobRow& row, int run) {
+  fs::path trace =
+      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
+  if (fs::exists(trace)) return trace;
+  throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
+                                   name_of(row.state), run)};
+}
+
 void send_run_trace(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   const int run = run_of(request, row);
-  const fs::path trace =
-      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
-  if (!fs::exists(trace)) {
-    throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
-                                     name_of(row.state), run)};
-  }
+  const fs::path trace = trace_of(call, row, run);
   response.set_header(
       "Content-Disposition",
       fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));
@@ -340,6 +342,19 @@ void send_log(const Call& call, const Request& request, Response& response) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
   }
   answer_with_growing_file(request, response, file, "text/plain; charset=utf-8");
+}
+
+std::string newest_preview(const fs::path& job_folder) {
+  std::string newest;
+  fs::file_time_type written;
+  for (const Preview& preview : previews_of(job_folder)) {
+    std::error_code error;
+    const auto time = fs::last_write_time(preview.drawn, error);
+    if (error || (!newest.empty() && time <= written)) continue;
+    newest = preview.name;
+    written = time;
+  }
+  return newest;
 }
 
 void list_previews(const Call& call, const Request& request, Response& response) {

@@ -4,12 +4,14 @@
 
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "server/answers.h"
+#include "server/downloads_api.h"
 #include "server/http.h"
 #include "server/requests.h"
 
@@ -26,6 +28,7 @@ constexpr int kMaxStreams = 128;  // each holds a thread of the server
 constexpr int kPage = 500;
 constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for its end
 constexpr auto kKeepAlive = 10s;
+constexpr auto kPreviewPause = 2s;
 constexpr std::int64_t kLastNumber = std::numeric_limits<std::int64_t>::max();
 
 /// Drops events of jobs that the caller does not see. Nobody but administrators learns of the
@@ -47,9 +50,12 @@ std::vector<jobs::EventRow> visible(std::vector<jobs::EventRow> events, const Jo
 
 class EventStream {
  public:
-  EventStream(JobQueue& queue, Caller caller, std::string job, std::int64_t after)
+  /// `folder`: of the job, where its previews are looked for; empty: nowhere.
+  EventStream(JobQueue& queue, Caller caller, std::string job, std::int64_t after,
+              std::filesystem::path folder)
       : watch_(queue.begin_watch(kMaxStreams)),
         queue_(queue),
+        folder_(std::move(folder)),
         caller_(std::move(caller)),
         job_(std::move(job)),
         after_(after) {
@@ -66,15 +72,21 @@ class EventStream {
     const auto events = queue_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
     if (!events.empty()) after_ = events.back().seq;
     std::string text;
-    for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
-      text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
-                          text_of(event_json(event)));
-    }
+    // As it was before the events: none comes behind the end.
     if (row && row->state == jobs::JobState::running && row->progress_json != progress_) {
       progress_ = row->progress_json;
       if (!progress_.empty()) text += fmt::format("event: progress\ndata: {}\n\n", progress_);
     }
     const auto now = std::chrono::steady_clock::now();
+    if (row && row->state == jobs::JobState::running && !folder_.empty() &&
+        now - last_look_ > kPreviewPause) {
+      last_look_ = now;
+      text += preview_event();
+    }
+    for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
+      text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
+                          text_of(event_json(event)));
+    }
     if (text.empty() && now - last_write_ > kKeepAlive) text = ": still here\n\n";
     if (!text.empty()) {
       last_write_ = now;
@@ -85,8 +97,21 @@ class EventStream {
   }
 
  private:
+  /// The newest preview, when it is another one than the last time.
+  std::string preview_event() {
+    const std::string name = newest_preview(folder_);
+    if (name.empty() || name == preview_) return {};
+    preview_ = name;
+    return fmt::format(
+        "event: preview\ndata: {}\n\n",
+        text_of({{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", job_, name)}}));
+  }
+
   std::shared_ptr<void> watch_;
   const JobQueue& queue_;
+  std::filesystem::path folder_;
+  std::string preview_;
+  std::chrono::steady_clock::time_point last_look_;
   Caller caller_;
   std::string job_;
   std::int64_t after_;
@@ -121,20 +146,31 @@ void send_page(const Call& call, const Request& request, Response& response,
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
 
-}  // namespace
-
-void send_events(const Call& call, const Request& request, Response& response) {
-  const std::string job = request.matches.size() > 1 ? find_job(call, request).id : std::string();
+/// Of the job, calibration or study with this id; "" for all.
+void send_events_of(const Call& call, const Request& request, Response& response,
+                    const std::string& job, const std::filesystem::path& folder) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(call, request, response, job);
   }
   const auto stream =
-      std::make_shared<EventStream>(call.queue, call.caller, job, last_event_id(request));
+      std::make_shared<EventStream>(call.queue, call.caller, job, last_event_id(request), folder);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(
       "text/event-stream",
       [stream](std::size_t, httplib::DataSink& sink) { return stream->step(sink); });
+}
+
+}  // namespace
+
+void send_events(const Call& call, const Request& request, Response& response) {
+  if (request.matches.size() < 2) return send_events_of(call, request, response, "", {});
+  const std::string id = find_job(call, request).id;
+  send_events_of(call, request, response, id, call.folders.job_folder(id));
+}
+
+void send_study_events(const Call& call, const Request& request, Response& response) {
+  send_events_of(call, request, response, find_row(call, request, jobs::JobKind::study).id, {});
 }
 
 }  // namespace throng::server

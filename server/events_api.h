@@ -1,4 +1,4 @@
-// Events of jobs, as a stream.
+// Events of jobs and studies, as a stream.
 #pragma once
 
 #include "server/call.h"
@@ -10,5 +10,9 @@ namespace throng::server {
 /// that begin after Last-Event-ID (or ?after=), with the job's progress in between; they end when
 /// the job has ended. Else at most ?limit= events after ?after= as JSON, for which ?wait_s= waits.
 void send_events(const Call& call, const httplib::Request& request, httplib::Response& response);
+
+/// GET /v1/studies/{id}/events, likewise.
+void send_study_events(const Call& call, const httplib::Request& request,
+                       httplib::Response& response);
 
 }  // namespace throng::server

@@ -13,6 +13,7 @@
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
+#include "server/row_changes.h"
 
 namespace throng::server {
 
@@ -22,8 +23,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxLabels = 20;
-constexpr std::size_t kMaxLabelLength = 60;
 constexpr std::size_t kMaxKeyLength = 200;
 
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
@@ -40,23 +39,6 @@ std::vector<std::string> all_of(const Request& request, const char* name) {
     values.push_back(request.get_param_value(name, i));
   }
   return values;
-}
-
-void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
-  const auto is_wrong = [](const std::string& label) {
-    return label.empty() || label.size() > kMaxLabelLength ||
-           std::any_of(label.begin(), label.end(),
-                       [](unsigned char c) { return c < ' ' || c == 127; });
-  };
-  const auto invalid = std::find_if(labels.begin(), labels.end(), is_wrong);
-  if (invalid == labels.end() && labels.size() <= kMaxLabels) return;
-  const std::string found =
-      invalid == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *invalid + '"';
-  throw HttpError{400,
-                  "labels are wrong",
-                  {{"", pointer, found,
-                    fmt::format("at most {} labels of 1 to {} printable characters", kMaxLabels,
-                                kMaxLabelLength)}}};
 }
 
 std::string key_of(const Request& request) {
@@ -88,15 +70,6 @@ std::optional<Form> form_of(const Request& request) {
   }
   if (form.job.empty()) throw HttpError{400, "there is no part \"job\" with the job as JSON"};
   return form;
-}
-
-/// Throws HttpError 403 for a priority that the caller may not give; `pointer` says where it is.
-void require_priority(const Call& call, int priority, const std::string& pointer) {
-  if (priority <= call.caller.max_priority) return;
-  throw HttpError{403,
-                  "this key may not give its jobs that priority",
-                  {{"", pointer, std::to_string(priority),
-                    fmt::format("at most {}", call.caller.max_priority)}}};
 }
 
 /// With a bundle of its own, unless that is null.
@@ -192,39 +165,8 @@ void send_job(const Call& call, const Request& request, Response& response) {
 }
 
 void change_job(const Call& call, const Request& request, Response& response) {
-  require_json(request);
   const jobs::JobRow row = find_own(call, request);
-  const json change = json_body_of(request);
-  const auto invalid_field = [](const std::string& pointer, const std::string& found,
-                                const std::string& expected) {
-    return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
-  };
-  if (!change.is_object())
-    throw invalid_field("", "no JSON object", "priority, labels, keep or some of them");
-  jobs::JobChange wanted{row.priority, row.labels, row.keep};
-  for (const auto& [name, value] : change.items()) {
-    if (name == "priority") {
-      if (!value.is_number_integer() || value < -kMaxPriority || value > kMaxPriority) {
-        throw invalid_field("/priority", value.dump(), "an integer from -100 to 100");
-      }
-      wanted.priority = value;
-      // An administrator may have raised it: then it may stay.
-      if (wanted.priority > row.priority) require_priority(call, wanted.priority, "/priority");
-    } else if (name == "labels") {
-      const bool is_list =
-          value.is_array() && std::all_of(value.begin(), value.end(),
-                                          [](const json& label) { return label.is_string(); });
-      if (!is_list) throw invalid_field("/labels", value.dump(), "a list of texts");
-      wanted.labels = value.get<std::vector<std::string>>();
-      check_labels(wanted.labels, "/labels");
-    } else if (name == "keep") {
-      if (!value.is_boolean()) throw invalid_field("/keep", value.dump(), "true or false");
-      wanted.keep = value;
-    } else {
-      throw invalid_field("/" + name, fmt::format("unknown field \"{}\"", name),
-                          "one of: priority, labels, keep");
-    }
-  }
+  const jobs::JobChange wanted = change_of(call, request, row);
   const auto changed = call.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*changed, call.housekeeping.retention()));

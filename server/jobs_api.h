@@ -11,7 +11,7 @@ void submit_job(const Call& call, const httplib::Request& request, httplib::Resp
 /// GET /v1/jobs?state=&label=&name=&sort=&limit=&after=
 void list_jobs(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_job(const Call& call, const httplib::Request& request, httplib::Response& response);
-/// PATCH with {"priority", "labels"}
+/// PATCH with {"priority", "labels", "keep"}
 void change_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 void cancel_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 void retry_job(const Call& call, const httplib::Request& request, httplib::Response& response);

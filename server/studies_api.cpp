@@ -19,6 +19,7 @@
 #include "server/file_answer.h"
 #include "server/http.h"
 #include "server/requests.h"
+#include "server/row_changes.h"
 #include "study/spec/study_files.h"
 
 namespace throng::server {
@@ -118,6 +119,13 @@ void send_study(const Call& call, const Request& request, Response& response) {
   value["plan"] = call.studies.plan_of(row);
   value["summary"] = call.studies.summary_of(row);
   write_json(response, 200, value);
+}
+
+void change_study(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(call, request);
+  const auto row = call.queue.change(own.id, change_of(call, request, own));
+  if (!row) throw HttpError{404, "the study has been removed"};
+  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
 }
 
 void cancel_study(const Call& call, const Request& request, Response& response) {

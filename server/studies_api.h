@@ -13,6 +13,8 @@ void submit_study(const Call& call, const httplib::Request& request, httplib::Re
 void list_studies(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// With its plan, and the summary of what is there so far.
 void send_study(const Call& call, const httplib::Request& request, httplib::Response& response);
+/// PATCH with {"priority", "labels", "keep"}, as of a job.
+void change_study(const Call& call, const httplib::Request& request, httplib::Response& response);
 void cancel_study(const Call& call, const httplib::Request& request, httplib::Response& response);
 void retry_study(const Call& call, const httplib::Request& request, httplib::Response& response);
 void remove_study(const Call& call, const httplib::Request& request, httplib::Response& response);

@@ -123,8 +123,9 @@ std::string html_report(const world::Scenario& scenario, const std::vector<Measu
   page.body = fmt::format(
       "<h1>{}</h1>\n<p>{}</p>\n<p>{} run{}, {}, definitions version {} (docs/metrics.md). A time "
       "that was not reached before the run ended is called so; the mean escape time counts the "
-      "run's end for who was still inside.</p>\n<p class=\"hint\">Charts: point at something to "
-      "read its values, click on the legend to hide it, turn the wheel with Ctrl to zoom, drag to "
+      "run's end for who was still inside.</p>\n<p class=\"hint\">Charts: a click or the "
+      "slider chooses the time of curves and states. Maps and diagrams: point at something to read "
+      "its values, click on the legend to hide it, turn the wheel with Ctrl to zoom, drag to "
       "move.</p>\n{}",
       escaped_markup(page.title), escaped_markup(scenario.description), runs.size(),
       runs.size() == 1 ? "" : "s", kGenerator, metrics::kDefinitionsVersion, all_runs(runs));

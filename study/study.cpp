@@ -249,10 +249,19 @@ class StudyReader {
         const bool of_policy = problem.where.rfind("/drones", 0) == 0;
         problem.where = (of_policy ? fmt::format("/policies/{}", p) : fmt::format("/cases/{}", c)) +
                         problem.where;
-        problems_.push_back(std::move(problem));
+        note(std::move(problem));
       }
       return {};
     }
+  }
+
+  /// Once: a mistake in a crowd is found with every policy, one in drones in every case.
+  void note(Problem problem) {
+    const bool is_known =
+        std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) {
+          return other.where == problem.where && other.text() == problem.text();
+        });
+    if (!is_known) problems_.push_back(std::move(problem));
   }
 
   const json& document_;

@@ -3,7 +3,7 @@ import * as echarts from 'echarts/core';
 import { CustomChart, LineChart, LinesChart, ScatterChart } from 'echarts/charts';
 import {
   AriaComponent,
-  DataZoomComponent,
+  DataZoomInsideComponent,
   GridComponent,
   LegendComponent,
   ToolboxComponent,
@@ -13,7 +13,7 @@ import {
 import { CanvasRenderer, SVGRenderer } from 'echarts/renderers';
 
 echarts.use([
-  AriaComponent, CanvasRenderer, CustomChart, DataZoomComponent, GridComponent, LegendComponent, LineChart,
+  AriaComponent, CanvasRenderer, CustomChart, DataZoomInsideComponent, GridComponent, LegendComponent, LineChart,
   LinesChart, ScatterChart, SVGRenderer, ToolboxComponent, TooltipComponent, VisualMapContinuousComponent,
 ]);
 
@@ -40,12 +40,6 @@ export const escaped = (text) =>
 
 export const number = (value, digits = 2) => (Number.isFinite(value) ? value.toFixed(digits) : 'none');
 
-// Zoom by dragging a bar below the chart, or by Ctrl and the wheel, which alone scrolls the page.
-export const timeZoom = () => [
-  { type: 'slider', xAxisIndex: 0, height: 18, bottom: 8, filterMode: 'none', labelFormatter: (s) => `${Math.round(s)} s` },
-  { type: 'inside', xAxisIndex: 0, zoomOnMouseWheel: 'ctrl', filterMode: 'none' },
-];
-
 // Makes the chart in an element; `layout` gives its height in px for a width, and its grid and the
 // width that it takes if those depend on it. Returns what to call when the page's width changes and around printing.
 export function draw(element, { option, marks = 0, layout }) {
@@ -68,7 +62,6 @@ export function draw(element, { option, marks = 0, layout }) {
     ...option,
     ...placed,
   });
-  const bars = (option.dataZoom ?? []).filter((zoom) => zoom.type === 'slider');
   return {
     resize() {
       const changed = place();
@@ -79,7 +72,7 @@ export function draw(element, { option, marks = 0, layout }) {
     printing(now) {
       paper = now;
       this.resize();
-      chart.setOption({ toolbox: { show: !now }, ...(bars.length ? { dataZoom: [{ show: !now }] } : {}) });
+      chart.setOption({ toolbox: { show: !now } });
       chart.getZr().flush();
     },
   };

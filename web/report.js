@@ -1,15 +1,19 @@
 // Draws the charts of a report. The page holds their figures as JSON (#figures) and an element
-// [data-chart] for each; tables and the choice of a run need no script.
+// [data-chart] for each; tables and the choice of a run need no script. Curves and states are drawn by
+// Studio's charts, maps and the diagram by ECharts.
 import { draw } from './charts.js';
-import { convergenceOfPolicies } from './convergence.js';
-import { escapeOfPolicies, escapeOfRuns } from './escape.js';
 import { fundamental } from './fundamental.js';
 import { map, paths } from './ground.js';
-import { timeline } from './timeline.js';
+import { drawReportChart, isReportChart } from './studio/charts/report_charts';
 
-const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, convergence: convergenceOfPolicies, timeline, map, paths, fundamental };
+const makers = { map, paths, fundamental };
 const figures = JSON.parse(document.getElementById('figures').textContent);
 const drawn = new Map();
+
+const drawnIn = (element) => {
+  const { chart } = element.dataset;
+  return isReportChart(chart) ? drawReportChart(element, figures) : draw(element, makers[chart](figures, element));
+};
 
 // Those of a run that is not chosen have no width: they come when it is.
 function drawVisible() {
@@ -17,7 +21,7 @@ function drawVisible() {
     if (element.parentElement.clientWidth === 0) continue;
     const chart = drawn.get(element);
     if (chart) chart.resize();
-    else drawn.set(element, draw(element, makers[element.dataset.chart](figures, element)));
+    else drawn.set(element, drawnIn(element));
   }
 }
 

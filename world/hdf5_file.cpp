@@ -256,6 +256,33 @@ void read_into(const Handle& parent, const std::string& name, const std::vector<
   require(H5Dread(dataset.id(), type.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
 }
 
+RowReader::RowReader(const Handle& parent, std::string name, const ElementType& type,
+                     std::vector<hsize_t> shape)
+    : name_(std::move(name)),
+      memory_type_(type.memory),
+      shape_(std::move(shape)),
+      dataset_(open_dataset(parent, name_)) {
+  const Handle space(H5Dget_space(dataset_.id()), H5Sclose, name_);
+  if (shape_of_space(space, name_) != shape_ || !same_type(dataset_, type.file, name_)) {
+    throw Failure(name_);
+  }
+}
+
+void RowReader::read(hsize_t first, hsize_t count, void* data) const {
+  if (first > shape_[0] || count > shape_[0] - first) throw Failure(name_);
+  std::vector<hsize_t> start(shape_.size(), 0);
+  std::vector<hsize_t> size = shape_;
+  start[0] = first;
+  size[0] = count;
+  const Handle space(H5Dget_space(dataset_.id()), H5Sclose, name_);
+  require(
+      H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr),
+      name_);
+  const Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+                      H5Sclose, name_);
+  require(H5Dread(dataset_.id(), memory_type_, memory.id(), space.id(), H5P_DEFAULT, data), name_);
+}
+
 void write_texts(const Handle& parent, const std::string& name,
                  const std::vector<std::string>& texts) {
   std::size_t width = 1;

@@ -135,6 +135,22 @@ void require_stored(const Handle& parent, const std::string& name,
 void read_into(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,
                const ElementType& type, void* data);
 
+/// Rows of a dataset of numbers, whose shape must be `shape` and whose element type in the file
+/// must be that of `type`. `parent` must outlive it.
+class RowReader {
+ public:
+  RowReader(const Handle& parent, std::string name, const ElementType& type,
+            std::vector<hsize_t> shape);
+  /// `count` rows from `first` on, one after the other.
+  void read(hsize_t first, hsize_t count, void* data) const;
+
+ private:
+  std::string name_;
+  hid_t memory_type_;
+  std::vector<hsize_t> shape_;
+  Handle dataset_;
+};
+
 /// Text of a fixed width, padded with zeros; the width is in the type.
 Handle text_type(std::size_t width);
 void write_texts(const Handle& parent, const std::string& name,

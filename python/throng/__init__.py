@@ -33,6 +33,7 @@ from .errors import (
     UnavailableError,
 )
 from ._live import LiveFlight, LiveMessage, LiveImage, LiveState
+from ._trajectories import Trajectories
 from .frame import Frame
 from .plotting import animate, show
 from .program import find_program, metrics, run, simulate, study
@@ -74,6 +75,7 @@ __all__ = [
     "Table",
     "ThrongError",
     "Trace",
+    "Trajectories",
     "TraceError",
     "TrackingDataset",
     "UnavailableError",

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 from typing import Any, Iterator, Literal, Mapping, Sequence
 
+from . import _events
 from ._bundle import PathLike, bundle, json_bytes, path_of
 from ._http import BROKEN, Http, multipart, part
 from ._job_base import plain
@@ -18,6 +19,7 @@ from .api_types import (
     Calibration,
     CalibrationList,
     DeliveryList,
+    EventList,
     Key,
     KeyList,
     Scenario,
@@ -174,6 +176,33 @@ class CatalogClient:
             if time.monotonic() > deadline:
                 raise TimeoutError("the study has not ended in time")
             time.sleep(1.0)
+
+    def change_study(
+        self,
+        study_id: str,
+        *,
+        priority: int | None = None,
+        labels: Sequence[str] | None = None,
+        keep: bool | None = None,
+    ) -> Study:
+        """Changes priority, labels, or whether the study is never removed for its age."""
+        change = {"priority": priority, "labels": None if labels is None else list(labels), "keep": keep}
+        body = {name: value for name, value in change.items() if value is not None}
+        return self._send("PATCH", f"/v1/studies/{part(study_id)}", body, repeatable=True)
+
+    def study_events(self, study_id: str, *, after: int = 0, follow: bool = False) -> Iterator[tuple[str, Any]]:
+        """(type, event) of a study's past events. follow=True: also future ones, and ("progress", figures) in between,
+        until the study has ended."""
+        if follow:
+            yield from _events.follow(self._http, f"/v1/studies/{part(study_id)}", after, None)
+            return
+        while True:
+            page: EventList = self._get(f"/v1/studies/{part(study_id)}/events", {"after": after})
+            for event in page["events"]:
+                yield event["type"], event
+            if not page["events"]:
+                return
+            after = page["next"]
 
     def cancel_study(self, study_id: str) -> Study:
         """Finished runs are kept for a retry."""

@@ -1,4 +1,4 @@
-"""Server-Sent Events of a job, with reconnection."""
+"""Server-Sent Events of a job or a study, with reconnection."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import time
 from typing import TYPE_CHECKING, Any, BinaryIO, Iterator
 
-from ._http import BROKEN, Http, part, pauses, query_of
+from ._http import BROKEN, Http, pauses, query_of
 from .errors import ConnectionFailedError, ServiceError
 
 if TYPE_CHECKING:
@@ -38,8 +38,9 @@ def parse(stream: BinaryIO | http.client.HTTPResponse) -> Iterator[tuple[int | N
             data.append(value)
 
 
-def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Iterator[tuple[str, dict[str, Any]]]:
-    """("progress", figures) and (type, event) of a job until it has ended, from the event after number `after` on.
+def follow(http: Http, path: str, after: int, deadline: float | None) -> Iterator[tuple[str, dict[str, Any]]]:
+    """("progress", figures) and (type, event) of the job or study at `path` until it has ended, from the event after
+    number `after` on.
 
     A connection that breaks, or a service that restarts, is met with new attempts for at most the client's patience.
     """
@@ -50,7 +51,7 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
         try:
             headers = {"Accept": "text/event-stream", "Last-Event-ID": str(last)}
             left = None if deadline is None else max(0.05, deadline - time.monotonic())
-            with http.open("GET", f"/v1/jobs/{part(job_id)}/events", headers=headers, timeout_s=left) as response:
+            with http.open("GET", f"{path}/events", headers=headers, timeout_s=left) as response:
                 if response.status != 200:
                     error = http.read_problem(response)
                     if response.status not in (502, 503, 504):
@@ -65,9 +66,9 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
                         raise ConnectionFailedError(f"{http.url}: found an event that is no JSON") from None
                     _check(deadline)
             # A stream ends when its job has, but a proxy may end one, too.
-            state = http.request("GET", f"/v1/jobs/{part(job_id)}").json()["state"]
+            state = http.request("GET", path).json()["state"]
             if state in ENDED:
-                page = http.request("GET", f"/v1/jobs/{part(job_id)}/events" + query_of({"after": last})).json()
+                page = http.request("GET", f"{path}/events" + query_of({"after": last})).json()
                 for event in page["events"]:
                     yield event["type"], event
                 return
@@ -86,4 +87,4 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
 
 def _check(deadline: float | None) -> None:
     if deadline is not None and time.monotonic() > deadline:
-        raise TimeoutError("the job has not ended in time")
+        raise TimeoutError("the job or study has not ended in time")

@@ -18,6 +18,7 @@ from ._http import multipart, part, query_of
 from ._job_base import Part, plain
 from ._live import LiveFlight
 from ._progress import ProgressBar
+from ._trajectories import Trajectories, trajectories_of
 from .api_types import DryRun, Event, EventList, ImageList, Job, JobList
 from .api_types import LiveFlight as LiveFlightAnswer
 from .api_types import LogList, PreviewList, Progress
@@ -148,8 +149,8 @@ class Client(CatalogClient):
     ) -> Iterator[Event]:
         """Past events of a job, or of all jobs. follow=True: also future ones, until the job has ended."""
         if follow and job_id is not None:
-            for kind, event in _events.follow(self._http, job_id, after, None):
-                if kind != "progress":
+            for kind, event in _events.follow(self._http, f"/v1/jobs/{part(job_id)}", after, None):
+                if kind not in ("progress", "preview"):
                     yield event  # type: ignore[misc]
             return
         path = "/v1/events" if job_id is None else f"/v1/jobs/{part(job_id)}/events"
@@ -178,7 +179,7 @@ class Client(CatalogClient):
         bar = ProgressBar(job["name"]) if progress else None
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         try:
-            for kind, data in _events.follow(self._http, job_id, 0, deadline):
+            for kind, data in _events.follow(self._http, f"/v1/jobs/{part(job_id)}", 0, deadline):
                 if kind != "progress":
                     continue
                 if callback is not None:
@@ -271,6 +272,13 @@ class Client(CatalogClient):
         """Downloads the trace of one run (docs/trace.md) to a file, which throng.Trace reads; returns its path."""
         _download.fetch(self._http, f"/v1/jobs/{part(job_id)}/runs/{run}/trace", Path(path), lambda done, total: None)
         return Path(path)
+
+    def trajectories(
+        self, job_id: str, run: int, *, from_s: float = 0.0, to_s: float | None = None, every_s: float = 1.0
+    ) -> Trajectories:
+        """Everybody's places in a run at some times, without the rest of the trace."""
+        query = {"from_s": from_s, "to_s": to_s, "every_s": every_s}
+        return trajectories_of(self._bytes(f"/v1/jobs/{part(job_id)}/runs/{run}/trajectories{query_of(query)}"))
 
     def report(self, job_id: str, *, timeout_s: float = 300.0) -> str:
         """All runs as one HTML page; waits while it is made."""

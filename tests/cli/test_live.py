@@ -106,6 +106,17 @@ class Live(unittest.TestCase):
             view = 1 - view if t > 3 else view
         self.fail("the stream ended")
 
+    def test_the_first_message_says_where_smoke_rises(self):
+        job = {**JOB, "scenario": "city_square/emergency", "environment": {"smoke": 0.7}}
+        flight = self.client.live(job)
+        self.addCleanup(flight.remove)
+        hello = next(flight.messages()).value
+        scenario = json.loads((pathlib.Path(__file__).parents[2] / "scenarios/city_square/emergency.json").read_text())
+        expected = [(d["kind"], d["position"], d["start_s"]) for d in scenario["disasters"] if d["kind"] != "attacker"]
+        self.assertEqual([(d["kind"], d["position"], d["start_s"]) for d in hello["dangers"]], expected)
+        self.assertGreater(len(expected), 0)
+        self.assertEqual(hello["smoke"], 0.7)
+
     def test_a_job_repeats_the_flight(self):
         flight = self.live()
         received = self.fly(flight, 8)
@@ -113,6 +124,7 @@ class Live(unittest.TestCase):
         self.assertEqual([d["id"] for d in hello["drones"]], ["d1", "d2"])
         self.assertEqual(hello["dt_s"], 0.1)
         self.assertGreater(len(hello["exits"]), 3)
+        self.assertEqual((hello["smoke"], hello["dangers"]), (0, []))
         last = received["states"][-1]
         self.assertEqual(len(last.people), hello["people"])
         self.assertEqual(sum(1 for p, role in zip(last.people, hello["roles"]) if p["flags"] & 1 and role == 0), 40)

@@ -1,6 +1,7 @@
-"""`throng report` as a reader opens it: well-formed, nothing fetched, and in headless Chromium, where that is
-installed (Debian: chromium), without a word on the console and with every chart drawn."""
+"""`throng report` as a reader opens it: well-formed, nothing fetched, and in headless Chromium (Debian: chromium)
+without a word on the console and with every chart drawn."""
 import html.parser
+import json
 import pathlib
 import re
 import shutil
@@ -12,6 +13,7 @@ import unittest
 THRONG = sys.argv.pop(1)
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 CHARTS_OF_A_RUN = 5
+MAPS_OF_A_RUN = 4  # and the diagram, by ECharts; the rest are Studio's charts
 
 
 def throng(*arguments):
@@ -71,6 +73,7 @@ class Report(unittest.TestCase):
         self.assertIn("<td>greatest density</td>", markup)
 
     def chromium(self, *arguments):
+        self.assertIsNotNone(CHROMIUM, "Chromium is missing (Debian package chromium; scripts/setup.sh installs it)")
         options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                    f"--user-data-dir={self.base / 'profile'}", "--enable-logging=stderr", "--window-size=1000,3200",
                    "--virtual-time-budget=10000"]
@@ -79,7 +82,6 @@ class Report(unittest.TestCase):
         self.assertEqual([line for line in done.stderr.splitlines() if ":CONSOLE" in line], [])
         return done.stdout
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_opens_in_chromium(self):
         page = f"file://{self.base / 'report.html'}"
         picture = self.base / "report.png"
@@ -88,20 +90,26 @@ class Report(unittest.TestCase):
         dom = self.chromium("--dump-dom", page)
         shown = dom[:dom.index('<section id="of_run1">')]
         # Charts of a run come with its choice.
-        self.assertEqual(len(re.findall(r"_echarts_instance_=", shown)), 1 + CHARTS_OF_A_RUN)
-        self.assertEqual(len(re.findall(r"_echarts_instance_=", dom)), 1 + CHARTS_OF_A_RUN)
-        for text in ("quartiles", "time (s)", "congested", "open exits", "share of the people (%)"):
+        self.assertEqual(len(re.findall(r"_echarts_instance_=", shown)), MAPS_OF_A_RUN)
+        self.assertEqual(len(re.findall(r"_echarts_instance_=", dom)), MAPS_OF_A_RUN)
+        self.assertEqual(len(re.findall(r'<svg class="chart"', dom)), 2, "escape curve and states of the exits")
+        for text in ("50 %", "40 s", "open exits"):
             self.assertTrue(f">{text}</text>" in shown, text)
+        # The curve's figures at the end of the runs are those of the report.
+        figures = json.loads(re.search(r'id="figures">(.*?)</script>', self.text, re.S).group(1))["escape"]
+        low, median, high = (figures[name][-1] for name in ("low", "median", "high"))
+        self.assertIn(f"median {median:.1f} %, quartiles {low:.1f} % to {high:.1f} %", shown)
+        self.assertRegex(shown, r'class="series-band series-0" points="\d')
+        self.assertRegex(shown, r'<rect class="exit-flowing"')
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_another_run_can_be_chosen(self):
         chosen = self.text.replace('id="run0" checked', 'id="run0"').replace('id="run1"', 'id="run1" checked')
         (self.base / "chosen.html").write_text(chosen)
         dom = self.chromium("--dump-dom", f"file://{self.base / 'chosen.html'}")
         section = dom[dom.index('<section id="of_run1">'):dom.index("<script")]
-        self.assertEqual(len(re.findall(r"_echarts_instance_=", section)), CHARTS_OF_A_RUN)
+        self.assertEqual(len(re.findall(r"_echarts_instance_=", section)), MAPS_OF_A_RUN)
+        self.assertEqual(len(re.findall(r'<svg class="chart"', section)), 1)
 
-    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
     def test_prints_all_runs(self):
         paper = self.base / "report.pdf"
         self.chromium(f"--print-to-pdf={paper}", f"file://{self.base / 'report.html'}")

@@ -16,12 +16,14 @@ import unittest.mock
 import zipfile
 
 import common
+import numpy as np
 import throng
 from throng import Client, job
 from throng._download import file_name_of
 from throng._events import parse
 from throng._progress import ProgressBar
 
+ROLES = ("person", "disaster", "absent", "attacker")
 JOB = job.Job(
     "city_square/nearest_exit",
     name="client",
@@ -126,6 +128,25 @@ class WithService(unittest.TestCase):
         self.assertGreater(self.client.exits(id_).rows, 3)
         trace = throng.Trace(self.client.trace(id_, 0, self.folder() / "run.h5"))
         self.assertGreater(trace.positions.shape[1], 0)
+        # Between two steps half of the way; elsewhere a step as it is.
+        there = self.client.trajectories(id_, 0, from_s=1, to_s=3, every_s=0.25)
+        np.testing.assert_allclose(there.time_s, np.arange(1, 3.1, 0.25))
+        self.assertEqual([ROLES[role] for role in there.role], list(trace.roles))
+        first = round(1 / trace.dt_s)
+        for index, step in ((0, first), (2, first + 5)):
+            present = trace.present[step]
+            np.testing.assert_array_equal(np.isnan(there.position[index, :, 0]), ~present)
+            np.testing.assert_allclose(there.position[index][present], trace.positions[step][present], atol=0.002)
+            np.testing.assert_array_equal(there.state[index], trace.states[step])
+            np.testing.assert_array_equal(there.flags[index] & 1, present)
+        stays = trace.present[first + 2] & trace.present[first + 3]
+        between = (trace.positions[first + 2] + trace.positions[first + 3]) / 2
+        np.testing.assert_allclose(there.position[1][stays], between[stays], atol=0.002)
+        self.assertEqual(len(self.client.trajectories(id_, 0, from_s=1000).time_s), 0)
+        with self.assertRaisesRegex(throng.InvalidRequestError, "every_s"):
+            self.client.trajectories(id_, 0, every_s=0)
+        with self.assertRaises(throng.NotFoundError):
+            self.client.trajectories(id_, 9)
         self.assertIn("alarm_s", self.client.metrics(id_, run=0))
         self.assertIn("<svg", self.client.plan(id_))
         self.assertIn("<html", self.client.report(id_).lower())
@@ -287,7 +308,6 @@ class WithService(unittest.TestCase):
 
     def test_calibrations(self):
         """A board seen by a known pinhole; the service finds its focal length."""
-        import numpy as np
 
         rng = np.random.default_rng(1)
         board = np.array([[x * 0.1, y * 0.1, 0.0] for y in range(6) for x in range(9)])
@@ -324,6 +344,11 @@ class WithService(unittest.TestCase):
         }
         self.assertEqual(self.client.check_study(study)["simulations"], 4)
         queued = self.client.submit_study(study)
+        followed = list(self.client.study_events(queued["id"], follow=True))
+        self.assertEqual([followed[0][0], followed[-1][0]], ["submitted", "succeeded"])
+        progress = [data["runs_done"] for kind, data in followed if kind == "progress" and "runs_done" in data]
+        self.assertEqual(progress, sorted(progress))
+        self.assertTrue(progress)
         done = self.client.wait_for_study(queued["id"], timeout_s=120)
         self.assertEqual([row["runs"] for row in done["summary"]["rows"]], [2, 2])
         self.assertEqual(json.loads(self.client.study_file(queued["id"], "summary.json")), done["summary"])
@@ -331,6 +356,14 @@ class WithService(unittest.TestCase):
         self.assertEqual(values["policies"][0]["t50_s"], values["policies"][1]["t50_s"])
         self.assertIn("People out", self.client.study_report(queued["id"]))
         self.assertIn(queued["id"], [entry["id"] for entry in self.client.studies()])
+        changed = self.client.change_study(queued["id"], labels=["paper"], keep=True)
+        self.assertEqual((changed["labels"], changed["keep"], changed["priority"]), (["paper"], True, 0))
+        self.assertEqual(
+            [kind for kind, _ in self.client.study_events(queued["id"])],
+            [kind for kind, _ in followed if kind != "progress"] + ["changed"],
+        )
+        with self.assertRaisesRegex(throng.InvalidRequestError, "priority"):
+            self.client.change_study(queued["id"], priority=1000)
         with self.assertRaises(throng.ConflictError):
             self.client.cancel_study(queued["id"])
         with self.assertRaises(throng.ConflictError):

@@ -1,5 +1,6 @@
 // Operations on jobs over HTTP, and the stream of their events.
 #include <gmock/gmock.h>
+#include <atomic>
 
 #include "jobs/queue/publication.h"
 #include "tests/server/api_fixture.h"
@@ -229,6 +230,19 @@ TEST_F(JobsApi, PreviewsAreThereWhileTheJobRuns) {
   EXPECT_EQ(previews[0]["name"], "run000/d1/000001.jpg");
   EXPECT_EQ(get(previews[0]["href"])->body, "drawn");
   EXPECT_EQ(get(previews[0]["clean"])->body, "clean");
+  // Streams say which one is the newest.
+  std::atomic<bool> is_told = false;
+  std::jthread reader([&] {
+    std::string text;
+    client().Get(self + "/events", {{"Accept", "text/event-stream"}},
+                 [&](const char* block, std::size_t count) {
+                   text.append(block, count);
+                   is_told = text.find("event: preview\ndata: {") != std::string::npos &&
+                             text.find("run000/d1/000001.jpg") != std::string::npos;
+                   return !is_told;
+                 });
+  });
+  EXPECT_TRUE(wait_until([&] { return is_told.load(); }));
   expect_problem(get(self + "/previews/run000/d1/000000.jpg?clean"), 404);
 }
 

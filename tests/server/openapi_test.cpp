@@ -224,6 +224,9 @@ TEST_F(OpenApi, DescribesStudies) {
   for (const char* file : {"summary.json", "summary.csv", "summary.md", "values.json", "x"}) {
     expect_described("get", "/v1/studies/{id}/files/{path}", get(self + "/files/" + file));
   }
+  expect_described("get", "/v1/studies/{id}/events", get(self + "/events"));
+  expect_described("patch", "/v1/studies/{id}",
+                   client().Patch(self, R"({"keep": true})", "application/json"));
   expect_described("post", "/v1/studies/{id}/cancel", posted(self + "/cancel", ""));
   expect_described("post", "/v1/studies/{id}/retry", posted(self + "/retry", ""));
   expect_described("delete", "/v1/studies/{id}", client().Delete(self));

@@ -124,6 +124,15 @@ TEST_F(StudyApi, MistakesComeBackAtOnceWithTheirPointers) {
   wrong = small_study();
   wrong["policies"][1]["drones"][0]["start"] = "high";
   EXPECT_THAT(pointers(wrong), ::testing::Contains("/policies/1/drones/0/start"));
+  // Named once, however many cases a policy has, and policies a case.
+  wrong = small_study();
+  wrong["cases"].push_back(wrong["cases"][0]);
+  wrong["cases"][1]["id"] = "again";
+  wrong["cases"][1]["crowd"] = {{"agents", 0}};
+  wrong["policies"][1]["drones"][0]["guidance"] = {{"policy", "balance"}, {"speed_mps", 99}};
+  EXPECT_THAT(pointers(wrong),
+              ::testing::UnorderedElementsAre("/cases/1/crowd/agents",
+                                              "/policies/1/drones/0/guidance/speed_mps"));
   wrong = small_study();
   wrong["colour"] = 1;
   wrong["baseline"] = "noone";
@@ -172,6 +181,51 @@ TEST_F(StudyApi, ShowsProgressAndIsCancelledAndGoesOn) {
   EXPECT_EQ(act(self + "/retry")->status, 200);
   EXPECT_EQ(ended(self)["state"], "succeeded");
   EXPECT_EQ(fs::last_write_time(first), written) << "finished runs are kept";
+}
+
+TEST_F(StudyApi, AStreamTellsItsProgressAndEndsWithIt) {
+  SKIP_WITHOUT_PROGRAM();
+  const std::string self = submitted(small_study());
+  const httplib::Result stream = get(self + "/events", {{"Accept", "text/event-stream"}});
+  EXPECT_THAT(stream->get_header_value("Content-Type"), HasSubstr("text/event-stream"));
+  EXPECT_THAT(stream->body, HasSubstr("event: submitted\ndata: {"));
+  EXPECT_THAT(stream->body, HasSubstr("event: progress\ndata: {"));
+  EXPECT_THAT(stream->body, HasSubstr("\"runs_total\":4"));
+  EXPECT_THAT(stream->body, HasSubstr("event: succeeded\n"));
+  const json events = get_json(self + "/events")["events"];
+  EXPECT_EQ(events.front()["type"], "submitted");
+  EXPECT_EQ(events.back()["type"], "succeeded");
+  // A study's events are not those of a job of its id.
+  EXPECT_EQ(get("/v1/jobs/" + id_of(self) + "/events")->status, 404);
+}
+
+TEST_F(StudyApi, PriorityLabelsAndKeepAreChanged) {
+  SKIP_WITHOUT_PROGRAM();
+  ::setenv("THRONG_FAULTS", "slow:*:60", 1);
+  const auto with = [](const std::string& key) {
+    return httplib::Headers{{"Authorization", "Bearer " + key}};
+  };
+  const httplib::Headers mine = with(keys.create("me", Scope::submit));
+  const httplib::Headers other = with(keys.create("other", Scope::submit));
+  const std::string self = post(small_study(), mine)->get_header_value("Location");
+  const auto change = [&](const httplib::Headers& headers, const std::string& body) {
+    return client().Patch(self, headers, body, "application/json");
+  };
+  const httplib::Result done = change(mine, R"({"priority": -3, "labels": ["a"], "keep": true})");
+  ASSERT_EQ(done->status, 200) << done->body;
+  const json study = json::parse(done->body);
+  EXPECT_EQ(study["priority"], -3);
+  EXPECT_EQ(study["labels"], json{"a"});
+  EXPECT_EQ(study["keep"], true);
+  expect_problem(change(other, R"({"keep": false})"), 404);
+  expect_problem(change(mine, R"({"labels": [""]})"), 400);
+  EXPECT_THAT(change(mine, R"({"title": "b"})")->body, HasSubstr("priority, labels, keep"));
+  expect_problem(client().Patch(self, mine, "{}", "text/plain"), 415);
+  // Another owner sees what is labeled as shared, its events too, and changes nothing.
+  ASSERT_EQ(change(mine, R"({"labels": ["shared"]})")->status, 200);
+  EXPECT_EQ(get(self + "/events", other)->status, 200);
+  expect_problem(change(other, R"({"keep": false})"), 403);
+  EXPECT_EQ(client().Delete(self, mine)->status, 204);
 }
 
 TEST_F(StudyApi, ARunThatFailsIsTriedAgainAndThenNamed) {

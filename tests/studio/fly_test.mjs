@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { after, before, test as nodeTest } from "node:test";
 import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { attacked, launch, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
 const kStartMs = 60_000; // a busy machine
@@ -115,6 +115,28 @@ test("a drone is flown by keyboard", async () => {
   await check(page, "a flight");
   await page.keyboard.press("KeyP");
   await until(async () => (await figure("Time")) !== paused, "time goes on");
+});
+
+test("pages of other sites neither see nor steer a flight", async () => {
+  const { flights } = await service.json("/v1/live");
+  const self = `/v1/live/${flights[0].id}`;
+  const json = { "Content-Type": "application/json" };
+  const beacon = JSON.stringify({ sequence: 9999, drones: [{ id: "d2", beacon: true }] });
+  const outcomes = await attacked(browser, service.address, [
+    ["/v1/live", { method: "POST", mode: "no-cors", body: JSON.stringify({ job: kJob }) }],
+    ["/v1/live", { method: "POST", headers: json, body: JSON.stringify({ job: kJob }) }],
+    ["/v1/live", {}],
+    [`${self}/stream`, {}],
+    [`${self}/commands`, { method: "POST", mode: "no-cors", body: beacon }],
+    [`${self}/commands`, { method: "POST", headers: json, body: beacon }],
+    [`${self}/stop`, { method: "POST", mode: "no-cors" }],
+    [self, { method: "DELETE" }],
+  ]);
+  assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
+  assert.deepEqual((await service.json("/v1/live")).flights.map(({ id }) => id), [flights[0].id]);
+  const time = await figure("Time");
+  await until(async () => (await figure("Time")) !== time, "the flight goes on");
+  assert.equal(await page.getByText("The flight is over").count(), 0);
 });
 
 test("views are changed", async () => {

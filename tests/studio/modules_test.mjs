@@ -21,6 +21,7 @@ let camera;
 let names;
 let running;
 let subjects;
+let scale;
 
 before(async () => {
   coco = await importStudio(packages, "dataset/coco.ts");
@@ -35,6 +36,7 @@ before(async () => {
   kinds = await importStudio(packages, "place/kinds.ts");
   camera = await importStudio(packages, "calibration/camera.ts");
   names = await importStudio(packages, "place/names.ts");
+  scale = await importStudio(packages, "charts/scale.ts");
   running = await importStudio(packages, "study/running.ts");
   subjects = await importStudio(packages, "compare/subjects.ts");
   ({ footprint } = await importStudio(packages, "form/footprint.ts"));
@@ -437,4 +439,78 @@ test("messages of a live flight are read however they arrive", async () => {
     assert.equal(await messages[2].value.jpeg.text(), "jpg");
     assert.equal(messages[3].error, "it is over");
   }
+});
+
+test("an axis has round ticks around its values, with zero only where it is asked for", () => {
+  const values = [30.7, 38.2, 48.9];
+  assert.deepEqual(scale.scaleOf(values, 5, false), { low: 30, high: 50, ticks: [30, 35, 40, 45, 50] });
+  assert.deepEqual(scale.scaleOf(values).ticks, [0, 10, 20, 30, 40, 50]);
+  assert.deepEqual(scale.scaleOf([-3, 8]).ticks, [-5, 0, 5, 10]);
+  const { low, high } = scale.scaleOf([7, 7], 5, false);
+  assert.ok(low <= 7 && high > low && high >= 7);
+});
+
+test("people of a flight walk as far as they have gone, and lie where they have fallen", async () => {
+  const { Walkers } = await importStudio(packages, "live/walkers.ts");
+  const worldOf = (timeS, x, flags) => ({ timeS, people: { x: Float32Array.from(x), y: new Float32Array(3), yaw: Float32Array.from([3.1, 0, 0]), state: new Uint8Array(3), flags: Uint8Array.from(flags) } });
+  const walkers = new Walkers({ people: 3, roles: [0, 0, 2] });
+  const [before, now] = [worldOf(0, [0, 5, 0], [1, 1, 1]), worldOf(0.1, [0.14, 5, 0], [1, 1 | 4, 1])];
+  now.people.yaw[0] = -3.1;
+  walkers.step(before, now, 0, 0);
+  const [near, far] = walkers.group.children;
+  const { aFrom, aTo, aLook } = near.geometry.attributes;
+  assert.deepEqual([near.geometry.instanceCount, far.geometry.instanceCount], [2, 0], "who is absent is not shown");
+  const close = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-5, `${value} is not ${expected}`);
+  close(aTo.getW(0) - aFrom.getW(0), (2 * Math.PI * 0.14) / 1.4);
+  close(aTo.getZ(0) - aFrom.getZ(0), 2 * (Math.PI - 3.1)); // the short way around
+  close(aLook.getW(0), 1);
+  close(aTo.getW(1) - aFrom.getW(1), 0);
+  close(aLook.getW(1), -1);
+  // Of thousands only those next to the drone have legs.
+  const many = { timeS: 0, people: { x: Float32Array.from({ length: 2000 }, (_, i) => i / 100), y: new Float32Array(2000), yaw: new Float32Array(2000), state: new Uint8Array(2000), flags: new Uint8Array(2000).fill(1) } };
+  const crowd = new Walkers({ people: 2000, roles: Array(2000).fill(0) });
+  for (let step = 0; step < 20; ++step) crowd.step(many, many, 0, 0);
+  const counts = crowd.group.children.map((mesh) => mesh.geometry.instanceCount);
+  assert.ok(counts[0] > 200 && counts[0] < 400 && counts[0] + counts[1] === 2000, `${counts}`);
+  walkers.step(now, worldOf(0.2, [0.28, 5, 0], [1, 5, 1]), 0, 0);
+  close(aFrom.getW(0), (2 * Math.PI * 0.14) / 1.4);
+});
+
+test("smoke rises where dangers are, as far as they reach", async () => {
+  const { Smoke, reachOf } = await importStudio(packages, "live/smoke.ts");
+  const fire = { kind: "fire", position: [3, 4], start_s: 10, radius_m: 1, growth_mps: 0.5, max_radius_m: 4 };
+  assert.deepEqual([9, 10, 12, 100].map((time) => reachOf(fire, time)), [0, 1, 2, 4]);
+  const smoke = new Smoke({ smoke: 0.5, dangers: [fire, { ...fire, kind: "gas" }] });
+  smoke.frame(9);
+  assert.deepEqual(smoke.group.children.map((mesh) => mesh.visible), [false, false]);
+  smoke.frame(12);
+  const [flaming, gas] = smoke.group.children;
+  assert.ok(flaming.visible && flaming.material.uniforms.uReach.value === 2 && flaming.material.uniforms.uStrength.value === 0.5);
+  assert.ok(flaming.geometry.instanceCount > gas.geometry.instanceCount, "a fire has flames");
+  assert.equal(new Smoke({ smoke: 0, dangers: [fire] }).group.children.length, 0);
+});
+
+test("places of a run are read from their bytes", async () => {
+  const { placesOf, unseenAt } = await importStudio(packages, "run/trajectories.ts");
+  const bytes = new DataView(new ArrayBuffer(24 + 8 + 3 + 3 * 6));
+  [[0, 1], [4, 1], [8, 3]].forEach(([at, value]) => bytes.setUint32(at, value, true));
+  [[12, -10], [16, 5], [20, 0.5]].forEach(([at, value]) => bytes.setFloat32(at, value, true));
+  [0, 1, 3].forEach((role, agent) => bytes.setUint8(32 + agent, role));
+  [[4, 2], [1, 1], [65535, 65535]].forEach(([x, y], agent) => [x, y].forEach((value, axis) => bytes.setUint16(35 + 6 * agent + 2 * axis, value, true)));
+  const places = placesOf(bytes.buffer);
+  assert.deepEqual(unseenAt(places, 0, 2, new Set()), [[-8, 6]], "no hazard, and nobody who is absent");
+  assert.deepEqual(unseenAt(places, 0, 2, new Set([2000001])), []);
+  assert.deepEqual(unseenAt(places, 1, 2, new Set()), []);
+});
+
+test("a copy of a case has an id of its own, and crowds and drones are as in a job", async () => {
+  const { freeId, withCopy } = await importStudio(packages, "study/study_form.tsx");
+  const { withJobParts, withoutFields } = await importStudio(packages, "study/study_schema.ts");
+  assert.equal(freeId("case_1", ["case_1", "case_2"]), "case_3");
+  assert.deepEqual(withCopy([{ id: "a" }, { id: "b", runs: 1 }], 1), [{ id: "a" }, { id: "b", runs: 1 }, { id: "b_2", runs: 1 }]);
+  const study = { properties: { cases: { items: { properties: { crowd: { $ref: "#/definitions/crowd" } } } } }, definitions: { crowd: { description: "As in a job." } } };
+  const crowd = { title: "Crowd", properties: { agents: {}, model: {} } };
+  const merged = withJobParts(study, { properties: { crowd } });
+  assert.deepEqual(merged.properties.cases.items.properties.crowd, crowd);
+  assert.deepEqual(Object.keys(withoutFields(crowd, [["agents"]]).properties), ["model"]);
 });

@@ -280,7 +280,9 @@ test("the plan shows everybody, seen by a camera or not", async () => {
   assert.ok([...seen].every((track) => present.includes(track)));
   await page.getByRole("img", { name: `${present.length} people on the plan` }).waitFor();
   await page.getByText(new RegExp(`White: ${unseen} (person|people) that no camera sees`)).waitFor();
-  assert.equal(await page.locator("circle.unseen").count(), unseen);
+  const dots = page.locator("canvas.unseen");
+  assert.equal(await dots.getAttribute("data-count"), String(unseen));
+  assert.ok(await dots.evaluate((canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value > 0)), "they are drawn");
   await check(page, "everybody on the plan");
 });
 

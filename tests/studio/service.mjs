@@ -106,6 +106,24 @@ export class OtherSite {
   }
 }
 
+/** What becomes of requests by a page of another site: [path, init] each. Nothing is to be read, and nothing done. */
+export async function attacked(browser, address, requests) {
+  const attacker = new OtherSite();
+  await attacker.start();
+  try {
+    const page = await (await browser.newContext()).newPage();
+    await page.goto(attacker.address);
+    const outcomes = await page.evaluate(
+      ({ address, requests }) => Promise.all(requests.map(([path, init]) => fetch(address + path, init).then((response) => `${response.type} ${response.status}`, () => "refused"))),
+      { address, requests },
+    );
+    await page.context().close();
+    return outcomes;
+  } finally {
+    attacker.stop();
+  }
+}
+
 export function launch(packages) {
   const executablePath = kChromium.find((file) => existsSync(file));
   if (!executablePath) throw new Error("Chromium is missing (Debian package chromium; scripts/setup.sh installs it)");

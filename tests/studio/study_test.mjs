@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test as nodeTest } from "node:test";
 import { openPage, screenChecker, stepsOf } from "./page.mjs";
-import { launch, TestService } from "./service.mjs";
+import { attacked, launch, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
 const test = stepsOf(nodeTest);
@@ -62,15 +62,56 @@ test("shipped studies are offered, whole and in small parts", async () => {
 
 test("a mistake is shown with its pointer, and mended", async () => {
   const wrong = structuredClone(kStudy);
-  wrong.cases[1].scenario = "city_square/nowhere";
+  wrong.cases[1].scenario = "city_square/huang2016/crowded_exit_blokd_navigated";
   await openFile(wrong);
   await page.getByRole("button", { name: "/cases/1/scenario" }).waitFor();
   assert.ok(await start().isDisabled());
+  // At its field, with the nearest name; one of the list mends it, and the text of the other tab follows.
+  const scenario = page.locator("#field-cases-1-scenario");
+  assert.equal(await scenario.getAttribute("aria-invalid"), "true");
+  await page.locator("#field-cases-1-scenario-note", { hasText: "crowded_exit_blocked_navigated" }).waitFor();
   await check(page, "a mistake in a study");
+  await scenario.selectOption(kStudy.cases[1].scenario);
+  await page.getByText("16 simulations").waitFor();
+  assert.equal(await scenario.getAttribute("aria-invalid"), "false");
   await openFile({ not: "a study" });
   await page.getByText(/missing|required/).first().waitFor();
   await openFile(kStudy);
   await page.getByText("16 simulations").waitFor();
+});
+
+test("a study is written as fields", async () => {
+  await page.getByRole("group", { name: "Case 2" }).getByRole("button", { name: /^Duplicate case/ }).click();
+  await page.getByText("24 simulations").waitFor();
+  await page.locator("#field-cases-2-duration_s").fill("45");
+  await page.getByLabel("Runs of each").fill("3");
+  await page.getByRole("button", { name: "Add a policy" }).click();
+  const policy = page.getByRole("group", { name: "Policy 3" });
+  await policy.getByRole("button", { name: "Add a drone" }).click();
+  await page.locator("#field-policies-2-drones-0-guidance-speed_mps").fill("99");
+  await page.locator("#field-policies-2-drones-0-guidance-speed_mps-note").getByText("found 99").waitFor();
+  await page.locator("#field-policies-2-drones-0-guidance-speed_mps").fill("2");
+  await page.getByText("27 simulations").waitFor();
+  await page.getByLabel("Baseline", { exact: true }).selectOption("one");
+  // The plan moves the drone by keys.
+  await policy.getByText("Starts on the plan").click();
+  await policy.getByRole("button", { name: /^Drone d1 at 0, 0/ }).focus();
+  await page.keyboard.press("ArrowRight");
+  await policy.getByRole("button", { name: /^Drone d1 at 1, 0/ }).waitFor();
+  await check(page, "a study as fields");
+  await page.getByRole("tab", { name: "JSON" }).click();
+  const text = await page.evaluate(() => JSON.parse(sessionStorage.getItem("throng.study")));
+  assert.deepEqual(text.cases.map(({ id, duration_s }) => [id, duration_s]), [["case_0", 60], ["case_1", 60], ["case_2", 45]]);
+  assert.deepEqual(text.policies[2], { id: "policy", drones: [{ id: "d1", start: [1, 0, 20], guidance: { policy: "balance", speed_mps: 2 } }] });
+  assert.deepEqual([text.runs, text.baseline, text.cases[2].crowd], [3, "one", { agents: 30 }]);
+  await page.locator(".json-editor .cm-content").getByText("studio test").first().waitFor();
+  await page.getByRole("tab", { name: "Form" }).click();
+  await openFile(kStudy);
+  await page.getByText("16 simulations").waitFor();
+  assert.equal(await page.locator("#field-runs").inputValue(), String(kRuns));
+});
+
+test("the draft survives a reload, and is started", async () => {
   await page.reload(); // the draft survives it
   await page.getByText("16 simulations").waitFor();
   await start().click();
@@ -111,6 +152,23 @@ test("differences and times are those of the summary", async () => {
   await check(page, "a study");
 });
 
+test("pages of other sites neither see nor change studies", async () => {
+  const self = `/v1/studies/${idOf(address)}`;
+  const json = { "Content-Type": "application/json" };
+  const outcomes = await attacked(browser, service.address, [
+    ["/v1/studies", { method: "POST", mode: "no-cors", body: JSON.stringify(kStudy) }],
+    ["/v1/studies", { method: "POST", headers: json, body: JSON.stringify(kStudy) }],
+    ["/v1/studies", {}],
+    [`${self}/events`, {}],
+    [self, { method: "PATCH", headers: json, body: '{"keep": true}' }],
+    [`${self}/cancel`, { method: "POST", mode: "no-cors" }],
+    [self, { method: "DELETE" }],
+  ]);
+  assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
+  const { studies } = await service.json("/v1/studies");
+  assert.deepEqual(studies.map(({ id, state, keep }) => [id, state, keep]), [[idOf(address), "succeeded", false]]);
+});
+
 test("the running mean ends at the mean of all runs", async () => {
   const { cases } = await service.json(`/v1/studies/${idOf(address)}/files/values.json`);
   const meanOf = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
@@ -129,11 +187,23 @@ test("the running mean ends at the mean of all runs", async () => {
 test("a study is cancelled, goes on, is repeated with changes and deleted", async () => {
   await page.getByRole("link", { name: "Change and repeat" }).click();
   await page.getByText("16 simulations").waitFor();
+  await page.getByText(/, about .* judging by/).getByRole("link", { name: "studio test" }).waitFor();
+  await page.getByLabel("Start from").selectOption({ label: `studio test (${idOf(address)})` });
   await openFile({ ...kStudy, name: "longer", runs: 200 });
   await page.getByText("800 simulations").waitFor();
   await start().click();
   await page.waitForURL((url) => /\/studies\/[a-z0-9]+$/.test(url.pathname) && url.href !== address);
+  // Progress comes as events: without any other request for the study it goes on.
+  await page.getByText("live", { exact: true }).waitFor();
+  await page.route(/\/v1\/studies\/[a-z0-9]+$/, (route) => route.fulfill({ status: 404, contentType: "application/problem+json", body: '{"status": 404, "detail": "hidden by the test"}' }));
+  const count = async () => Number(/([\d,]+) of 800/.exec(await page.locator(".summary p").innerText())?.[1]?.replace(",", "") ?? 0);
+  const begun = await count();
+  for (let attempt = 0; (await count()) <= begun + 2 && attempt < 200; ++attempt) await page.waitForTimeout(100);
+  assert.ok((await count()) > begun + 2, "the count goes on");
+  await page.unroute(/\/v1\/studies\/[a-z0-9]+$/);
   await page.getByText(/^simulating: [1-9]/).waitFor();
+  await page.getByRole("button", { name: "Keep", exact: true }).click();
+  await page.getByRole("button", { name: "Kept", exact: true }).waitFor();
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.getByText("cancelled").first().waitFor();
   await page.getByRole("button", { name: "Go on" }).click();
@@ -141,7 +211,7 @@ test("a study is cancelled, goes on, is repeated with changes and deleted", asyn
   await page.getByRole("button", { name: "Delete" }).click();
   await page.getByRole("dialog").getByRole("button", { name: "Delete the study" }).click();
   await page.waitForURL(/\/studies$/);
-  await page.getByRole("link", { name: "studio test" }).waitFor();
+  await page.getByRole("link", { name: "studio test", exact: true }).waitFor();
   assert.equal((await service.json("/v1/studies")).studies.length, 1);
   await check(page, "the list of studies");
   await go("/studies/nowhere");

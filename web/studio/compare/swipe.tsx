@@ -5,7 +5,7 @@ import type { Job } from "../api/types";
 import type { Dataset, ImageName } from "../dataset/coco";
 import { useDataset } from "../dataset/stage";
 import { captureOf, frameAt, timeOf } from "../run/capture";
-import { Swatch } from "./curves";
+import { Swatch } from "../charts/share_curves";
 import { DensityMap, useDensities } from "./density";
 import { runName, type Subject } from "./subjects";
 

@@ -15,7 +15,7 @@ interface PartProps {
 const hasParts = (schema: Schema) => Boolean(schema.properties) && !hasType(schema, "string");
 const isListOfParts = (schema: Schema) => hasType(schema, "array") && Boolean(schema.items?.properties);
 
-function Members({ form, path, schema, words }: PartProps) {
+export function Members({ form, path, schema, words }: PartProps) {
   const members = Object.entries(schema.properties ?? {}).filter(
     ([key, member]) =>
       (!member.deprecated || valueAt(form.value, [...path, key]) !== undefined) && (words.length === 0 || isFound([...path, key].join(" "), member, words)),

@@ -18,6 +18,12 @@ const kGroups: { title: string; fields: Path[] }[] = [
   { title: "Capture", fields: [["capture", "from_s"], ["capture", "to_s"], ["capture", "rate_hz"], ["quality"]] },
 ];
 
+// The rest is for training.
+const kSplits: Path[] = [
+  ["outputs", "splits", "val"],
+  ["outputs", "splits", "test"],
+];
+
 const kDroneFields: Path[] = [
   ["id"],
   ["start"],
@@ -120,6 +126,11 @@ export function Basic({ form, schema }: BasicProps) {
             schema={schemaAt(schema, ["outputs", "formats"])}
             options={formats.value?.formats.map((format) => format.name) ?? []}
           />
+          <div class="fields">
+            {kSplits.map((path) => (
+              <Field key={path.join(".")} form={form} path={path} schema={schemaAt(schema, path)} />
+            ))}
+          </div>
         </fieldset>
       </div>
       {scenario && <Plan form={form} scenario={scenario} />}

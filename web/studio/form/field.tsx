@@ -103,7 +103,7 @@ function SetControl({ id, schema, value, onChange, options }: ControlProps) {
 
 /** A list of a fixed number of figures, such as a place. */
 function TupleControl({ id, schema, value, onChange, aria }: ControlProps) {
-  const names = ["x", "y", "z"];
+  const names = schema["x-parts"] ?? ["x", "y", "z"];
   const list = Array.isArray(value) ? value : [];
   const change = (index: number, text: string) => {
     const next = Array.from({ length: schema.minItems ?? 2 }, (_, i): Json => list[i] ?? 0);

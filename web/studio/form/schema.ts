@@ -18,6 +18,7 @@ export interface Schema {
   deprecated?: boolean;
   "x-distribution"?: string[];
   "x-expected"?: string;
+  "x-parts"?: string[]; ///< names of the figures of a list; default: coordinates
 }
 
 export function hasType(schema: Schema, type: string): boolean {

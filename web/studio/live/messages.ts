@@ -1,5 +1,15 @@
 // Messages of a live flight (docs/studio.md): the type, the number of bytes, the bytes.
 
+/** Where smoke rises from; it reaches farther as it grows. */
+export interface Danger {
+  kind: "explosion" | "fire" | "collapse" | "gas";
+  position: [number, number];
+  start_s: number;
+  radius_m: number;
+  growth_mps: number;
+  max_radius_m: number;
+}
+
 export interface Hello {
   scenario: string;
   dt_s: number;
@@ -12,6 +22,8 @@ export interface Hello {
   inside: { min: [number, number]; max: [number, number] };
   buildings: { id: string; footprint: [number, number][]; height_m: number }[];
   exits: { id: string; from: [number, number]; to: [number, number]; open: boolean }[];
+  smoke: number; ///< how much of it rises, 0 to 1
+  dangers: Danger[];
   image: { width: number; height: number };
   max_speed_mps: number;
   max_climb_mps: number;

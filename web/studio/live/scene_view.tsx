@@ -3,7 +3,8 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import * as THREE from "three";
 import type { Hello, World } from "./messages";
-import { colorOfPerson, isShown } from "./people";
+import { Smoke } from "./smoke";
+import { Walkers } from "./walkers";
 
 interface SceneViewProps {
   hello: Hello;
@@ -13,7 +14,6 @@ interface SceneViewProps {
 
 const kBehindM = 14;
 const kAboveM = 6;
-const kBodyM = 1.7;
 const kManyPeople = 1000;
 const kFollow = 0.12; ///< share of the way that the view goes in a frame
 
@@ -58,11 +58,13 @@ class Steps {
   now: World | null = null;
   private at = 0;
 
-  take(world: World | null): void {
-    if (!world || world === this.now) return;
+  /** Whether it is new. */
+  take(world: World | null): boolean {
+    if (!world || world === this.now) return false;
     this.before = this.now && this.now.timeS < world.timeS ? this.now : world;
     this.now = world;
     this.at = performance.now();
+    return true;
   }
 
   /** How much of the way to the newest step has been gone. */
@@ -99,26 +101,20 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     const sun = new THREE.DirectionalLight("#ffffff", 2.2);
     sun.position.set(60, -40, 120);
     scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f86", 1.6), sun, placeOf(hello));
-    // Thousands are cones of four sides: without a graphics card each triangle counts.
-    const body = hello.people > kManyPeople ? new THREE.CylinderGeometry(0.12, 0.3, kBodyM, 4, 1, true) : new THREE.CapsuleGeometry(0.24, kBodyM - 0.48, 2, 7);
-    body.rotateX(Math.PI / 2);
-    const people = new THREE.InstancedMesh(body, new THREE.MeshLambertMaterial(), hello.people);
-    people.frustumCulled = false;
-    scene.add(people);
+    const people = new Walkers(hello);
+    const smoke = new Smoke(hello);
+    scene.add(people.group, smoke.group);
     const drones = hello.drones.map(() => droneMesh());
     drones.forEach((mesh) => scene.add(mesh));
     const camera = new THREE.PerspectiveCamera(60, 16 / 9, 0.1, 2000);
     camera.up.set(0, 0, 1);
     const eye = new THREE.Vector3();
-    const matrix = new THREE.Matrix4();
-    const lying = new THREE.Matrix4().makeRotationY(Math.PI / 2);
-    const shades = new Map<string, any>();
-    const shadeOf = (name: string) => shades.get(name) ?? shades.set(name, new THREE.Color(name)).get(name);
     const steps = new Steps();
     let isFirst = true;
+    let isStale = false;
 
     const draw = () => {
-      steps.take(world.current);
+      isStale = steps.take(world.current) || isStale;
       const { before, now } = steps;
       const width = element.clientWidth;
       if (!now || !before || width === 0) return;
@@ -127,19 +123,10 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
       camera.aspect = width / Math.max(1, element.clientHeight);
       camera.updateProjectionMatrix();
       const share = steps.share();
-      let count = 0;
-      for (let index = 0; index < now.people.x.length; ++index) {
-        if (!isShown(hello, now.people, index)) continue;
-        const isLying = (now.people.flags[index]! & 4) !== 0;
-        if (isLying) matrix.copy(lying);
-        else matrix.identity();
-        matrix.setPosition(mixed(before.people.x[index]!, now.people.x[index]!, share), mixed(before.people.y[index]!, now.people.y[index]!, share), isLying ? 0.25 : kBodyM / 2);
-        people.setMatrixAt(count, matrix);
-        people.setColorAt(count++, shadeOf(colorOfPerson(hello, now.people, index)));
-      }
-      people.count = count;
-      people.instanceMatrix.needsUpdate = true;
-      if (people.instanceColor) people.instanceColor.needsUpdate = true;
+      if (isStale) people.step(before, now, now.drones[flown.current]!.position[0], now.drones[flown.current]!.position[1]);
+      isStale = false;
+      people.frame(share);
+      smoke.frame(mixed(before.timeS, now.timeS, share));
       now.drones.forEach((state, index) => {
         const mesh = drones[index]!;
         const last = before.drones[index]!;

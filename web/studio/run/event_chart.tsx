@@ -1,6 +1,6 @@
 // Events of a run as marks over its time, and as a list that leads to them.
 import { countText } from "../parts/format";
-import { kLeft, TimeFrame } from "./charts";
+import { kLeft, TimeFrame } from "../charts/time_frame";
 import { collisionText, eventsOf, type RunEvent } from "./events";
 import type { Metrics } from "./metrics";
 

@@ -10,7 +10,8 @@ import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
 import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
-import { EscapeCurve, ExitChart } from "./charts";
+import { EscapeCurve } from "../charts/escape_curve";
+import { ExitChart } from "../charts/exit_chart";
 import { EventChart } from "./event_chart";
 import { type ExitHistory, historiesOf } from "./exit_states";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
@@ -83,7 +84,7 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
   const time_s = timeOf(capture, frame);
   const end_s = Math.max(metrics.value?.duration_s ?? 0, timeOf(capture, last));
   const exits = useExits(`/v1/jobs/${dataset.job}/runs/${number}/metrics.csv`, metrics.value?.duration_s);
-  const trajectories = useTrajectories(dataset.job, run);
+  const trajectories = useTrajectories(dataset.job, number, capture, frame);
   const show = (next: number) => navigate(withQuery(query, { frame: inRange(next) }), { replace: true });
   const onTime = (time: number) => show(frameAt(capture, time));
   useInterval(() => (frame < last ? show(frame + 1) : setPlaying(false)), isPlaying ? kPlayMs : 0);
@@ -123,7 +124,7 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
             return image && <Camera key={camera} {...{ dataset, image, drawing }} onLabels={(name, value) => setLabels((known) => ({ ...known, [name]: value }))} />;
           })}
         </div>
-        {scenario?.ground_m && <TopView scenario={scenario} trajectories={trajectories} frame={frame} labels={cameras.map(({ camera }) => labels[camera] ?? null)} />}
+        {scenario?.ground_m && <TopView scenario={scenario} run={number} trajectories={trajectories} labels={cameras.map(({ camera }) => labels[camera] ?? null)} />}
       </div>
       {metrics.error && metrics.error.status !== 401 && <ErrorBox error={metrics.error} />}
       {metrics.value && (

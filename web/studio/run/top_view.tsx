@@ -1,11 +1,12 @@
-// The floor plan with the people that some camera sees, the others if the job asked for trajectories, and the drones.
+// The floor plan with the people that some camera sees, all others, and the drones.
+import { useEffect, useRef } from "preact/hooks";
 import { useSource } from "../api/resource";
 import type { Scenario } from "../api/types";
 import type { Annotation, Labels } from "../dataset/coco";
 import { colorOf } from "../dataset/overlay";
 import { countText } from "../parts/format";
 import { sheetOf } from "../parts/sheet";
-import { type Trajectories, unseenAt } from "./trajectories";
+import { type FramePlaces, unseenAt } from "./trajectories";
 
 const kPerson = 1; ///< category
 
@@ -21,24 +22,39 @@ export function peopleOf(labels: (Labels | null)[]): Annotation[] {
 interface TopViewProps {
   scenario: Scenario;
   labels: (Labels | null)[];
-  trajectories: Trajectories | null;
-  frame: number;
+  run: number;
+  trajectories: FramePlaces | null;
 }
 
-export function TopView({ scenario, labels, trajectories, frame }: TopViewProps) {
+/** Thousands of circles are slow as elements. */
+function Dots({ places, width, height }: { places: [number, number][]; width: number; height: number }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const context = canvas.current!.getContext("2d")!;
+    context.clearRect(0, 0, width, height);
+    Object.assign(context, { fillStyle: "#fff", strokeStyle: "#555", lineWidth: 2 });
+    context.beginPath();
+    for (const [x, y] of places) {
+      context.moveTo(x + 5, y);
+      context.arc(x, y, 5, 0, 2 * Math.PI);
+    }
+    context.fill();
+    context.stroke();
+  }, [places, width, height]);
+  return <canvas ref={canvas} class="unseen" width={width} height={height} data-count={places.length} aria-hidden="true" />;
+}
+
+export function TopView({ scenario, run, labels, trajectories }: TopViewProps) {
   const source = useSource(`/v1/scenarios/${scenario.id}?format=svg`);
   const sheet = sheetOf(scenario.ground_m as [number, number, number, number]);
   const people = peopleOf(labels);
-  const unseen = trajectories ? unseenAt(trajectories, frame, new Set(people.map((person) => person.track_id))) : [];
+  const unseen = trajectories ? unseenAt(trajectories.places, trajectories.index, run, new Set(people.map((person) => person.track_id))) : [];
   return (
     <figure>
       <div class="plan-sheet">
         {source && <img src={source} alt={`floor plan of ${scenario.name ?? scenario.id}`} width={sheet.width} height={sheet.height} />}
+        <Dots places={unseen.map(([x, y]) => sheet.toPx(x, y))} width={sheet.width} height={sheet.height} />
         <svg viewBox={`0 0 ${sheet.width} ${sheet.height}`} role="img" aria-label={`${countText(people.length + unseen.length, "person", "people")} on the plan`}>
-          {unseen.map(([x, y], index) => {
-            const [column, row] = sheet.toPx(x, y);
-            return <circle key={index} class="unseen" cx={column} cy={row} r="5" fill="#fff" stroke="#555" stroke-width="2" />;
-          })}
           {people.map((person) => {
             const [x, y] = sheet.toPx(person.position[0], person.position[1]);
             return <circle key={person.track_id} cx={x} cy={y} r="6" fill={colorOf(person, "state")} stroke="#000" stroke-width="1.5" />;
@@ -60,7 +76,7 @@ export function TopView({ scenario, labels, trajectories, frame }: TopViewProps)
       </div>
       <figcaption>
         {countText(people.length, "person", "people")} that a camera sees, colored by state; crosses are the drones.{" "}
-        {trajectories ? `White: ${countText(unseen.length, "person", "people")} that no camera sees.` : "Others are shown if the job's annotations have trajectories."}
+        {trajectories ? `White: ${countText(unseen.length, "person", "people")} that no camera sees.` : "Others are shown while the run's trace is there."}
       </figcaption>
     </figure>
   );

@@ -173,9 +173,10 @@ function RunTable({ job }: { job: Job }) {
   );
 }
 
-function Previews({ job }: { job: Job }) {
+/** `newest`: the name of the one that came last. */
+function Previews({ job, newest }: { job: Job; newest: string }) {
   const step = Math.floor((job.progress.frames_done ?? 0) / 8);
-  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews?at=${job.state}${step}`);
+  const previews = useJson<PreviewList>(`/v1/jobs/${job.id}/previews?at=${job.state}${step}${encodeURIComponent(newest)}`);
   const list = previews.value?.previews.slice(-kMaxPreviews) ?? [];
   return (
     <div class="cards small-cards">
@@ -202,8 +203,10 @@ function Previews({ job }: { job: Job }) {
 export function JobScreen({ id }: { id: string }) {
   const resource = useJson<Job>(`/v1/jobs/${id}`);
   const [live, setLive] = useState<JobProgress | null>(null);
+  const [newest, setNewest] = useState("");
   const onEvent = (event: ServerEvent) => {
     if (event.type === "progress") setLive(JSON.parse(event.data) as JobProgress);
+    else if (event.type === "preview") setNewest((JSON.parse(event.data) as { name: string }).name);
     else resource.reload();
   };
   const isRunning = resource.value ? isActive(resource.value) : false;
@@ -240,7 +243,7 @@ export function JobScreen({ id }: { id: string }) {
       )}
       <section aria-labelledby="previews">
         <h2 id="previews">Previews</h2>
-        <Previews job={job} />
+        <Previews job={job} newest={newest} />
       </section>
       {hasDataset(job) && <Results job={job} />}
       <Logs job={job} />

@@ -3,24 +3,21 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import presets from "presets";
 import { type ApiError, asApiError, getJson, sendJson } from "../api/client";
 import { useJson } from "../api/resource";
-import type { Job, JobList } from "../api/types";
+import type { DryRun, Job, JobList } from "../api/types";
 import { AllFields } from "../form/all_fields";
 import { Basic } from "../form/basic";
 import { calibratedDraft } from "../form/calibrated";
+import { DocumentViews, OpenDraft } from "../form/document_views";
 import { changedDraft, type Check, type Draft, draftOf, forgetDraft, type Form, storedDraft, useCheck } from "../form/draft";
-import { idOf } from "../form/field";
-import type { JsonEditorProps } from "../form/json_editor";
-import { type Json, type JsonObject, textOf } from "../form/json";
+import { type JsonObject, textOf } from "../form/json";
 import { type Schema, withoutDefaults } from "../form/schema";
-import { ErrorBox, FileButton, Mistakes, Tabs } from "../parts/elements";
+import { ErrorBox, Mistakes } from "../parts/elements";
 import { bytesText, countText, durationText, secondsBetween } from "../parts/format";
-import { Lazy } from "../parts/lazy";
 import { navigate, usePlace, withQuery } from "../parts/router";
 
 const kPresets = presets as { file: string; job: JsonObject }[];
 const kSources = ["clone", "preset", "calibration", "scenario"];
 const kFirstPreset = "city_square/demo.job.json";
-const loadEditor = () => import("../form/json_editor").then((module) => module.JsonEditor);
 
 /** What belongs to the place of the draft: drones fly where the next one has its own. */
 function withoutPlace(draft: Draft): Draft {
@@ -43,18 +40,17 @@ async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft
   return calibration ? calibratedDraft(draft, calibration) : draft;
 }
 
-/** Time and disk per image of jobs that were done lately, as a forecast. */
-function Forecast({ images }: { images: number }) {
+/** What the service expects of the job, and how long it takes at the pace of jobs that were done lately. */
+function Forecast({ plan }: { plan: DryRun }) {
   const list = useJson<JobList>("/v1/jobs?state=succeeded&limit=5");
   const done = (list.value?.jobs ?? []).filter((job) => (job.progress.frames_total ?? 0) > 0);
   const total = done.reduce((sum, job) => sum + (job.progress.frames_total ?? 0), 0);
-  if (total === 0) return null;
   const seconds = done.reduce((sum, job) => sum + secondsBetween(job.started_at, job.ended_at), 0);
-  const bytes = done.reduce((sum, job) => sum + job.bytes, 0);
+  const { cpu_s, disk_bytes } = plan.estimate;
   return (
     <span class="quiet-text">
-      about {durationText((images * seconds) / total)} and {bytesText((images * bytes) / total)}, judging by the{" "}
-      {done.length === 1 ? "last job" : `last ${done.length} jobs`}
+      about {durationText(Math.max(1, cpu_s))} of one core and {bytesText(disk_bytes)} of disk
+      {total > 0 && `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
     </span>
   );
 }
@@ -86,7 +82,7 @@ function SubmitBar({ draft, check, onErrors }: SubmitBarProps) {
         {check.isPending && !plan && errors.length === 0 && <span class="quiet-text">checking …</span>}
         {plan && (
           <>
-            <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast images={plan.frames} />
+            <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast plan={plan} />
           </>
         )}
         {plan && plan.warnings.length > 0 && (
@@ -119,61 +115,15 @@ interface EditorProps {
 }
 
 function Editor({ draft, check, schema, onDraft }: EditorProps) {
-  const { query } = usePlace();
-  const [focus, setFocus] = useState<string | null>(null);
-  const tab = query.get("tab") ?? "basic";
-  const select = (id: string) => navigate(withQuery(query, { tab: id === "basic" ? null : id }), { replace: true });
-  const form: Form = {
-    value: draft.value ?? {},
-    errors: check.errors,
-    change: (path, value: Json | undefined) => onDraft(changedDraft(draft, path, value)),
-  };
-  const showError = (pointer: string) => {
-    setFocus(pointer);
-    const field = document.getElementById(idOf(pointer.split("/").slice(1)));
-    if (field && tab !== "json") {
-      field.scrollIntoView({ block: "center" });
-      field.focus();
-    } else if (tab !== "json") select("json");
-  };
-  const editor: JsonEditorProps = { text: draft.text, errors: check.errors, focus, onChange: (text) => onDraft(draftOf(text)) };
-  const tabs = [
-    { id: "basic", label: "Basic" },
-    { id: "all", label: "All fields" },
-    { id: "json", label: <>JSON{check.errors.length > 0 && <span class="count">{check.errors.length}</span>}</> },
+  const views = [
+    { id: "basic", label: "Basic", show: (form: Form) => <Basic form={form} schema={schema} /> },
+    { id: "all", label: "All fields", show: (form: Form) => <AllFields form={form} schema={schema} /> },
   ];
-  return (
-    <>
-      <Tabs label="Views of the job" tabs={tabs} selected={tab} onSelect={select} />
-      <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab}`}>
-        {tab === "json" ? (
-          <Lazy load={loadEditor} props={editor} />
-        ) : draft.value === null ? (
-          <div class="notice bad">
-            <p>The text is not a JSON object, so it cannot be shown as fields.</p>
-            <button type="button" class="button" onClick={() => select("json")}>
-              Go to the text
-            </button>
-          </div>
-        ) : tab === "all" ? (
-          <AllFields form={form} schema={schema} />
-        ) : (
-          <Basic form={form} schema={schema} />
-        )}
-      </div>
-      <SubmitBar draft={draft} check={check} onErrors={showError} />
-    </>
-  );
+  return <DocumentViews what="The job" views={views} draft={draft} check={check} onDraft={onDraft} bar={(onErrors) => <SubmitBar draft={draft} check={check} onErrors={onErrors} />} />;
 }
 
 function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
   const recent = useJson<JobList>("/v1/jobs?limit=10");
-  const [error, setError] = useState<string | null>(null);
-  const readFile = async (file: File) => {
-    const draft = draftOf(await file.text());
-    setError(draft.value ? null : `${file.name} holds no JSON object`);
-    if (draft.value) onDraft(draft);
-  };
   return (
     <div class="row wrap sources">
       <label class="row">
@@ -198,14 +148,7 @@ function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
           </optgroup>
         </select>
       </label>
-      <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
-        Open a file
-      </FileButton>
-      {error && (
-        <span class="field-error" role="alert">
-          {error}
-        </span>
-      )}
+      <OpenDraft onDraft={onDraft} />
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // Differences to the baseline with their 95 % intervals: the forest plot of a study.
 import type { StudyPlan, StudySummary } from "../api/types";
 import { rowOf } from "./grid";
-import { type Scale, scaleOf, shareOn, signedText } from "./scale";
+import { type Scale, scaleOf, shareOn, signedText } from "../charts/scale";
 
 type Mean = StudySummary["rows"][number]["restricted_means"][number];
 

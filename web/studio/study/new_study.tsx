@@ -1,64 +1,82 @@
-// The document of a new study: a preset, a file or a copy, checked by the service as it is typed.
-import { useEffect, useState } from "preact/hooks";
-import { type ApiError, asApiError, getJson, sendJson } from "../api/client";
+// The document of a new study: a preset, a file or a copy; as fields and as JSON, checked by the service as it is typed.
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { type ApiError, asApiError, getJson } from "../api/client";
+import { useJson } from "../api/resource";
 import type { Study, StudyPlan } from "../api/types";
-import { type Draft, draftOf, type DraftPlace, forgetDraft, storedDraft, useCheck } from "../form/draft";
+import { DocumentViews, OpenDraft } from "../form/document_views";
+import { type Check, type Draft, draftOf, type DraftPlace, type Form, storedDraft, useCheck } from "../form/draft";
 import { type Json, textOf } from "../form/json";
-import type { JsonEditorProps } from "../form/json_editor";
-import { ErrorBox, FileButton, Mistakes } from "../parts/elements";
-import { countText } from "../parts/format";
-import { Lazy } from "../parts/lazy";
+import type { Schema } from "../form/schema";
+import { ErrorBox } from "../parts/elements";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { kPresets } from "./presets";
+import { StartBar } from "./start_bar";
+import { StudyForm } from "./study_form";
+import { type StudySchema, withJobParts } from "./study_schema";
 
 const kPlace: DraftPlace = { path: "/v1/studies?dry_run", storage: "throng.study" };
-const loadEditor = () => import("../form/json_editor").then((module) => module.JsonEditor);
 
 const firstDraft = () => storedDraft(kPlace.storage) ?? draftOf(textOf(kPresets[0]!.study));
 
-function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
-  const [error, setError] = useState<string | null>(null);
-  const readFile = async (file: File) => {
-    const draft = draftOf(await file.text());
-    setError(draft.value ? null : `${file.name} holds no JSON object`);
-    if (draft.value) onDraft(draft);
+function Sources({ studies, onDraft }: { studies: Study[]; onDraft: (draft: Draft) => void }) {
+  const choose = (id: string) => {
+    const preset = kPresets.find((entry) => entry.id === id);
+    const study = preset?.study ?? studies.find((entry) => entry.id === id)?.study;
+    if (study) onDraft(draftOf(textOf(study as Json)));
   };
-  const choose = (id: string) => onDraft(draftOf(textOf(kPresets.find((preset) => preset.id === id)!.study)));
   return (
     <div class="row wrap sources">
       <label class="row">
         Start from
         <select value="" onChange={(event) => choose(event.currentTarget.value)}>
           <option value="" disabled>
-            a shipped study
+            a shipped study or a copy
           </option>
-          {kPresets.map((preset) => (
-            <option key={preset.id} value={preset.id}>
-              {preset.title}
-            </option>
-          ))}
+          <optgroup label="Shipped studies">
+            {kPresets.map((preset) => (
+              <option key={preset.id} value={preset.id}>
+                {preset.title}
+              </option>
+            ))}
+          </optgroup>
+          <optgroup label="Copies of studies">
+            {studies.map((study) => (
+              <option key={study.id} value={study.id}>
+                {study.name} ({study.id})
+              </option>
+            ))}
+          </optgroup>
         </select>
       </label>
-      <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
-        Open a file
-      </FileButton>
-      {error && (
-        <span class="field-error" role="alert">
-          {error}
-        </span>
-      )}
+      <OpenDraft onDraft={onDraft} />
     </div>
   );
 }
 
-/** With `?from=ID` the document of another study, to be changed. */
-export function NewStudy() {
+function useSchema(): Schema | null {
+  const study = useJson<StudySchema>("/v1/schemas/study").value;
+  const job = useJson<Schema>("/v1/schema").value;
+  return useMemo(() => (study && job ? withJobParts(study, job) : null), [study, job]);
+}
+
+interface EditorProps {
+  draft: Draft;
+  check: Check<StudyPlan>;
+  onDraft: (draft: Draft) => void;
+}
+
+function Editor({ draft, check, onDraft }: EditorProps) {
+  const schema = useSchema();
+  const views = [{ id: "form", label: "Form", show: (form: Form) => schema && <StudyForm form={form} schema={schema} /> }];
+  return <DocumentViews what="The study" views={views} draft={draft} check={check} onDraft={onDraft} bar={(onErrors) => <StartBar draft={draft} place={kPlace} check={check} onErrors={onErrors} />} />;
+}
+
+/** With `?from=ID` the document of another study, to be changed. `studies`: those that can be copied. */
+export function NewStudy({ studies }: { studies: Study[] }) {
   const { query } = usePlace();
   const from = query.get("from");
   const [draft, setDraft] = useState<Draft>(firstDraft);
-  const [focus, setFocus] = useState<string | null>(null);
   const [error, setError] = useState<ApiError | null>(null);
-  const [isBusy, setBusy] = useState(false);
   const check = useCheck<StudyPlan>(draft, kPlace);
   useEffect(() => {
     if (!from) return;
@@ -68,6 +86,7 @@ export function NewStudy() {
         if (!isLatest) return;
         setDraft(draftOf(textOf((source.study ?? {}) as Json)));
         navigate(withQuery(new URLSearchParams(location.search), { from: null }), { replace: true });
+        document.getElementById("new-study")?.scrollIntoView();
       },
       (reason: unknown) => isLatest && setError(asApiError(reason)),
     );
@@ -75,49 +94,20 @@ export function NewStudy() {
       isLatest = false;
     };
   }, [from]);
-  const submit = async () => {
-    setBusy(true);
-    try {
-      const study = await sendJson<Study>("POST", "/v1/studies", draft.text);
-      forgetDraft(kPlace.storage);
-      navigate(`/studies/${study.id}`);
-    } catch (reason) {
-      setError(asApiError(reason));
-      setBusy(false);
-    }
-  };
-  const { plan, errors, message } = check;
-  const editor: JsonEditorProps = { what: "The study", text: draft.text, errors, focus, onChange: (text) => setDraft(draftOf(text)) };
+  const href = useMemo(() => `data:application/json,${encodeURIComponent(draft.text)}`, [draft.text]);
   return (
     <section class="stack" aria-labelledby="new-study">
       <div class="row wrap">
         <h2 id="new-study" class="grow">
           New study
         </h2>
-        <Sources onDraft={setDraft} />
+        <Sources studies={studies} onDraft={setDraft} />
+        <a class="button" href={href} download="study.json">
+          Save as a file
+        </a>
       </div>
-      <Lazy load={loadEditor} props={editor} />
-      <div class="submit-bar" role="region" aria-label="Check and start">
-        <div class="grow" aria-live="polite">
-          {check.isPending && !plan && errors.length === 0 && <span class="quiet-text">checking …</span>}
-          {plan && (
-            <>
-              <strong>{countText(plan.simulations, "simulation")}</strong>: {countText(plan.cases.length, "case")} × {countText(plan.policies.length, "policy", "policies")} × {countText(plan.runs, "run")}
-            </>
-          )}
-          {errors.length > 0 && (
-            <details open>
-              <summary class="field-error">{countText(errors.length, "error")}</summary>
-              <Mistakes list={errors} onSelect={setFocus} />
-            </details>
-          )}
-          {message && <span class="field-error">{message}</span>}
-        </div>
-        <button type="button" class="button primary" disabled={isBusy || !plan || check.isPending} onClick={() => void submit()}>
-          Start the study
-        </button>
-        {error && error.status !== 401 && <ErrorBox error={error} />}
-      </div>
+      {error && error.status !== 401 && <ErrorBox error={error} />}
+      <Editor draft={draft} check={check} onDraft={setDraft} />
     </section>
   );
 }

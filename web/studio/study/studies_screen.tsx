@@ -1,9 +1,11 @@
 // Studies: those that there are, and a new one.
 import { useState } from "preact/hooks";
 import { type ApiError, asApiError, request } from "../api/client";
+import { useEvents } from "../api/events";
 import { useInterval, useJson } from "../api/resource";
 import type { Study, StudyList } from "../api/types";
 import { Confirmation, Empty, ErrorBox, Progress, type Question, StateBadge } from "../parts/elements";
+import { ConnectionNote } from "../parts/connection";
 import { agoText } from "../parts/format";
 import { usePlace, withQuery } from "../parts/router";
 import { NewStudy } from "./new_study";
@@ -52,6 +54,9 @@ function StudyTable({ list, onRemove }: { list: Study[]; onRemove: (study: Study
               </td>
               <td>{agoText(study.created_at)}</td>
               <td>
+                <a class="button small" href={`/studies?from=${study.id}`} aria-label={`Copy ${study.name}`}>
+                  Copy
+                </a>{" "}
                 <button type="button" class="button small danger-text" aria-label={`Delete ${study.name}`} onClick={() => onRemove(study)}>
                   Delete
                 </button>
@@ -71,12 +76,16 @@ export function StudiesScreen() {
   const [question, setQuestion] = useState<Question | null>(null);
   const [error, setError] = useState<ApiError | null>(null);
   const studies = list.value?.studies ?? [];
-  useInterval(list.reload, studies.some(isAtWork) ? kPollMs : 0);
+  const connection = useEvents("/v1/events", list.reload);
+  useInterval(list.reload, studies.some(({ state }) => state === "running") ? kPollMs : 0);
   const remove = (study: Study) => setQuestion(removalOf(study, () => void removeStudy(study.id).then(list.reload, (reason: unknown) => setError(asApiError(reason)))));
   return (
     <div class="screen">
       <div class="heading">
-        <h1>Studies</h1>
+        <div class="row wrap">
+          <h1 class="grow">Studies</h1>
+          <ConnectionNote state={connection} />
+        </div>
         <p class="quiet-text">Cases × policies × paired runs, simulated without images: what guidance changes, with intervals.</p>
       </div>
       <ErrorBox error={error ?? (list.error?.status !== 401 ? list.error : null)} />
@@ -99,7 +108,7 @@ export function StudiesScreen() {
           </div>
         )}
       </section>
-      <NewStudy />
+      <NewStudy studies={studies} />
       <Confirmation question={question} onClose={() => setQuestion(null)} />
     </div>
   );

@@ -1,8 +1,10 @@
 // One study: its grid that fills, the differences to the baseline, times, and whether there are runs enough.
 import { useEffect, useState } from "preact/hooks";
 import { ApiError, asApiError, sendJson } from "../api/client";
+import { useEvents } from "../api/events";
 import { useInterval, useJson } from "../api/resource";
 import type { Study, StudyPlan, StudyValues } from "../api/types";
+import { ConnectionNote } from "../parts/connection";
 import { Confirmation, ErrorBox, Mistakes, Progress, type Question, StateBadge } from "../parts/elements";
 import { countText, durationText, timeText } from "../parts/format";
 import { navigate } from "../parts/router";
@@ -12,7 +14,7 @@ import { StudyGrid } from "./grid";
 import { isAtWork, removalOf, removeStudy } from "./studies_screen";
 import { TimesTable } from "./times_table";
 
-const kPollMs = 1500;
+const kPollMs = 3000;
 
 interface ActionsProps {
   study: Study;
@@ -26,6 +28,7 @@ function Actions({ study, onChange, onError }: ActionsProps) {
   const failed = (reason: unknown) => onError(asApiError(reason));
   const post = (action: string) => void sendJson<Study>("POST", `/v1/studies/${id}/${action}`).then(onChange, failed);
   const remove = () => setQuestion(removalOf(study, () => void removeStudy(id).then(() => navigate("/studies"), failed)));
+  const keep = () => void sendJson<Study>("PATCH", `/v1/studies/${id}`, JSON.stringify({ keep: !study.keep })).then(onChange, failed);
   const files = `/v1/studies/${id}/files`;
   return (
     <div class="actions">
@@ -39,6 +42,9 @@ function Actions({ study, onChange, onError }: ActionsProps) {
           Go on
         </button>
       )}
+      <button type="button" class="button" aria-pressed={study.keep} onClick={keep}>
+        {study.keep ? "Kept" : "Keep"}
+      </button>
       {links["report"] && (
         <>
           <a class="button primary" href={links["report"]} target="_blank" rel="noreferrer">
@@ -119,7 +125,15 @@ export function StudyScreen({ id }: { id: string }) {
   const study = resource.value;
   const hasValues = Boolean(study?.summary);
   const values = useJson<StudyValues>(hasValues ? `/v1/studies/${id}/files/values.json` : null);
-  useInterval(resource.reload, study && isAtWork(study) ? kPollMs : 0);
+  const [live, setLive] = useState<Study["progress"] | null>(null);
+  const isWorking = Boolean(study && isAtWork(study));
+  const connection = useEvents(isWorking ? `/v1/studies/${id}/events` : null, ({ type, data }) => {
+    if (type === "progress") setLive(JSON.parse(data) as Study["progress"]);
+    else resource.reload();
+  });
+  useEffect(() => setLive(null), [isWorking]);
+  // The summary is renewed as runs end; events tell the rest.
+  useInterval(resource.reload, isWorking ? kPollMs : 0);
   // The values are those of the summary, and much larger.
   const runs = study?.summary?.rows.reduce((sum, row) => sum + row.runs, 0) ?? 0;
   useEffect(() => values.reload(), [runs, study?.state]);
@@ -136,6 +150,7 @@ export function StudyScreen({ id }: { id: string }) {
     return resource.error && resource.error.status !== 401 ? <ErrorBox error={resource.error} /> : <p class="loading">Loading …</p>;
   }
   const plan = study.plan!;
+  const shown = isWorking && live ? { ...study, progress: live } : study;
   return (
     <div class="screen">
       <div class="heading">
@@ -145,6 +160,7 @@ export function StudyScreen({ id }: { id: string }) {
         <div class="row wrap">
           <h1>{study.name}</h1>
           <StateBadge state={study.state} />
+          {isWorking && <ConnectionNote state={connection} />}
         </div>
         <Actions study={study} onChange={resource.reload} onError={setError} />
       </div>
@@ -155,8 +171,8 @@ export function StudyScreen({ id }: { id: string }) {
           <Mistakes list={study.error.problems} />
         </div>
       )}
-      <State study={study} plan={plan} />
-      <Results study={study} plan={plan} values={values.value} />
+      <State study={shown} plan={plan} />
+      <Results study={shown} plan={plan} values={values.value} />
     </div>
   );
 }

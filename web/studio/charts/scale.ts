@@ -1,5 +1,5 @@
 // Round numbers of an axis.
-import { stepOf } from "../run/charts";
+import { stepOf } from "./time_frame";
 
 export interface Scale {
   low: number;
@@ -7,11 +7,12 @@ export interface Scale {
   ticks: number[];
 }
 
-/** Covers all values with about `count` ticks; the ends are ticks. */
-export function scaleOf(values: readonly number[], count = 5): Scale {
+/** Covers all values, and zero where nothing else is said, with about `count` ticks; the ends are ticks. */
+export function scaleOf(values: readonly number[], count = 5, hasZero = true): Scale {
   const finite = values.filter(Number.isFinite);
-  const least = Math.min(0, ...finite);
-  const most = Math.max(0, ...finite);
+  const known = hasZero || finite.length === 0 ? [0, ...finite] : finite;
+  const least = Math.min(...known);
+  const most = Math.max(...known);
   const span = most - least || 1;
   // stepOf() knows no steps of spans below 1.
   const zoom = span < 1 ? 1000 : 1;
