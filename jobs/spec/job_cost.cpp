@@ -32,7 +32,7 @@ struct KindBytes {
   std::string_view kind;
   double per_pixel;
 };
-constexpr std::array kKindBytes = {KindBytes{"density", 4},     KindBytes{"depth", 0.9},
+constexpr std::array kKindBytes = {KindBytes{"density", 0.2},   KindBytes{"depth", 0.9},
                                    KindBytes{"instances", 0.1}, KindBytes{"parts", 0.05},
                                    KindBytes{"normals", 1},     KindBytes{"flow", 1.5},
                                    KindBytes{"semantic", 0.05}};
