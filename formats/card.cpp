@@ -165,10 +165,12 @@ json DatasetCard::description() const {
   }
   json splits = json::object();
   json seeds = json::object();
+  json scenarios = json::object();
   for (const json& run : manifest_.at("runs")) {
     const std::string name = run.at("run");
     splits[std::string(name_of(info_.split_of(name)))].push_back(name);
     seeds[name] = run.value("seed", json());
+    if (run.contains("scenario")) scenarios[name] = run["scenario"];
   }
   return {
       {"schema_version", kCardVersion},
@@ -181,6 +183,7 @@ json DatasetCard::description() const {
       {"formats", formats},
       {"splits", splits},
       {"seeds", seeds},
+      {"scenarios", scenarios},
       {"statistics", statistics()},
       {"conventions",
        {{"boxes", "origin at the top left corner of the top left pixel; pixel i covers [i, i+1)"},

@@ -48,10 +48,14 @@ class Mix(unittest.TestCase):
     def manifest(self):
         return json.loads((self.folder / "out/dataset/manifest.json").read_text())
 
+    def card(self):
+        return json.loads((self.folder / "out/dataset/dataset.json").read_text())
+
     def test_runs_alternate_among_the_scenarios(self):
         for run, place in zip(self.manifest()["runs"], PLACES, strict=True):
             self.assertTrue(run["scenario"].startswith(place), run)
             self.assertEqual(run["drawn"]["scenario"], run["scenario"])
+            self.assertEqual(self.card()["scenarios"][run["run"]], run["scenario"])
             trace = throng.Trace(self.folder / "out/work" / run["run"] / "trace.h5")
             self.assertEqual(trace.scenario, run["scenario"])
 

@@ -30,7 +30,9 @@ class Generated(unittest.TestCase):
             self.assertEqual(required, set(schema.get("required", [])), where)
             hints = typing.get_type_hints(kind)
             for name, field in schema["properties"].items():
-                inner = field.get("items", field) if field.get("type") == "array" else field
+                kinds = field.get("type")
+                is_list = kinds == "array" or (isinstance(kinds, list) and "array" in kinds)
+                inner = field.get("items", field) if is_list else field
                 parts = [p for p in _leaves(hints[name]) if isinstance(p, type) and dataclasses.is_dataclass(p)]
                 if inner.get("properties"):
                     self.assertEqual(len(parts), 1, f"{where}/{name}")

@@ -149,9 +149,12 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
 export function RunScreen({ id, number }: { id: string; number: number }) {
   const job = useJson<Job>(`/v1/jobs/${id}`);
   const { dataset, error } = useDataset(id);
-  const place = job.value?.job["scenario"];
-  const scenario = useJson<Scenario>(typeof place === "string" ? `/v1/scenarios/${place}` : null);
   const run = `run${String(number).padStart(3, "0")}`;
+  const asked = job.value?.job["scenario"];
+  const card = useJson<{ scenarios?: Record<string, string> }>(Array.isArray(asked) ? `/v1/jobs/${id}/files/dataset.json` : null);
+  const place = Array.isArray(asked) ? card.value?.scenarios?.[run] : asked;
+  const isShipped = typeof place === "string" && !place.startsWith("generated/");
+  const scenario = useJson<Scenario>(isShipped ? `/v1/scenarios/${place}` : null);
   if (job.error?.status === 404) return <GoneJob id={id} />;
   const others = job.value ? Array.from({ length: runsOf(job.value) }, (_, other) => other).filter((other) => other !== number) : [];
   const hasRun = (dataset?.camerasOf(run).length ?? 0) > 0;
