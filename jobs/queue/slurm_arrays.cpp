@@ -36,7 +36,7 @@ void SlurmArrayNames::give_back(const std::string& array) {
   names_.erase(array);
 }
 
-SlurmArrays::SlurmArrays(SlurmOptions options)
+SlurmArrays::SlurmArrays(const SlurmOptions& options)
     : shared_(new SlurmShared{completed(options), SlurmController({.poll_s = options.poll_s})}) {}
 
 std::vector<TaskResult> SlurmArrays::run(const JobFolder& folder, std::span<const Task> tasks,

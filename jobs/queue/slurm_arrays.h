@@ -43,7 +43,7 @@ struct SlurmShared {
 
 class SlurmArrays final : public Executor {
  public:
-  explicit SlurmArrays(SlurmOptions options = {});
+  explicit SlurmArrays(const SlurmOptions& options = {});
 
   using Executor::run;
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
