@@ -71,7 +71,8 @@ TEST(Schemas, ReferencesAndRequiredFieldsExist) {
         EXPECT_TRUE(rules["properties"].contains(name)) << entry.name << ": " << place << name;
       }
     });
-    for (const auto& [name, part] : schema.value("definitions", json::object()).items()) {
+    const json definitions = schema.value("definitions", json::object());
+    for (const auto& [name, part] : definitions.items()) {
       EXPECT_TRUE(used.contains("#/definitions/" + name))
           << entry.name << ": nothing uses " << name;
     }
