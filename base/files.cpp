@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -82,6 +83,11 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
     throw EnvironmentError(
         fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
   }
+}
+
+bool is_within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
 }
 
 StagedFile::StagedFile(fs::path final_path)

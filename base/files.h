@@ -52,6 +52,9 @@ class StagedFile {
 /// folders under construction. Only while nobody writes there.
 void remove_temporaries(const std::filesystem::path& folder);
 
+/// Whether a path is a folder's or below it, as both are written: nothing is looked up.
+bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// A folder under construction. commit() renames it to its final place (replacing nothing: an
 /// existing final folder is kept, since what is published is complete); otherwise the destructor
 /// removes it.

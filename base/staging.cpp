@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -14,6 +13,7 @@
 #include <mutex>
 #include <random>
 
+#include "base/files.h"
 #include "base/resource_exhaustion.h"
 
 namespace throng {
@@ -38,11 +38,6 @@ Area& area() {
 bool is_staging_in_folder() { return area().descriptor != AT_FDCWD; }
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
-
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
-}
 
 /// The path as it is looked up from the area's descriptor.
 fs::path from_area(const fs::path& staged) {

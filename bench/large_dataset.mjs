@@ -33,7 +33,7 @@ function enlarge(id) {
   writeFileSync(path.join(dataset, "manifest.json"), JSON.stringify({ ...manifest, files }));
 }
 
-/** Ends the service; its helpers let go of the folder a moment later. */
+/** Ends the service; its helpers close their files in the folder a moment later. */
 async function halt() {
   await service.halt();
   await new Promise((resolve) => setTimeout(resolve, 1000));

@@ -127,9 +127,16 @@ void DatasetCard::add(const Image& image) {
     ++by_state_[person.state.empty() ? "unknown" : person.state];
     truncated_ += person.truncation >= kTruncated ? 1 : 0;
     ignored_ += person.is_ignored ? 1 : 0;
-    const json attributes = person.track ? person.track->value("attributes", json()) : json();
-    if (attributes.contains("character")) characters_.insert(attributes["character"]);
+    if (tracks_.insert(person.track_id).second) add_character(person);
   }
+}
+
+void DatasetCard::add_character(const Person& person) {
+  if (!person.track) return;
+  const auto attributes = person.track->find("attributes");
+  if (attributes == person.track->end()) return;
+  const auto character = attributes->find("character");
+  if (character != attributes->end()) characters_.insert(character->get<std::string>());
 }
 
 json DatasetCard::statistics() const {
@@ -204,9 +211,7 @@ std::string DatasetCard::readme() const {
       "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, of "
       "{} "
       "distinct characters, in {}.\n`dataset.json` describes it, `manifest.json` lists every file "
-      "with its SHA-256. "
-      "`throng "
-      "validate` checks it.\n\n",
+      "with its SHA-256. `throng validate` checks it.\n\n",
       info_.name, info_.generator, images_, people_, characters_.size(),
       info_.runs.size() == 1 ? "one run" : fmt::format("{} runs", info_.runs.size()));
   text += "| what | where |\n|---|---|\n";

@@ -21,6 +21,8 @@ class DatasetCard : public Exporter {
   void finish() override;
 
  private:
+  /// Of a person who is seen for the first time.
+  void add_character(const Person& person);
   nlohmann::json statistics() const;
   nlohmann::json description() const;
   std::string readme() const;
@@ -41,6 +43,7 @@ class DatasetCard : public Exporter {
   std::map<std::string, std::int64_t> by_weather_;
   std::map<std::string, std::int64_t> by_state_;
   std::map<std::string, std::int64_t> by_split_;
+  std::set<std::int64_t> tracks_;     ///< that were looked at for their characters
   std::set<std::string> characters_;  ///< of the library, that images show
 };
 

@@ -6,7 +6,7 @@
 
 namespace throng::places {
 
-/// The scenario of a spec; its id is "generated/" + id_of(spec). Nothing is written: its crowd is
+/// The scenario of a spec; its id is scenario_id_of(spec). Nothing is written: its crowd is
 /// Scenario::built_crowd.
 world::Scenario load_generated(const PlaceSpec& spec);
 

@@ -22,10 +22,10 @@
 namespace throng::server {
 
 struct ServiceOptions {
-  std::filesystem::path data;       ///< holds a folder per job; one service at a time
-  std::filesystem::path database;   ///< of the store; "": that of `data`
-  std::filesystem::path scenarios;  ///< those that come with throng
-  jobs::ConfinedTask confined;      ///< checks of what users send
+  std::filesystem::path data;           ///< holds a folder per job; one service at a time
+  std::filesystem::path database = {};  ///< of the store; "": that of `data`
+  std::filesystem::path scenarios;      ///< those that come with throng
+  jobs::ConfinedTask confined;          ///< checks of what users send
   UploadLimits uploads = {};
   HousekeepingOptions housekeeping = {};
   int max_active_jobs = 16;        ///< worked on at once (server/job_runner.h)

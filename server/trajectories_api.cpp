@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "server/downloads_api.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -126,8 +127,13 @@ void send_trajectories(const Call& call, const Request& request, Response& respo
   const jobs::JobRow row = find_job(call, request);
   const fs::path trace = trace_of(call, row, run_of(request, row));
   const std::lock_guard lock(mutex);
-  const world::TrajectoryReader reader(trace);
-  response.set_content(bytes_of(reader.at(times_of(request, reader))), "application/octet-stream");
+  try {
+    const world::TrajectoryReader reader(trace);
+    response.set_content(bytes_of(reader.at(times_of(request, reader))),
+                         "application/octet-stream");
+  } catch (const InputError&) {  // of the file that lies here, not of the request
+    throw HttpError{500, "the trace of this run is damaged; retry the job to simulate it again"};
+  }
 }
 
 }  // namespace throng::server

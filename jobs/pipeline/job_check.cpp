@@ -55,10 +55,6 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
   return crowd;
 }
 
-}  // namespace
-
-namespace {
-
 /// A job in one of its scenarios.
 struct InPlace {
   std::int64_t people = 0;
@@ -102,10 +98,9 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   for (const int run : first_runs(job)) {
     const JobSpec one = in_scenario_of_run(job, run);
     InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
-    const auto runs = job.mix.empty() ? job.runs
-                                      : std::count(shares.begin(), shares.end(),
-                                                   shares[static_cast<std::size_t>(run)]);
-    people_of_runs += static_cast<std::int64_t>(runs) * place.people;
+    const auto runs =
+        std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
+    people_of_runs += runs * place.people;
     for (Problem& warning : place.warnings) {
       if (!job.mix.empty()) warning.found += " in " + one.scenario;
       checked.warnings.push_back(std::move(warning));

@@ -11,9 +11,8 @@
 namespace throng::jobs {
 
 /// The scenario that the job names, or the one that is generated for it; of a job of several, that
-/// of in_scenario_of_run() (jobs/spec/scenario_mix.h). Throws InputError: at
-/// /scenario of `source`, the job's file or "", when there is none of the name; a broken scenario
-/// file names itself.
+/// of in_scenario_of_run() (jobs/spec/scenario_mix.h). Throws InputError: at /scenario of `source`,
+/// the job's file or "", when there is none of the name; a broken scenario file names itself.
 world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
                             const std::string& source = "");
 

@@ -45,11 +45,17 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
     spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded));
   }
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
-  for (std::size_t i = 0; i < job.drones.size(); ++i) {
-    sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);
-    mission.camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
-  }
+  spec.drones = missions_of(job, spec.seed);
   return spec;
+}
+
+std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed) {
+  std::vector<sim::DroneMission> missions;
+  for (std::size_t i = 0; i < run_job.drones.size(); ++i) {
+    sim::DroneMission& mission = missions.emplace_back(run_job.drones[i].mission);
+    mission.camera = camera_of_run(run_job.drones[i].camera, run_seed, camera_pointer(i));
+  }
+  return missions;
 }
 
 void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run,

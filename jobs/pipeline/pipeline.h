@@ -24,6 +24,9 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind);
 /// Input of the simulation for a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);
 
+/// The drones' missions in a run, with its cameras. `run_job` is that of job_of_run().
+std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed);
+
 /// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
 void simulate_run(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, int run,

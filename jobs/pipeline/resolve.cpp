@@ -12,6 +12,7 @@
 #include "formats/exporter.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/lens_check.h"
+#include "jobs/pipeline/pipeline.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/scenario_mix.h"
@@ -138,16 +139,6 @@ bool is_of_trace(const world::Scenario& scenario) {
   return !scenario.has_crowd() && scenario.alarm.has_value();
 }
 
-/// The missions of a run with its cameras, as its simulation has them.
-std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed) {
-  std::vector<sim::DroneMission> missions;
-  for (std::size_t i = 0; i < run_job.drones.size(); ++i) {
-    sim::DroneMission& mission = missions.emplace_back(run_job.drones[i].mission);
-    mission.camera = camera_of_run(run_job.drones[i].camera, run_seed, camera_pointer(i));
-  }
-  return missions;
-}
-
 /// A scenario of the job: where its runs are checked.
 struct Place {
   JobSpec job;  ///< of this scenario only
@@ -158,21 +149,13 @@ struct Place {
 
 /// Nobody where the crowd cannot be loaded, which the simulation will explain.
 std::vector<Eigen::Vector2d> people_in(const Place& place) {
-  const bool aims =
-      std::any_of(place.job.drones.begin(), place.job.drones.end(),
-                  [](const DroneSpec& drone) { return drone.mission.aim.has_value(); });
+  const JobSpec job = job_of_run(place.job, place.runs.front());
+  const bool aims = std::any_of(job.drones.begin(), job.drones.end(), [](const DroneSpec& drone) {
+    return drone.mission.aim.has_value();
+  });
   if (!aims || is_of_trace(place.scenario)) return {};
-  const RunPlan run = plan_runs(place.job).at(static_cast<std::size_t>(place.runs.front()));
-  sim::RunSpec spec;
-  spec.seed = run.seed;
-  spec.people = place.job.agents;
-  spec.crowd = place.job.crowd;
-  spec.drones = missions_of(place.job, run.seed);
   try {
-    if (place.job.recorded) {
-      spec.recorded = std::make_shared<const world::Trace>(read_recording(*place.job.recorded));
-    }
-    return sim::people_to_aim_at(place.scenario, spec);
+    return sim::people_to_aim_at(place.scenario, run_spec(place.job, place.runs.front()));
   } catch (const InputError&) {
     return {};
   } catch (const EnvironmentError&) {
@@ -251,12 +234,15 @@ void check_runs(const Place& place, std::vector<Problem>& problems) {
   }
 }
 
-void check_place(const Place& place, std::vector<Problem>& problems) {
-  if (problems.empty() && !place.job.randomize.empty()) {
+/// `is_sound`: nothing else is wrong with the job.
+std::vector<Problem> problems_in(const Place& place, bool is_sound) {
+  std::vector<Problem> problems;
+  if (is_sound && !place.job.randomize.empty()) {
     check_runs(place, problems);
-  } else if (problems.empty() || !has_own_airframe(place.job)) {
+  } else if (is_sound || !has_own_airframe(place.job)) {
     check_with_simulation(place, place.job, problems);
   }
+  return problems;
 }
 
 // Checks the job in its scenarios, in the order of first_runs(). Of several, each problem says in
@@ -264,22 +250,12 @@ void check_place(const Place& place, std::vector<Problem>& problems) {
 void check_places(const JobSpec& job, const std::vector<world::Scenario>& scenarios,
                   std::vector<Problem>& problems) {
   const std::vector<int> first = first_runs(job);
-  const bool was_sound = problems.empty();
+  const bool is_sound = problems.empty();
   for (std::size_t i = 0; i < first.size(); ++i) {
-    Place place{in_scenario_of_run(job, first[i]), scenarios[i], {}, {}};
-    place.runs = runs_alike(job, first[i]);
+    Place place{in_scenario_of_run(job, first[i]), scenarios[i], runs_alike(job, first[i]), {}};
     place.people = people_in(place);
-    std::vector<Problem> found;
-    if (was_sound || job.mix.empty()) {
-      if (job.mix.empty()) found = problems;
-      check_place(place, found);
-    }
-    if (job.mix.empty()) {
-      problems = std::move(found);
-      continue;
-    }
-    for (Problem& problem : found) {
-      problem.found += fmt::format(" in {}", place.scenario.id);
+    for (Problem& problem : problems_in(place, is_sound)) {
+      if (!job.mix.empty()) problem.found += fmt::format(" in {}", place.scenario.id);
       problems.push_back(std::move(problem));
     }
   }

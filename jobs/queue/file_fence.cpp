@@ -16,6 +16,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "base/files.h"
+
 namespace throng::jobs {
 
 namespace {
@@ -101,11 +103,6 @@ class Ruleset {
   std::uint64_t handled_;
   Descriptor descriptor_;
 };
-
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
-}
 
 /// Everything in a folder but what is hidden: whatever lies beside it and beside the folders around
 /// it.

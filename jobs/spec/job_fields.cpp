@@ -33,7 +33,7 @@ void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
   }
   job.generate = places::read_place_spec(value.value("generate", json()),
                                          place.pointer + "/generate", place.problems);
-  job.scenario = "generated/" + places::id_of(*job.generate);
+  job.scenario = places::scenario_id_of(*job.generate);
 }
 
 json drones_json(const JobSpec& job) {
@@ -213,8 +213,7 @@ FieldTable<JobSpec> make_job_fields() {
 }
 
 /// Sets a field of an object, or an element of a field that is a list or a member of one that is an
-/// object. `pointer` is that of the
-/// whole job, for messages.
+/// object. `pointer` is that of the whole job, for messages.
 template <typename Object>
 void set_at(const FieldTable<Object>& table, Object& object, const std::string& path,
             const json& value, const std::string& pointer) {

@@ -2,6 +2,7 @@
 // is worth a label, what classes.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 #include "annotate/spec/ground_truth.h"
@@ -51,6 +52,14 @@ FieldTable<JobSpec>::Get runs_of(Split split) {
   };
 }
 
+/// Puts a run into a split.
+void assign_run(JobSpec& job, int run, Split split, const std::string& pointer,
+                std::vector<Problem>& problems) {
+  if (job.outputs.exports.splits.runs.emplace(run_name(run), split).second) return;
+  problems.push_back(
+      {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
+}
+
 FieldTable<JobSpec>::Set set_runs_of(Split split) {
   return [split](JobSpec& job, const json& value, const FieldPlace& place) {
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -59,9 +68,8 @@ FieldTable<JobSpec>::Set set_runs_of(Split split) {
       if (run >= job.runs) {
         place.problems.push_back({"", pointer, fmt::format("run {}", run),
                                   fmt::format("a run of the job, 0 to {}", job.runs - 1)});
-      } else if (!job.outputs.exports.splits.runs.emplace(run_name(run), split).second) {
-        place.problems.push_back(
-            {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
+      } else {
+        assign_run(job, run, split, pointer, place.problems);
       }
     }
   };
@@ -70,22 +78,19 @@ FieldTable<JobSpec>::Set set_runs_of(Split split) {
 /// Runs of scenarios, which are runs from there on.
 FieldTable<JobSpec>::Set set_scenarios_of(Split split) {
   return [split](JobSpec& job, const json& value, const FieldPlace& place) {
+    std::vector<std::string_view> ids;
+    for (const ScenarioShare& share : job.mix) ids.emplace_back(share.scenario);
+    if (ids.empty()) ids.emplace_back(job.scenario);
+    const std::vector<std::size_t> shares = shares_of_runs(job);
     for (std::size_t i = 0; i < value.size(); ++i) {
       const auto& id = value[i].get_ref<const std::string&>();
       const std::string pointer = place.below(std::to_string(i)).pointer;
-      std::size_t found = 0;
-      for (int run = 0; run < job.runs; ++run) {
-        if (in_scenario_of_run(job, run).scenario != id) continue;
-        ++found;
-        if (job.outputs.exports.splits.runs.emplace(run_name(run), split).second) continue;
-        place.problems.push_back(
-            {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
+      for (std::size_t run = 0; run < shares.size(); ++run) {
+        if (ids[shares[run]] != id) continue;
+        assign_run(job, static_cast<int>(run), split, pointer, place.problems);
       }
-      if (found > 0) continue;
-      std::vector<std::string> ids;
-      for (const int run : first_runs(job)) ids.push_back(in_scenario_of_run(job, run).scenario);
-      place.problems.push_back(unknown_name("", pointer, "scenario", id,
-                                            std::vector<std::string_view>(ids.begin(), ids.end())));
+      if (std::find(ids.begin(), ids.end(), id) != ids.end()) continue;
+      place.problems.push_back(unknown_name("", pointer, "scenario", id, ids));
     }
   };
 }

@@ -19,10 +19,6 @@ namespace {
 constexpr double kMaxWeight = 1000;
 constexpr double kMinWeight = 0.001;
 
-std::string generated_id(const places::PlaceSpec& place) {
-  return "generated/" + places::id_of(place);
-}
-
 json generate_json(const ScenarioShare& share) {
   if (!share.generate) return {};
   json place = places::to_json(*share.generate);
@@ -33,7 +29,7 @@ json generate_json(const ScenarioShare& share) {
 void set_generate(ScenarioShare& share, const json& value, const FieldPlace& place) {
   share.generate = places::read_place_spec(value, place.pointer, place.problems);
   share.is_new_each_run = value.is_object() && !value.contains("seed");
-  share.scenario = generated_id(*share.generate);
+  share.scenario = places::scenario_id_of(*share.generate);
 }
 
 const FieldTable<ScenarioShare>& share_fields() {
@@ -109,29 +105,37 @@ ordered_json share_rules() {
   return rules;
 }
 
-std::vector<std::size_t> shares_of_runs(const JobSpec& job) {
+namespace {
+
+/// The shares of the first `count` runs.
+std::vector<std::size_t> shares_of_first(const JobSpec& job, int count) {
+  std::vector<std::size_t> shares(static_cast<std::size_t>(count), 0);
+  if (job.mix.empty()) return shares;
   const double total =
       std::accumulate(job.mix.begin(), job.mix.end(), 0.0,
                       [](double sum, const ScenarioShare& share) { return sum + share.weight; });
   constexpr double kEqual = 1e-9;  // the first of equals, whatever the sums round to
   // Runs that each share is owed by now; the share that is owed most gets the next one.
   std::vector<double> owed(job.mix.size(), 0);
-  std::vector<std::size_t> shares;
-  for (int run = 0; run < job.runs && !owed.empty(); ++run) {
-    for (std::size_t i = 0; i < owed.size(); ++i) owed[i] += job.mix[i].weight / total;
-    std::size_t next = 0;
-    for (std::size_t i = 1; i < owed.size(); ++i) {
-      if (owed[i] > owed[next] + kEqual) next = i;
+  for (std::size_t& share : shares) {
+    for (std::size_t i = 0; i < owed.size(); ++i) {
+      owed[i] += job.mix[i].weight / total;
+      if (owed[i] > owed[share] + kEqual) share = i;
     }
-    owed[next] -= 1;
-    shares.push_back(next);
+    owed[share] -= 1;
   }
   return shares;
 }
 
+}  // namespace
+
+std::vector<std::size_t> shares_of_runs(const JobSpec& job) {
+  return shares_of_first(job, job.runs);
+}
+
 JobSpec in_scenario_of_run(const JobSpec& job, int run) {
   if (job.mix.empty()) return job;
-  const ScenarioShare& share = job.mix.at(shares_of_runs(job).at(static_cast<std::size_t>(run)));
+  const ScenarioShare& share = job.mix.at(shares_of_first(job, run + 1).back());
   JobSpec one = job;
   one.mix.clear();
   one.scenario = share.scenario;
@@ -141,16 +145,15 @@ JobSpec in_scenario_of_run(const JobSpec& job, int run) {
     constexpr std::uint64_t kSeeds = 1'000'000'000;  // as PlaceSpec permits
     const std::uint64_t run_seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
     one.generate->seed = derive_seed(run_seed, Stream::place, 0) % kSeeds;
-    one.scenario = generated_id(*one.generate);
+    one.scenario = places::scenario_id_of(*one.generate);
   }
   return one;
 }
 
 std::vector<int> first_runs(const JobSpec& job) {
-  if (job.mix.empty()) return {0};
   const std::vector<std::size_t> shares = shares_of_runs(job);
   std::vector<int> runs;
-  for (std::size_t share = 0; share < job.mix.size(); ++share) {
+  for (std::size_t share = 0; share < std::max<std::size_t>(1, job.mix.size()); ++share) {
     const auto found = std::find(shares.begin(), shares.end(), share);
     if (found != shares.end()) runs.push_back(static_cast<int>(found - shares.begin()));
   }
@@ -159,13 +162,11 @@ std::vector<int> first_runs(const JobSpec& job) {
 
 std::vector<int> runs_alike(const JobSpec& job, int run) {
   const std::vector<std::size_t> shares = shares_of_runs(job);
+  const std::size_t share = shares.at(static_cast<std::size_t>(run));
+  if (!job.mix.empty() && job.mix[share].is_new_each_run) return {run};
   std::vector<int> runs;
-  for (int other = 0; other < job.runs; ++other) {
-    const bool is_alike = shares.empty() || shares[static_cast<std::size_t>(other)] ==
-                                                shares[static_cast<std::size_t>(run)];
-    const bool is_new = is_alike && !shares.empty() &&
-                        job.mix[shares[static_cast<std::size_t>(run)]].is_new_each_run;
-    if (is_new ? other == run : is_alike) runs.push_back(other);
+  for (std::size_t other = 0; other < shares.size(); ++other) {
+    if (shares[other] == share) runs.push_back(static_cast<int>(other));
   }
   return runs;
 }

@@ -80,4 +80,6 @@ std::string id_of(const PlaceSpec& spec) {
   return fmt::format("{}_{}_{:08x}", spec.kind, spec.seed, hash & 0xFFFFFFFFU);
 }
 
+std::string scenario_id_of(const PlaceSpec& spec) { return "generated/" + id_of(spec); }
+
 }  // namespace throng::places

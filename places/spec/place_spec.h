@@ -36,4 +36,7 @@ nlohmann::json to_json(const PlaceSpec& spec);
 /// A word for files and lists: "plaza_5_" and a number that differs where any parameter does.
 std::string id_of(const PlaceSpec& spec);
 
+/// The id of the scenario: "generated/" and the word.
+std::string scenario_id_of(const PlaceSpec& spec);
+
 }  // namespace throng::places

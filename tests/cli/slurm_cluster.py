@@ -46,7 +46,7 @@ def wait_until(condition, seconds=30, what="something"):
         if result:
             return result
         if time.monotonic() > end:
-            raise TimeoutError(f"waited in vain for {what}")
+            raise TimeoutError(f"timed out waiting for {what}")
         time.sleep(0.05)
 
 

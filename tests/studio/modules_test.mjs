@@ -459,7 +459,7 @@ test("people of a flight walk as far as they have gone, and lie where they have 
   walkers.step(before, now, 0, 0);
   const [near, far] = walkers.group.children;
   const { aFrom, aTo, aLook } = near.geometry.attributes;
-  assert.deepEqual([near.geometry.instanceCount, far.geometry.instanceCount], [2, 0], "who is absent is not shown");
+  assert.deepEqual([near.geometry.instanceCount, far.geometry.instanceCount], [2, 0], "absent people are not shown");
   const close = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-5, `${value} is not ${expected}`);
   close(aTo.getW(0) - aFrom.getW(0), (2 * Math.PI * 0.14) / 1.4);
   close(aTo.getZ(0) - aFrom.getZ(0), 2 * (Math.PI - 3.1)); // the short way around
@@ -498,7 +498,7 @@ test("places of a run are read from their bytes", async () => {
   [0, 1, 3].forEach((role, agent) => bytes.setUint8(32 + agent, role));
   [[4, 2], [1, 1], [65535, 65535]].forEach(([x, y], agent) => [x, y].forEach((value, axis) => bytes.setUint16(35 + 6 * agent + 2 * axis, value, true)));
   const places = placesOf(bytes.buffer);
-  assert.deepEqual(unseenAt(places, 0, 2, new Set()), [[-8, 6]], "no hazard, and nobody who is absent");
+  assert.deepEqual(unseenAt(places, 0, 2, new Set()), [[-8, 6]], "neither hazards nor absent people");
   assert.deepEqual(unseenAt(places, 0, 2, new Set([2000001])), []);
   assert.deepEqual(unseenAt(places, 1, 2, new Set()), []);
 });

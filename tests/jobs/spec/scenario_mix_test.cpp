@@ -46,7 +46,7 @@ TEST(ScenarioMix, RunsAreSharedOutByWeight) {
   EXPECT_EQ(counts_of(job, 0, 90), (std::map<std::string, int>{{"a", 20}, {"b", 60}, {"c", 10}}));
 }
 
-TEST(ScenarioMix, EveryTenthOfTheRunsHoldsEveryScenario) {
+TEST(ScenarioMix, ConsecutiveRunsHoldEveryScenario) {
   const JobSpec job = mixed({"a", "b", "c"}, 30);
   for (int first = 0; first < 30; first += 3)
     EXPECT_EQ(counts_of(job, first, first + 3).size(), 3U);

@@ -1,4 +1,5 @@
 // Running means over a number of runs, with their intervals.
+import { useId } from "preact/hooks";
 import type { RunningMean } from "../study/running";
 import { type Scale, scaleOf, shareOn, signedText } from "./scale";
 import { useWidth } from "./time_frame";
@@ -27,6 +28,7 @@ function rangeOf(series: MeanSeries[], isDifference: boolean): Scale {
 
 export function MeanChart({ series, runs, isDifference, label }: { series: MeanSeries[]; runs: number; isDifference: boolean; label: string }) {
   const { element, width } = useWidth();
+  const frame = useId(); // a page may have several of these charts
   const scale = rangeOf(series, isDifference);
   const inner = Math.max(1, width - kLeft - kRight);
   const toX = (count: number) => kLeft + (inner * (count - 1)) / Math.max(1, runs - 1);
@@ -37,7 +39,7 @@ export function MeanChart({ series, runs, isDifference, label }: { series: MeanS
     <div ref={element}>
       {width > 0 && (
         <svg class="chart still" width={width} height={kHeight + kAxisHeight} role="img" aria-label={label}>
-          <clipPath id="convergence-frame">
+          <clipPath id={frame}>
             <rect x={kLeft} y={kTop} width={inner} height={kHeight - kTop} />
           </clipPath>
           {scale.ticks.map((tick) => (
@@ -56,7 +58,7 @@ export function MeanChart({ series, runs, isDifference, label }: { series: MeanS
           <text x={kLeft + inner / 2} y={kHeight + 34} text-anchor="middle">
             runs
           </text>
-          <g clip-path="url(#convergence-frame)">
+          <g clip-path={`url(#${frame})`}>
             {series.map(({ index, means }) => {
               const bounded = means.filter(({ count, margin }) => margin !== null && count >= kMinBounded);
               const edge = (sign: number) => bounded.map(({ count, mean, margin }) => `${toX(count)},${toY(mean + sign * margin!)}`);

@@ -1,5 +1,5 @@
 // People of a flight in space. Each step of the simulation is sent to the graphics card once; between two steps the vertex
-// shader moves everybody, swings their legs by the way that they have walked, and lays down who has fallen.
+// shader moves everybody, swings their legs by the way that they have walked, and lays down people who have fallen.
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { type Hello, kFallen, type World } from "./messages";
