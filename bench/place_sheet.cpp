@@ -40,10 +40,10 @@ struct View {
 };
 constexpr std::array<View, 3> kViews = {{{15, -32}, {30, -42}, {60, -52}}};
 
-const Environment kDay{230 * kDegree, 45 * kDegree, Weather::clear, 3500, 0, 1, 0};
-const Environment kEvening{160 * kDegree, -4 * kDegree, Weather::clear, 3500, 0, 1, 0};
-const Environment kRain{230 * kDegree, 30 * kDegree, Weather::rain, 3000, 6, 1, 0};
-const Environment kSmoke{230 * kDegree, 45 * kDegree, Weather::clear, 3500, 0, 1, 1};
+const Environment kDay{230 * kDegree, 45 * kDegree, Weather::clear, 20000, 0, 1, 0};
+const Environment kEvening{160 * kDegree, -4 * kDegree, Weather::clear, 20000, 0, 1, 0};
+const Environment kRain{230 * kDegree, 30 * kDegree, Weather::rain, 5000, 6, 1, 0};
+const Environment kSmoke{230 * kDegree, 45 * kDegree, Weather::clear, 20000, 0, 1, 1};
 
 /// Panels side by side and one below the other.
 class Sheet {

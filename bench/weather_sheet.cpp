@@ -38,10 +38,10 @@ std::vector<Environment> panels() {
     return Environment{azimuth_deg * kDegree, elevation_deg * kDegree, weather,
                        visibility_m,          rain_mm_per_h,           1};
   };
-  return {panel(230, 45, Weather::clear, 3500),    panel(160, 5, Weather::clear, 3500),
-          panel(155, -4, Weather::clear, 3500),    panel(130, -30, Weather::clear, 3500),
-          panel(230, 45, Weather::overcast, 8000), panel(230, 30, Weather::fog, 500),
-          panel(230, 30, Weather::rain, 3000, 8),  panel(230, -20, Weather::rain, 3000, 4)};
+  return {panel(230, 45, Weather::clear, 20000),    panel(160, 5, Weather::clear, 20000),
+          panel(155, -4, Weather::clear, 20000),    panel(130, -30, Weather::clear, 20000),
+          panel(230, 45, Weather::overcast, 15000), panel(230, 30, Weather::fog, 500),
+          panel(230, 30, Weather::rain, 5000, 8),   panel(230, -20, Weather::rain, 5000, 4)};
 }
 
 render::Frame draw(const Environment& environment, const world::Trace& trace,

@@ -56,15 +56,15 @@ std::string pointer_of(const char* name) { return fmt::format("/environment/{}",
 double usual_visibility_m(render::Weather weather) {
   switch (weather) {
     case render::Weather::overcast:
-      return 8000;
+      return 15000;
     case render::Weather::fog:
       return 800;
     case render::Weather::rain:
-      return 3000;
+      return 5000;
     case render::Weather::clear:
       break;
   }
-  return 3500;
+  return 20000;
 }
 
 }  // namespace
@@ -87,8 +87,8 @@ const FieldTable<EnvironmentSpec>& environment_fields() {
         "with distance; rain: overcast, streaks, a wet ground with puddles.");
     add_sampled(table, "visibility_m", "Visibility", "m", numbers(20, 100000),
                 at(&EnvironmentSpec::visibility_m),
-                "Distance at which 2 % of a contrast is left; default, by the weather: 3500 "
-                "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
+                "Distance at which 2 % of a contrast is left; default, by the weather: 20000 "
+                "(clear), 15000 (overcast), 800 (fog), 5000 (rain).");
     add_sampled(table, "smoke", "Smoke", "", numbers(0, 1), at(&EnvironmentSpec::smoke),
                 "Density of smoke and dust around the scenario's hazards (disaster_agents); it "
                 "hides objects in the image, not in the ground truth.");

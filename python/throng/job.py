@@ -202,8 +202,8 @@ class Environment(Part):
     """clear: sun and shadows; overcast: diffuse light without hard shadows; fog: contrast falls with distance; rain:
     overcast, streaks, a wet ground with puddles. Default: "clear"."""
     visibility_m: float | Distribution | None = None
-    """Distance at which 2 % of a contrast is left; default, by the weather: 3500 (clear), 8000 (overcast), 800
-    (fog), 3000 (rain). Unit: m."""
+    """Distance at which 2 % of a contrast is left; default, by the weather: 20000 (clear), 15000 (overcast), 800
+    (fog), 5000 (rain). Unit: m."""
     smoke: float | Distribution | None = None
     """Density of smoke and dust around the scenario's hazards (disaster_agents); it hides objects in the image, not
     in the ground truth. Default: 0."""

@@ -21,14 +21,15 @@ Array3d mixed(const Array3d& a, const Array3d& b, double share) {
 }
 
 /// The clear sky's light on level ground as a share of a high sun's. Above 10 degrees a straight
-/// line; below, the logarithm of the illuminances of sunset and twilight (about 600, 50 and 3.4 lux
-/// at 0, -3 and -6 degrees: Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac,
-/// 1992, table of ground illumination), down to the glow of a town.
+/// line, a fifth of the sun's light at 45 degrees as under a clean sky; below, the logarithm of the
+/// illuminances of sunset and twilight (about 600, 50 and 3.4 lux at 0, -3 and -6 degrees:
+/// Seidelmann (ed.), Explanatory Supplement to the Astronomical Almanac, 1992, table of ground
+/// illumination), down to the glow of a town.
 double sky_strength(double elevation_rad) {
   const double degrees = elevation_rad / kDegree;
-  if (degrees >= 10) return 0.55 + 0.45 * std::sin(elevation_rad);
+  if (degrees >= 10) return 0.33 + 0.27 * std::sin(elevation_rad);
   constexpr std::array<std::array<double, 2>, 6> kTable = {
-      {{-8, kTownGlow}, {-6, 2.4e-4}, {-3, 2.3e-3}, {0, 0.028}, {5, 0.37}, {10, 0.6281}}};
+      {{-8, kTownGlow}, {-6, 2.4e-4}, {-3, 2.3e-3}, {0, 0.028}, {5, 0.21}, {10, 0.3769}}};
   if (degrees <= kTable.front()[0]) return kTable.front()[1];
   std::size_t i = 0;
   while (degrees > kTable[i + 1][0]) ++i;
@@ -72,7 +73,7 @@ double cloud_share(Weather weather) {
 /// Exposure for a mean illuminance: the camera opens up as it gets darker, as automatic exposure
 /// does, but only in part. Below daylight it follows more closely, or nights would be black.
 double exposure_for(double mean) {
-  constexpr double kNoonIlluminance = 1.55;
+  constexpr double kNoonIlluminance = 1.7;
   constexpr double kDusk = 0.02;
   const double bright = std::max(mean, kDusk);
   const double seen = bright * std::pow(kNoonIlluminance / bright, 0.85);
@@ -126,10 +127,10 @@ void light_up(const Environment& environment, Daylight& light) {
 void color_the_air(const Environment& environment, Daylight& light) {
   const double degrees = environment.sun_elevation_rad / kDegree;
   // Bright as the sky's light is, compared with an afternoon's.
-  constexpr double kAfternoon = 0.366;
-  const double level =
-      std::min((light.sky + light.sun * (light.soft ? 1 : 0)).mean() / kAfternoon, 1.3);
+  const double received = (light.sky + light.sun * (light.soft ? 1 : 0)).mean();
   if (environment.weather != Weather::clear) {
+    constexpr double kAfternoon = 0.366;
+    const double level = std::min(received / kAfternoon, 1.3);
     light.haze = Array3d(0.60, 0.62, 0.64) * level;
     light.zenith = Array3d(0.56, 0.58, 0.61) * level;
     if (environment.weather == Weather::rain) light.zenith *= 0.8;
@@ -139,6 +140,9 @@ void color_the_air(const Environment& environment, Daylight& light) {
   }
   const double setting =
       geometry::smoothstep(-5, 0.5, degrees) * (1 - geometry::smoothstep(3, 14, degrees));
+  // A setting sun's sky keeps its color below the film's white.
+  constexpr double kClearAfternoon = 0.265;
+  const double level = std::min(received / kClearAfternoon, 1.3 - 0.4 * setting);
   const Array3d day(0.62, 0.70, 0.80);
   light.haze =
       mixed(day, Array3d(0.95, 0.62, 0.40), 0.75 * setting) * std::max(level, 0.5 * setting);

@@ -12,14 +12,16 @@ void main() {
   float cloud = noise(p * 1.3) + 0.5 * noise(p * 3.1 + 7.0) + 0.25 * noise(p * 6.7) - 0.875;
   radiance *= 1.0 + 0.25 * cloud * smoothstep(0.0, 0.15, up);
 #elif !defined(NO_SUN)
+  // The exposure opens to a low sun, whose whole light would leave no color in the sky.
+  vec3 sun = light.sun.rgb * min(1.0, 4.0 / max(light.sun.r, 1e-3));
   // Fair-weather clouds.
   vec2 p = d.xy / (up + 0.08);
   float cloud = noise(p * 0.8 + 4.0) + 0.5 * noise(p * 1.9 + 7.0) + 0.25 * noise(p * 4.3) +
                 0.12 * noise(p * 9.0) - 1.05;
-  vec3 white = 0.62 * light.haze.rgb + 0.2 * dot(light.sun.rgb, vec3(0.333));
+  vec3 white = 0.62 * light.haze.rgb + 0.2 * dot(sun, vec3(0.333));
   radiance = mix(radiance, white, 0.5 * smoothstep(0.0, 0.35, cloud) * smoothstep(0.05, 0.2, up));
   float near = max(dot(d, light.sun_direction.xyz), 0.0);
-  radiance += light.sun.rgb * (0.25 * pow(near, 12.0) + 3.0 * smoothstep(0.99985, 0.99995, near));
+  radiance += 0.25 * pow(near, 12.0) * sun + 3.0 * smoothstep(0.99985, 0.99995, near) * light.sun.rgb;
 #endif
   color = vec4(film(radiance), 1.0);
 }

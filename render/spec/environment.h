@@ -12,7 +12,7 @@ struct Environment {
   double sun_elevation_rad = 0.8;  ///< above the horizon; negative: below it
   Weather weather = Weather::clear;
   /// Distance at which the air leaves 2 % of a contrast (the meteorological range).
-  double visibility_m = 3500;
+  double visibility_m = 20000;
   double rain_mm_per_h = 0;  ///< only in rain
   std::uint64_t seed = 1;    ///< which windows are lit, where puddles lie and drops fall
   double smoke = 0;          ///< 0 to 1: how much of it rises from every danger
