@@ -239,7 +239,8 @@ TEST_F(ApiTest, PagesOfOtherSitesAreRefused) {
 TEST_F(ApiTest, SchemasOfFiles) {
   const auto names = client().Get("/v1/schemas");
   ASSERT_EQ(names->status, 200);
-  for (const json& name : json::parse(names->body)["schemas"]) {
+  const json listed = json::parse(names->body);
+  for (const json& name : listed.at("schemas")) {
     const auto schema = client().Get("/v1/schemas/" + name.get<std::string>());
     ASSERT_EQ(schema->status, 200) << name;
     EXPECT_EQ(json::parse(schema->body)["type"], "object") << name;

@@ -21,10 +21,11 @@ namespace throng::server {
 
 inline constexpr const char* kJob = R"({"scenario": "yard", "capture": {"to_s": 2}})";
 
-/// Waits until something holds; false when it does not within some seconds.
+/// Waits until something holds; false when it does not within a minute, which a busy machine may
+/// need.
 inline bool wait_until(const std::function<bool()>& condition) {
   using namespace std::chrono_literals;
-  const auto end = std::chrono::steady_clock::now() + 10s;
+  const auto end = std::chrono::steady_clock::now() + 60s;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(2ms);
