@@ -53,7 +53,7 @@ class Live(unittest.TestCase):
         self.addCleanup(self.log.close)
         self.server = subprocess.Popen(
             [THRONG, "serve", "--data", str(self.base / "data"), "--port", "0", "--port-file", str(port_file),
-             "--live-timeout", "4"],
+             "--live-timeout", "10"],
             stdout=subprocess.DEVNULL, stderr=self.log)
         self.addCleanup(self.stop)
         wait_until(lambda: port_file.exists() and port_file.read_text().strip())
