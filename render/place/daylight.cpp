@@ -154,6 +154,9 @@ void color_the_air(const Environment& environment, Daylight& light) {
 Daylight daylight(const Environment& environment) {
   constexpr double kVisibleContrast = 3.912;  // -ln 0.02 (Koschmieder 1924)
   constexpr double kLampMean = 1.6e-4;        // 9 lux
+  // Without shadows more of an image is as bright as its light, and the camera, which meters the
+  // image, closes.
+  constexpr double kDiffuse = 0.8;
   Daylight light;
   light.extinction_per_m = kVisibleContrast / environment.visibility_m;
   light.lamps_on = environment.sun_elevation_rad < 0;
@@ -161,7 +164,7 @@ Daylight daylight(const Environment& environment) {
   const double lamp_mean = light.lamps_on ? kLampMean : 0;
   const double exposure =
       exposure_for((light.sun * light.direction.z() + light.sky).mean() + lamp_mean) *
-      closed_for_fog(environment, light.extinction_per_m);
+      (light.soft ? kDiffuse : 1) * closed_for_fog(environment, light.extinction_per_m);
   light.sun *= exposure;
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.
