@@ -6,6 +6,8 @@ include("${CMAKE_CURRENT_LIST_DIR}/Precompile.cmake")
 
 # These compute. The others are compiled with less optimization (release) or without (sanitizers), which takes half the time.
 set(THRONG_OPTIMIZED_MODULES base geometry crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
+# These are optimized with sanitizers too: their tests look at every pixel.
+set(THRONG_PIXEL_MODULES annotate formats)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base geometry crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
 
@@ -32,7 +34,7 @@ function(throng_module name)
   target_link_libraries(throng_${target} ${links} ${module_targets} ${ARG_LIBRARIES})
   if(ARG_SOURCES)
     set(options "")
-    if(THRONG_SANITIZE AND name IN_LIST THRONG_OPTIMIZED_MODULES)
+    if(THRONG_SANITIZE AND (name IN_LIST THRONG_OPTIMIZED_MODULES OR name IN_LIST THRONG_PIXEL_MODULES))
       list(APPEND options -O1)
     elseif(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT name IN_LIST THRONG_OPTIMIZED_MODULES)
       list(APPEND options -O2)

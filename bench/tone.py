@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""Lightness (CIELAB's L) of a dataset's images: mean, standard deviation, 1st and 99th percentile, contrast within blocks.
+
+Usage: bench/tone.py DATASET...
+
+A line for each dataset: means over its images. Contrast is the mean over blocks of 32 x 32 px of the difference between
+the 95th and the 5th percentile. Needs NumPy and Pillow.
+"""
+import pathlib
+import sys
+
+import numpy as np
+from PIL import Image
+
+BLOCK = 32
+
+
+def lightness(image):
+    """L of an sRGB image, (height, width)."""
+    encoded = np.asarray(image.convert("RGB"), float) / 255
+    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    luminance = linear @ [0.2126, 0.7152, 0.0722]
+    return np.where(luminance > 0.008856, 116 * np.cbrt(luminance) - 16, 903.3 * luminance)
+
+
+def figures(image):
+    light = lightness(image)
+    height, width = (size // BLOCK for size in light.shape)
+    blocks = light[: height * BLOCK, : width * BLOCK].reshape(height, BLOCK, width, BLOCK).swapaxes(1, 2)
+    low, high = np.percentile(blocks.reshape(-1, BLOCK * BLOCK), [5, 95], axis=1)
+    return [light.mean(), light.std(), *np.percentile(light, [1, 99]), (high - low).mean()]
+
+
+def main():
+    for dataset in sys.argv[1:]:
+        rows = []
+        for file in sorted((pathlib.Path(dataset) / "images").rglob("*.jpg")):
+            with Image.open(file) as image:
+                rows.append(figures(image))
+        mean, deviation, low, high, contrast = np.mean(rows, axis=0)
+        print(f"{dataset}: {len(rows)} images, L {mean:.1f}, standard deviation {deviation:.1f}, 1 % {low:.1f}, "
+              f"99 % {high:.1f}, contrast of blocks {contrast:.1f}")
+
+
+if __name__ == "__main__":
+    main()
