@@ -16,19 +16,14 @@ import pathlib
 import sys
 
 import numpy
+from cielab import TO_XYZ, linear
 from PIL import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "cli"))
 from damages.rasters import read_png  # noqa: E402
 
 PARTS = {"top_colour": [2], "shoes_colour": [7, 8]}
-TO_XYZ = numpy.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 WHITE = TO_XYZ.sum(1)
-
-
-def linear(values):
-    values = numpy.asarray(values, float) / 255
-    return numpy.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
 
 
 def label_of(text):

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Draws docs/presets/NAME.jpg: twelve images of each preset, one of each of its scenarios, with their labels.
+"""Draws docs/presets/NAME.jpg: an image of each of the first runs of each preset, twelve at most, with their boxes.
 
 Usage: bench/preset_sheets.py THRONG [NAME...]
 
 The presets run with fewer runs and one time each; their first runs are those of the whole preset. Needs Pillow.
 """
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -15,7 +16,8 @@ from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PRESETS = ROOT / "scenarios/presets"
-COLUMNS, ROWS = 3, 4
+COLUMNS = 3
+MAX_RUNS = 12
 WIDTH, HEIGHT = 480, 270
 
 
@@ -23,16 +25,17 @@ def excerpt(job):
     """The preset's first runs, at one time in the middle of its capture."""
     start_s, end_s = job["capture"]["from_s"], job["capture"]["to_s"]
     time_s = (start_s + end_s) / 2
-    return {**job, "runs": min(job["runs"], COLUMNS * ROWS),
+    return {**job, "runs": min(job["runs"], MAX_RUNS),
             "capture": {"rate_hz": 1, "from_s": time_s, "to_s": time_s + 0.5}}
 
 
 def sheet(images):
-    page = Image.new("RGB", (COLUMNS * WIDTH, ROWS * HEIGHT))
-    for i, file in enumerate(images[: COLUMNS * ROWS]):
+    rows = math.ceil(len(images) / COLUMNS)
+    page = Image.new("RGB", (COLUMNS * WIDTH, rows * HEIGHT))
+    for i, file in enumerate(images):
         with Image.open(file) as image:
             page.paste(image.resize((WIDTH, HEIGHT), Image.LANCZOS), (i % COLUMNS * WIDTH, i // COLUMNS * HEIGHT))
-    return page.crop((0, 0, COLUMNS * WIDTH, -(-min(len(images), COLUMNS * ROWS) // COLUMNS) * HEIGHT))
+    return page
 
 
 def main():

@@ -10,21 +10,14 @@ import pathlib
 import sys
 
 import numpy as np
+from cielab import lightness
 from PIL import Image
 
 BLOCK = 32
 
 
-def lightness(image):
-    """L of an sRGB image, (height, width)."""
-    encoded = np.asarray(image.convert("RGB"), float) / 255
-    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-    luminance = linear @ [0.2126, 0.7152, 0.0722]
-    return np.where(luminance > 0.008856, 116 * np.cbrt(luminance) - 16, 903.3 * luminance)
-
-
 def figures(image):
-    light = lightness(image)
+    light = lightness(image.convert("RGB"))
     height, width = (size // BLOCK for size in light.shape)
     blocks = light[: height * BLOCK, : width * BLOCK].reshape(height, BLOCK, width, BLOCK).swapaxes(1, 2)
     low, high = np.percentile(blocks.reshape(-1, BLOCK * BLOCK), [5, 95], axis=1)

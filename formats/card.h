@@ -21,7 +21,7 @@ class DatasetCard : public Exporter {
   void finish() override;
 
  private:
-  /// Of a person who is seen for the first time.
+  /// Counts the character of a track, at its first annotation.
   void add_character(const Person& person);
   nlohmann::json statistics() const;
   nlohmann::json description() const;

@@ -117,14 +117,15 @@ float lamp_light(vec3 world, vec3 normal) {
 }
 #endif
 
-// A film's response, which contains the display's gamma: the rational fit by Hejl and Burgess-Dawson (2010).
+// A film's response, which contains the display's gamma: the rational fit by Hejl and
+// Burgess-Dawson (2010).
 vec3 film_response(vec3 radiance) {
   vec3 x = max(radiance - 0.004, 0.0);
   return (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
-// Linear radiance to sRGB. kWhite is the radiance that the display shows as white: 2.4 times a white surface in one unit
-// of light, so that a sunlit white wall is at a lightness of about 95 and only glints are cut off.
+// Linear radiance to sRGB. kWhite is the radiance that the display shows as white, so high that a
+// sunlit white wall is at a lightness of about 95 and only glints are cut off.
 vec3 film(vec3 radiance) {
   const float kWhite = 2.4;
   return min(film_response(radiance) / film_response(vec3(kWhite)), 1.0);

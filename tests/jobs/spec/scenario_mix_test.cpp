@@ -118,6 +118,18 @@ TEST(ScenarioMix, SplitsGoByScenario) {
   EXPECT_EQ(job.outputs.exports.splits.runs.size(), 3U);
 }
 
+TEST(ScenarioMix, ASplitTakesAllRunsOfAGeneratedEntry) {
+  const json scenarios = {"a", {{"generate", {{"kind", "plaza"}}}}};
+  const std::string generated = mixed(scenarios, 8).mix.at(1).scenario;
+  const JobSpec job =
+      mixed(scenarios, 8, {{"outputs", {{"splits", {{"test_scenarios", {generated}}}}}}});
+  ASSERT_EQ(job.outputs.exports.splits.runs.size(), 4U);
+  for (const auto& [run, split] : job.outputs.exports.splits.runs) {
+    EXPECT_EQ(split, formats::Split::test);
+    EXPECT_TRUE(job_of_run(job, std::stoi(run.substr(3))).generate) << run;
+  }
+}
+
 TEST(ScenarioMix, MistakesAreNamedByTheirElement) {
   EXPECT_THAT(complaint(json::array()), HasSubstr("/scenario"));
   EXPECT_THAT(complaint({"a", {{"weight", 2}}}), HasSubstr("/scenario/1"));
