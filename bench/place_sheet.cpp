@@ -112,7 +112,9 @@ void draw_row(const Run& run, const Environment& environment, const skinning::Po
   const double time_s = std::min(kShownS, run.trace.time_s.back());
   for (std::size_t column = 0; column < kViews.size(); ++column) {
     const camera::Camera camera = camera_at(run.scenario, kViews.at(column), width, height);
-    sheet.place(renderer.draw(animator.scene_at(time_s, 0), camera), row, column);
+    const render::Scene scene = animator.scene_at(time_s, 0);
+    const double gain = renderer.metered_gain(scene, camera);
+    sheet.place(renderer.draw(scene, camera, nullptr, {.exposure_gain = gain}), row, column);
   }
 }
 

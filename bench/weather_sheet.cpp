@@ -51,7 +51,9 @@ render::Frame draw(const Environment& environment, const world::Trace& trace,
   const render::Animator animator(trace, people, {.umbrellas = rains ? kUmbrellas : 0});
   const camera::Camera camera{camera::intrinsics_from_hfov(kWidth, kHeight, 70 * kDegree),
                               camera::pose_looking({26, -4, 20}, 178 * kDegree, -36 * kDegree)};
-  return renderer.draw(animator.scene_at(kTimeS, 0), camera);
+  const render::Scene scene = animator.scene_at(kTimeS, 0);
+  return renderer.draw(scene, camera, nullptr,
+                       {.exposure_gain = renderer.metered_gain(scene, camera)});
 }
 
 /// Adds a frame at half its size.

@@ -42,12 +42,4 @@ void add_people_sheet(CLI::App& people);
 /// The subcommand of `throng calibrate` with a file of its own.
 void add_calibrate_selftest(CLI::App& calibrate);
 
-/// Exit codes of the program, in one place: documented in `throng --help`.
-enum ExitCode : int {
-  exit_ok = 0,
-  exit_input = 2,        ///< the input is wrong
-  exit_environment = 3,  ///< the machine failed; a retry may help
-  exit_cancelled = 130,
-};
-
 }  // namespace throng::cli

@@ -3,19 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cstdio>
-#include <exception>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/parse_error.h"
+#include "cli/spec/exit_code.h"
 
 namespace {
 
 namespace cli = throng::cli;
-using throng::Cancelled;
 using throng::InputError;
 
 constexpr std::array kCommands = {
@@ -55,16 +53,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "throng: {}\n", error.what());
-    return cli::exit_input;
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "throng: cancelled\n");
-    return cli::exit_cancelled;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "throng: {}\n", error.what());
-    return cli::exit_environment;
-  }
+  return cli::run_program([&] { return run(argc, argv); });
 }

@@ -18,6 +18,7 @@
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
+#include "cli/spec/exit_code.h"
 #include "cli/trace_file.h"
 #include "cli/words.h"
 #include "drawing/drawing.h"

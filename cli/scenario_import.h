@@ -1,4 +1,4 @@
-// The subcommand of `throng scenario` with a file of its own.
+// The subcommand of `throng scenario` that is a program of its own.
 #pragma once
 
 namespace CLI {

@@ -1,5 +1,4 @@
 #include "formats/card.h"
-#include "annotate/spec/license.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <span>
+
+#include "annotate/spec/license.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 
@@ -51,6 +53,19 @@ std::string weather_of(const json& record) {
 std::string place_of(const annotate::GroundTruthKind& kind) {
   return kind.content.empty() ? std::string(kind.file)
                               : fmt::format("{}: {}", kind.file, kind.content);
+}
+
+/// The legend of semantic/.
+json semantic_legend() {
+  json classes = json::array();
+  for (const world::SemanticClassInfo& known : world::semantic_classes()) {
+    classes.push_back({{"id", static_cast<int>(known.value)},
+                       {"name", known.name},
+                       {"color", known.color},
+                       {"cityscapes", world::cityscapes_class(known.cityscapes).name},
+                       {"uavid", world::uavid_classes()[known.uavid].name}});
+  }
+  return classes;
 }
 
 constexpr std::string_view kCocoSnippet = R"(
@@ -179,7 +194,7 @@ json DatasetCard::description() const {
     seeds[name] = run.value("seed", json());
     if (run.contains("scenario")) scenarios[name] = run["scenario"];
   }
-  return {
+  json card = {
       {"schema_version", kCardVersion},
       {"name", info_.name},
       {"generator", info_.generator},
@@ -204,6 +219,8 @@ json DatasetCard::description() const {
        {{"images", annotate::kImageLicense}, {"people", kPeopleLicense}, {"place", kPlaceLicense}}},
       {"people", manifest_.value("people", json::object())},
       {"job", manifest_.at("job")}};
+  if (info_.has(annotate::GroundTruth::semantic)) card["semantic_classes"] = semantic_legend();
+  return card;
 }
 
 std::string DatasetCard::readme() const {

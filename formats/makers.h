@@ -34,6 +34,8 @@ ExporterPointer make_webdataset(const DatasetInfo& info, Output output);
 ExporterPointer make_imagefolder(const DatasetInfo& info, Output output);
 ExporterPointer make_depth_exr(const DatasetInfo& info, Output output);
 ExporterPointer make_flow_flo(const DatasetInfo& info, Output output);
+ExporterPointer make_cityscapes(const DatasetInfo& info, Output output);
+ExporterPointer make_uavid(const DatasetInfo& info, Output output);
 ExporterPointer make_rosbag(const DatasetInfo& info, Output output);
 ExporterPointer make_rosbag_lz4(const DatasetInfo& info, Output output);
 ExporterPointer make_table(const DatasetInfo& info, Output output);

@@ -1,16 +1,23 @@
-// COCO panoptic: the dataset's images of instances as they are, and a list of their segments.
+// COCO panoptic: the dataset's images of instances, and a list of their segments. With semantic
+// classes the ground is a segment for each of its classes, and props have theirs.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
+#include "annotate/png.h"
 #include "annotate/spec/license.h"
+#include "base/error.h"
 #include "formats/instances.h"
 #include "formats/makers.h"
 #include "formats/raster_files.h"
+#include "images/raster.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 
@@ -25,6 +32,7 @@ struct Segment {
   int top = 0;
   int right = 0;
   int bottom = 0;
+  std::uint16_t surface = 0;  ///< world::SemanticClass of one of its pixels
 
   void add(int x, int y) {
     if (area++ == 0) *this = {1, x, y, x + 1, y + 1};
@@ -34,10 +42,61 @@ struct Segment {
   }
 };
 
+/// Of the classes that segments have; null for the others. A building is one segment, whatever
+/// surfaces of it show.
+const char* supercategory_of(const world::SemanticClassInfo& known) {
+  using world::SemanticClass;
+  using world::SemanticGroup;
+  switch (known.group) {
+    case SemanticGroup::ground:
+    case SemanticGroup::prop:
+      return "place";
+    case SemanticGroup::building:
+      return known.value == SemanticClass::roof || known.value == SemanticClass::door ? nullptr
+                                                                                      : "place";
+    case SemanticGroup::umbrella:
+      return "accessory";
+    case SemanticGroup::drone:
+      return "vehicle";
+    case SemanticGroup::nothing:
+    case SemanticGroup::person:
+      break;
+  }
+  return nullptr;
+}
+
+/// The class of a segment that is no person.
+world::SemanticClass class_of(std::uint32_t number, const Segment& segment) {
+  using world::SemanticClass;
+  if (number < kFirstBuilding) return SemanticClass::umbrella;
+  const auto shown = static_cast<SemanticClass>(segment.surface);
+  const bool is_part = shown == SemanticClass::roof || shown == SemanticClass::door;
+  return is_part ? SemanticClass::building : shown;
+}
+
+/// Gives each class of ground an id of its own.
+void divide_ground(const std::vector<std::uint16_t>& surfaces, std::vector<std::uint32_t>& ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == kGround) ids[i] += surfaces[i];
+  }
+}
+
+std::string instances_png(const Image& image, const std::vector<std::uint32_t>& ids) {
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(3 * ids.size());
+  for (const std::uint32_t id : ids) {
+    for (const unsigned shift : {0U, 8U, 16U})
+      rgb.push_back(static_cast<std::uint8_t>(id >> shift));
+  }
+  return annotate::png_bytes({image.width, image.height, 3}, std::span<const std::uint8_t>(rgb));
+}
+
 class PanopticExporter : public Exporter {
  public:
   PanopticExporter(const DatasetInfo& info, Output output)
-      : info_(info), output_(std::move(output)) {
+      : info_(info),
+        output_(std::move(output)),
+        has_classes_(info.has(annotate::GroundTruth::semantic)) {
     for (const Split split : info.splits()) {
       for (OutputStream* stream :
            {&stream_of(split, images_, ".images"), &stream_of(split, segments_, ".annotations")}) {
@@ -51,13 +110,22 @@ class PanopticExporter : public Exporter {
     const std::string name = image.stem() + ".jpg";
     const fs::path instances = raster_path(info_.root, "instances", image.file);
     output_.link(fs::path(split) / name, info_.root / image.file);
-    output_.link(fmt::format("panoptic_{}/{}.png", split, image.stem()), instances);
+    std::vector<std::uint32_t> ids = read_instances(instances);
+    const std::string png = fmt::format("panoptic_{}/{}.png", split, image.stem());
+    std::vector<std::uint16_t> surfaces;
+    if (has_classes_) {
+      surfaces = read_classes(image, ids.size());
+      divide_ground(surfaces, ids);
+      output_.write(png, instances_png(image, ids));
+    } else {
+      output_.link(png, instances);
+    }
     const json record = {
         {"id", image.id}, {"file_name", name}, {"width", image.width}, {"height", image.height}};
     append(images_.at(image.split), record);
     const json annotation = {{"image_id", image.id},
                              {"file_name", image.stem() + ".png"},
-                             {"segments_info", segments_of(image, read_instances(instances))}};
+                             {"segments_info", segments_of(image, ids, surfaces)}};
     append(segments_.at(image.split), annotation);
   }
 
@@ -116,6 +184,18 @@ class PanopticExporter : public Exporter {
       list.push_back(
           {{"id", list.size() + 1}, {"name", name}, {"supercategory", "person"}, {"isthing", 1}});
     }
+    if (has_classes_) {
+      for (const world::SemanticClassInfo& known : world::semantic_classes()) {
+        const char* group = supercategory_of(known);
+        if (group == nullptr) continue;
+        const bool is_thing = known.group != world::SemanticGroup::ground;
+        list.push_back({{"id", category_of(known.value)},
+                        {"name", known.name},
+                        {"supercategory", group},
+                        {"isthing", is_thing ? 1 : 0}});
+      }
+      return list;
+    }
     for (const auto& [name, group, kind] : {std::tuple{"building", "place", 1},
                                             {"prop", "place", 1},
                                             {"ground", "place", 0},
@@ -127,6 +207,21 @@ class PanopticExporter : public Exporter {
     return list;
   }
 
+  /// Of a dataset with semantic classes: after people's.
+  std::size_t category_of(world::SemanticClass value) const {
+    return info_.categories.size() + static_cast<std::size_t>(value);
+  }
+
+  std::vector<std::uint16_t> read_classes(const Image& image, std::size_t pixels) const {
+    const fs::path path = raster_path(info_.root, "semantic", image.file);
+    images::Raster raster = images::read_raster(path);
+    if (raster.samples.size() != pixels || raster.channels != 1) {
+      throw InputError({path.string(), "", fmt::format("{} samples", raster.samples.size()),
+                        fmt::format("{}, one for each pixel", pixels)});
+    }
+    return std::move(raster.samples);
+  }
+
   /// Which of the categories after people's, from 0.
   static std::size_t place_of(std::uint32_t number) {
     if (number < kFirstBuilding) return 3;
@@ -135,12 +230,17 @@ class PanopticExporter : public Exporter {
     return number >= kFirstProp ? 1 : 0;
   }
 
-  json segments_of(const Image& image, const std::vector<std::uint32_t>& ids) const {
+  /// `surfaces` are the pixels' classes, if the dataset has them.
+  json segments_of(const Image& image, const std::vector<std::uint32_t>& ids,
+                   const std::vector<std::uint16_t>& surfaces) const {
     std::map<std::uint32_t, Segment> segments;
-    const std::uint32_t* id = ids.data();
+    std::size_t pixel = 0;
     for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x, ++id) {
-        if (*id != 0) segments[*id].add(x, y);
+      for (int x = 0; x < image.width; ++x, ++pixel) {
+        if (ids[pixel] == 0) continue;
+        Segment& segment = segments[ids[pixel]];
+        segment.add(x, y);
+        if (has_classes_) segment.surface = surfaces[pixel];
       }
     }
     std::map<std::uint32_t, const Person*> people;
@@ -153,7 +253,8 @@ class PanopticExporter : public Exporter {
       std::size_t category = 0;
       bool is_crowd = false;
       if (number >= kFirstUmbrella) {
-        category = classes + place_of(number);
+        category =
+            has_classes_ ? category_of(class_of(number, segment)) - 1 : classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;
         is_crowd = person->second->is_ignored;
@@ -171,6 +272,7 @@ class PanopticExporter : public Exporter {
 
   const DatasetInfo& info_;
   Output output_;
+  bool has_classes_;
   std::map<Split, Aside> images_;
   std::map<Split, Aside> segments_;
 };

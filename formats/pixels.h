@@ -21,7 +21,7 @@ struct Pixels {
   std::vector<std::uint16_t> normals;   ///< 3 a pixel, as in the file
   std::vector<std::uint16_t> flow;      ///< 3 a pixel, as in the file
   std::vector<std::uint16_t> parts;
-  std::vector<std::uint16_t> semantic;  ///< annotate::SemanticClass
+  std::vector<std::uint16_t> semantic;  ///< world::SemanticClass
 
   std::size_t count() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

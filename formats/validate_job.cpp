@@ -32,6 +32,12 @@ class JobOfImage {
     const json& value = job_.at(pointer);
     return value.is_structured() ? json(nullptr) : value;
   }
+  /// Whether the job says anything of a field.
+  bool has(const std::string& path) const {
+    std::string pointer_text = "/" + path;
+    std::replace(pointer_text.begin(), pointer_text.end(), '.', '/');
+    return job_.contains(json::json_pointer(pointer_text));
+  }
   /// A number that was sampled for the frame alone; 0 without.
   double of_frame(const char* name) const {
     return drawn_.value(std::string("frame.") + name, 0.0);
@@ -125,6 +131,24 @@ class JobCheck {
                      ev.get<double>() + job_.of_frame("ev"));
     }
     compare("outputs.image.quality", "sensor.jpeg_quality", sensor.value("jpeg_quality", json()));
+    if (sensor.contains("exposure_gain")) check_metering(path, sensor);
+  }
+
+  /// Exposure and ISO that the job leaves to the camera: the incident-light equation of ISO 2720
+  /// with C = 250 at f/2.8 and 1/60 s, 0 below 400 and 1600 at most.
+  void check_metering(const std::string& path, const json& sensor) const {
+    const double gain = sensor.at("exposure_gain");
+    if (job_.at(path + "metering") == "light" && gain != 1) {
+      fault(path + "metering", "sensor.exposure_gain", fmt::format("{}", gain), "1");
+    }
+    if (job_.has(path + "iso") || !sensor.contains("iso")) return;
+    constexpr double kLuxIso = 250 * 2.8 * 2.8 * 60;
+    const double wanted = kLuxIso / sensor.value("illuminance_lux", 1.0) * gain;
+    const double expected = wanted < 400 ? 0 : std::min(wanted, 1600.0);
+    const double found = sensor.at("iso");
+    if (std::abs(found - expected) > 1e-6 * (1 + expected)) {
+      fault(path + "iso", "sensor.iso", fmt::format("{}", found), fmt::format("{}", expected));
+    }
   }
 
   void check_environment() const {

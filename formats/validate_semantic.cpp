@@ -2,27 +2,50 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
-#include "annotate/semantic.h"
 #include "formats/ground_truth_checks.h"
 #include "formats/instances.h"
 #include "formats/mask.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 
-using annotate::SemanticClass;
+using world::SemanticClass;
+using world::SemanticGroup;
 
 namespace {
 
 /// Of a value of the image of instances.
-SemanticClass class_of_instance(std::uint32_t id) {
-  if (id == 0) return SemanticClass::sky;
-  if (id < kFirstUmbrella) return SemanticClass::person;
-  if (id < kFirstBuilding) return SemanticClass::umbrella;
-  if (id < kFirstProp) return SemanticClass::building;
-  if (id < kFirstDrone) return SemanticClass::prop;
-  return id < kGround ? SemanticClass::drone : SemanticClass::ground;
+SemanticGroup group_of_instance(std::uint32_t id) {
+  if (id == 0) return SemanticGroup::nothing;
+  if (id < kFirstUmbrella) return SemanticGroup::person;
+  if (id < kFirstBuilding) return SemanticGroup::umbrella;
+  if (id < kFirstProp) return SemanticGroup::building;
+  if (id < kFirstDrone) return SemanticGroup::prop;
+  return id < kGround ? SemanticGroup::drone : SemanticGroup::ground;
+}
+
+/// Pixels of another kind than their instance, and pixels of props with several classes.
+struct Disagreements {
+  std::size_t kind = 0;
+  std::size_t prop = 0;
+};
+
+Disagreements disagreements(const std::vector<std::uint16_t>& classes,
+                            const std::vector<std::uint32_t>& ids) {
+  Disagreements found;
+  std::unordered_map<std::uint32_t, std::uint16_t> props;  // class by id
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (classes[i] >= world::kSemanticClasses) continue;
+    const SemanticGroup group = group_of_instance(ids[i]);
+    found.kind += world::semantic_classes()[classes[i]].group == group ? 0 : 1;
+    if (group == SemanticGroup::prop) {
+      found.prop += props.try_emplace(ids[i], classes[i]).first->second == classes[i] ? 0 : 1;
+    }
+  }
+  return found;
 }
 
 /// Pixels that the masks of people, or of drones, cover: 1, else 0.
@@ -54,7 +77,7 @@ void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixel
   };
   std::size_t unknown = 0;
   for (const std::uint16_t value : classes) {
-    unknown += value > static_cast<std::uint16_t>(SemanticClass::drone) ? 1 : 0;
+    unknown += value >= world::kSemanticClasses ? 1 : 0;
   }
   fault(unknown, "have a value that is no class");
   const auto compare = [&](const std::vector<Person>& objects, SemanticClass expected,
@@ -68,11 +91,9 @@ void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixel
   };
   compare(image.people, SemanticClass::person, "are of a person, but in no mask, or the reverse");
   compare(image.drones, SemanticClass::drone, "are of a drone, but in no mask, or the reverse");
-  std::size_t other = 0;
-  for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
-    other += classes[i] == static_cast<std::uint16_t>(class_of_instance(pixels.ids[i])) ? 0 : 1;
-  }
-  fault(other, "have another class than the instance that they show");
+  const Disagreements found = disagreements(classes, pixels.ids);
+  fault(found.kind, "have a class of another kind than the instance that they show");
+  fault(found.prop, "are of a prop that shows another class elsewhere in the image");
 }
 
 }  // namespace throng::formats

@@ -73,7 +73,8 @@ std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double
   }
   const camera::Camera view =
       jobs::camera_on(moment.flown.drone_at(drone, time_s), cameras_.at(drone));
-  render::Frame frame = renderer_.draw(scene, view, nullptr, {.truth = false});
+  render::Frame frame = renderer_.draw(
+      scene, view, nullptr, {.truth = false, .exposure_gain = renderer_.metered_gain(scene, view)});
   std::string jpeg = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), kJpegQuality);
   renderer_.recycle(std::move(frame));
   return jpeg;

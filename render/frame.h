@@ -136,7 +136,8 @@ struct Frame {
   /// (px), also if it is hidden or outside there; NaN where that has no answer (it goes behind the
   /// camera, the person leaves, or there is no next frame).
   std::vector<float> flow;
-  std::vector<std::uint8_t> part;  ///< width * height: BodyPart
+  std::vector<std::uint8_t> part;     ///< width * height: BodyPart
+  std::vector<std::uint8_t> surface;  ///< width * height: world::SemanticClass
 
   int width() const { return camera.intrinsics.width; }
   int height() const { return camera.intrinsics.height; }

@@ -10,6 +10,7 @@
 #include "render/gl/shadow_map.h"
 #include "render/gl/surface_target.h"
 #include "render/gl/target.h"
+#include "render/lens/metering.h"
 #include "render/passes/airframe_pass.h"
 #include "render/passes/contact_pass.h"
 #include "render/passes/people_pass.h"
@@ -25,6 +26,7 @@
 #include "render/truth/coverage.h"
 #include "render/truth/drones_in_view.h"
 #include "render/truth/silhouettes.h"
+#include "render/truth/surface_classes.h"
 #include "render/view.h"
 
 namespace throng::render {
@@ -106,8 +108,10 @@ struct Renderer::State {
   State& operator=(const State&) = delete;
 
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
-  void draw_image(const Scene& scene, const camera::Camera& camera, bool truth,
+  void draw_image(const Scene& scene, const camera::Camera& camera, const DrawChoice& choice,
                   std::vector<Seen>& seen, Frame& frame);
+  void draw_light(const Scene& scene, const camera::Camera& camera, double exposure_gain);
+  const Frame& draw_metered(const Scene& scene, const camera::Camera& camera);
   void draw_smooth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                    Frame& frame);
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
@@ -153,6 +157,8 @@ struct Renderer::State {
   std::optional<Target> fine_target;
   std::optional<MultisampleTarget> multisample_target;
   std::optional<SurfaceTarget> surface_target;
+  std::optional<Target> metering_target;
+  Frame metered;
   Frame spare;  ///< its buffers serve the next frame
 };
 
@@ -168,8 +174,8 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
-      place(scenario, environment, quality),
-      props(scenario, light_words(environment), quality),
+      place(scenario, environment, quality, wanted.semantic),
+      props(scenario, light_words(environment), quality, wanted.semantic),
       airframes(light_words(environment), quality),
       contacts(scenario, daylight),
       people_pass(people, quality, light_words(environment)),
@@ -236,13 +242,13 @@ void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vecto
   silhouettes.bind();
 }
 
-void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camera, bool truth,
-                                 std::vector<Seen>& seen, Frame& frame) {
-  const camera::Intrinsics& k = camera.intrinsics;
+/// The uniforms of light and the shadow map of what is in `scene`.
+void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camera,
+                                 double exposure_gain) {
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
-  const LightBlock light =
-      light_block(daylight, {area, ground, tallest, camera.pose.center(), scene.time_s});
+  const LightBlock light = light_block(
+      daylight, {area, ground, tallest, camera.pose.center(), scene.time_s, exposure_gain});
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
@@ -250,12 +256,32 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   shadow_map.bind();
   if (lamp_map) lamp_map->bind();
   lap("shadows");
+}
+
+const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Camera& camera) {
+  Scene place_only;
+  place_only.index = scene.index;
+  place_only.time_s = scene.time_s;
+  place_only.dangers = scene.dangers;
+  draw_light(place_only, camera, 1);
+  resize(metering_target, camera.intrinsics.width, camera.intrinsics.height);
+  metering_target->begin(Eigen::Vector3f::Zero());
+  draw_view(place_only, camera, {}, PeoplePass::Purpose::image);
+  metering_target->read(true, metered);
+  lap("metering");
+  return metered;
+}
+
+void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camera,
+                                 const DrawChoice& choice, std::vector<Seen>& seen, Frame& frame) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  draw_light(scene, camera, choice.exposure_gain);
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);
   using Purpose = PeoplePass::Purpose;
-  if (truth) place_silhouettes(camera, seen);
+  if (choice.truth) place_silhouettes(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
-  draw_view(scene, camera, seen, truth ? Purpose::image_and_silhouettes : Purpose::image);
+  draw_view(scene, camera, seen, choice.truth ? Purpose::image_and_silhouettes : Purpose::image);
   lap("draw");
 }
 
@@ -384,6 +410,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.normal.clear();
   frame.flow.clear();
   frame.part.clear();
+  frame.surface.clear();
   frame.index = scene.index;
   frame.time_s = scene.time_s;
   frame.camera = camera;
@@ -391,9 +418,10 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.drones.clear();
   std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
-  state.draw_image(scene, camera, choice.truth, seen, frame);
+  state.draw_image(scene, camera, choice, seen, frame);
   const bool wants_light = state.quality.supersampling == 1 && !state.multisample;
   state.target->read(wants_light, frame);
+  if (state.options.semantic) split_classes(frame);
   state.lap("read back");
   if (state.quality.smooth_edges && !state.multisample) smooth_edges(frame);
   state.lap("smooth");
@@ -410,6 +438,16 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   state.lap("coverage");
   return frame;
 }
+
+double Renderer::metered_gain(const Scene& scene, const camera::Camera& camera) {
+  State& state = *state_;
+  state.context.make_current();
+  const Frame& image = state.draw_metered(scene, metering_camera(camera));
+  check_gl("metering a frame");
+  return metering_gain(image.rgb, metered_lightness(state.daylight.illuminance_lux));
+}
+
+double Renderer::illuminance_lux() const { return state_->daylight.illuminance_lux; }
 
 void Renderer::recycle(Frame&& frame) { state_->spare = std::move(frame); }
 

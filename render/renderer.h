@@ -34,6 +34,7 @@ struct RenderOptions {
   bool normals = false;      ///< fill Frame::normal
   bool flow = false;         ///< fill Frame::flow
   bool parts = false;        ///< fill Frame::part
+  bool semantic = false;     ///< fill Frame::surface
   bool whole_masks = false;  ///< fill PersonInView::whole_mask
   /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
   /// determines, so this is for tests and comparisons.
@@ -45,7 +46,8 @@ struct RenderOptions {
 /// Options of a draw.
 struct DrawChoice {
   const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
-  bool truth = true;  ///< else people's areas are 0 and there are no normals, flow or parts
+  bool truth = true;         ///< else people's areas are 0 and there are no normals, flow or parts
+  double exposure_gain = 1;  ///< all light on the film is multiplied by it
 };
 
 /// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
@@ -64,6 +66,14 @@ class Renderer {
   /// is a pinhole; Lens (render/lens/lens.h) renders all cameras. `next` serves the flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
              const DrawChoice& choice = {});
+
+  /// The gain of the camera's automatic exposure for this view: that by which a small image of the
+  /// place, without people, has the lightness that a camera gives an image in this light
+  /// (render/lens/metering.h). Any lens.
+  double metered_gain(const Scene& scene, const camera::Camera& camera);
+
+  /// On level ground in the open.
+  double illuminance_lux() const;
 
   /// Takes the buffers of a frame that is not needed any more for one to come.
   void recycle(Frame&& frame);

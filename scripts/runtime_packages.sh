@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Prints the Debian packages that a built throng needs at run time: the owners of the shared
-# libraries it is linked with, the GL libraries that it opens by name, and a font for plans.
-# usage: scripts/runtime_packages.sh build/release/cli/throng
+# Prints the Debian packages that built programs need at run time: the owners of the shared
+# libraries they are linked with, the GL libraries that throng opens by name, and a font for plans.
+# usage: scripts/runtime_packages.sh build/release/cli/throng build/release/libexec/throng/*
 set -euo pipefail
 
 # The package of a library. Links of update-alternatives belong to nobody, so follow them; dpkg may
@@ -12,7 +12,7 @@ owner() {
   dpkg-query -S "$file" 2>/dev/null || dpkg-query -S "${file#/usr}"
 }
 
-libraries="$(ldd "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p')"
+libraries="$(ldd "$@" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p')"
 {
   for library in $libraries; do owner "$library"; done | sed 's/:.*//'
   printf '%s\n' ca-certificates curl fonts-dejavu-core libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0

@@ -190,12 +190,24 @@ fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
   return path.lexically_normal();
 }
 
+/// A mesh is an instance like a prop, so its class is one of theirs.
+SemanticClass read_mesh_class(const JsonValue& value) {
+  const auto known = semantic_class_named(value.text());
+  if (known && info_of(*known).group == SemanticGroup::prop) return *known;
+  std::vector<std::string_view> names;
+  for (const SemanticClassInfo& info : semantic_classes()) {
+    if (info.group == SemanticGroup::prop) names.push_back(info.name);
+  }
+  value.reject(fmt::format("one of: {}", fmt::join(names, ", ")));
+  return SemanticClass::object;
+}
+
 std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scenario_file) {
   constexpr double kMinScale = 1e-4;
   constexpr double kMaxScale = 1e4;
   std::vector<PlacedMesh> meshes;
   for (const JsonValue& item : list.items()) {
-    item.fields({"file", "position"}, {"yaw_deg", "scale"});
+    item.fields({"file", "position"}, {"yaw_deg", "scale", "class"});
     PlacedMesh mesh;
     const fs::path name = item["file"].text();
     if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) {
@@ -208,6 +220,7 @@ std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scena
       mesh.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
     }
     if (item["scale"].exists()) mesh.scale = item["scale"].number(kMinScale, kMaxScale);
+    if (item["class"].exists()) mesh.semantic_class = read_mesh_class(item["class"]);
     meshes.push_back(std::move(mesh));
   }
   return meshes;

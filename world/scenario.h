@@ -17,6 +17,7 @@
 #include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
+#include "world/semantic_class.h"
 
 namespace throng::crowd {
 struct CrowdDescription;
@@ -69,6 +70,7 @@ struct PlacedMesh {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   double yaw_rad = 0;
   double scale = 1;  ///< meters per unit of the file
+  SemanticClass semantic_class = SemanticClass::object;
 };
 
 struct DroneStart {

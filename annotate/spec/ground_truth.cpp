@@ -87,11 +87,11 @@ constexpr std::array kKinds = {
                     .needs = {.flow = true}},
     GroundTruthKind{.kind = GroundTruth::semantic,
                     .name = "semantic",
-                    .help = "the class of the visible surface: ground, person, ...",
+                    .help = "the class of the visible surface: road, person, tree, ...",
                     .extent = Extent::pixel,
                     .file = "semantic/RUN/CAMERA/FRAME.png",
-                    .content = "8 bits, 0 sky, 1 ground, 2 building, 3 prop, 4 person, "
-                               "5 umbrella, 6 drone"},
+                    .content = "8 bits, a number of semantic_classes",
+                    .needs = {.semantic = true}},
     GroundTruthKind{.kind = GroundTruth::sensors,
                     .name = "sensors",
                     .help = "a table of their readings and the truth",
@@ -144,6 +144,7 @@ RenderNeeds render_needs(std::span<const std::string> names) {
     needs.normals |= kind->needs.normals;
     needs.flow |= kind->needs.flow;
     needs.parts |= kind->needs.parts;
+    needs.semantic |= kind->needs.semantic;
     needs.whole_masks |= kind->needs.whole_masks;
   }
   return needs;

@@ -44,6 +44,7 @@ struct RenderNeeds {
   bool flow = false;
   bool parts = false;
   bool whole_masks = false;
+  bool semantic = false;
 };
 
 struct GroundTruthKind {

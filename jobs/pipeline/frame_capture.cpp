@@ -11,6 +11,7 @@
 #include "jobs/pipeline/frame_draw.h"
 #include "jobs/pipeline/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
+#include "render/lens/metering.h"
 #include "render/lens/sensor.h"
 #include "sim/spec/airframe.h"
 
@@ -49,6 +50,7 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
+      renderer_(&renderer),
       animator_(trace, population, job.styling),
       lens_(renderer, population) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
@@ -110,20 +112,25 @@ std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const
 CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
   const camera::FrameOffsets draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
-  const camera::CameraSpec camera = camera_of_frame(cameras_[drone], draw);
+  camera::CameraSpec camera = camera_of_frame(cameras_[drone], draw);
   const double time_s = job_->frame_time_s(frame);
   std::optional<double> next_s;
   if (annotate::render_needs(job_->outputs.annotations).flow &&
       frame + 1 < job_->frames_per_camera()) {
     next_s = job_->frame_time_s(frame + 1);
   }
-  render::Exposed exposed = render::expose(
-      lens_,
-      [&](double at_s) {
-        const bool is_next = next_s && at_s > 0.5 * (time_s + *next_s);
-        return moment_at(drone, is_next ? frame + 1 : frame, frame, at_s);
-      },
-      time_s, camera.exposure, next_s);
+  const render::MomentAt moment = [&](double at_s) {
+    const bool is_next = next_s && at_s > 0.5 * (time_s + *next_s);
+    return moment_at(drone, is_next ? frame + 1 : frame, frame, at_s);
+  };
+  const render::ShutterMoment now = moment(time_s);
+  const double gain =
+      camera.sensor.is_metered ? renderer_->metered_gain(*now.scene, now.camera) : 1;
+  if (!camera.sensor.iso) {
+    camera.sensor.iso = render::metered_iso(renderer_->illuminance_lux(), gain);
+  }
+  render::Exposed exposed = render::expose(lens_, moment, time_s, camera.exposure, next_s, gain);
+  exposed.illuminance_lux = renderer_->illuminance_lux();
   constexpr unsigned kFrameBits = 40;
   const std::uint64_t index =
       (static_cast<std::uint64_t>(drone) << kFrameBits) + static_cast<std::uint64_t>(frame);

@@ -162,6 +162,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.normals = needs.normals;
   options.flow = needs.flow;
   options.parts = needs.parts;
+  options.semantic = needs.semantic;
   options.whole_masks = needs.whole_masks;
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);

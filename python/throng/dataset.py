@@ -92,6 +92,11 @@ class Dataset(Sequence[Frame]):
         return {int(c["id"]): str(c["name"]) for source in self._sources for c in source.labels.categories}
 
     @property
+    def semantic_classes(self) -> dict[str, int]:
+        """Names of the classes of `Frame.semantic()` with their values; empty without `semantic/`."""
+        return {str(c["name"]): int(c["id"]) for c in self.info.get("semantic_classes", [])}
+
+    @property
     def runs(self) -> list[str]:
         """Names of the runs of the frames, in their order."""
         return list(dict.fromkeys(frame.run for frame in self))

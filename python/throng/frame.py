@@ -246,7 +246,7 @@ class Frame:
         return self._png("parts", np.uint8, 1)
 
     def semantic(self) -> NDArray[np.uint8]:
-        """(height, width) classes: 0 sky, 1 ground, 2 building, 3 prop, 4 person, 5 umbrella, 6 drone."""
+        """(height, width) values of `Dataset.semantic_classes`."""
         return self._png("semantic", np.uint8, 1)
 
     def normals(self) -> FloatArray:

@@ -111,8 +111,8 @@ class Outputs(Part):
     coco), density (crowd density maps), exits (counts and clogging index per exit and frame), fields (density and
     velocity on the ground, per frame), trajectories (everybody's, seen or not); per pixel, as PNG: depth,
     instances, parts (of the body), normals, flow (motion to the next frame), semantic (the class of the visible
-    surface: ground, person, ...); per drone: sensors (a table of their readings and the truth). Default: ["coco",
-    "density", "exits"]."""
+    surface: road, person, tree, ...); per drone: sensors (a table of their readings and the truth). Default:
+    ["coco", "density", "exits"]."""
     density: Density | None = None
     """Kernel of the heads."""
     previews: int | None = None
@@ -229,9 +229,12 @@ class Capture(Part):
 
 @dataclass
 class Sensor(Part):
-    """Effects of sensor and shutter on the images; all are off by default."""
+    """Effects of sensor and shutter on the images."""
 
     _: KW_ONLY
+    metering: Literal["image", "light"] | None = None
+    """image: each image's exposure follows the brightness of what it shows, people left out; light: only the light
+    of hour and weather, the same for all images of a run. Default: "image"."""
     ev: float | Distribution | None = None
     """Each 1 EV doubles the light. Unit: EV. Default: 0."""
     white_balance_k: float | Distribution | None = None
@@ -240,7 +243,8 @@ class Sensor(Part):
     vignette: float | Distribution | None = None
     """Share of the natural fall of light towards the corners, which is cos⁴ of the angle from the axis. Default: 0."""
     iso: float | Distribution | None = None
-    """Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise. Default: 0."""
+    """Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise. Default: as the light asks for at
+    f/2.8 and 1/60 s, 1600 at most, and no noise below 400, as by day."""
     full_well_e: float | Distribution | None = None
     """Electrons that fill a pixel at ISO 100. Unit: electrons. Default: 15000."""
     read_noise_e: float | Distribution | None = None
@@ -351,7 +355,7 @@ class Camera(Part):
     gimbal: Gimbal | None = None
     """The stabilized mount of the camera."""
     sensor: Sensor | None = None
-    """Effects of sensor and shutter on the images; all are off by default."""
+    """Effects of sensor and shutter on the images."""
 
 
 @dataclass

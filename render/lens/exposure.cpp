@@ -78,7 +78,7 @@ double motion_during(const MomentAt& moment_at, double time_s, double duration_s
 
 /// A strip of rows: the middle moment's everything, with the colors of all moments.
 Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double exposure_s,
-                    int samples, const Rows& rows, std::optional<double> next_s) {
+                    int samples, const Rows& rows, std::optional<double> next_s, double gain) {
   std::vector<float> light;
   Frame strip;
   for (int i = 0; i < samples; ++i) {
@@ -91,8 +91,8 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
       const ShutterMoment later = moment_at(*next_s);
       next = NextFrame{*later.scene, later.camera};
     }
-    Frame frame =
-        lens.draw_rows(*moment.scene, moment.camera, rows, next ? &*next : nullptr, middle);
+    Frame frame = lens.draw_rows(*moment.scene, moment.camera, rows, next ? &*next : nullptr,
+                                 {.truth = middle, .exposure_gain = gain});
     if (samples == 1) return frame;
     light.resize(frame.rgb.size());
     for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_of_srgb(frame.rgb[j]);
@@ -255,9 +255,10 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
 }
 
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
-               const camera::Exposure& exposure, std::optional<double> next_s) {
+               const camera::Exposure& exposure, std::optional<double> next_s, double gain) {
   check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");
   Exposed exposed;
+  exposed.gain = gain;
   exposed.blur_px = motion_during(moment_at, time_s, exposure.exposure_s);
   exposed.samples = samples_for(exposed.blur_px);
   const camera::Camera camera = moment_at(time_s).camera;
@@ -274,7 +275,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
     const double strip_s = strips == 1 ? time_s : time_s + exposure.readout_s * middle_row / height;
     Frame strip =
         exposed_strip(lens, moment_at, strip_s, exposure.exposure_s, exposed.samples, rows,
-                      next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt);
+                      next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt, gain);
     if (strips == 1) {
       frame = std::move(strip);
       frame.time_s = time_s;
@@ -290,6 +291,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
     append(frame.normal, strip.normal);
     append(frame.flow, strip.flow);
     append(frame.part, strip.part);
+    append(frame.surface, strip.surface);
   }
   frame.time_s = time_s;
   frame.camera = camera;

@@ -22,9 +22,11 @@ using MomentAt = std::function<ShutterMoment(double time_s)>;
 /// How a frame was exposed.
 struct Exposed {
   Frame frame;
-  int samples = 1;     ///< moments that each row's light is averaged over
-  int strips = 1;      ///< strips of rows that were each rendered at a time of their own
-  double blur_px = 0;  ///< max motion in the image during the exposure
+  int samples = 1;             ///< moments that each row's light is averaged over
+  int strips = 1;              ///< strips of rows that were each rendered at a time of their own
+  double blur_px = 0;          ///< max motion in the image during the exposure
+  double gain = 1;             ///< of all light
+  double illuminance_lux = 0;  ///< on level ground in the open; given by the caller of expose()
 };
 
 /// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
@@ -39,8 +41,9 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 /// is the one at `time_s`.
 ///
 /// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
-/// as long after it.
+/// as long after it. All light is multiplied by `gain` (DrawChoice::exposure_gain).
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
-               const camera::Exposure& exposure, std::optional<double> next_s = std::nullopt);
+               const camera::Exposure& exposure, std::optional<double> next_s = std::nullopt,
+               double gain = 1);
 
 }  // namespace throng::render

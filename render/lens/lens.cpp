@@ -65,6 +65,7 @@ Eigen::Vector2f flow_through(const camera::Intrinsics& lens, const camera::Intri
 void copy_nearest(const Frame& wide, std::size_t from, std::size_t to, Frame& image) {
   image.id[to] = wide.id[from];
   if (!image.part.empty()) image.part[to] = wide.part[from];
+  if (!image.surface.empty()) image.surface[to] = wide.surface[from];
   if (!image.normal.empty()) std::copy_n(&wide.normal[from * 3], 3, &image.normal[to * 3]);
 }
 
@@ -124,6 +125,7 @@ Frame looked_up(const LensMap& map, const camera::Intrinsics& lens, const Frame&
   if (!wide.normal.empty()) image.normal.resize(pixels * 3);
   if (!wide.flow.empty()) image.flow.resize(pixels * 2);
   if (!wide.part.empty()) image.part.resize(pixels);
+  if (!wide.surface.empty()) image.surface.resize(pixels);
   parallel_ranges(
       pixels, kRowsOfTask * static_cast<std::size_t>(lens.width),
       [&](std::size_t begin, std::size_t end) { look_up(map, lens, wide, begin, end, image); });
@@ -223,21 +225,22 @@ Frame Lens::draw(const Scene& scene, const camera::Camera& camera, const NextFra
 }
 
 Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
-                      const NextFrame* next, bool truth) {
+                      const NextFrame* next, const DrawChoice& choice) {
   const camera::Intrinsics& lens = camera.intrinsics;
   const LensMap* map = lens.distortion ? &map_of(lens, rows) : nullptr;
   if (map == nullptr && is_whole(rows, lens)) {
-    Frame frame = renderer_->draw(scene, camera, next, {nullptr, truth});
-    if (truth) measure_drones(scene, rows, frame);
+    Frame frame = renderer_->draw(scene, camera, next, choice);
+    if (choice.truth) measure_drones(scene, rows, frame);
     return frame;
   }
   const camera::Intrinsics drawn = map == nullptr ? cropped(lens, rows) : map->wide;
   const PixelWeights weights = map == nullptr ? cropped_weights(lens, rows) : PixelWeights();
   std::optional<NextFrame> next_rendered;
   if (next != nullptr) next_rendered = NextFrame{next->scene, {drawn, next->camera.pose}};
-  Frame frame =
-      renderer_->draw(scene, {drawn, camera.pose}, next_rendered ? &*next_rendered : nullptr,
-                      {map == nullptr ? &weights : &map->weights, truth});
+  DrawChoice weighted = choice;
+  weighted.weights = map == nullptr ? &weights : &map->weights;
+  Frame frame = renderer_->draw(scene, {drawn, camera.pose},
+                                next_rendered ? &*next_rendered : nullptr, weighted);
   if (map != nullptr) {
     Frame image = looked_up(*map, lens, frame);
     image.people = std::move(frame.people);
@@ -246,7 +249,7 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   frame.camera = camera;
   measure_boxes(scene, rows, frame);
-  if (truth) measure_drones(scene, rows, frame);
+  if (choice.truth) measure_drones(scene, rows, frame);
   for (PersonInView& person : frame.people) {
     if (person.whole_mask == nullptr) continue;
     person.whole_mask = std::make_shared<PixelMask>(seen_through(map, lens, rows, person));

@@ -30,10 +30,10 @@ class Lens {
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr);
 
   /// Only these rows: the frame's buffers hold them alone, while its camera and its people's boxes
-  /// are those of the whole image, the latter over what is in these rows. Without
-  /// `truth`, people's areas are 0 and there are no normals, flow or parts.
+  /// are those of the whole image, the latter over what is in these rows. Of the
+  /// choice, `weights` are the lens's own.
   Frame draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
-                  const NextFrame* next = nullptr, bool truth = true);
+                  const NextFrame* next = nullptr, const DrawChoice& choice = {});
 
   /// Takes the buffers of a frame that is not needed any more for one to come.
   void recycle(Frame&& frame);

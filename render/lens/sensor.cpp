@@ -123,8 +123,9 @@ void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame
   if (sensor.is_neutral()) return;
   const Eigen::Vector3f gains =
       (white_balance_gains(sensor.white_balance_k) * std::exp2(sensor.ev)).cast<float>();
-  const auto electrons = static_cast<float>(
-      sensor.iso > 0 ? sensor.full_well_e * kBaseIso / sensor.iso : sensor.full_well_e);
+  const double iso = sensor.iso.value_or(0);
+  const auto electrons =
+      static_cast<float>(iso > 0 ? sensor.full_well_e * kBaseIso / iso : sensor.full_well_e);
   const auto read_variance = static_cast<float>(sensor.read_noise_e * sensor.read_noise_e);
   const auto width = static_cast<std::size_t>(frame.width());
   const auto rows = static_cast<std::size_t>(frame.height());
@@ -139,7 +140,7 @@ void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame
       for (std::size_t i = 0; i < width * kChannels; ++i) {
         const auto channel = static_cast<Eigen::Index>(i % kChannels);
         float value = linear_of_srgb(bytes[i]) * gains[channel] * light[i / kChannels];
-        if (sensor.iso > 0) {
+        if (iso > 0) {
           const float counted = value * electrons;
           value += noise.next() * std::sqrt(counted + read_variance) / electrons;
         }

@@ -14,9 +14,9 @@ namespace throng::render {
 /// 7024034, cubic splines), in linear sRGB. From 1667 K to 25000 K.
 Eigen::Vector3d white_balance_gains(double temperature_k);
 
-/// Changes the frame's colors, in linear light. The noise, of photons (its variance is the light
-/// in electrons) and of reading, is independent in all pixels and channels and a function of `seed`
-/// only.
+/// Changes the frame's colors, in linear light; a sensor without an ISO speed has no noise. The
+/// noise, of photons (its variance is the light in electrons) and of reading, is independent in all
+/// pixels and channels and a function of `seed` only.
 void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame);
 
 }  // namespace throng::render

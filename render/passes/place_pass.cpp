@@ -9,6 +9,7 @@
 #include "render/gl/shaders.h"
 #include "render/place/ground_texture.h"
 #include "render/place/lighting.h"
+#include "render/place/place_classes.h"
 
 namespace throng::render {
 
@@ -66,14 +67,21 @@ Program make_corners_program(std::string_view words, std::string_view material) 
                       {embedded::shader_silhouette, embedded::shader_corners_frag});
 }
 
+/// The mesh, its surfaces classified if wanted.
+const PlaceMesh& with_classes(bool wanted, const world::Scenario& scenario,
+                              const std::vector<GroundLayer>& layers, PlaceMesh& mesh) {
+  if (wanted) add_classes(scenario, layers, mesh);
+  return mesh;
+}
+
 }  // namespace
 
 PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environment,
-                     const QualitySettings& quality)
+                     const QualitySettings& quality, bool semantic)
     : mesh_(place_mesh(scenario)),
       layers_(add_ground_layers(
           scenario, [&](const Eigen::Vector2d& p) { return openness_at(scenario, p); }, mesh_)),
-      vertices_(make_buffer(mesh_.vertices)),
+      vertices_(make_buffer(with_classes(semantic, scenario, layers_, mesh_).vertices)),
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
       material_(scenario.ground_material),

@@ -19,7 +19,7 @@ class PlacePass {
  public:
   /// Throws InputError when the scenario names a ground material that does not exist.
   PlacePass(const world::Scenario& scenario, const Environment& environment,
-            const QualitySettings& quality);
+            const QualitySettings& quality, bool semantic);
 
   /// Expects the View and Light blocks, the shadow map and the target to be bound.
   void draw() const;

@@ -7,6 +7,7 @@
 #include "render/gl/shaders.h"
 #include "render/place/rubble.h"
 #include "render/props/mesh_file.h"
+#include "render/truth/surface_classes.h"
 
 namespace throng::render {
 
@@ -63,18 +64,24 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
 }
 
 PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
-                   const QualitySettings& quality) {
+                   const QualitySettings& quality, bool semantic) {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::uint32_t id = kIdProp;
+  const auto id_of = [&](world::SemanticClass value) {
+    return semantic ? id_with_class(id, value) : id;
+  };
   for (const world::Prop& prop : scenario.props) {
-    add(prop_shape(prop, id++), true, vertices, indices);
+    add(prop_shape(prop, id_of(world::class_of(prop.kind))), true, vertices, indices);
+    ++id;
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
-    add(mesh_from_file(mesh, id++), false, vertices, indices);
+    add(mesh_from_file(mesh, id_of(mesh.semantic_class)), false, vertices, indices);
+    ++id;
   }
   for (const world::Disaster& disaster : scenario.disasters) {
-    const std::vector<RubblePiece> pieces = rubble_of(disaster, id);
+    const std::vector<RubblePiece> pieces =
+        rubble_of(disaster, id_of(world::SemanticClass::rubble));
     for (const RubblePiece& piece : pieces) {
       add(piece.mesh, true, vertices, indices).from_s = piece.from_s;
     }

@@ -22,7 +22,8 @@ class PropPass {
  public:
   /// `words` are the environment's of render/place/lighting.h. Throws InputError for a mesh file
   /// that cannot be read.
-  PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality);
+  PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality,
+           bool semantic);
 
   /// The props that the camera may see at a time of the run. Expects what PlacePass::draw()
   /// expects.

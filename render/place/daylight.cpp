@@ -162,9 +162,11 @@ Daylight daylight(const Environment& environment) {
   light.lamps_on = environment.sun_elevation_rad < 0;
   light_up(environment, light);
   const double lamp_mean = light.lamps_on ? kLampMean : 0;
-  const double exposure =
-      exposure_for((light.sun * light.direction.z() + light.sky).mean() + lamp_mean) *
-      (light.soft ? kDiffuse : 1) * closed_for_fog(environment, light.extinction_per_m);
+  constexpr double kUnitLux = 54000;
+  const double mean = (light.sun * light.direction.z() + light.sky).mean() + lamp_mean;
+  light.illuminance_lux = mean * kUnitLux;
+  const double exposure = exposure_for(mean) * (light.soft ? kDiffuse : 1) *
+                          closed_for_fog(environment, light.extinction_per_m);
   light.sun *= exposure;
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.

@@ -24,6 +24,7 @@ struct Daylight {
   bool dark = false;  ///< nothing casts shadows
   bool lamps_on = false;
   double extinction_per_m = 0;  ///< of the air
+  double illuminance_lux = 0;   ///< on level ground in the open, lamps included
 };
 
 /// All of it as the film sees it: the exposure has adapted.

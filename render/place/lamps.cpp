@@ -13,7 +13,6 @@ namespace {
 constexpr double kHeightM = 4.2;
 constexpr double kSpacingM = 12;
 constexpr double kMinWallM = 4;
-constexpr double kMinStoryM = 2.6;  // lower walls have no lamps; also in shaders/wall.frag.glsl
 constexpr double kReachM = 26;
 constexpr double kPlaneM = 1;  // height at which the light is taken
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.

@@ -76,7 +76,7 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   block.shadow_slope = {static_cast<float>(slope.x()), static_cast<float>(slope.y()),
                         static_cast<float>(1 / frame.tallest_m),
                         static_cast<float>(kSunRadius / light.direction.z())};
-  block.zenith = four(light.zenith);
+  block.zenith = four(light.zenith, frame.exposure_gain);
   block.lamps = four(light.lamps);
   block.lamp_area = area_of(frame.lamp_area);
   block.eye = four(frame.eye, frame.time_s);

@@ -42,6 +42,7 @@ struct LightFrame {
   double tallest_m = 0;
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
+  double exposure_gain = 1;  ///< of the camera's metering (render/lens/metering.h)
 };
 
 /// Lines "#define WORD" that the shaders of this environment start with: NO_SUN, SOFT (shadows

@@ -9,6 +9,9 @@
 
 namespace throng::render {
 
+/// Walls lower than this have no stories, windows or lamps (m); also in shaders/wall.frag.glsl.
+inline constexpr double kMinStoryM = 2.6;
+
 struct PlaceVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};

@@ -9,7 +9,7 @@ layout(std140, binding = 1) uniform Light {
   // Shadow of height 1 m on the ground is at -xy; z: 1 / tallest object (1/m); w: half the width,
   // m, of the sun's disc on the ground across that direction, seen through a hole 1 m high.
   vec4 shadow_slope;
-  vec4 zenith;         // color of the sky above
+  vec4 zenith;         // color of the sky above; w: what the camera's metering makes of all light
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
   vec4 eye;            // the camera's center; w: time, s
@@ -118,17 +118,18 @@ float lamp_light(vec3 world, vec3 normal) {
 #endif
 
 // A film's response, which contains the display's gamma: the rational fit by Hejl and
-// Burgess-Dawson (2010).
+// Burgess-Dawson (2010), with a darker black (0.004 there).
 vec3 film_response(vec3 radiance) {
-  vec3 x = max(radiance - 0.004, 0.0);
+  const float kBlack = 0.008;  // also in render/lens/metering.cpp
+  vec3 x = max(radiance - kBlack, 0.0);
   return (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
 // Linear radiance to sRGB. kWhite is the radiance that the display shows as white, so high that a
 // sunlit white wall is at a lightness of about 95 and only glints are cut off.
 vec3 film(vec3 radiance) {
-  const float kWhite = 2.4;
-  return min(film_response(radiance) / film_response(vec3(kWhite)), 1.0);
+  const float kWhite = 2.2;  // also in render/lens/metering.cpp
+  return min(film_response(radiance * light.zenith.w) / film_response(vec3(kWhite)), 1.0);
 }
 
 // Air between the camera and a point: the light that it adds, and the share that it lets through

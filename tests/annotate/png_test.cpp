@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "annotate/semantic.h"
 #include "base/random.h"
 #include "tests/annotate/synthetic_frame.h"
 
@@ -101,6 +102,12 @@ TEST(Png, InstancesTellPeopleAndThingsApart) {
                   65536U * decoded.samples[i + 2]);
   }
   EXPECT_EQ(ids, (std::vector<std::uint32_t>{0, 70'001, 0x800102, 0xFF0000, 0x400000 + 70'001}));
+}
+
+TEST(Png, SurfacesAreTheNumbersOfTheirClasses) {
+  render::Frame frame = empty_frame(4, 1);
+  frame.surface = {0, 4, 12, 33};
+  EXPECT_EQ(decode(semantic_png(frame)).samples, (std::vector<std::uint16_t>{0, 4, 12, 33}));
 }
 
 TEST(Png, FlowIsKittis) {

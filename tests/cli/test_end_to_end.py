@@ -30,7 +30,7 @@ JOB = {
         "guidance": {"policy": "waypoints", "waypoints": [[-24, 0, 20], [-20, 4, 22]], "speed_mps": 2},
         "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
     }],
-    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 9},
+    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 5},
     "outputs": {
         "annotations": ["coco", "keypoints", "density", "exits", "depth", "instances", "flow"],
         "formats": ["coco", "coco-keypoints", "coco-panoptic", "yolo-detect", "yolo-segment", "yolo-pose",
@@ -84,8 +84,8 @@ class EndToEnd(unittest.TestCase):
 
     def test_dataset_is_consistent(self):
         frames, annotations = check_dataset(self.dataset)
-        self.assertEqual(frames, 2 * 17)
-        self.assertGreater(annotations, 1000)
+        self.assertEqual(frames, 2 * 9)
+        self.assertGreater(annotations, 500)
 
     def test_validation_agrees_and_notices_a_changed_byte(self):
         done = throng("validate", self.dataset)
@@ -145,8 +145,25 @@ class EndToEnd(unittest.TestCase):
         path.write_text(json.dumps(job))
         done = throng("run", path, "-o", self.base / "other")
         self.assertEqual(done.returncode, 0, done.stderr)
-        name = "images/run000/d1/000010.jpg"
+        name = "images/run000/d1/000006.jpg"
         self.assertFalse(filecmp.cmp(self.dataset / name, self.base / "other/dataset" / name, shallow=False))
+
+    def test_exposure_and_noise_follow_the_light_unless_given(self):
+        records = {}
+        for name, sensor in (("default", {}), ("given", {"metering": "light", "iso": 0})):
+            job = json.loads(json.dumps(JOB))
+            job.update(runs=1, capture={"rate_hz": 1, "from_s": 1, "to_s": 1}, outputs={},
+                       environment={"time_of_day": "23:00"}, crowd={"agents": 20})
+            job["drones"][0]["camera"]["sensor"] = sensor
+            path = self.base / f"night_{name}.json"
+            path.write_text(json.dumps(job))
+            done = throng("run", path, "-o", self.base / f"night_{name}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            coco = json.loads((self.base / f"night_{name}/dataset/annotations/instances.json").read_text())
+            records[name] = coco["images"][0]["sensor"]
+        self.assertEqual(records["default"]["iso"], 1600)
+        self.assertNotAlmostEqual(records["default"]["exposure_gain"], 1, 2)
+        self.assertEqual((records["given"]["iso"], records["given"]["exposure_gain"]), (0, 1))
 
     def test_simulate_then_render_is_the_same_as_run(self):
         trace = self.base / "alone.h5"
@@ -156,8 +173,8 @@ class EndToEnd(unittest.TestCase):
         rendered = self.base / "rendered"
         done = throng("render", self.job, "--trace", trace, "-o", rendered)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue(filecmp.cmp(self.dataset / "images/run001/d1/000010.jpg",
-                                    rendered / "dataset/images/run000/d1/000010.jpg", shallow=False))
+        self.assertTrue(filecmp.cmp(self.dataset / "images/run001/d1/000006.jpg",
+                                    rendered / "dataset/images/run000/d1/000006.jpg", shallow=False))
         check_dataset(rendered / "dataset")
         seeds = [json.loads((d / "manifest.json").read_text())["runs"][-1]["seed"] for d in (self.dataset, rendered / "dataset")]
         self.assertEqual(*seeds, "the manifest names the seed of the trace that was drawn")

@@ -31,7 +31,7 @@ JOB = {
     }],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
     "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields",
-                                "sensors"]},
+                                "sensors", "semantic"]},
 }
 
 
@@ -189,6 +189,22 @@ class ExternalReaders(unittest.TestCase):
                 self.assertEqual([columns.min(), rows.min(), numpy.ptp(columns) + 1, numpy.ptp(rows) + 1],
                                  annotation["bbox"])
         self.assertGreater(len(target), 10)
+
+    @needs("torchvision")
+    def test_torchvision_reads_cityscapes(self):
+        from torchvision.datasets import Cityscapes
+
+        images = 0
+        for split, run in (("train", "run000"), ("val", "run001")):
+            kinds = ["semantic", "instance", "color"]
+            for picture, (labels, instances, _) in Cityscapes(self.out / "cityscapes", split, "fine", kinds):
+                ids = numpy.asarray(labels)
+                self.assertEqual(picture.size, ids.shape[::-1])
+                self.assertTrue({7, 8, 11} & set(numpy.unique(ids)), "ground or buildings")
+                people = numpy.asarray(instances)[ids == 24]
+                self.assertTrue((people // 1000 == 24).all())
+                images += 1
+        self.assertEqual(images, len(self.coco["images"]))
 
     def test_tarfile_reads_webdataset(self):
         with tarfile.open(self.out / "webdataset/train-000000.tar") as archive:

@@ -62,6 +62,10 @@ class Package(unittest.TestCase):
         run("cmake", "--install", BUILD, "--prefix", prefix, "--component", "program")
         clean = {name: value for name, value in os.environ.items() if not name.startswith("THRONG_")}
         self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
+        world = ROOT / "tests/imports/data/yard.sdf"  # imported by a program beside the installed one
+        models = ROOT / "tests/imports/data/models"
+        run(prefix / "bin/throng", "scenario", "import", world, "-o", self.folder / "mine", "--models", models, env=clean)
+        self.assertTrue((self.folder / "mine/yard.json").is_file())
         for file in ("man/man1/throng.1", "bash-completion/completions/throng", "doc/throng/copyright", "doc/throng/NOTICE"):
             self.assertTrue((prefix / "share" / file).is_file(), file)
         installed = [str(file) for file in prefix.rglob("*") if file.is_file()]
@@ -75,10 +79,10 @@ class Package(unittest.TestCase):
         [package] = self.folder.glob("*.deb")
         self.assertRegex(package.name, r"^throng_[\d.]+_[a-z0-9]+\.deb$")
         depends = run("dpkg-deb", "-f", package, "Depends")
-        for name in ("libc6", "libcholmod3", "libhdf5-103-1", "libgl1-mesa-dri", "fonts-dejavu-core"):
+        for name in ("libc6", "libcholmod3", "libsdformat12-12", "libhdf5-103-1", "libgl1-mesa-dri", "fonts-dejavu-core"):
             self.assertIn(name, depends)
         files = run("dpkg-deb", "-c", package)
-        for file in ("usr/bin/throng", "usr/share/throng/scenarios/city_square/nearest_exit.json", "usr/share/man/man1/throng.1"):
+        for file in ("usr/bin/throng", "usr/libexec/throng/throng-import", "usr/share/throng/scenarios/city_square/nearest_exit.json", "usr/share/man/man1/throng.1"):
             self.assertIn(file, files)
         self.assertNotIn("/include/", files)
 

@@ -21,6 +21,7 @@
 #include "base/version.h"
 #include "formats/exporter.h"
 #include "tests/annotate/synthetic_frame.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 
@@ -110,8 +111,24 @@ class SmallDataset : public ::testing::Test {
     rendered.flow.assign(2 * rendered.id.size(), 1.5F);
     write("flow/" + place + ".png", annotate::flow_png(rendered));
     write("instances/" + place + ".png", annotate::instance_png(rendered));
+    rendered.surface = classes_of(rendered.id);
     write("semantic/" + place + ".png", annotate::semantic_png(rendered));
     write("depth/" + place + ".png", annotate::depth_png(rendered));
+  }
+
+  /// Semantic classes of what a synthetic frame shows.
+  static std::vector<std::uint8_t> classes_of(const std::vector<std::uint32_t>& ids) {
+    using world::SemanticClass;
+    std::vector<std::uint8_t> classes;
+    for (const std::uint32_t id : ids) {
+      const SemanticClass shown = id == render::kIdNothing  ? SemanticClass::sky
+                                  : render::is_agent(id)    ? SemanticClass::person
+                                  : render::is_umbrella(id) ? SemanticClass::umbrella
+                                  : classes.size() % 7 == 0 ? SemanticClass::grass
+                                                            : SemanticClass::pavement;
+      classes.push_back(static_cast<std::uint8_t>(shown));
+    }
+    return classes;
   }
 
   /// A cube that holds what the image shows, 9 m away.

@@ -97,6 +97,8 @@ class Reading(unittest.TestCase):
                     np.testing.assert_array_equal(frame.instances(), ids)
                     with Image.open(self.path / f"parts/{stem}.png") as picture:
                         np.testing.assert_array_equal(frame.parts(), np.array(picture))
+                    is_person = frame.semantic() == dataset.semantic_classes["person"]
+                    np.testing.assert_array_equal(is_person, (ids > 0) & (ids < 0x400000))
                     lengths = np.linalg.norm(frame.normals(), axis=-1)
                     self.assertTrue(((lengths == 0) | (np.abs(lengths - 1) < 0.02)).all())
                     flow, known = frame.flow()

@@ -350,4 +350,4 @@ def semantic_mirrored(d):
 
 @damage
 def semantic_props_called_buildings(d):
-    d.change_raster("semantic", d.image(), lambda a: numpy.where(a == 3, 2, a).astype(a.dtype))
+    d.change_raster("semantic", d.image(), lambda a: numpy.where(a >= 17, 2, a).astype(a.dtype))

@@ -130,11 +130,21 @@ TEST(CameraSpec, CalibratedCamerasAreAsTheyWereCalibrated) {
 
 TEST(CameraSpec, IsWrittenAsItIsRead) {
   for (const char* text : {"{}", R"({"fx_px": 900, "cy_px": 3, "sensor": {"iso": 400, "ev": -1}})",
+                           R"({"sensor": {"metering": "light", "iso": 0}})",
                            R"({"preset": "dji_phantom_4_pro", "pitch_deg": {"uniform": [-80, -30]},
             "model": "fisheye", "distortion": {"k2": {"choice": [0, 0.01]}}})"}) {
     const CameraSpec spec = parsed(text);
     EXPECT_EQ(to_json(parsed(to_json(spec).dump().c_str())), to_json(spec)) << text;
   }
+}
+
+TEST(CameraSpec, MetersImagesAndChoosesIsoUnlessGiven) {
+  const CameraSpec by_default = parsed("{}");
+  EXPECT_TRUE(by_default.sensor.is_metered);
+  EXPECT_FALSE(by_default.sensor.iso);
+  const CameraSpec given = parsed(R"({"sensor": {"metering": "light", "iso": 0}})");
+  EXPECT_FALSE(given.sensor.is_metered);
+  EXPECT_EQ(given.sensor.iso, 0);
 }
 
 TEST(CameraSpec, PresetsLendWhatIsLeftOut) {
@@ -170,7 +180,7 @@ TEST(CameraSpec, DistributionsAreDrawnForEachRun) {
     EXPECT_GE(run.pitch_deg, -80);
     EXPECT_LE(run.pitch_deg, -30);
     pitches.insert(run.pitch_deg);
-    isos.insert(run.sensor.iso);
+    isos.insert(run.sensor.iso.value());
     EXPECT_EQ(run.pitch_deg, camera_of_run(spec, seed, kPlace).pitch_deg);
   }
   EXPECT_EQ(pitches.size(), 40U);

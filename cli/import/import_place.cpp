@@ -1,0 +1,99 @@
+#include "cli/import/import_place.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "imports/imports.h"
+
+namespace throng::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// COUNT numbers with commas between.
+template <std::size_t count>
+std::array<double, count> numbers_in(const std::string& text, const std::string& option,
+                                     const std::string& expected) {
+  std::array<double, count> numbers{};
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i + 1 == count;
+    const bool good = error == std::errc() && std::isfinite(numbers[i]);
+    if (!good || (last ? next != end : next == end || *next != ',')) {
+      throw InputError({option, "", "\"" + text + "\"", expected});
+    }
+    at = next + (last ? 0 : 1);
+  }
+  return numbers;
+}
+
+std::vector<imports::Gate> gates_of(const ImportOptions& options) {
+  constexpr double kMaxCoordinateM = 10'000;
+  constexpr double kMinWidthM = 0.8;
+  std::vector<imports::Gate> gates;
+  for (const std::string& text : options.exits) {
+    const auto [x1, y1, x2, y2] = numbers_in<4>(text, "--exit", "x1,y1,x2,y2 in meters");
+    const imports::Gate gate{{x1, y1}, {x2, y2}, std::hypot(x2 - x1, y2 - y1)};
+    const double farthest =
+        std::max(gate.from.cwiseAbs().maxCoeff(), gate.to.cwiseAbs().maxCoeff());
+    if (farthest > kMaxCoordinateM || gate.share < kMinWidthM) {
+      throw InputError({"--exit", "", text, "a segment of at least 0.8 m within 10 km"});
+    }
+    gates.push_back(gate);
+  }
+  return gates;
+}
+
+imports::Place place_of(const ImportOptions& options) {
+  const fs::path file = options.file;
+  const std::string suffix = file.extension().string();
+  if (!fs::is_regular_file(file)) {
+    throw InputError({options.file, "", "no file", "a world (.sdf, .world) or a map (.osm)"});
+  }
+  if (suffix == ".sdf" || suffix == ".world") {
+    imports::SdfOptions sdf;
+    sdf.models.assign(options.models.begin(), options.models.end());
+    sdf.gates = gates_of(options);
+    return imports::read_sdf(file, sdf);
+  }
+  if (suffix == ".osm") {
+    imports::OsmOptions osm;
+    osm.gates = gates_of(options);
+    if (!options.origin.empty()) {
+      const auto [latitude, longitude] =
+          numbers_in<2>(options.origin, "--origin", "latitude,longitude in degrees");
+      osm.origin = imports::GeoPoint{latitude, longitude};
+    }
+    return imports::read_osm(file, osm);
+  }
+  throw InputError({options.file, "", "suffix \"" + suffix + "\"", ".sdf, .world or .osm"});
+}
+
+}  // namespace
+
+void import_place(const ImportOptions& options) {
+  imports::Place place = place_of(options);
+  const imports::Population population = imports::populate(place, {options.people, options.seed});
+  const fs::path written = imports::write_place(place, population, options.folder);
+  for (const imports::Skipped& skipped : place.skipped) {
+    fmt::print(stderr, "skipped: {}\n", skipped.text());
+  }
+  fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} props, {} exits, {} people, {} skipped\n",
+             written.string(), place.inside.max.x() - place.inside.min.x(),
+             place.inside.max.y() - place.inside.min.y(), place.buildings.size(),
+             place.objects.size() + place.props.size(), population.gates.size(),
+             population.starts.size(), place.skipped.size());
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,103 @@
+// Semantic classes: what a surface is. One table of names, colors, and the classes of other
+// datasets that they map to. The numbers are stable: they are the values of semantic/*.png.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "world/props.h"
+
+namespace throng::world {
+
+enum class SemanticClass : std::uint8_t {
+  sky = 0,       ///< or nothing, where a lens ends
+  terrain = 1,   ///< the plain around a place
+  building = 2,  ///< facades
+  object = 3,    ///< of no other class: meshes whose scenario names none
+  person = 4,    ///< with clothes and what is carried
+  umbrella = 5,
+  drone = 6,
+  roof = 7,  ///< with what stands on it
+  door = 8,  ///< of exits
+  wall = 9,  ///< too low for a story
+  hedge = 10,
+  pavement = 11,  ///< pavers and concrete
+  road = 12,      ///< asphalt
+  grass = 13,
+  dirt = 14,
+  kerb = 15,
+  marking = 16,  ///< paint on the ground
+  tree = 17,
+  bench = 18,
+  lamp_post = 19,
+  bin = 20,
+  car = 21,
+  bollard = 22,
+  stall = 23,
+  barrier = 24,
+  fence = 25,
+  kiosk = 26,
+  tent = 27,
+  stage = 28,
+  train = 29,
+  fountain = 30,
+  rubble = 31,
+  water = 32,
+  stands = 33,  ///< tiers of seats
+};
+inline constexpr std::size_t kSemanticClasses = 34;
+
+/// The kind of instance that a pixel of a class may belong to.
+enum class SemanticGroup : std::uint8_t {
+  nothing,
+  ground,
+  building,
+  prop,
+  person,
+  umbrella,
+  drone
+};
+
+struct SemanticClassInfo {
+  SemanticClass value{};
+  std::string_view name = {};
+  std::array<std::uint8_t, 3> color{};  ///< of legends, sRGB
+  SemanticGroup group{};
+  std::uint8_t cityscapes = 0;  ///< labelId of Cityscapes (Cordts et al. 2016)
+  std::uint8_t uavid = 0;       ///< index into uavid_classes()
+};
+
+/// The class of a kind of prop.
+SemanticClass class_of(PropKind kind);
+
+/// The class of this name; nothing if there is none.
+std::optional<SemanticClass> semantic_class_named(std::string_view name);
+
+/// All classes, by value.
+std::span<const SemanticClassInfo, kSemanticClasses> semantic_classes();
+
+inline const SemanticClassInfo& info_of(SemanticClass value) {
+  return semantic_classes()[static_cast<std::size_t>(value)];
+}
+
+/// A class of UAVid (Lyu et al. 2020), with the color that stands for it in that dataset's labels.
+struct UavidClass {
+  std::string_view name;
+  std::array<std::uint8_t, 3> color;
+};
+std::span<const UavidClass> uavid_classes();
+
+/// A label of Cityscapes, its number for training (255: not trained) and its color.
+struct CityscapesClass {
+  std::uint8_t id;
+  std::string_view name;
+  std::uint8_t train_id;
+  std::array<std::uint8_t, 3> color;
+};
+/// Of a label that a class maps to.
+const CityscapesClass& cityscapes_class(std::uint8_t id);
+
+}  // namespace throng::world
