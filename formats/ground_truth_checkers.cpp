@@ -30,6 +30,7 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::exits, make<ExitsCheck>},
     GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
     GroundTruthChecker{GroundTruth::trajectories, make<TrajectoriesCheck>},
+    GroundTruthChecker{GroundTruth::events, make<EventsCheck>},
     GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
     GroundTruthChecker{GroundTruth::instances, make<PixelCheck<check_instances>>},
     GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},

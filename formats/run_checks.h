@@ -97,6 +97,22 @@ class TrajectoriesCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
 };
 
+/// events/RUN.jsonl against frames and the people in the images.
+class EventsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+  struct Frame {
+    double time_s = 0;
+    std::map<std::int64_t, Eigen::Vector2d> people;  ///< places by track
+  };
+  using Frames = std::map<std::int64_t, Frame>;
+
+ private:
+  std::map<std::string, Frames> runs_;
+};
+
 /// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
 class ConstancyCheck {
  public:

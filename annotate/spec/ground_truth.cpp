@@ -57,6 +57,11 @@ constexpr std::array kKinds = {
                     .file = "trajectories/RUN.npy",
                     .content = "x, y, heading and state of everybody at the times of the frames; "
                                "times and track ids in trajectories/RUN.json"},
+    GroundTruthKind{.kind = GroundTruth::events,
+                    .name = "events",
+                    .help = "escapes, falls, collisions, notices, with time, place and person",
+                    .file = "events/RUN.jsonl",
+                    .content = "a JSON object for each event, by time"},
     GroundTruthKind{.kind = GroundTruth::depth,
                     .name = "depth",
                     .extent = Extent::pixel,

@@ -22,6 +22,7 @@ enum class GroundTruth : std::uint8_t {
   exits,
   fields,
   trajectories,
+  events,
   depth,
   instances,
   parts,

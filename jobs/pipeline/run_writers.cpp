@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "annotate/coco.h"
+#include "annotate/events.h"
 #include "annotate/exits_csv.h"
 #include "annotate/ground_field.h"
 #include "annotate/trajectories.h"
@@ -49,11 +50,16 @@ void write_fields(RunOutput& output) {
   output.publication.add("fields/" + run + ".json", grid.dump(kJsonIndent) + "\n");
 }
 
-void write_trajectories(RunOutput& output) {
+std::vector<double> frame_times_s(const JobSpec& job) {
   std::vector<double> times_s;
-  for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
-    times_s.push_back(output.job.frame_time_s(frame));
+  for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
+    times_s.push_back(job.frame_time_s(frame));
   }
+  return times_s;
+}
+
+void write_trajectories(RunOutput& output) {
+  const std::vector<double> times_s = frame_times_s(output.job);
   const annotate::Trajectories found = annotate::trajectories_at(output.trace, times_s);
   nlohmann::json tracks = nlohmann::json::array();
   for (const std::uint32_t agent : found.agents) {
@@ -65,6 +71,12 @@ void write_trajectories(RunOutput& output) {
                                       {"track_ids", std::move(tracks)},
                                       {"states", output.trace.header.state_names}};
   output.publication.add("trajectories/" + run + ".json", description.dump() + "\n");
+}
+
+void write_events(RunOutput& output) {
+  output.publication.add(
+      file_of(GroundTruth::events, run_name(output.run)),
+      annotate::events_jsonl(output.trace, output.scenario, output.run, frame_times_s(output.job)));
 }
 
 void write_sensors(RunOutput& output) {
@@ -85,6 +97,7 @@ constexpr std::array kRunWriters = {
     RunWriter{GroundTruth::exits, write_exits_table},
     RunWriter{GroundTruth::fields, write_fields},
     RunWriter{GroundTruth::trajectories, write_trajectories},
+    RunWriter{GroundTruth::events, write_events},
     RunWriter{GroundTruth::sensors, write_sensors},
 };
 

@@ -6,6 +6,7 @@ Operations (filter, split, resample, ...) give new views; they copy no files and
 from __future__ import annotations
 
 import copy
+import json
 import math
 import os
 from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
@@ -166,6 +167,15 @@ class Dataset(Sequence[Frame]):
         name = f"trajectories/{run}.npy"
         expected = (len(description.get("times_s", ())), len(description.get("track_ids", ())), 4)
         return read_npy(source, name, expected), description
+
+    def events(self, run: str) -> list[dict[str, Any]]:
+        """The events of a run, by time: type, time_s, frame, and person, drone and place where the type has them."""
+        name = f"events/{run}.jsonl"
+        storage = self._sources[0].storage
+        try:
+            return [dict(json.loads(line)) for line in storage.read(name).decode().splitlines()]
+        except ValueError as error:
+            raise DatasetError(f"{storage.where(name)}: {error}, expected a JSON object on each line") from None
 
     # Views.
 

@@ -105,14 +105,14 @@ class Outputs(Part):
     _: KW_ONLY
     image: Image | None = None
     """Storage of frames."""
-    annotations: Sequence[Literal["coco", "keypoints", "amodal", "density", "exits", "fields", "trajectories", "depth", "instances", "parts", "normals", "flow", "semantic", "sensors"]] | None = None
+    annotations: Sequence[Literal["coco", "keypoints", "amodal", "density", "exits", "fields", "trajectories", "events", "depth", "instances", "parts", "normals", "flow", "semantic", "sensors"]] | None = None
     """Which ground truth is written: coco (boxes, masks, cameras, activity and appearance of people), keypoints
     (COCO's 17 of each person in the image and in the world, with coco), amodal (masks of whole people, with
     coco), density (crowd density maps), exits (counts and clogging index per exit and frame), fields (density and
-    velocity on the ground, per frame), trajectories (everybody's, seen or not); per pixel, as PNG: depth,
-    instances, parts (of the body), normals, flow (motion to the next frame), semantic (the class of the visible
-    surface: road, person, tree, ...); per drone: sensors (a table of their readings and the truth). Default:
-    ["coco", "density", "exits"]."""
+    velocity on the ground, per frame), trajectories (everybody's, seen or not), events (escapes, falls,
+    collisions, notices, with time, place and person); per pixel, as PNG: depth, instances, parts (of the body),
+    normals, flow (motion to the next frame), semantic (the class of the visible surface: road, person, tree,
+    ...); per drone: sensors (a table of their readings and the truth). Default: ["coco", "density", "exits"]."""
     density: Density | None = None
     """Kernel of the heads."""
     previews: int | None = None

@@ -9,6 +9,7 @@ GEOMETRY = [
     "exits",
     "fields",
     "trajectories",
+    "events",
     "depth",
     "instances",
     "parts",

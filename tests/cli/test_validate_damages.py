@@ -113,6 +113,7 @@ ONE_PER_RULE = {
     "previews": "preview of another frame",
     "schema": "two people exchanged in one frame",
     "semantic": "semantic people called umbrellas",
+    "events": "events 30 m off",
     "sensors": "sensor columns vx and vy exchanged",
     "state": "velocities in km per h",
     "time": "times one frame late",

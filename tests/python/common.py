@@ -65,6 +65,7 @@ JOB = {
             "exits",
             "fields",
             "trajectories",
+            "events",
             "depth",
             "instances",
             "parts",

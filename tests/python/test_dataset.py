@@ -135,6 +135,8 @@ class Reading(unittest.TestCase):
             self.assertGreater(sensors.rows, 500)
             self.assertAlmostEqual(float(sensors["true_z_m"][0]), 15)
             self.check_trajectories(dataset)
+            lines = (self.path / "events/run000.jsonl").read_text().splitlines()
+            self.assertEqual(dataset.events("run000"), [json.loads(line) for line in lines])
             field, grid = dataset.field("run001", 1)
             self.assertAlmostEqual(float(field[0].sum()) * grid["cell_m"] ** 2, grid["people"][1], delta=0.01)
 

@@ -11,7 +11,7 @@ TABLE = {
     trajectories: """
         trajectories_10_cm_off trajectories_one_frame_late trajectories_without_somebody_seen
         trajectories_of_two_people_exchanged trajectory_headings_from_north trajectory_states_exchanged
-        trajectory_of_somebody_leaps""",
+        trajectory_of_somebody_leaps events_30_m_off events_of_the_next_frame events_20_s_late""",
     images: """
         picture_black picture_mirrored picture_upside_down all_pictures_mirrored pictures_of_two_cameras_exchanged
         pictures_of_two_frames_exchanged picture_of_the_next_frame picture_of_the_other_run

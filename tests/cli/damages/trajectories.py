@@ -1,4 +1,4 @@
-"""Damages to the trajectories of everybody."""
+"""Damages to the trajectories of everybody and to the events."""
 import json
 
 import numpy
@@ -70,3 +70,38 @@ def trajectory_of_somebody_leaps(d):
         return a
 
     change_npy(d, name_of(d, 1), leap)
+
+
+def change_events(d, change):
+    """Changes each event of the first run in place."""
+    name = f"events/{d.runs[0]}.jsonl"
+    events = [json.loads(line) for line in d.path(name).read_text().splitlines()]
+    for event in events:
+        change(event)
+    d.write(name, "".join(json.dumps(event) + "\n" for event in events))
+
+
+@damage
+def events_30_m_off(d):
+    def move(event):
+        if "position" in event:
+            event["position"][0] += 30
+
+    change_events(d, move)
+
+
+@damage
+def events_of_the_next_frame(d):
+    def late(event):
+        if "frame" in event:
+            event["frame"] += 1
+
+    change_events(d, late)
+
+
+@damage
+def events_20_s_late(d):
+    def late(event):
+        event["time_s"] += 20
+
+    change_events(d, late)

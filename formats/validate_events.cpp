@@ -1,0 +1,153 @@
+// Events against the people whom images show: where they are, and that they are there at all.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
+#include "formats/run_checks.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kRule = "events";
+constexpr double kMaxSpeedMps = 15;
+constexpr double kMaxOffM = 0.05;
+constexpr double kSlackS = 1e-4;
+
+using Frames = EventsCheck::Frames;
+
+struct Event {
+  double time_s = 0;
+  std::string type;
+  json record;
+};
+
+std::vector<Event> read_events(const fs::path& file) {
+  std::vector<Event> events;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    json record = parse_own_json(line, file.string());
+    const double time_s = record.at("time_s");
+    const std::string type = record.at("type");
+    events.push_back({time_s, type, std::move(record)});
+  }
+  return events;
+}
+
+/// The last frame that is not after a time.
+std::optional<std::int64_t> frame_at(const Frames& frames, double time_s) {
+  std::optional<std::int64_t> found;
+  for (const auto& [number, frame] : frames) {
+    if (frame.time_s <= time_s + kSlackS) found = number;
+  }
+  return found;
+}
+
+/// A fault of an event's place, seen from a frame near to it, or "".
+std::string fault_of_place(const Event& event, const EventsCheck::Frame& frame) {
+  const auto track = event.record.find("track_id");
+  const auto position = event.record.find("position");
+  if (track == event.record.end() || position == event.record.end()) return "";
+  const auto seen = frame.people.find(track->get<std::int64_t>());
+  if (seen == frame.people.end()) return "";
+  const Eigen::Vector2d place(position->at(0).get<double>(), position->at(1).get<double>());
+  const double off_m = (place - seen->second).norm();
+  const double passed_s = std::abs(event.time_s - frame.time_s);
+  if (off_m <= kMaxOffM + kMaxSpeedMps * passed_s) return "";
+  return fmt::format("{:.2f} m from where an image shows the person {:.3f} s away", off_m,
+                     passed_s);
+}
+
+template <typename Report>
+void check_order(const std::vector<Event>& events, const Frames& frames, const Report& report) {
+  double before_s = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Event& event = events[i];
+    if (event.time_s < before_s)
+      report(i, fmt::format("at {} s, after {} s", event.time_s, before_s));
+    before_s = event.time_s;
+    const auto frame = frame_at(frames, event.time_s);
+    const json expected = frame ? json(*frame) : json();
+    if (event.record.value("frame", json()) != expected) {
+      report(i, fmt::format("frame {}, but the last one not after {} s is {}",
+                            event.record.value("frame", json()).dump(), event.time_s,
+                            expected.dump()));
+    }
+    if (!frame) continue;
+    for (auto near = frames.find(*frame); near != frames.end() && near->first <= *frame + 1;
+         ++near) {
+      const std::string fault = fault_of_place(event, near->second);
+      if (!fault.empty()) report(i, fault);
+    }
+  }
+}
+
+/// Nobody is seen who has departed or has not arrived.
+template <typename Report>
+void check_presence(const std::vector<Event>& events, const Frames& frames, const Report& report) {
+  std::map<std::int64_t, std::vector<std::size_t>> changes;  // by track
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].type != "arrives" && events[i].type != "departs") continue;
+    changes[events[i].record.at("track_id").get<std::int64_t>()].push_back(i);
+  }
+  for (const auto& [number, frame] : frames) {
+    for (const auto& [track, place] : frame.people) {
+      const auto known = changes.find(track);
+      if (known == changes.end()) continue;
+      bool is_here = events[known->second.front()].type == "departs";
+      std::size_t last = known->second.front();
+      for (const std::size_t change : known->second) {
+        // A step of the crowd lies between the last moment of presence and the event.
+        const bool arrives = events[change].type == "arrives";
+        constexpr double kStepS = 0.11;
+        const double from_s = arrives ? events[change].time_s - kStepS : events[change].time_s;
+        if (frame.time_s <= from_s + kSlackS) break;
+        is_here = arrives;
+        last = change;
+      }
+      if (!is_here) {
+        report(last,
+               fmt::format("track {} is away then, but frame {} shows the person", track, number));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void EventsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings& /*findings*/) {
+  Frame& frame = runs_[image.run][image.frame];
+  frame.time_s = image.time_s;
+  if (!is_shot_at_once(image)) return;
+  for (const Person& person : image.people) {
+    frame.people.insert_or_assign(person.track_id, person.position.head<2>());
+  }
+}
+
+void EventsCheck::finish(const DatasetInfo& info, Findings& findings) {
+  for (const std::string& run : info.runs) {
+    const std::string file = file_of(annotate::GroundTruth::events, run);
+    try {
+      const std::vector<Event> events = read_events(info.root / file);
+      const auto report = [&](std::size_t event, const std::string& fault) {
+        findings.add(kRule, file, fmt::format("line {}", event + 1), fault);
+      };
+      check_order(events, runs_[run], report);
+      check_presence(events, runs_[run], report);
+    } catch (const InputError& error) {
+      findings.add(kRule, file, "", error.problems().front().found);
+    } catch (const std::exception& error) {
+      findings.add(kRule, file, "", error.what());
+    }
+  }
+}
+
+}  // namespace throng::formats
