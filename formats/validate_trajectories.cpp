@@ -3,83 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
 #include "formats/run_checks.h"
+#include "formats/run_trajectories.h"
 #include "geometry/angle.h"
 
 namespace throng::formats {
 
-namespace fs = std::filesystem;
 using Eigen::Vector2d;
-using nlohmann::json;
 
 namespace {
 
 constexpr const char* kRule = "trajectories";
-constexpr std::size_t kValues = 4;  ///< x, y, heading, state
 constexpr double kMaxSpeedMps = 15;
 constexpr double kMaxOffM = 0.01;
 constexpr double kMaxOffRad = 0.01;
 constexpr double kMaxOffS = 1e-3;
 
-/// trajectories/RUN.json and RUN.npy.
-struct Recorded {
-  std::vector<double> times_s;
-  std::vector<std::int64_t> tracks;
-  std::vector<std::string> states;
-  std::vector<float> values;
-
-  /// The kValues values of a person.
-  const float* at(std::size_t frame, std::size_t person) const {
-    return values.data() + (frame * tracks.size() + person) * kValues;
-  }
-  bool present(std::size_t frame, std::size_t person) const {
-    return !std::isnan(*at(frame, person));
-  }
-  Vector2d place(std::size_t frame, std::size_t person) const {
-    const float* value = at(frame, person);
-    return {static_cast<double>(value[0]), static_cast<double>(value[1])};
-  }
-};
-
-std::vector<float> read_values(const fs::path& file, const std::string& shape, std::size_t count) {
-  const std::string bytes = read_file(file);
-  constexpr std::size_t kPreamble = 10;
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-  const std::size_t start =
-      bytes.size() < kPreamble ? bytes.size() : kPreamble + byte(8) + 256U * byte(9);
-  if (start + count * sizeof(float) != bytes.size() ||
-      bytes.find("'shape': " + shape) == std::string::npos ||
-      bytes.find("'<f4'") == std::string::npos) {
-    throw InputError({file.string(), "", "another shape or type", "float32 of shape " + shape});
-  }
-  std::vector<float> values(count);
-  std::memcpy(values.data(), bytes.data() + start, count * sizeof(float));
-  return values;
-}
-
-Recorded read_recorded(const fs::path& root, const std::string& run,
-                       const std::string& description) {
-  const json record = parse_own_json(read_file(root / description), description);
-  Recorded recorded{record.at("times_s").get<std::vector<double>>(),
-                    record.at("track_ids").get<std::vector<std::int64_t>>(),
-                    record.at("states").get<std::vector<std::string>>(),
-                    {}};
-  const std::size_t frames = recorded.times_s.size();
-  const std::size_t people = recorded.tracks.size();
-  if (!std::is_sorted(recorded.tracks.begin(), recorded.tracks.end())) {
-    throw InputError({description, "/track_ids", "another order", "ascending ids"});
-  }
-  recorded.values =
-      read_values(root / file_of(annotate::GroundTruth::trajectories, run),
-                  fmt::format("({}, {}, {})", frames, people, kValues), frames * people * kValues);
-  return recorded;
-}
+using Recorded = RunTrajectories;
 
 /// A fault of the values by themselves, or "".
 std::string fault_of_values(const Recorded& recorded) {
@@ -87,11 +29,12 @@ std::string fault_of_values(const Recorded& recorded) {
     for (std::size_t person = 0; person < recorded.tracks.size(); ++person) {
       const float* value = recorded.at(frame, person);
       const auto numbers =
-          std::count_if(value, value + kValues, [](float v) { return !std::isnan(v); });
+          std::count_if(value, value + kTrajectoryValues, [](float v) { return !std::isnan(v); });
       const std::string where = fmt::format("track {}, frame {}: ", recorded.tracks[person], frame);
       if (numbers == 0) continue;
-      if (numbers < static_cast<std::ptrdiff_t>(kValues) ||
-          !std::all_of(value, value + kValues, [](float v) { return std::isfinite(v); })) {
+      if (numbers < static_cast<std::ptrdiff_t>(kTrajectoryValues) ||
+          !std::all_of(value, value + kTrajectoryValues,
+                       [](float v) { return std::isfinite(v); })) {
         return where + "values that are no numbers beside others";
       }
       const auto states = static_cast<float>(recorded.states.size());
@@ -163,7 +106,7 @@ void TrajectoriesCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
     const std::string file = file_of(annotate::GroundTruth::trajectories, run);
     try {
-      const Recorded recorded = read_recorded(info.root, run, "trajectories/" + run + ".json");
+      const Recorded recorded = read_run_trajectories(info.root, run);
       const std::string what = fault_of_values(recorded);
       if (!what.empty()) findings.add(kRule, file, "", what);
       for (const auto& entry : runs_[run]) {

@@ -31,7 +31,7 @@ JOB = {
     }],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
     "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields",
-                                "sensors", "semantic"]},
+                                "sensors", "semantic", "trajectories"]},
 }
 
 
@@ -205,6 +205,20 @@ class ExternalReaders(unittest.TestCase):
                 self.assertTrue((people // 1000 == 24).all())
                 images += 1
         self.assertEqual(images, len(self.coco["images"]))
+
+    def test_numpy_reads_trajectories(self):
+        values = numpy.load(self.dataset / "trajectories/run000.npy")
+        tracks = json.loads((self.dataset / "trajectories/run000.json").read_text())["track_ids"]
+        expected = {(tracks[person], frame): values[frame, person, :2]
+                    for frame, person in zip(*numpy.nonzero(~numpy.isnan(values[..., 0])))}
+        text = numpy.loadtxt(self.out / "jupedsim/train/run000.txt")
+        self.assertEqual({(int(row[0]), int(row[1])) for row in text}, set(expected))
+        for row in text:
+            numpy.testing.assert_allclose(row[2:4], expected[int(row[0]), int(row[1])], atol=6e-5)
+        rows = numpy.loadtxt(self.out / "eth-ucy/train/run000.txt")
+        numpy.testing.assert_array_equal(rows, text[:, [1, 0, 2, 3]])
+        done = throng("metrics", "--trajectory", self.out / "jupedsim/train/run000.txt", "--scenario", JOB["scenario"])
+        self.assertEqual(json.loads(done)["people"], len(tracks))
 
     def test_tarfile_reads_webdataset(self):
         with tarfile.open(self.out / "webdataset/train-000000.tar") as archive:
