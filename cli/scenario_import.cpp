@@ -42,6 +42,7 @@ void start_import(const CLI::App& command) {
   std::vector<std::string> words = words_of(command);
   words.insert(words.begin(), program.string());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execv(program.c_str(), pointers.data());
