@@ -13,6 +13,7 @@
 #include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "cli/commands.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "drawing/drawing.h"
@@ -98,6 +99,20 @@ void write_results(const calibrate::Calibration& calibration, const CalibrateArg
   }
 }
 
+/// Images and tables are not written over.
+void check_outputs(const CalibrateArguments& arguments) {
+  const calibrate::Request& request = arguments.request;
+  std::vector<std::string> inputs(request.images.begin(), request.images.end());
+  for (const fs::path* input : {&request.points, &request.observations, &request.control_points}) {
+    inputs.push_back(input->string());
+  }
+  for (const auto& [option, output] :
+       {std::pair{"--output", &arguments.output}, std::pair{"--opencv", &arguments.opencv},
+        std::pair{"--ros", &arguments.ros}, std::pair{"--plot", &arguments.plot}}) {
+    check_output_file(option, *output, inputs);
+  }
+}
+
 void run(CalibrateArguments& arguments, const std::string& kind) {
   calibrate::Request& request = arguments.request;
   request.kind = kind;
@@ -114,6 +129,7 @@ void run(CalibrateArguments& arguments, const std::string& kind) {
   request.options.wishes = wishes_of(arguments);
   request.options.fit.reject = !arguments.keep_outliers;
   if (arguments.sigma_px > 0) request.options.fit.sigma_px = arguments.sigma_px;
+  check_outputs(arguments);
   const Interrupt interrupt;
   request.options.fit.should_continue = [&] { return !interrupt.token().stop_requested(); };
   calibrate::Calibration calibration;

@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/crowd_list.h"
 #include "cli/crowd_options.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "crowd/output/positions.h"
@@ -114,6 +116,12 @@ void run(const CrowdArguments& arguments) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(std::max(threads, 1)));
   const crowd::Project project = project_of(arguments);
+  for (const auto& [option, output] : {std::pair{"--output", with_suffix(project.output).string()},
+                                       std::pair{"--series", arguments.series_file},
+                                       std::pair{"--positions", arguments.positions_file}}) {
+    check_output_file(option, output,
+                      {arguments.project_file, project.scene_file, project.behavior_file});
+  }
   if (!arguments.quiet) print_warnings(project.warnings);
   crowd::Simulation crowd = crowd::load_simulation(project);
   if (!arguments.quiet) print_warnings(crowd.warnings());

@@ -155,7 +155,8 @@ void add_export(CLI::App& app) {
                                            {"--output", arguments->output.empty()},
                                            {"--formats", arguments->formats.empty()}}) {
       if (is_missing) {
-        throw InputError({"", "", fmt::format("missing {} (throng export --help)", name), ""});
+        throw InputError(
+            {"throng export", "", fmt::format("missing {} (`throng export --help`)", name), ""});
       }
     }
     export_formats(*arguments);

@@ -71,8 +71,18 @@ void check_somebody_inside(const world::Trace& trace, const world::Scenario& sce
 void measure(const MetricsArguments& arguments) {
   const bool recorded = !arguments.trajectory.empty();
   if (recorded == !arguments.trace.empty()) {
-    throw InputError({"throng metrics", "", recorded ? "a trace and a trajectory" : "neither",
-                      "a trace or --trajectory"});
+    if (!recorded) {
+      throw InputError(
+          {"throng metrics", "", "missing TRACE or --trajectory (`throng metrics --help`)", ""});
+    }
+    throw InputError({"throng metrics", "", "a trace and a trajectory", "one of them"});
+  }
+  for (const auto& [option, output] :
+       {std::pair{"--output", &arguments.output}, std::pair{"--csv", &arguments.csv},
+        std::pair{"--to", &arguments.to_file}}) {
+    check_output_file(
+        option, *output,
+        {arguments.trace, arguments.trajectory, arguments.without_guides, arguments.scenario});
   }
   if (recorded) check_input_file(arguments.trajectory, "a file of trajectories");
   const world::Trace trace =

@@ -87,8 +87,10 @@ Problem parse_problem(const CLI::App& app, const CLI::ParseError& error) {
     return {command.name, "", fmt::format("missing {} (`{} --help`)", name, command.name), ""};
   }
   if (is_like(R"((\S+): Value (.*) not in range (\S+) to (\S+))")) {
+    const bool is_open = plain(found[4]).find("e+308") != std::string::npos;
     return {command.name, found[1], found[2],
-            fmt::format("{} to {}", plain(found[3]), plain(found[4]))};
+            is_open ? fmt::format("a number of at least {}", plain(found[3]))
+                    : fmt::format("{} to {}", plain(found[3]), plain(found[4]))};
   }
   if (is_like(R"((\S+): Number less or equal to 0: (.*))")) {
     return {command.name, found[1], found[2], "a number above 0"};

@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/suggest.h"
 #include "cli/commands.h"
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
@@ -47,7 +49,11 @@ fs::path scenario_path(const std::string& name) {
   if (fs::path(name).extension() == ".json") {
     throw InputError({name, "", "no such file", "a scenario file, a folder or a scenario id"});
   }
-  return world::scenarios_folder() / (name + ".json");
+  fs::path file = world::scenarios_folder() / (name + ".json");
+  if (fs::exists(file)) return file;
+  const std::vector<std::string> ids = world::list_scenarios(world::scenarios_folder());
+  const std::vector<std::string_view> known(ids.begin(), ids.end());
+  throw InputError(unknown_name("", "", "scenario", name, known));
 }
 
 void add_scenario_check(CLI::App& scenario) {
@@ -83,6 +89,7 @@ bool is_job(const std::string& name) {
 }
 
 void draw_plan(const PlanArguments& arguments) {
+  check_output_file("--output", arguments.output, {arguments.name, arguments.trace});
   std::vector<world::DronePath> paths;
   std::optional<world::Scenario> scenario;
   if (is_job(arguments.name)) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/job_runner.h"
 #include "cli/progress_bar.h"
@@ -27,6 +28,7 @@ struct SimulateArguments {
 };
 
 void simulate(const SimulateArguments& arguments) {
+  check_output_file("--output", arguments.trace_file, {arguments.job_file});
   const jobs::JobSpec job = read_job_file(arguments.job_file, jobs::DefaultDrones::if_any).spec();
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),

@@ -213,7 +213,8 @@ void write_drawing(const Drawing& drawing, const std::filesystem::path& file) {
   for (const auto& [known, format] : kFormats) {
     if (suffix == known) return write_file_atomically(file, format(drawing));
   }
-  throw InputError({file.string(), "", fmt::format("the suffix \"{}\"", suffix),
+  throw InputError({file.string(), "",
+                    suffix.empty() ? "no suffix" : fmt::format("the suffix \"{}\"", suffix),
                     "a file name that ends with .svg, .png or .pdf"});
 }
 

@@ -193,7 +193,10 @@ std::vector<Split> DatasetInfo::splits() const {
 json read_manifest(const fs::path& root) {
   const fs::path file = root / "manifest.json";
   if (!fs::is_regular_file(file)) {
-    throw InputError({root.string(), "", "no manifest.json", "a finished dataset"});
+    const fs::path below = root / "dataset";  // of a job's folder
+    const bool is_job = fs::is_regular_file(below / file.filename());
+    throw InputError({root.string(), "", "no manifest.json",
+                      is_job ? "a finished dataset, as " + below.string() : "a finished dataset"});
   }
   return parse_json(read_file(file), file.string(), kOwnJsonLimits);
 }

@@ -15,7 +15,7 @@ esac
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about eleven minutes on two cores: ten to install and build, one for the job"
+  say "about 14 minutes on two cores: 13 to install and build, one for the job"
   echo "needs root or sudo, 3 GB of disk and 216 MB to download (about 430 Debian packages)"
 fi
 "$root/scripts/setup.sh"

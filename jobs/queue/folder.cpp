@@ -53,8 +53,10 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
   const std::string text = to_json(job).dump(kJsonIndent) + "\n";
   if (!fs::exists(folder.job_file())) {
     if (fs::exists(folder.path()) && !is_as_good_as_empty(folder.path(), folder.job_file())) {
-      throw InputError(Problem{"", folder.path().string(), "a folder with other files in it",
-                               "a new or empty folder, or one of the same job"});
+      throw InputError(
+          Problem{"", folder.path().string(),
+                  fs::is_directory(folder.path()) ? "a folder with other files in it" : "a file",
+                  "a new or empty folder, or one of the same job"});
     }
     write_file_atomically(folder.job_file(), text);
   } else if (!is_same_job(read_file(folder.job_file()), text, folder.job_file())) {

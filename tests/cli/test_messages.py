@@ -83,6 +83,16 @@ class Messages(unittest.TestCase):
         )
         self.refused("THRONG_SCENARIOS", "scenario", "plan", "atlantis", "-o", self.folder / "plan.svg")
 
+    def test_a_misspelled_scenario_of_a_command_is_answered_with_the_nearest_one(self):
+        self.refused(
+            'unknown scenario "city_sqare/everyday"; did you mean "city_square/everyday"?', "scenario", "check", "city_sqare/everyday"
+        )
+        self.refused("--workers: found -1, expected a number of at least 0", "run", "x", "-o", "y", "--workers", "-1")
+        self.refused("found no suffix", "scenario", "plan", "city_square/everyday", "-o", self.folder / "plan")
+        file = self.job()
+        self.refused("my.job.json: found a file, expected a new or empty folder", "run", file, "-o", file)
+        self.refused("throng metrics: missing TRACE or --trajectory (`throng metrics --help`)", "metrics")
+
     def test_a_missing_file_is_wrong_input(self):
         missing = self.folder / "nothing.json"
         self.refused(f"{missing}: found no such file, expected a scenario file", "scenario", "check", missing)
@@ -134,6 +144,26 @@ class Messages(unittest.TestCase):
         self.refused('one more argument, "check"', "scenarios", "check")
         self.refused("throng keys: found no command, expected one of: ", "keys")
         self.refused("--classes: found x, expected one of: ", "export", "d", "--classes", "x")
+
+    def test_inputs_are_not_written_over(self):
+        job = self.job()
+        text = job.read_text()
+        other = self.folder / "link.h5"
+        other.symlink_to(job)
+        for output in (job, other):
+            self.refused(f"--output: found {output}, which is an input, expected another file", "simulate", job, "-o", output)
+        self.refused("which is an input", "scenario", "plan", job, "-o", job)
+        self.refused("which is an input", "report", job, "-o", job)
+        self.refused("--csv: found", "metrics", job, "--csv", job)
+        self.refused("which is an input", "calibrate", "intrinsics", "--points", job, "-o", job)
+        self.assertEqual(job.read_text(), text)
+
+    def test_a_job_s_folder_is_not_its_dataset(self):
+        (self.folder / "out/dataset").mkdir(parents=True)
+        (self.folder / "out/dataset/manifest.json").write_text("{}")
+        expected = f"found no manifest.json, expected a finished dataset, as {self.folder}/out/dataset"
+        self.refused(expected, "validate", self.folder / "out")
+        self.refused(expected, "export", self.folder / "out", "-o", self.folder / "x", "--formats", "mot")
 
     def test_counts_agree_with_their_nouns(self):
         done = throng("scenario", "check", "city_square/nearest_exit")
