@@ -40,6 +40,26 @@ const kReaders: Reader[] = [
     text: 'import os, glob\nos.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"\nimport cv2\nfor name in glob.glob("FOLDER/**/*.exr", recursive=True):\n    depth_m = cv2.imread(name, cv2.IMREAD_UNCHANGED)',
   },
   { names: ["flow-flo"], text: 'import glob, cv2\nfor name in glob.glob("FOLDER/**/*.flo", recursive=True):\n    flow_px = cv2.readOpticalFlow(name)' },
+  {
+    names: ["cityscapes"],
+    text: 'from torchvision.datasets import Cityscapes\nimages = Cityscapes("FOLDER", "SPLIT", "fine", ["semantic", "instance"])',
+  },
+  {
+    names: ["uavid"],
+    text: 'import glob, numpy as np\nfrom PIL import Image\nfor name in glob.glob("FOLDER/uavid_SPLIT/*/Labels/*.png"):\n    colors = np.asarray(Image.open(name))  # class colors: docs/formats_pixels.md',
+  },
+  {
+    names: ["jupedsim"],
+    text: 'import glob, pedpy\nfrom pathlib import Path\nfor name in glob.glob("FOLDER/SPLIT/*.txt"):\n    trajectories = pedpy.load_trajectory_from_txt(trajectory_file=Path(name))',
+  },
+  {
+    names: ["eth-ucy"],
+    text: 'import glob, numpy as np\nfor name in glob.glob("FOLDER/SPLIT/*.txt"):\n    frame, person, x_m, y_m = np.loadtxt(name, ndmin=2).T',
+  },
+  {
+    names: ["trajnet"],
+    text: 'import glob, json\nfor name in glob.glob("FOLDER/SPLIT/*.ndjson"):\n    rows = [json.loads(line) for line in open(name)]  # "scene" or "track"',
+  },
   { names: ["rosbag", "rosbag-lz4"], text: "rosbag info FOLDER/SPLIT/run000.bag" },
   { names: ["table"], text: 'import glob, pandas\npeople = pandas.read_csv(glob.glob("FOLDER/**/people.csv", recursive=True)[0])' },
 ];
@@ -60,6 +80,8 @@ const kTruthReaders: Record<string, string> = {
   density: "frame.density()",
   exits: 'dataset.exits("run000")',
   fields: 'dataset.field("run000", 0)',
+  trajectories: 'values, record = dataset.trajectories("run000")',
+  events: 'dataset.events("run000")',
   depth: "frame.depth()",
   instances: "frame.instances()",
   parts: "frame.parts()",
