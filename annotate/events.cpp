@@ -4,13 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "annotate/coco.h"
 #include "annotate/decimals.h"
+#include "annotate/exit_view.h"
 #include "metrics/people.h"
 
 namespace throng::annotate {
@@ -72,21 +72,12 @@ class EventList {
     return events_.emplace_back(Event{time_s_, {{"type", type}}}).record;
   }
 
-  /// The step at which an event is, or the last one before.
-  std::size_t step_at(double time_s) const {
-    const auto next =
-        std::upper_bound(trace_.time_s.begin(), trace_.time_s.end(), time_s + world::kTimeSlackS);
-    return next == trace_.time_s.begin()
-               ? 0
-               : static_cast<std::size_t>(next - trace_.time_s.begin()) - 1;
-  }
-
   /// Track and place of a person; the place at their last step where they have left just then.
   void put_person(std::int32_t agent, ordered_json& record) const {
     if (agent < 0) return;
     record["track_id"] = track_id(run_, static_cast<std::uint32_t>(agent));
     const auto index = static_cast<std::size_t>(agent);
-    std::size_t step = step_at(time_s_);
+    std::size_t step = step_at(trace_.time_s, time_s_);
     if (!trace_.present(step, index) && step > 0) --step;
     if (!trace_.present(step, index)) return;
     const Eigen::Vector2d place = trace_.position[trace_.at(step, index)].cast<double>();

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "metrics/control_zone.h"
+#include "world/trace.h"
 
 namespace throng::annotate {
 
@@ -146,10 +147,8 @@ std::string ExitView::json(const camera::Camera& camera, double time_s) const {
 }
 
 std::size_t step_at(std::span<const double> step_times_s, double time_s) {
-  // Frame times and step times are computed apart, so equal times may differ in the last bits.
-  constexpr double kTimeSlackS = 1e-6;
   const auto after =
-      std::upper_bound(step_times_s.begin(), step_times_s.end(), time_s + kTimeSlackS);
+      std::upper_bound(step_times_s.begin(), step_times_s.end(), time_s + world::kTimeSlackS);
   return after == step_times_s.begin() ? 0
                                        : static_cast<std::size_t>(after - step_times_s.begin()) - 1;
 }

@@ -9,7 +9,6 @@
 #include "annotate/density.h"
 #include "annotate/keypoints.h"
 #include "annotate/png.h"
-#include "annotate/semantic.h"
 
 namespace throng::annotate {
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "annotate/exit_view.h"
 #include "base/error.h"
 #include "render/animator.h"
 #include "skinning/items.h"
@@ -135,10 +136,8 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
 }
 
 std::size_t PersonFacts::step_at(double time_s) const {
-  const std::vector<double>& times = trace_->time_s;
-  check(!times.empty(), "a trace that is rendered has steps");
-  const auto next = std::upper_bound(times.begin(), times.end(), time_s + world::kTimeSlackS);
-  return next == times.begin() ? 0 : static_cast<std::size_t>(next - times.begin()) - 1;
+  check(!trace_->time_s.empty(), "a trace that is rendered has steps");
+  return annotate::step_at(trace_->time_s, time_s);
 }
 
 void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,

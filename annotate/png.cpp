@@ -122,6 +122,10 @@ std::string instance_png(const render::Frame& frame) {
   return png_bytes({frame.width(), frame.height(), 3}, rgb);
 }
 
+std::string semantic_png(const render::Frame& frame) {
+  return png_bytes({frame.width(), frame.height(), 1}, frame.surface);
+}
+
 std::string part_png(const render::Frame& frame) {
   return png_bytes({frame.width(), frame.height(), 1}, frame.part);
 }

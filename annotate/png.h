@@ -32,6 +32,10 @@ std::string depth_png(const render::Frame& frame);
 /// for static objects the id buffer's highest byte << 16 with its lowest 16 bits.
 std::string instance_png(const render::Frame& frame);
 
+/// 8-bit gray: a world::SemanticClass for each pixel (docs/formats_pixels.md#semantic). Checks that
+/// the frame has them.
+std::string semantic_png(const render::Frame& frame);
+
 /// 8-bit gray: render::BodyPart. Checks that the frame has parts.
 std::string part_png(const render::Frame& frame);
 

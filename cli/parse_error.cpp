@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <regex>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,9 @@ std::string plain(const std::string& number) {
   return fmt::format("{:g}", std::stod(number));
 }
 
+/// CLI11 prints double's max for a range without one.
+constexpr double kOpen = 1e308;
+
 }  // namespace
 
 Problem parse_problem(const CLI::App& app, const CLI::ParseError& error) {
@@ -87,7 +91,7 @@ Problem parse_problem(const CLI::App& app, const CLI::ParseError& error) {
     return {command.name, "", fmt::format("missing {} (`{} --help`)", name, command.name), ""};
   }
   if (is_like(R"((\S+): Value (.*) not in range (\S+) to (\S+))")) {
-    const bool is_open = plain(found[4]).find("e+308") != std::string::npos;
+    const bool is_open = std::strtod(found[4].str().c_str(), nullptr) >= kOpen;
     return {command.name, found[1], found[2],
             is_open ? fmt::format("a number of at least {}", plain(found[3]))
                     : fmt::format("{} to {}", plain(found[3]), plain(found[4]))};

@@ -13,7 +13,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
-#include "base/suggest.h"
 #include "cli/commands.h"
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
@@ -49,11 +48,7 @@ fs::path scenario_path(const std::string& name) {
   if (fs::path(name).extension() == ".json") {
     throw InputError({name, "", "no such file", "a scenario file, a folder or a scenario id"});
   }
-  fs::path file = world::scenarios_folder() / (name + ".json");
-  if (fs::exists(file)) return file;
-  const std::vector<std::string> ids = world::list_scenarios(world::scenarios_folder());
-  const std::vector<std::string_view> known(ids.begin(), ids.end());
-  throw InputError(unknown_name("", "", "scenario", name, known));
+  return world::scenario_file(world::scenarios_folder(), name);
 }
 
 void add_scenario_check(CLI::App& scenario) {

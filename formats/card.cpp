@@ -8,6 +8,7 @@
 #include <span>
 
 #include "annotate/spec/license.h"
+#include "formats/class_mappings.h"
 #include "world/semantic_class.h"
 
 namespace throng::formats {
@@ -62,8 +63,8 @@ json semantic_legend() {
     classes.push_back({{"id", static_cast<int>(known.value)},
                        {"name", known.name},
                        {"color", known.color},
-                       {"cityscapes", world::cityscapes_class(known.cityscapes).name},
-                       {"uavid", world::uavid_classes()[known.uavid].name}});
+                       {"cityscapes", cityscapes_class(known.value).name},
+                       {"uavid", uavid_class(known.value).name}});
   }
   return classes;
 }

@@ -1,5 +1,8 @@
 #include "formats/npy.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cstdint>
 #include <cstring>
 #include <regex>
@@ -55,6 +58,30 @@ FloatMap read_npy(const std::filesystem::path& path) {
   std::memcpy(map.value.data(), bytes.data() + kPreamble + length,
               map.value.size() * sizeof(float));
   return map;
+}
+
+std::vector<float> read_npy(const std::filesystem::path& path,
+                            std::initializer_list<std::size_t> shape) {
+  const std::string wanted = fmt::format("({})", fmt::join(shape, ", "));
+  const auto refuse = [&](const char* found) -> InputError {
+    return InputError({path.string(), "", found, "float32 of shape " + wanted});
+  };
+  if (!std::filesystem::is_regular_file(path)) throw refuse("no such file");
+  const std::string bytes = read_file(path);
+  std::size_t count = 1;
+  for (const std::size_t size : shape) count *= size;
+  constexpr std::size_t kPreamble = 10;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const std::size_t start =
+      bytes.size() < kPreamble ? bytes.size() : kPreamble + byte(8) + 256U * byte(9);
+  if (start + count * sizeof(float) != bytes.size() ||
+      bytes.find("'shape': " + wanted) == std::string::npos ||
+      bytes.find("'<f4'") == std::string::npos) {
+    throw refuse("another shape or type");
+  }
+  std::vector<float> values(count);
+  std::memcpy(values.data(), bytes.data() + start, count * sizeof(float));
+  return values;
 }
 
 }  // namespace throng::formats

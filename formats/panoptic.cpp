@@ -32,7 +32,7 @@ struct Segment {
   int top = 0;
   int right = 0;
   int bottom = 0;
-  std::uint16_t surface = 0;  ///< world::SemanticClass of one of its pixels
+  world::SemanticClass surface{};  ///< of one of its pixels
 
   void add(int x, int y) {
     if (area++ == 0) *this = {1, x, y, x + 1, y + 1};
@@ -69,15 +69,16 @@ const char* supercategory_of(const world::SemanticClassInfo& known) {
 world::SemanticClass class_of(std::uint32_t number, const Segment& segment) {
   using world::SemanticClass;
   if (number < kFirstBuilding) return SemanticClass::umbrella;
-  const auto shown = static_cast<SemanticClass>(segment.surface);
+  const SemanticClass shown = segment.surface;
   const bool is_part = shown == SemanticClass::roof || shown == SemanticClass::door;
   return is_part ? SemanticClass::building : shown;
 }
 
 /// Gives each class of ground an id of its own.
-void divide_ground(const std::vector<std::uint16_t>& surfaces, std::vector<std::uint32_t>& ids) {
+void divide_ground(const std::vector<world::SemanticClass>& surfaces,
+                   std::vector<std::uint32_t>& ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (ids[i] == kGround) ids[i] += surfaces[i];
+    if (ids[i] == kGround) ids[i] += static_cast<std::uint32_t>(surfaces[i]);
   }
 }
 
@@ -110,11 +111,12 @@ class PanopticExporter : public Exporter {
     const std::string name = image.stem() + ".jpg";
     const fs::path instances = raster_path(info_.root, "instances", image.file);
     output_.link(fs::path(split) / name, info_.root / image.file);
-    std::vector<std::uint32_t> ids = read_instances(instances);
+    std::vector<std::uint32_t> ids = read_instances(instances, image.width, image.height);
     const std::string png = fmt::format("panoptic_{}/{}.png", split, image.stem());
-    std::vector<std::uint16_t> surfaces;
+    std::vector<world::SemanticClass> surfaces;
     if (has_classes_) {
-      surfaces = read_classes(image, ids.size());
+      surfaces =
+          read_classes(raster_path(info_.root, "semantic", image.file), image.width, image.height);
       divide_ground(surfaces, ids);
       output_.write(png, instances_png(image, ids));
     } else {
@@ -212,16 +214,6 @@ class PanopticExporter : public Exporter {
     return info_.categories.size() + static_cast<std::size_t>(value);
   }
 
-  std::vector<std::uint16_t> read_classes(const Image& image, std::size_t pixels) const {
-    const fs::path path = raster_path(info_.root, "semantic", image.file);
-    images::Raster raster = images::read_raster(path);
-    if (raster.samples.size() != pixels || raster.channels != 1) {
-      throw InputError({path.string(), "", fmt::format("{} samples", raster.samples.size()),
-                        fmt::format("{}, one for each pixel", pixels)});
-    }
-    return std::move(raster.samples);
-  }
-
   /// Which of the categories after people's, from 0.
   static std::size_t place_of(std::uint32_t number) {
     if (number < kFirstBuilding) return 3;
@@ -232,7 +224,7 @@ class PanopticExporter : public Exporter {
 
   /// `surfaces` are the pixels' classes, if the dataset has them.
   json segments_of(const Image& image, const std::vector<std::uint32_t>& ids,
-                   const std::vector<std::uint16_t>& surfaces) const {
+                   const std::vector<world::SemanticClass>& surfaces) const {
     std::map<std::uint32_t, Segment> segments;
     std::size_t pixel = 0;
     for (int y = 0; y < image.height; ++y) {

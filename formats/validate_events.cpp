@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -42,13 +46,23 @@ std::vector<Event> read_events(const fs::path& file) {
   return events;
 }
 
+/// Times of frames, ascending, with their numbers.
+using FrameTimes = std::vector<std::pair<double, std::int64_t>>;
+
+FrameTimes times_of(const Frames& frames) {
+  FrameTimes times;
+  times.reserve(frames.size());
+  for (const auto& [number, frame] : frames) times.emplace_back(frame.time_s, number);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 /// The last frame that is not after a time.
-std::optional<std::int64_t> frame_at(const Frames& frames, double time_s) {
-  std::optional<std::int64_t> found;
-  for (const auto& [number, frame] : frames) {
-    if (frame.time_s <= time_s + kSlackS) found = number;
-  }
-  return found;
+std::optional<std::int64_t> frame_at(const FrameTimes& times, double time_s) {
+  const auto next = std::upper_bound(times.begin(), times.end(), time_s + kSlackS,
+                                     [](double at, const auto& frame) { return at < frame.first; });
+  if (next == times.begin()) return std::nullopt;
+  return std::prev(next)->second;
 }
 
 /// A fault of an event's place, seen from a frame near to it, or "".
@@ -68,13 +82,14 @@ std::string fault_of_place(const Event& event, const EventsCheck::Frame& frame) 
 
 template <typename Report>
 void check_order(const std::vector<Event>& events, const Frames& frames, const Report& report) {
+  const FrameTimes times = times_of(frames);
   double before_s = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const Event& event = events[i];
     if (event.time_s < before_s)
       report(i, fmt::format("at {} s, after {} s", event.time_s, before_s));
     before_s = event.time_s;
-    const auto frame = frame_at(frames, event.time_s);
+    const auto frame = frame_at(times, event.time_s);
     const json expected = frame ? json(*frame) : json();
     if (event.record.value("frame", json()) != expected) {
       report(i, fmt::format("frame {}, but the last one not after {} s is {}",

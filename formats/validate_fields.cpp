@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "formats/npy.h"
 #include "formats/run_checks.h"
 
 namespace throng::formats {
@@ -44,22 +44,10 @@ struct Field {
 };
 
 Field read_field(const fs::path& file, const Grid& grid) {
-  if (!fs::is_regular_file(file)) throw InputError({file.string(), "", "no such file", "a field"});
-  const std::string bytes = read_file(file);
-  constexpr std::size_t kPreamble = 10;
-  const std::string shape = fmt::format("'shape': (4, {}, {})", grid.rows, grid.columns);
-  const auto header = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-  const std::size_t start =
-      bytes.size() < kPreamble ? bytes.size() : kPreamble + header(8) + 256U * header(9);
   constexpr std::size_t kPlanes = 4;
-  if (start + kPlanes * grid.cells() * sizeof(float) != bytes.size() ||
-      bytes.find(shape) == std::string::npos || bytes.find("'<f4'") == std::string::npos) {
-    throw InputError({file.string(), "", "another shape or type",
-                      fmt::format("float32 of shape (4, {}, {})", grid.rows, grid.columns)});
-  }
-  Field field{std::vector<float>(kPlanes * grid.cells()), grid.cells()};
-  std::memcpy(field.values.data(), bytes.data() + start, bytes.size() - start);
-  return field;
+  return {read_npy(file, {kPlanes, static_cast<std::size_t>(grid.rows),
+                          static_cast<std::size_t>(grid.columns)}),
+          grid.cells()};
 }
 
 /// Density and momentum of the people whom cameras see, without buildings.

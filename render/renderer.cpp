@@ -90,6 +90,9 @@ camera::Camera scaled(const camera::Camera& camera, int times) {
   return fine;
 }
 
+/// Metering needs the shadows of whole buildings only.
+constexpr int kShadowTexelsPerMeteringTexel = 8;
+
 /// Makes a target of this size if there is none.
 template <typename T, typename... Others>
 void resize(std::optional<T>& target, int width, int height, Others... others) {
@@ -107,10 +110,11 @@ struct Renderer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
+  void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area, const ShadowMap& shadows);
   void draw_image(const Scene& scene, const camera::Camera& camera, const DrawChoice& choice,
                   std::vector<Seen>& seen, Frame& frame);
-  void draw_light(const Scene& scene, const camera::Camera& camera, double exposure_gain);
+  void draw_light(const Scene& scene, const camera::Camera& camera, double exposure_gain,
+                  const ShadowMap& shadows);
   const Frame& draw_metered(const Scene& scene, const camera::Camera& camera);
   void draw_smooth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                    Frame& frame);
@@ -147,6 +151,7 @@ struct Renderer::State {
   SmokePass smoke;
   std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
+  ShadowMap metering_shadows;
   Silhouettes silhouettes;
   CoverageCounter coverage;
   Buffer view_buffer;
@@ -182,6 +187,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       sky(environment),
       smoke(environment, scenario.disasters),
       shadow_map(quality.shadow_texels),
+      metering_shadows(quality.shadow_texels / kShadowTexelsPerMeteringTexel),
       view_buffer(make_buffer()),
       next_view_buffer(make_buffer()),
       light_buffer(make_buffer()) {
@@ -196,7 +202,8 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
 
 Renderer::State::~State() { context.make_current(); }
 
-void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area) {
+void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area,
+                                   const ShadowMap& shadows) {
   const Eigen::Vector2d slope = shadow_slope(daylight);
   std::vector<PersonDraw> casters;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
@@ -209,7 +216,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
     if (!shade.intersects(area)) continue;
     casters.push_back(finder.caster(i, person));
   }
-  shadow_map.begin();
+  shadows.begin();
   place.draw_shadow();
   props.draw_shadow(area, slope, scene.time_s);
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
@@ -242,9 +249,9 @@ void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vecto
   silhouettes.bind();
 }
 
-/// The uniforms of light and the shadow map of what is in `scene`.
+/// The uniforms of light, and the shadows of what is in `scene`.
 void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camera,
-                                 double exposure_gain) {
+                                 double exposure_gain, const ShadowMap& shadows) {
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
   const LightBlock light = light_block(
@@ -252,10 +259,9 @@ void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camer
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
-  if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, area);
-  shadow_map.bind();
+  if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, area, shadows);
+  shadows.bind();
   if (lamp_map) lamp_map->bind();
-  lap("shadows");
 }
 
 const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Camera& camera) {
@@ -263,7 +269,7 @@ const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Cam
   place_only.index = scene.index;
   place_only.time_s = scene.time_s;
   place_only.dangers = scene.dangers;
-  draw_light(place_only, camera, 1);
+  draw_light(place_only, camera, 1, metering_shadows);
   resize(metering_target, camera.intrinsics.width, camera.intrinsics.height);
   metering_target->begin(Eigen::Vector3f::Zero());
   draw_view(place_only, camera, {}, PeoplePass::Purpose::image);
@@ -275,7 +281,8 @@ const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Cam
 void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camera,
                                  const DrawChoice& choice, std::vector<Seen>& seen, Frame& frame) {
   const camera::Intrinsics& k = camera.intrinsics;
-  draw_light(scene, camera, choice.exposure_gain);
+  draw_light(scene, camera, choice.exposure_gain, shadow_map);
+  lap("shadows");
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);
   using Purpose = PeoplePass::Purpose;

@@ -360,22 +360,24 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   return ids;
 }
 
-Scenario find_scenario(const fs::path& folder, const std::string& id) {
-  const fs::path file = folder / (id + ".json");
-  if (!is_scenario_id(id) || !fs::is_regular_file(file)) {
-    constexpr std::size_t kMaxNamed = 50;
-    const std::vector<std::string> ids = list_scenarios(folder);
-    const std::vector<std::string_view> known(ids.begin(), ids.end());
-    Problem problem = unknown_name("", "", "scenario", id, known);
-    if (!closest(id, known)) {
-      problem.expected =
-          fmt::format("one of: {}{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
-                      fmt::join(std::span(known).first(std::min(known.size(), kMaxNamed)), ", "),
-                      known.size() > kMaxNamed ? " and others" : "", folder.string());
-    }
-    throw InputError(std::move(problem));
+fs::path scenario_file(const fs::path& folder, const std::string& id) {
+  fs::path file = folder / (id + ".json");
+  if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
+  constexpr std::size_t kMaxNamed = 50;
+  const std::vector<std::string> ids = list_scenarios(folder);
+  const std::vector<std::string_view> known(ids.begin(), ids.end());
+  Problem problem = unknown_name("", "", "scenario", id, known);
+  if (!closest(id, known)) {
+    problem.expected =
+        fmt::format("one of: {}{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
+                    fmt::join(std::span(known).first(std::min(known.size(), kMaxNamed)), ", "),
+                    known.size() > kMaxNamed ? " and others" : "", folder.string());
   }
-  return load_scenario(file, id);
+  throw InputError(std::move(problem));
+}
+
+Scenario find_scenario(const fs::path& folder, const std::string& id) {
+  return load_scenario(scenario_file(folder, id), id);
 }
 
 }  // namespace throng::world

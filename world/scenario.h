@@ -136,8 +136,11 @@ void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 /// source tree's.
 std::filesystem::path scenarios_folder();
 
-/// Loads `<folder>/<id>.json`. Ids are words of [a-z0-9_] joined by '/': nothing outside the folder
-/// can be named. Throws InputError when the id is malformed or unknown (listing what there is).
+/// `<folder>/<id>.json`. Ids are words of [a-z0-9_] joined by '/': nothing outside the folder can
+/// be named. Throws InputError when the id is malformed or unknown (listing what there is).
+std::filesystem::path scenario_file(const std::filesystem::path& folder, const std::string& id);
+
+/// Loads the file of a scenario's id.
 Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
 
 /// Every scenario id in the folder, sorted. Files named study.json are studies, not scenarios.

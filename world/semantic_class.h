@@ -1,5 +1,5 @@
-// Semantic classes: what a surface is. One table of names, colors, and the classes of other
-// datasets that they map to. The numbers are stable: they are the values of semantic/*.png.
+// Semantic classes: what a surface is. One table of names and colors. The numbers are stable: they
+// are the values of semantic/*.png.
 #pragma once
 
 #include <array>
@@ -66,8 +66,6 @@ struct SemanticClassInfo {
   std::string_view name = {};
   std::array<std::uint8_t, 3> color{};  ///< of legends, sRGB
   SemanticGroup group{};
-  std::uint8_t cityscapes = 0;  ///< labelId of Cityscapes (Cordts et al. 2016)
-  std::uint8_t uavid = 0;       ///< index into uavid_classes()
 };
 
 /// The class of a kind of prop.
@@ -82,22 +80,5 @@ std::span<const SemanticClassInfo, kSemanticClasses> semantic_classes();
 inline const SemanticClassInfo& info_of(SemanticClass value) {
   return semantic_classes()[static_cast<std::size_t>(value)];
 }
-
-/// A class of UAVid (Lyu et al. 2020), with the color that stands for it in that dataset's labels.
-struct UavidClass {
-  std::string_view name;
-  std::array<std::uint8_t, 3> color;
-};
-std::span<const UavidClass> uavid_classes();
-
-/// A label of Cityscapes, its number for training (255: not trained) and its color.
-struct CityscapesClass {
-  std::uint8_t id;
-  std::string_view name;
-  std::uint8_t train_id;
-  std::array<std::uint8_t, 3> color;
-};
-/// Of a label that a class maps to.
-const CityscapesClass& cityscapes_class(std::uint8_t id);
 
 }  // namespace throng::world

@@ -50,7 +50,6 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
-      renderer_(&renderer),
       animator_(trace, population, job.styling),
       lens_(renderer, population) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
@@ -123,14 +122,11 @@ CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
     const bool is_next = next_s && at_s > 0.5 * (time_s + *next_s);
     return moment_at(drone, is_next ? frame + 1 : frame, frame, at_s);
   };
-  const render::ShutterMoment now = moment(time_s);
-  const double gain =
-      camera.sensor.is_metered ? renderer_->metered_gain(*now.scene, now.camera) : 1;
+  render::Exposed exposed =
+      render::expose(lens_, moment, time_s, camera.exposure, next_s, camera.sensor.is_metered);
   if (!camera.sensor.iso) {
-    camera.sensor.iso = render::metered_iso(renderer_->illuminance_lux(), gain);
+    camera.sensor.iso = render::metered_iso(exposed.illuminance_lux, exposed.gain);
   }
-  render::Exposed exposed = render::expose(lens_, moment, time_s, camera.exposure, next_s, gain);
-  exposed.illuminance_lux = renderer_->illuminance_lux();
   constexpr unsigned kFrameBits = 40;
   const std::uint64_t index =
       (static_cast<std::uint64_t>(drone) << kFrameBits) + static_cast<std::uint64_t>(frame);

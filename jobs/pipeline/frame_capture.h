@@ -51,7 +51,6 @@ class FrameCapture {
   std::uint64_t run_seed_;
   const world::Trace* trace_;
   StageClock* clock_;  ///< of how long stages take; may be null
-  render::Renderer* renderer_;
   render::Animator animator_;
   render::Lens lens_;
   std::vector<camera::CameraSpec> cameras_;     ///< this run's

@@ -255,13 +255,15 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
 }
 
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
-               const camera::Exposure& exposure, std::optional<double> next_s, double gain) {
+               const camera::Exposure& exposure, std::optional<double> next_s, bool is_metered) {
   check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");
   Exposed exposed;
-  exposed.gain = gain;
+  exposed.illuminance_lux = lens.renderer().illuminance_lux();
+  const ShutterMoment now = moment_at(time_s);
+  const camera::Camera& camera = now.camera;
+  if (is_metered) exposed.gain = lens.renderer().metered_gain(*now.scene, camera);
   exposed.blur_px = motion_during(moment_at, time_s, exposure.exposure_s);
   exposed.samples = samples_for(exposed.blur_px);
-  const camera::Camera camera = moment_at(time_s).camera;
   const int height = camera.intrinsics.height;
   const int strips = strips_for(motion_during(moment_at, time_s, exposure.readout_s), height);
   const int strip_rows = (height + strips - 1) / strips;
@@ -273,9 +275,9 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
     const Rows rows{first, std::min(first + strip_rows, height)};
     const double middle_row = 0.5 * (rows.first + rows.end - height);
     const double strip_s = strips == 1 ? time_s : time_s + exposure.readout_s * middle_row / height;
-    Frame strip =
-        exposed_strip(lens, moment_at, strip_s, exposure.exposure_s, exposed.samples, rows,
-                      next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt, gain);
+    Frame strip = exposed_strip(
+        lens, moment_at, strip_s, exposure.exposure_s, exposed.samples, rows,
+        next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt, exposed.gain);
     if (strips == 1) {
       frame = std::move(strip);
       frame.time_s = time_s;

@@ -26,7 +26,7 @@ struct Exposed {
   int strips = 1;              ///< strips of rows that were each rendered at a time of their own
   double blur_px = 0;          ///< max motion in the image during the exposure
   double gain = 1;             ///< of all light
-  double illuminance_lux = 0;  ///< on level ground in the open; given by the caller of expose()
+  double illuminance_lux = 0;  ///< on level ground in the open
 };
 
 /// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
@@ -41,9 +41,10 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 /// is the one at `time_s`.
 ///
 /// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
-/// as long after it. All light is multiplied by `gain` (DrawChoice::exposure_gain).
+/// as long after it. The gain of all light is that of the camera's metering at `time_s`
+/// (render/lens/metering.h), or 1 if the image is not metered.
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
                const camera::Exposure& exposure, std::optional<double> next_s = std::nullopt,
-               double gain = 1);
+               bool is_metered = false);
 
 }  // namespace throng::render

@@ -38,6 +38,8 @@ class Lens {
   /// Takes the buffers of a frame that is not needed any more for one to come.
   void recycle(Frame&& frame);
 
+  Renderer& renderer() { return *renderer_; }
+
  private:
   struct Known;
 

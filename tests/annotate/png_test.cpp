@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "annotate/semantic.h"
 #include "base/random.h"
 #include "tests/annotate/synthetic_frame.h"
 

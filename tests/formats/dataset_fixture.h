@@ -15,7 +15,6 @@
 #include "annotate/keypoints.h"
 #include "annotate/png.h"
 #include "annotate/preview.h"
-#include "annotate/semantic.h"
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/version.h"

@@ -101,7 +101,7 @@ TEST(Rasters, KeepTheirSamples) {
   EXPECT_EQ(wide.channels, 3);
   EXPECT_EQ(wide.width, 2);
   EXPECT_THAT(wide.samples, ElementsAre(1, 256, 65535, 40, 50, 60));
-  EXPECT_THAT(refused([&] { read_instances(file); }), HasSubstr("a.png")) << "not of 8 bits";
+  EXPECT_THAT(refused([&] { read_instances(file, 2, 1); }), HasSubstr("a.png")) << "not of 8 bits";
   write_file_atomically(file, "no image");
   EXPECT_THAT(refused([&] { images::read_raster(file); }), HasSubstr("a.png"));
   EXPECT_EQ(raster_path("/d", "depth", "images/a/b.jpg"), fs::path("/d/depth/a/b.png"));

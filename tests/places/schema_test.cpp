@@ -5,12 +5,16 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "places/blueprint.h"
 #include "schemas/schemas.h"
 #include "world/scenario.h"
+#include "world/semantic_class.h"
 
 namespace throng::places {
 namespace {
@@ -113,6 +117,20 @@ INSTANTIATE_TEST_SUITE_P(All, SchemaOfPlaces, ::testing::Values(Kind::scenario, 
                          [](const auto& each) {
                            return each.param == Kind::scenario ? "scenario" : "blueprint";
                          });
+
+// A mesh is an instance like a prop: its class is one of theirs.
+TEST(SchemaOfMeshes, ListsTheClassesThatTheReaderKnows) {
+  std::vector<std::string> classes;
+  for (const world::SemanticClassInfo& known : world::semantic_classes()) {
+    if (known.group == world::SemanticGroup::prop) classes.emplace_back(known.name);
+  }
+  for (const Kind kind : {Kind::scenario, Kind::blueprint}) {
+    const std::string_view text = schemas::entries().at(static_cast<std::size_t>(kind)).text;
+    const json schema = json::parse(text);
+    const json& listed = schema.at("/definitions/mesh/properties/class/enum"_json_pointer);
+    EXPECT_EQ(listed, json(classes));
+  }
+}
 
 }  // namespace
 }  // namespace throng::places
