@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/polygon.h"
 
@@ -84,10 +85,17 @@ bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
 void LocalModel::step(const Crowd& crowd, const Grid& grid,
                       std::span<Eigen::Vector2f> new_velocity) {
   prepare();
-  neighborhood_.for_each(crowd, grid, [&](const AgentView& around) {
-    new_velocity[around.agent] =
-        possible_velocity(crowd, around.agent, velocity(crowd, grid, around));
-  });
+  neighborhood_.for_each(
+      crowd, grid, [&](std::size_t slot) { return wall_range_m(crowd, grid, slot); },
+      [&](const AgentView& around) {
+        new_velocity[around.agent] =
+            possible_velocity(crowd, around.agent, velocity(crowd, grid, around));
+      });
+}
+
+float LocalModel::wall_range_m(const Crowd& /*crowd*/, const Grid& /*grid*/,
+                               std::size_t /*slot*/) const {
+  return std::numeric_limits<float>::infinity();
 }
 
 }  // namespace throng::crowd

@@ -84,6 +84,9 @@ class LocalModel : public Model {
   /// is not finite leaves the velocity as it is.
   virtual Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
                                    const AgentView& around) = 0;
+  /// How near walls have to be to matter to the agent of a slot, m; farther than the agent sees
+  /// none do.
+  virtual float wall_range_m(const Crowd& crowd, const Grid& grid, std::size_t slot) const;
   /// Before the agents of a step, by the thread that starts it.
   virtual void prepare() {}
 

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "crowd/kernels/orca_batch.h"
 #include "crowd/model.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/pace.h"
+#include "crowd/models/single_file.h"
 #include "crowd/spatial/neighborhood.h"
 
 namespace throng::crowd {
@@ -62,7 +64,8 @@ class Orca : public Model {
                   Workspace& workspace, std::span<Eigen::Vector2f> new_velocity) {
     workspace.batch.clear();
     for (std::size_t slot = begin; slot < end; ++slot) {
-      add(crowd, grid, neighborhood_.look(crowd, grid, slot), workspace);
+      add(crowd, grid, neighborhood_.look(crowd, grid, slot, wall_range_m(crowd, grid, slot)),
+          workspace);
     }
     if (pace_) {
       look_ahead_(grid, directions_, workspace.batch.seen(), workspace.paces);
@@ -74,6 +77,17 @@ class Orca : public Model {
     for (std::size_t slot = begin; slot < end; ++slot) {
       new_velocity[grid.id(slot)] = workspace.batch.velocity(slot - begin);
     }
+  }
+
+  /// Farther walls forbid nothing. Menge searches all that an agent sees.
+  float wall_range_m(const Crowd& crowd, const Grid& grid, std::size_t slot) const {
+    if (crowd.compat != Compat::none) return std::numeric_limits<float>::infinity();
+    const std::size_t id = grid.id(slot);
+    const float radius = grid.radius(slot);
+    const float speed = std::max(crowd.agents[Property::max_speed][id], grid.velocity(slot).norm());
+    const float reach =
+        wall_reach_m(radius, crowd.agents.model_parameters[tau_obstacles][id], speed);
+    return pace_ ? std::max(reach, kPassingRadii * radius) : reach;
   }
 
   void add(const Crowd& crowd, const Grid& grid, const AgentView& around,

@@ -34,6 +34,13 @@ HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
                  std::span<const Obstacles::Near> near, float horizon_s, HalfPlanes& planes);
 
+/// How near (m) a wall has to be so that a disc of this speed can get to it within the horizon:
+/// farther walls need no half-plane (van den Berg et al. 2011).
+inline float wall_reach_m(float radius, float horizon_s, float speed) {
+  constexpr float kRounding = 1.01F;
+  return kRounding * (radius + horizon_s * speed);
+}
+
 /// The same for a whole neighborhood at a time: planes that are appended in its order. Two in one
 /// place part along x, the one with the higher id to the right.
 using AvoidDiscs = void(const Grid& grid, std::size_t self, std::span<const Grid::Neighbor> others,

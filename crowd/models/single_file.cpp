@@ -10,18 +10,17 @@
 namespace throng::crowd {
 
 float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) {
-  constexpr float kTwo = 5.5F;     // radii: what two need who pass each other
   constexpr float kOne = 4.5F;     // radii: with less, there is one after the other
   constexpr float kBeside = 0.7F;  // sine of the least angle between the way and what is beside it
   const float radius = grid.radius(around.slot);
-  const float far_sq = (kTwo * radius) * (kTwo * radius);
+  const float reach = kPassingRadii * radius;
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
   const std::vector<Segment>& segments = crowd.obstacles.segments();
-  float left = kTwo * radius;
-  float right = kTwo * radius;
+  float left = reach;
+  float right = reach;
   for (const Obstacles::Near& near : around.walls) {
-    if (near.distance_sq >= far_sq) break;
+    if (near.distance_sq >= reach * reach) break;
     const Segment& wall = segments[near.segment];
     const Eigen::Vector2f offset =
         geometry::nearest_on_segment(wall.begin, wall.end, position) - position;
@@ -31,7 +30,7 @@ float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) 
     float& beside = side > 0 ? left : right;
     beside = std::min(beside, distance);
   }
-  return std::clamp((kTwo * radius - left - right) / ((kTwo - kOne) * radius), 0.0F, 1.0F);
+  return std::clamp((reach - left - right) / ((kPassingRadii - kOne) * radius), 0.0F, 1.0F);
 }
 
 float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around) {

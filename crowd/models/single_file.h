@@ -5,6 +5,9 @@
 
 namespace throng::crowd {
 
+/// Radii that two need who pass each other: farther walls do not matter to singleness().
+inline constexpr float kPassingRadii = 5.5F;
+
 /// 1 where walls at both sides leave room for one only, 0 where two can pass each other, and
 /// between these in between.
 float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around);

@@ -41,12 +41,13 @@ constexpr float kAlongside = 0.7F;            // of the force between two who wa
 constexpr float kMaxForce = 15;               // m/s^2
 constexpr float kSamePlace = 1e-3F;           // m: nearer than that two have no direction
 constexpr float kSamePlaceSq = kSamePlace * kSamePlace;
-constexpr float kContact = 100;       // 1/s^2: force per depth of an overlap
-constexpr float kWall = 10;           // m/s^2 at a wall
-constexpr float kWallRangeM = 0.03F;  // over which that falls to 1/e
-constexpr float kWallReachM = 1;      // walls farther away do not count
-constexpr float kShuffleMps = 0.1F;   // forces make nobody faster than this or than they want to be
-constexpr float kCreep = 0.05F;       // of the free speed, in single file without a gap
+constexpr float kContact = 100;         // 1/s^2: force per depth of an overlap
+constexpr float kWall = 10;             // m/s^2 at a wall
+constexpr float kWallRangeM = 0.03F;    // over which that falls to 1/e
+constexpr float kWallReachM = 1;        // walls farther away do not count
+constexpr float kWallHorizonS = 0.15F;  // how long moves stay free of walls
+constexpr float kShuffleMps = 0.1F;  // forces make nobody faster than this or than they want to be
+constexpr float kCreep = 0.05F;      // of the free speed, in single file without a gap
 /// How fast one steps back at most, per person and m^2 of those who do not walk the same way.
 constexpr float kStepBack = 4;  // m^3/s
 
@@ -101,6 +102,7 @@ class TimeToCollision : public LocalModel {
   explicit TimeToCollision(const Crowd& crowd)
       : LocalModel(crowd),
         constants_(crowd.model_constants),
+        seen_(room_for(crowd.obstacles.segments().size())),
         perceived_(crowd.agents.count(), 0.0F) {}
 
  protected:
@@ -123,6 +125,13 @@ class TimeToCollision : public LocalModel {
   }
 
  private:
+  static Seen room_for(std::size_t walls) {
+    Seen seen;
+    seen.planes.reserve(walls);
+    seen.scratch.reserve(walls);
+    return seen;
+  }
+
   void prepare() override { seen_.prepare(); }
 
   /// The others, the walls and the density that the agent minds.
@@ -179,6 +188,7 @@ class TimeToCollision : public LocalModel {
       seen.density.oncoming = oncoming * 2 / (reach_sq * reach_sq);
     }
     seen.walls.clear();
+    seen.walls.reserve(crowd.obstacles.segments().size());
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
       const Eigen::Vector2f nearest =
           geometry::nearest_on_segment(wall.begin, wall.end, position) - position;
@@ -187,20 +197,31 @@ class TimeToCollision : public LocalModel {
     });
   }
 
+  static float avoided_wall_range_m(float radius, float max_speed) {
+    return radius + 2 * kWallHorizonS * std::max(max_speed, 1.0F);
+  }
+
+  float wall_range_m(const Crowd& crowd, const Grid& grid, std::size_t slot) const override {
+    const float radius = grid.radius(slot);
+    const float max_speed = crowd.agents[Property::max_speed][grid.id(slot)];
+    return std::max({radius + kWallReachM, kPassingRadii * radius,
+                     avoided_wall_range_m(radius, max_speed),
+                     wall_reach_m(radius, kWallHorizonS, grid.velocity(slot).norm())});
+  }
+
   /// The nearest velocity that leads into no wall.
   static Eigen::Vector2f kept_off_walls(const Crowd& crowd, const Grid& grid,
                                         const AgentView& around, const Eigen::Vector2f& velocity,
                                         Seen& seen) {
-    constexpr float kHorizon_s = 0.15F;
     const float max_speed = crowd.agents[Property::max_speed][around.agent];
-    const float reach_m = grid.radius(around.slot) + 2 * kHorizon_s * std::max(max_speed, 1.0F);
+    const float reach_m = avoided_wall_range_m(grid.radius(around.slot), max_speed);
     if (around.walls.empty() || around.walls.front().distance_sq > reach_m * reach_m) {
       return velocity;
     }
     seen.planes.clear();
     const Disc self{grid.position(around.slot), grid.velocity(around.slot),
                     grid.radius(around.slot)};
-    avoid_walls(self, crowd.obstacles.segments(), around.walls, kHorizon_s, seen.planes);
+    avoid_walls(self, crowd.obstacles.segments(), around.walls, kWallHorizonS, seen.planes);
     return best_velocity(seen.planes, seen.planes.size(), velocity, max_speed, seen.scratch);
   }
 
@@ -279,7 +300,7 @@ class TimeToCollision : public LocalModel {
   }
 
   const std::vector<float>& constants_;
-  PerThread<Seen> seen_{Seen{}};
+  PerThread<Seen> seen_;
   std::vector<float> perceived_;  // density of people who walk the same way, by agent, 1/m^2
 };
 

@@ -14,14 +14,17 @@ Neighborhood::Found Neighborhood::make_found(const Crowd& crowd) {
       max_value.empty()
           ? 0
           : static_cast<std::size_t>(*std::max_element(max_value.begin(), max_value.end())));
-  found.walls.reserve(crowd.obstacles.segments().size());
   return found;
 }
 
-AgentView Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found) {
+AgentView Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                             float wall_range_m, Found& found) {
   const Agents& agents = crowd.agents;
   const std::size_t id = grid.id(slot);
-  const float range = agents[Property::neighbor_dist][id];
+  float range = agents[Property::neighbor_dist][id];
+  // Walls hide people at any distance.
+  if (!crowd.test_visibility) range = std::min(range, wall_range_m);
+  found.walls.reserve(crowd.obstacles.segments().size());
   crowd.obstacles.near(grid.position(slot), range, agents.obstacle_mask[id], found.walls);
   const auto max_value = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
   // Walls beyond the range hide nobody within it.

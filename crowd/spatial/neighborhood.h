@@ -1,6 +1,7 @@
 // Each agent's view of the others and of the walls; pedestrian models are functions of it.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,13 +25,16 @@ class Neighborhood {
  public:
   explicit Neighborhood(const Crowd& crowd);
 
-  /// Calls act(surroundings) once for every agent in the grid, on all threads.
-  template <typename Act>
-  void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
+  /// Calls act(surroundings) once for every agent in the grid, on all threads. `wall_range_m` of a
+  /// slot is how near walls have to be to be seen.
+  template <typename Range, typename Act>
+  void for_each(const Crowd& crowd, const Grid& grid, const Range& wall_range_m, const Act& act) {
     prepare(crowd, grid);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Found& found = found_.local();
-      for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        act(look(crowd, grid, slot, wall_range_m(slot), found));
+      }
     });
   }
 
@@ -40,9 +44,11 @@ class Neighborhood {
     if (crowd.compat != Compat::none) tree_.build(grid, crowd.agents.count());
     if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
   }
-  /// One agent's view; valid until this thread looks at another.
-  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
-    return look(crowd, grid, slot, found_.local());
+  /// One agent's view, with the walls that are nearer than `wall_range_m` and than the agent sees;
+  /// valid until this thread looks at another.
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                 float wall_range_m = std::numeric_limits<float>::infinity()) {
+    return look(crowd, grid, slot, wall_range_m, found_.local());
   }
 
  private:
@@ -58,7 +64,8 @@ class Neighborhood {
   };
 
   static Found make_found(const Crowd& crowd);
-  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot, float wall_range_m,
+                 Found& found);
   std::span<const Grid::Neighbor> nearest(const Crowd& crowd, const Grid& grid, std::size_t slot,
                                           std::size_t max_value, Found& found);
   std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,

@@ -223,6 +223,46 @@ TEST(AvoidWalls, AllowedVelocitiesDoNotHitABoxWithinTheHorizon) {
   EXPECT_GT(deflected, 30);
 }
 
+TEST(AvoidWalls, NobodyGetsToWallsOutOfReach) {
+  Obstacles obstacles;
+  const std::array<Eigen::Vector2f, 4> corners = {{{-1, -2}, {1, -2}, {1, 2}, {-1, 2}}};
+  obstacles.add_polygon(corners, 1);
+  obstacles.build();
+  constexpr float kHorizon = 0.8F;
+  constexpr float kRadius = 0.3F;
+  constexpr float kSpeed = 1.5F;
+  std::vector<Obstacles::Near> near;
+  int allowed = 0;
+  int forbidden = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed, Stream::crowd_generator);
+    const auto draw = [&](double half) { return static_cast<float>(random.uniform(-half, half)); };
+    const Disc self{{draw(4), draw(4)}, {draw(1), draw(1)}, kRadius};
+    const auto clearance = [](const Eigen::Vector2f& p) {
+      const Eigen::Vector2f box(1, 2);
+      return (p - p.cwiseMax(-box).cwiseMin(box)).norm();
+    };
+    if (clearance(self.position) < kRadius + 0.01F) continue;
+    obstacles.near(self.position, wall_reach_m(kRadius, kHorizon, kSpeed), 1, near);
+    HalfPlanes planes;
+    avoid_walls(self, obstacles.segments(), near, kHorizon, planes);
+    constexpr int kDirections = 64;
+    for (int i = 0; i < kDirections; ++i) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kDirections;
+      const Eigen::Vector2f v = kSpeed * Eigen::Vector2f(std::cos(angle), std::sin(angle));
+      bool is_forbidden = false;
+      for (std::size_t p = 0; p < planes.size(); ++p) is_forbidden |= violation(planes[p], v) > 0;
+      ++(is_forbidden ? forbidden : allowed);
+      if (is_forbidden) continue;
+      for (float t = 0; t <= kHorizon; t += 0.04F) {
+        ASSERT_GE(clearance(self.position + t * v), kRadius - 2e-3F) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(allowed, 1000);
+  EXPECT_GT(forbidden, 1000);
+}
+
 using test::agent_at;
 using test::load;
 using test::mirror_behavior;
