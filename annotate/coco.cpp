@@ -173,12 +173,12 @@ class CocoShardWriter::Files {
     images_.write(text_);
     text_.clear();
     for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);
-    for (const DroneLabel& label : labels.drones) append_drone_record(text_, image, label);
+    for (const ObjectLabel& label : labels.objects) append_object_record(text_, image, label);
     annotations_.write(text_);
     for (const PersonLabel& label : labels.people) add_track(image, label.agent);
-    for (const DroneLabel& label : labels.drones) add_drone(image, label.drone.drone);
+    for (const ObjectLabel& label : labels.objects) add_object(image, label.object);
     ++counts_.images;
-    counts_.annotations += labels.people.size() + labels.drones.size();
+    counts_.annotations += labels.people.size() + labels.objects.size();
   }
 
   void finish() {
@@ -197,9 +197,9 @@ class CocoShardWriter::Files {
     if (is_new) append_track_record(track->second, image, agent);
   }
 
-  void add_drone(const CocoImage& image, std::uint32_t drone) {
-    const auto [track, is_new] = tracks_.try_emplace(track_id(image, number_of_drone(drone)));
-    if (is_new) append_drone_track_record(track->second, image, drone);
+  void add_object(const CocoImage& image, const render::ObjectInView& object) {
+    const auto [track, is_new] = tracks_.try_emplace(track_id(image, number_of(object)));
+    if (is_new) append_object_track_record(track->second, image, object);
   }
 
   fs::path folder_;
@@ -235,6 +235,15 @@ void CocoShardWriter::finish() {
   files_.reset();
 }
 
+std::vector<ObjectCategory> object_categories(bool drones, bool vehicles) {
+  std::vector<ObjectCategory> categories;
+  for (const ObjectCategory& category : kObjectCategories) {
+    const bool is_drone = category.id == kDroneCategory;
+    if (is_drone ? drones : vehicles) categories.push_back(category);
+  }
+  return categories;
+}
+
 void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
                 const std::string& description, const CocoCategories& wanted) {
   std::vector<ShardCounts> counts;
@@ -250,8 +259,13 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
     categories[0]["keypoints"] = skinning::kKeypointNames;
     categories[0]["skeleton"] = kSkeleton;
   }
-  if (wanted.drones) {
-    categories.push_back({{"id", kDroneCategory}, {"name", "drone"}, {"supercategory", "vehicle"}});
+  if (wanted.skeletons) {
+    categories[0]["joints"] = skinning::joint_names();
+    categories[0]["bones"] = skinning::bone_names();
+  }
+  for (const ObjectCategory& category : object_categories(wanted.drones, wanted.vehicles)) {
+    categories.push_back(
+        {{"id", category.id}, {"name", category.name}, {"supercategory", "vehicle"}});
   }
   merged.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"tracks\":[",
                            info.dump(), kCocoLicenses, categories.dump()));

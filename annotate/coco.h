@@ -2,15 +2,18 @@
 // does not grow with the number of frames.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "annotate/labels.h"
 #include "annotate/person_facts.h"
 #include "camera/camera.h"
+#include "world/semantic_class.h"
 
 namespace throng::annotate {
 
@@ -30,22 +33,42 @@ struct CocoImage {
   std::string exits;               ///< a JSON array: exits in the image; "" when not known
   std::string density_file;        ///< like file_name; "" when the frame has no density map
   std::int64_t density_count = 0;  ///< heads that the density map sums to
+  std::string hazards;             ///< JSON, or ""
+  std::string zones;               ///< a JSON array: people visible in zones, or ""
   const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known
   /// Ids of the run's drones, by number; null when there are none to be seen.
   const std::vector<std::string>* drone_ids = nullptr;
-  bool whole_drone_masks = false;  ///< write drones' whole masks, too
+  bool whole_masks = false;  ///< write the whole masks of people, drones and vehicles, too
 };
 
-/// Ids of the categories.
 inline constexpr int kPersonCategory = 1;
-inline constexpr int kDroneCategory = 2;
+
+/// A category of what is no person.
+struct ObjectCategory {
+  int id = 0;
+  std::string_view name;
+  world::SemanticClass surface{};
+};
+inline constexpr std::array kObjectCategories = {
+    ObjectCategory{2, "drone", world::SemanticClass::drone},
+    ObjectCategory{3, "car", world::SemanticClass::car},
+    ObjectCategory{4, "train", world::SemanticClass::train},
+};
+inline constexpr int kDroneCategory = kObjectCategories.front().id;
+
+/// The categories beside people's of a dataset where drones may see each other, or that has
+/// vehicles.
+std::vector<ObjectCategory> object_categories(bool drones, bool vehicles);
 
 /// Agents that one run may have, so that ids stay unique: annotation id = image id *
 /// kMaxAgentsPerRun + agent id + 1.
 inline constexpr std::int64_t kMaxAgentsPerRun = 100'000;
-/// The last of these numbers are drones': drone i is counted as agent kFirstDroneNumber + i.
+/// The last of these numbers are drones': drone i is counted as agent kFirstDroneNumber + i. Those
+/// before are vehicles', counted in the same way.
 inline constexpr std::int64_t kMaxDronesPerRun = 16;
 inline constexpr std::int64_t kFirstDroneNumber = kMaxAgentsPerRun - kMaxDronesPerRun;
+inline constexpr std::int64_t kMaxVehiclesPerRun = 4096;
+inline constexpr std::int64_t kFirstVehicleNumber = kFirstDroneNumber - kMaxVehiclesPerRun;
 /// Ids are exact in readers whose numbers are doubles (JavaScript).
 inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgentsPerRun - 1;
 /// A person's track_id, equal in all frames and cameras of a run: agent id + 1 + run_index *
@@ -80,6 +103,8 @@ class CocoShardWriter {
 struct CocoCategories {
   bool keypoints = false;  ///< that of people names theirs
   bool drones = false;     ///< there is one of drones
+  bool vehicles = false;   ///< there are those of vehicles
+  bool skeletons = false;  ///< that of people names joints and bones
 };
 
 /// One linear pass over shard folders, in the given order, which is by run, into one COCO file

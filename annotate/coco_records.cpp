@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -97,7 +98,12 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
       });
   append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{})",
          labels.people.size() + labels.hidden.size(), labels.people.size(), truncated);
-  if (!labels.drones.empty()) append(text, R"(,"drones":{})", labels.drones.size());
+  const auto drones =
+      std::count_if(labels.objects.begin(), labels.objects.end(),
+                    [](const ObjectLabel& label) { return render::is_drone(label.object.id); });
+  const auto objects = static_cast<std::ptrdiff_t>(labels.objects.size());
+  if (drones > 0) append(text, R"(,"drones":{})", drones);
+  if (objects > drones) append(text, R"(,"vehicles":{})", objects - drones);
   text.push_back('}');
   if (labels.hidden.empty()) return;
   text += R"(,"hidden":[)";
@@ -110,6 +116,14 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
   text.push_back(']');
 }
 
+const ObjectCategory& category_of(world::SemanticClass surface) {
+  const auto* found =
+      std::find_if(kObjectCategories.begin(), kObjectCategories.end(),
+                   [&](const ObjectCategory& category) { return category.surface == surface; });
+  check(found != kObjectCategories.end(), "every object that is measured has a category");
+  return *found;
+}
+
 // The characters of RLE strings run from '0' to 'o'; the backslash is among them.
 void append_counts(std::string& text, const RunLengths& mask) {
   for (const char c : coco_counts(mask)) {
@@ -118,10 +132,10 @@ void append_counts(std::string& text, const RunLengths& mask) {
   }
 }
 
-/// The visible part of a person or drone in the image.
+/// The visible part of a person, drone or vehicle in the image.
 struct Shown {
   int category;
-  std::uint32_t number;  ///< agent, or number_of_drone()
+  std::uint32_t number;  ///< agent, or number_of()
   const PixelBox* box;
   const RunLengths* mask;
   std::uint64_t area_px;
@@ -193,14 +207,16 @@ void append_image_record(std::string& text, const CocoImage& image, const FrameL
   }
   append_people(text, image, labels);
   if (!image.exits.empty()) text += R"(,"exits":)" + image.exits;
+  if (!image.hazards.empty()) text += R"(,"hazards":)" + image.hazards;
+  if (!image.zones.empty()) text += R"(,"zones":)" + image.zones;
   text += "}\n";
 }
 
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label) {
-  check(label.agent < kFirstDroneNumber, "a run has fewer agents than kFirstDroneNumber");
+  check(label.agent < kFirstVehicleNumber, "a run has fewer agents than kFirstVehicleNumber");
   const render::PersonInView& person = label.person;
   append_shown(text, image, {kPersonCategory, label.agent, &label.box, &label.mask, label.area_px});
-  if (person.whole_mask != nullptr) append_whole_mask(text, image, *person.whole_mask);
+  if (image.whole_masks) append_whole_mask(text, image, *person.whole_mask);
   append_whole(text, image, label.agent, person.amodal_box, person.amodal_area_px,
                label.visibility);
   append_decimals(text, person.position, kMeterDecimals);
@@ -212,33 +228,43 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   text += "}\n";
 }
 
-std::uint32_t number_of_drone(std::uint32_t drone) {
-  check(drone < kMaxDronesPerRun, "a run has at most kMaxDronesPerRun drones");
-  return static_cast<std::uint32_t>(kFirstDroneNumber) + drone;
+std::uint32_t number_of(const render::ObjectInView& object) {
+  const bool is_drone = render::is_drone(object.id);
+  check(object.number < (is_drone ? kMaxDronesPerRun : kMaxVehiclesPerRun),
+        "a run has at most kMaxDronesPerRun drones and kMaxVehiclesPerRun vehicles");
+  return static_cast<std::uint32_t>(is_drone ? kFirstDroneNumber : kFirstVehicleNumber) +
+         object.number;
 }
 
-void append_drone_track_record(std::string& text, const CocoImage& image, std::uint32_t drone) {
-  check(image.drone_ids != nullptr && drone < image.drone_ids->size(),
-        "drones that are seen are drones of the run");
-  append(text, R"({{"id":{},"run":{},"drone":{}}})", track_id(image, number_of_drone(drone)),
-         quoted(image.run), quoted((*image.drone_ids)[drone]));
+void append_object_track_record(std::string& text, const CocoImage& image,
+                                const render::ObjectInView& object) {
+  append(text, R"({{"id":{},"run":{},)", track_id(image, number_of(object)), quoted(image.run));
+  if (render::is_drone(object.id)) {
+    check(image.drone_ids != nullptr && object.number < image.drone_ids->size(),
+          "drones that are seen are drones of the run");
+    append(text, R"("drone":{}}})", quoted((*image.drone_ids)[object.number]));
+  } else {
+    append(text, R"("vehicle":"{}","prop":{}}})", category_of(object.surface).name,
+           object.id - render::kIdProp);
+  }
   text.push_back('\n');
 }
 
-void append_drone_record(std::string& text, const CocoImage& image, const DroneLabel& label) {
-  const render::DroneInView& drone = label.drone;
-  const std::uint32_t number = number_of_drone(drone.drone);
-  append_shown(text, image, {kDroneCategory, number, &label.box, &label.mask, label.area_px});
-  if (image.whole_drone_masks) append_whole_mask(text, image, *drone.whole_mask);
-  append_whole(text, image, number, drone.amodal_box, drone.amodal_area_px, label.visibility);
-  append_decimals(text, drone.position, kMeterDecimals);
+void append_object_record(std::string& text, const CocoImage& image, const ObjectLabel& label) {
+  const render::ObjectInView& object = label.object;
+  const std::uint32_t number = number_of(object);
+  append_shown(text, image,
+               {category_of(object.surface).id, number, &label.box, &label.mask, label.area_px});
+  if (image.whole_masks) append_whole_mask(text, image, *object.whole_mask);
+  append_whole(text, image, number, object.amodal_box, object.amodal_area_px, label.visibility);
+  append_decimals(text, object.position, kMeterDecimals);
   text += R"(,"velocity":)";
-  append_decimals(text, drone.velocity, kBodyDecimals);
-  const Eigen::Quaterniond& q = drone.orientation;
+  append_decimals(text, object.velocity, kBodyDecimals);
+  const Eigen::Quaterniond& q = object.orientation;
   text += R"(,"orientation_wxyz":)";
   append_exact(text, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
   append_pose_members(text, image,
-                      {drone.amodal_box, drone.yaw_rad, drone.box_middle, drone.box_size});
+                      {object.amodal_box, object.yaw_rad, object.box_middle, object.box_size});
   text += "}\n";
 }
 

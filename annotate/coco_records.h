@@ -18,12 +18,13 @@ std::int64_t track_id(const CocoImage& image, std::uint32_t agent);
 /// Appends what is true of a person all run long, and a line break.
 void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent);
 
-/// A drone's number, in place of people's agent number.
-std::uint32_t number_of_drone(std::uint32_t drone);
+/// The number of a drone or vehicle, in place of people's agent number.
+std::uint32_t number_of(const render::ObjectInView& object);
 
-/// The like for a drone.
-void append_drone_track_record(std::string& text, const CocoImage& image, std::uint32_t drone);
-void append_drone_record(std::string& text, const CocoImage& image, const DroneLabel& label);
+/// The like for a drone or vehicle.
+void append_object_track_record(std::string& text, const CocoImage& image,
+                                const render::ObjectInView& object);
+void append_object_record(std::string& text, const CocoImage& image, const ObjectLabel& label);
 
 /// Appends the record of a person in that image and a line break.
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label);

@@ -7,8 +7,11 @@
 
 #include "annotate/decimals.h"
 #include "annotate/density.h"
+#include "annotate/difficulty.h"
+#include "annotate/head_labels.h"
 #include "annotate/keypoints.h"
 #include "annotate/png.h"
+#include "annotate/zone_counts.h"
 
 namespace throng::annotate {
 
@@ -28,7 +31,22 @@ std::vector<Eigen::Vector2d> heads_of(const FrameLabels& labels, const camera::C
 
 void write_keypoints(FrameOutput& output) { add_keypoints(output.frame, output.labels); }
 
-void write_amodal(FrameOutput& output) { output.record.whole_drone_masks = true; }
+void write_skeletons(FrameOutput& output) { add_joints(output.frame, output.labels); }
+
+void write_actions(FrameOutput& output) {
+  if (output.actions != nullptr) add_actions(*output.actions, output.frame.time_s, output.labels);
+}
+
+void write_amodal(FrameOutput& output) { output.record.whole_masks = true; }
+
+void write_difficulty(FrameOutput& output) {
+  add_difficulty(output.frame, output.labels);
+  output.lap("difficulty");
+}
+
+void write_heads(FrameOutput& output) { add_heads(output.frame, output.labels); }
+
+void write_occluders(FrameOutput& output) { add_occluders(output.frame, output.labels); }
 
 void write_density(FrameOutput& output) {
   const int width = output.frame.width();
@@ -49,6 +67,19 @@ void write_exits(FrameOutput& output) {
   output.record.exits = output.exits->json(output.frame.camera, output.frame.time_s);
 }
 
+void write_hazards(FrameOutput& output) {
+  if (output.hazards == nullptr) return;
+  output.record.hazards = output.hazards->json(output.frame.camera);
+  for (PersonLabel& label : output.labels.people) {
+    label.danger = output.hazards->danger(label.agent, label.person.position.head<2>());
+  }
+}
+
+void write_counts(FrameOutput& output) {
+  if (output.zones == nullptr) return;
+  output.record.zones = visible_in_zones(output.labels, *output.zones);
+}
+
 template <GroundTruth kind, std::string (*png)(const render::Frame&)>
 void write_raster(FrameOutput& output) {
   const std::string bytes = png(output.frame);
@@ -59,14 +90,28 @@ void write_raster(FrameOutput& output) {
 
 constexpr std::array kWriters = {
     FrameWriter{GroundTruth::keypoints, write_keypoints},
+    FrameWriter{GroundTruth::skeletons, write_skeletons},
+    FrameWriter{GroundTruth::actions, write_actions},
     FrameWriter{GroundTruth::amodal, write_amodal},
+    FrameWriter{GroundTruth::difficulty, write_difficulty},
+    FrameWriter{GroundTruth::heads, write_heads},
+    FrameWriter{GroundTruth::occluders, write_occluders},
     FrameWriter{GroundTruth::density, write_density},
     FrameWriter{GroundTruth::exits, write_exits},
+    FrameWriter{GroundTruth::hazards, write_hazards},
+    FrameWriter{GroundTruth::counts, write_counts},
     FrameWriter{GroundTruth::depth, write_raster<GroundTruth::depth, depth_png>},
     FrameWriter{GroundTruth::instances, write_raster<GroundTruth::instances, instance_png>},
     FrameWriter{GroundTruth::parts, write_raster<GroundTruth::parts, part_png>},
     FrameWriter{GroundTruth::normals, write_raster<GroundTruth::normals, normal_png>},
     FrameWriter{GroundTruth::flow, write_raster<GroundTruth::flow, flow_png>},
+    FrameWriter{GroundTruth::flow_backward,
+                write_raster<GroundTruth::flow_backward, flow_backward_png>},
+    FrameWriter{GroundTruth::flow_occlusion,
+                write_raster<GroundTruth::flow_occlusion, flow_occlusion_png>},
+    FrameWriter{GroundTruth::scene_flow, write_raster<GroundTruth::scene_flow, scene_flow_png>},
+    FrameWriter{GroundTruth::hazard_opacity,
+                write_raster<GroundTruth::hazard_opacity, hazard_opacity_png>},
     FrameWriter{GroundTruth::semantic, write_raster<GroundTruth::semantic, semantic_png>},
 };
 

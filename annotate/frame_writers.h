@@ -6,10 +6,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "annotate/actions.h"
 #include "annotate/coco.h"
 #include "annotate/exit_view.h"
+#include "annotate/hazard_view.h"
 #include "annotate/labels.h"
+#include "annotate/spec/count_areas.h"
 #include "annotate/spec/ground_truth.h"
 #include "render/frame.h"
 
@@ -20,7 +24,10 @@ struct FrameOutput {
   const render::Frame& frame;
   FrameLabels& labels;
   CocoImage& record;  ///< run, camera and frame name the files; written after all kinds
-  const ExitView* exits = nullptr;  ///< null where the records hold no exits
+  const ExitView* exits = nullptr;       ///< null where the records hold no exits
+  const ActionFacts* actions = nullptr;  ///< null where the records hold none
+  const HazardView* hazards = nullptr;   ///< at the frame's time; null where there are none
+  const std::vector<CountZone>* zones = nullptr;  ///< to count people in; null where none are
   double density_sigma_px = 0;
   /// Adds a file of the dataset.
   std::function<void(const std::string& path, std::string_view bytes)> add;

@@ -129,19 +129,33 @@ class FieldPainter {
   std::vector<std::pair<std::size_t, double>> share_;
 };
 
+namespace {
+
+int cells_along(double length_m, double cell_m) {
+  return std::max(1, static_cast<int>(std::ceil(length_m / cell_m - 1e-9)));
+}
+
+}  // namespace
+
+double ground_cell_m(const world::Rectangle& ground) {
+  double cell_m = 0.25;
+  const Vector2d size = ground.max - ground.min;
+  while (static_cast<std::size_t>(cells_along(size.x(), cell_m)) *
+             static_cast<std::size_t>(cells_along(size.y(), cell_m)) >
+         kMaxCells) {
+    cell_m *= 2;
+  }
+  return cell_m;
+}
+
 GroundGrid::GroundGrid(const world::Scenario& scenario)
-    : origin_(scenario.ground.min), cutter_(scenario.buildings) {
+    : origin_(scenario.ground.min),
+      cell_m_(ground_cell_m(scenario.ground)),
+      cutter_(scenario.buildings) {
   const Vector2d size = scenario.ground.max - scenario.ground.min;
-  const auto count = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(length / cell_m_ - 1e-9)));
-  };
-  const auto cells_now = [&] {
-    return static_cast<std::size_t>(count(size.x())) * static_cast<std::size_t>(count(size.y()));
-  };
-  while (cells_now() > kMaxCells) cell_m_ *= 2;
-  columns_ = count(size.x());
-  rows_ = count(size.y());
-  walkable_.assign(cells_now(), true);
+  columns_ = cells_along(size.x(), cell_m_);
+  rows_ = cells_along(size.y(), cell_m_);
+  walkable_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), true);
   FieldPainter painter(*this);
   for (const world::Building& building : scenario.buildings) {
     painter.fill({building.footprint}, [&](std::size_t cell) { walkable_[cell] = false; });

@@ -15,11 +15,14 @@ namespace throng::annotate {
 /// Distance at which the kernel exp(-r²/h²) has fallen to 1/e (m); it is cut off at three times it.
 inline constexpr double kFieldKernelM = 0.7;
 
+/// Size of the cells of a ground's grid (m): 0.25 m, doubled until there are at most 131 072.
+double ground_cell_m(const world::Rectangle& ground);
+
 /// Cells over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
 /// cell in x and origin + [row, row + 1) · cell in y.
 class GroundGrid {
  public:
-  /// Cells of 0.25 m, doubled until there are at most 131 072.
+  /// Cells of ground_cell_m().
   explicit GroundGrid(const world::Scenario& scenario);
 
   const Eigen::Vector2d& origin() const { return origin_; }  ///< m
@@ -32,7 +35,7 @@ class GroundGrid {
   friend class FieldPainter;
 
   Eigen::Vector2d origin_;
-  double cell_m_ = 0.25;
+  double cell_m_;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<bool> walkable_;  ///< whether a cell's middle is outside of all buildings

@@ -1,4 +1,5 @@
-// COCO's 17 keypoints of the people in a frame, with what the image shows of them.
+// Joints of the people in a frame, COCO's 17 keypoints or all of them, with what the image shows of
+// them.
 #pragma once
 
 #include <array>
@@ -34,5 +35,9 @@ inline constexpr std::array<std::pair<int, int>, 19> kSkeleton = {{{16, 14},
 /// within a pixel of its place, the image shows the person at its depth: as deep inside the body
 /// as the joint lies, and no deeper.
 void add_keypoints(const render::Frame& frame, FrameLabels& labels);
+
+/// Sets all joints in the same way. One that is not visible is hidden by the own body if the image
+/// shows the person at its place.
+void add_joints(const render::Frame& frame, FrameLabels& labels);
 
 }  // namespace throng::annotate

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "annotate/drone_labels.h"
+#include "annotate/object_labels.h"
 #include "annotate/person_record.h"
 #include "base/error.h"
 
@@ -211,7 +211,7 @@ FrameLabels label_people(const render::Frame& frame) {
   check(frame.id.size() == pixels, "the id buffer has the camera's size");
   const RunsByPerson grouped = group(scan(frame), frame.people.size());
   ColumnRuns column_runs;
-  FrameLabels labels{frame.index, frame.time_s, {}, {}, label_drones(frame)};
+  FrameLabels labels{frame.index, frame.time_s, {}, {}, label_objects(frame)};
   const Eigen::AlignedBox2d image(Eigen::Vector2d(0, 0),
                                   Eigen::Vector2d(frame.width(), frame.height()));
   for (std::size_t p = 0; p < frame.people.size(); ++p) {

@@ -9,9 +9,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "annotate/color_name.h"
 #include "annotate/exit_view.h"
 #include "base/error.h"
 #include "render/animator.h"
+#include "skinning/clothes.h"
 #include "skinning/items.h"
 
 namespace throng::annotate {
@@ -55,9 +57,10 @@ bool is_shade(const skinning::Population& population, const skinning::Mesh& mesh
   return true;
 }
 
-/// Surface of the finest mesh whose color is a tint, m².
+/// Surface of the finest mesh whose color is a tint and that lies from `low_m` to `high_m` above
+/// the soles, m².
 double tinted_m2(const skinning::Population& population, const skinning::Character& character,
-                 skinning::Tint tint) {
+                 skinning::Tint tint, double low_m, double high_m) {
   if (character.levels.empty()) return 0;
   const skinning::Mesh& mesh = character.levels.front();
   // The type is given: an expression would refer to a temporary that is gone.
@@ -70,6 +73,7 @@ double tinted_m2(const skinning::Population& population, const skinning::Charact
     for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
       const std::uint32_t first = part.first_index + i;
       const Eigen::Vector3d a = corner(first);
+      if (a.z() < low_m || a.z() >= high_m) continue;
       twice_m2 += (corner(first + 1) - a).cross(corner(first + 2) - a).norm();
     }
   }
@@ -78,6 +82,56 @@ double tinted_m2(const skinning::Population& population, const skinning::Charact
 
 /// Less of a color, like a bald man's eyebrows, is none that somebody would name.
 constexpr double kMinTintedM2 = 0.01;
+
+/// Whether enough of a character has the color of a tint for it to be named.
+bool shows_tint(const skinning::Population& population, const skinning::Character& character,
+                skinning::Tint tint, double low_m = -1e9, double high_m = 1e9) {
+  return !character.tints[static_cast<std::size_t>(tint)].empty() &&
+         tinted_m2(population, character, tint, low_m, high_m) >= kMinTintedM2;
+}
+
+std::string hex_of(const skinning::Rgb& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
+}
+
+/// A garment or item with the color that it is rendered in, unless it has several.
+nlohmann::json clothing_of(std::string_view slot, std::string_view type, bool has_color,
+                           const skinning::Rgb& color) {
+  nlohmann::json clothing = {{"slot", slot}, {"type", type}};
+  if (!has_color) return clothing;
+  clothing["colour"] = hex_of(color);
+  clothing["colour_name"] = color_name(color.data());
+  return clothing;
+}
+
+nlohmann::json clothes_of(const skinning::Population& population,
+                          const skinning::Character& character,
+                          const skinning::Appearance& appearance) {
+  using skinning::ClothesSlot;
+  using skinning::Tint;
+  const auto color = [&](Tint tint) { return appearance.tint[static_cast<std::size_t>(tint)]; };
+  const double middle_m = static_cast<double>(character.stature_m) / 2;
+  nlohmann::json clothes = nlohmann::json::array();
+  for (const auto& [slot, type] : skinning::clothes_in(character.wears)) {
+    const bool is_at_head = slot == ClothesSlot::hat;
+    const bool is_dyed_as_shoes = is_at_head || slot == ClothesSlot::shoes;
+    const Tint tint = is_dyed_as_shoes             ? Tint::shoes
+                      : slot == ClothesSlot::lower ? Tint::bottom
+                                                   : Tint::top;
+    // Hats are dyed as shoes are: the height tells them apart.
+    const bool has_color = is_at_head ? shows_tint(population, character, tint, middle_m)
+                           : is_dyed_as_shoes
+                               ? shows_tint(population, character, tint, -1e9, middle_m)
+                               : shows_tint(population, character, tint);
+    clothes.push_back(clothing_of(name_of(slot), type, has_color, color(tint)));
+  }
+  if (character.carries != skinning::Carry::nothing) {
+    clothes.push_back(
+        clothing_of("carried", skinning::kCarryNames[static_cast<std::size_t>(character.carries)],
+                    shows_tint(population, character, Tint::item), color(Tint::item)));
+  }
+  return clothes;
+}
 
 nlohmann::json attributes_of(const skinning::Population& population,
                              const skinning::Character& character,
@@ -89,15 +143,14 @@ nlohmann::json attributes_of(const skinning::Population& population,
       {"age_band", age_band(character.age_years)},
       {"stature_m", std::round(1000.0 * static_cast<double>(character.stature_m)) / 1000.0},
       {"wears", character.wears},
-      {"carries", skinning::kCarryNames[static_cast<std::size_t>(character.carries)]}};
+      {"carries", skinning::kCarryNames[static_cast<std::size_t>(character.carries)]},
+      {"clothes", clothes_of(population, character, appearance)}};
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
+    if (!shows_tint(population, character, tint)) continue;
     const auto index = static_cast<std::size_t>(tint);
-    if (character.tints[index].empty() || tinted_m2(population, character, tint) < kMinTintedM2)
-      continue;
-    const skinning::Rgb& color = appearance.tint[index];
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
-        fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
+        hex_of(appearance.tint[index]);
   }
   return attributes;
 }

@@ -7,9 +7,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "annotate/instance_id.h"
 #include "base/deflate.h"
 #include "base/error.h"
 
@@ -77,6 +79,30 @@ std::size_t samples_of(const Raster& raster) {
   return static_cast<std::size_t>(raster.width) * raster.height * raster.channels;
 }
 
+constexpr float kSignedZero = 32768;
+constexpr float kMaxSample = 65535;
+
+/// Whether a pixel's values are known and lie in [min, 65535].
+bool fits(std::span<const float> values, float min) {
+  // Unknown values are NaN: every comparison with them is false.
+  return std::all_of(values.begin(), values.end(),
+                     [&](float value) { return value >= min && value <= kMaxSample; });
+}
+
+std::string flow_png(const render::Frame& frame, const std::vector<float>& flow) {
+  constexpr float kPerPixel = 64;
+  std::vector<std::uint16_t> samples(flow.size() / 2 * 3);
+  for (std::size_t i = 0; i * 2 < flow.size(); ++i) {
+    const std::array values = {std::round(flow[i * 2] * kPerPixel + kSignedZero),
+                               std::round(flow[i * 2 + 1] * kPerPixel + kSignedZero)};
+    if (!fits(values, 0)) continue;
+    samples[i * 3] = static_cast<std::uint16_t>(values[0]);
+    samples[i * 3 + 1] = static_cast<std::uint16_t>(values[1]);
+    samples[i * 3 + 2] = 1;
+  }
+  return png_bytes({frame.width(), frame.height(), 3}, samples);
+}
+
 }  // namespace
 
 std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples) {
@@ -111,12 +137,10 @@ std::string instance_png(const render::Frame& frame) {
   rgb.resize(frame.id.size() * 3);
   std::uint8_t* out = rgb.data();
   for (const std::uint32_t id : frame.id) {
-    const bool is_static = id >= render::kIdBuilding;
-    const std::uint32_t umbrella = render::is_umbrella(id) ? 0x40U : 0U;
-    check(is_static || (id & ~render::kIdUmbrella) >> 22U == 0, "agents have less than 22 bits");
-    out[0] = static_cast<std::uint8_t>(id);
-    out[1] = static_cast<std::uint8_t>(id >> 8U);
-    out[2] = static_cast<std::uint8_t>(is_static ? id >> 24U : id >> 16U | umbrella);
+    const std::uint32_t instance = instance_of_id(id);
+    out[0] = static_cast<std::uint8_t>(instance);
+    out[1] = static_cast<std::uint8_t>(instance >> 8U);
+    out[2] = static_cast<std::uint8_t>(instance >> 16U);
     out += 3;
   }
   return png_bytes({frame.width(), frame.height(), 3}, rgb);
@@ -134,19 +158,32 @@ std::string normal_png(const render::Frame& frame) {
   return png_bytes({frame.width(), frame.height(), 3}, frame.normal);
 }
 
-std::string flow_png(const render::Frame& frame) {
-  constexpr float kZero = 32768;
-  constexpr float kPerPixel = 64;
-  constexpr float kMaxValue = 65535;
-  std::vector<std::uint16_t> samples(frame.flow.size() / 2 * 3);
-  for (std::size_t i = 0; i * 2 < frame.flow.size(); ++i) {
-    const float x = std::round(frame.flow[i * 2] * kPerPixel + kZero);
-    const float y = std::round(frame.flow[i * 2 + 1] * kPerPixel + kZero);
-    // Unknown values are NaN: every comparison with them is false.
-    if (!(x >= 0 && y >= 0 && x <= kMaxValue && y <= kMaxValue)) continue;
-    samples[i * 3] = static_cast<std::uint16_t>(x);
-    samples[i * 3 + 1] = static_cast<std::uint16_t>(y);
-    samples[i * 3 + 2] = 1;
+std::string flow_png(const render::Frame& frame) { return flow_png(frame, frame.flow); }
+
+std::string flow_backward_png(const render::Frame& frame) {
+  return flow_png(frame, frame.flow_backward);
+}
+
+std::string flow_occlusion_png(const render::Frame& frame) {
+  return png_bytes({frame.width(), frame.height(), 1}, frame.flow_target);
+}
+
+std::string hazard_opacity_png(const render::Frame& frame) {
+  return png_bytes({frame.width(), frame.height(), 3}, frame.hazard_opacity);
+}
+
+std::string scene_flow_png(const render::Frame& frame) {
+  constexpr float kPerMeter = 1000;
+  std::vector<std::uint16_t> samples(frame.scene_flow_m.size());
+  for (std::size_t i = 0; i < samples.size(); i += 3) {
+    std::array<float, 3> values{};
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      values.at(c) = std::round(frame.scene_flow_m[i + c] * kPerMeter + kSignedZero);
+    }
+    if (!fits(values, 1)) continue;  // 0 is what is unknown
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      samples[i + c] = static_cast<std::uint16_t>(values.at(c));
+    }
   }
   return png_bytes({frame.width(), frame.height(), 3}, samples);
 }

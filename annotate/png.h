@@ -47,4 +47,17 @@ std::string normal_png(const render::Frame& frame);
 /// has flow.
 std::string flow_png(const render::Frame& frame);
 
+/// The same of Frame::flow_backward.
+std::string flow_backward_png(const render::Frame& frame);
+
+/// 8-bit gray: render::FlowTarget. Checks that the frame has them.
+std::string flow_occlusion_png(const render::Frame& frame);
+
+/// 8-bit RGB: Frame::hazard_opacity as it is. Checks that the frame has it.
+std::string hazard_opacity_png(const render::Frame& frame);
+
+/// 16-bit RGB: 32768 + 1000 * motion in the world (m), rounded; all 0 where it is unknown or
+/// farther than 32.7 m. Checks that the frame has it.
+std::string scene_flow_png(const render::Frame& frame);
+
 }  // namespace throng::annotate

@@ -15,6 +15,10 @@ std::string read_file(const std::filesystem::path& path);
 /// Creates the parent folder. Throws EnvironmentError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Writes without syncing: for exchange between processes, in a folder that a crash may take along.
+/// Throws EnvironmentError.
+void write_temporary_file(const std::filesystem::path& path, std::string_view bytes);
+
 /// Creates the folder and those around it, so that they are still there after a power failure.
 /// Nothing if it exists. Throws EnvironmentError.
 void make_folders(const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -28,6 +29,7 @@ struct ExportArguments {
   double min_visibility = 0;
   double min_height_px = 0;
   std::optional<double> max_truncation;
+  double min_contrast = 0;
   double shard_mb = formats::WebDatasetOptions{}.shard_mb;
   std::string classes = "none";
   std::vector<std::string> class_names;
@@ -74,7 +76,8 @@ formats::SplitOptions splits_of(const std::vector<std::string>& words) {
 formats::ExportOptions options_of(const ExportArguments& arguments) {
   formats::ExportOptions options;
   options.splits = splits_of(arguments.splits);
-  options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation};
+  options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation,
+                     arguments.min_contrast};
   options.webdataset.shard_mb = arguments.shard_mb;
   options.classes.by = arguments.classes;
   for (const std::string& word : arguments.class_names) {
@@ -87,14 +90,21 @@ void export_formats(const ExportArguments& arguments) {
   const fs::path root = arguments.dataset;
   const formats::DatasetInfo info =
       formats::describe_dataset(root, formats::read_manifest(root), options_of(arguments));
+  if (arguments.min_contrast > 0 && !info.has(annotate::GroundTruth::difficulty)) {
+    throw InputError({"", "--min-contrast", "a dataset without the annotation difficulty",
+                      "one whose job has \"difficulty\" in outputs.annotations"});
+  }
   const auto chosen = formats::choose_formats(arguments.formats, info.annotations, "--formats");
   if (fs::exists(arguments.output)) {
     throw InputError({"", "--output", arguments.output + ", which exists", "a new folder"});
   }
   StagingFolder staging(arguments.output);
-  formats::export_dataset(info, chosen, staging.path());
+  std::vector<Problem> warnings = formats::split_warnings(info, chosen);
+  for (Problem& warning : formats::export_dataset(info, chosen, staging.path())) {
+    warnings.push_back(std::move(warning));
+  }
   staging.commit();
-  for (const Problem& warning : formats::split_warnings(info, chosen)) {
+  for (const Problem& warning : warnings) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
   for (const formats::Format* format : chosen) {
@@ -124,6 +134,12 @@ void add_export(CLI::App& app) {
       ->add_option("--max-truncation", arguments->max_truncation,
                    "People farther outside of the image become ignore regions")
       ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option(
+          "--min-contrast", arguments->min_contrast,
+          "People whose color differs less than this (CIELAB) from the surroundings become "
+          "ignore regions; needs the annotation difficulty")
+      ->check(CLI::Range(0.0, 100.0));
   command
       ->add_option("--min-height", arguments->min_height_px,
                    "People smaller than this height in pixels become ignore regions")

@@ -136,7 +136,9 @@ void DatasetCard::add(const Image& image) {
   ++by_light_[light_of(image.record)];
   ++by_weather_[weather_of(image.record)];
   ++by_split_[std::string(name_of(image.split))];
-  drones_ += static_cast<std::int64_t>(image.drones.size());
+  for (const Person& object : image.objects) {
+    ++objects_[info_.object_categories.at(object.category - info_.categories.size()).id];
+  }
   for (const Person& person : image.people) {
     ++by_height_[band_of(person.amodal.height, kHeights)];
     ++by_visibility_[band_of(kPercent * person.visibility, kShares)];
@@ -155,21 +157,39 @@ void DatasetCard::add_character(const Person& person) {
   if (character != attributes->end()) characters_.insert(character->get<std::string>());
 }
 
+std::int64_t DatasetCard::count_of(int category) const {
+  const auto found = objects_.find(category);
+  return found == objects_.end() ? 0 : found->second;
+}
+
+json DatasetCard::classes() const {
+  json names = {{std::to_string(annotate::kPersonCategory), "person"}};
+  for (const annotate::ObjectCategory& category : info_.object_categories) {
+    names[std::to_string(category.id)] = category.name;
+  }
+  return names;
+}
+
 json DatasetCard::statistics() const {
-  return {{"images", images_},
-          {"annotations", people_},
-          {"annotations_of_drones", drones_},
-          {"most_people_in_an_image", max_in_image_},
-          {"distinct_characters", characters_.size()},
-          {"truncated", truncated_},
-          {"fail_the_filters", ignored_},
-          {"annotations_by_height_px", by_height_},
-          {"annotations_by_visibility_percent", by_visibility_},
-          {"annotations_by_state", by_state_},
-          {"images_by_people", by_count_},
-          {"images_by_light", by_light_},
-          {"images_by_weather", by_weather_},
-          {"images_by_split", by_split_}};
+  json figures = {{"images", images_},
+                  {"annotations", people_},
+                  {"annotations_of_drones", count_of(annotate::kDroneCategory)},
+                  {"most_people_in_an_image", max_in_image_},
+                  {"distinct_characters", characters_.size()},
+                  {"truncated", truncated_},
+                  {"fail_the_filters", ignored_},
+                  {"annotations_by_height_px", by_height_},
+                  {"annotations_by_visibility_percent", by_visibility_},
+                  {"annotations_by_state", by_state_},
+                  {"images_by_people", by_count_},
+                  {"images_by_light", by_light_},
+                  {"images_by_weather", by_weather_},
+                  {"images_by_split", by_split_}};
+  for (const annotate::ObjectCategory& category : info_.object_categories) {
+    if (category.id == annotate::kDroneCategory) continue;
+    figures["annotations_of_vehicles"][std::string(category.name)] = count_of(category.id);
+  }
+  return figures;
 }
 
 json DatasetCard::description() const {
@@ -201,8 +221,7 @@ json DatasetCard::description() const {
       {"generator", info_.generator},
       {"schema_versions", {{"manifest", manifest_.at("schema_version")}, {"coco", "1"}}},
       {"files", places_here},
-      {"classes",
-       info_.sees_drones ? json{{"1", "person"}, {"2", kDroneClass}} : json{{"1", "person"}}},
+      {"classes", classes()},
       {"formats", formats},
       {"splits", splits},
       {"seeds", seeds},

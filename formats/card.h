@@ -1,6 +1,7 @@
 // A dataset's own description: dataset.json for programs and README.md for people.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,10 @@ class DatasetCard : public Exporter {
  private:
   /// Counts the character of a track, at its first annotation.
   void add_character(const Person& person);
+  /// Annotations of a category that is not people's.
+  std::int64_t count_of(int category) const;
+  /// Names of the COCO file's categories, by id.
+  nlohmann::json classes() const;
   nlohmann::json statistics() const;
   nlohmann::json description() const;
   std::string readme() const;
@@ -32,7 +37,7 @@ class DatasetCard : public Exporter {
   Output output_;
   std::int64_t images_ = 0;
   std::int64_t people_ = 0;
-  std::int64_t drones_ = 0;
+  std::map<int, std::int64_t> objects_;  ///< annotations of drones and vehicles, by category
   std::int64_t truncated_ = 0;
   std::int64_t ignored_ = 0;
   std::int64_t max_in_image_ = 0;

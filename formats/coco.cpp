@@ -2,14 +2,18 @@
 // filters' ignore regions as iscrowd.
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "annotate/keypoints.h"
 #include "annotate/spec/license.h"
+#include "formats/joints.h"
 #include "formats/makers.h"
 #include "formats/mask.h"
 
@@ -101,27 +105,59 @@ json categories_of(const DatasetInfo& info, bool keypoints) {
     category["keypoints"] = skinning::kKeypointNames;
     category["skeleton"] = annotate::kSkeleton;
   }
-  if (info.sees_drones && !keypoints) {
+  if (keypoints) return categories;
+  for (const annotate::ObjectCategory& category : info.object_categories) {
     categories.push_back(
-        {{"id", info.categories.size() + 1}, {"name", kDroneClass}, {"supercategory", "vehicle"}});
+        {{"id", categories.size() + 1}, {"name", category.name}, {"supercategory", "vehicle"}});
   }
   return categories;
 }
 
+/// Which of COCO's kinds of files is written.
+enum class CocoKind : std::uint8_t { instances, keypoints, whole_bodies };
+
+std::string coco_file_of(CocoKind kind, Split split) {
+  switch (kind) {
+    case CocoKind::instances:
+      break;
+    case CocoKind::keypoints:
+      return fmt::format("annotations/person_keypoints_{}.json", name_of(split));
+    case CocoKind::whole_bodies:
+      return fmt::format("annotations/coco_wholebody_{}_v1.0.json", name_of(split));
+  }
+  return fmt::format("annotations/instances_{}.json", name_of(split));
+}
+
+/// COCO-WholeBody's members (Jin et al. 2020): six points of the feet; faces and hands have none.
+void add_whole_body(json& record) {
+  using skinning::Joint;
+  constexpr std::array kFeet = {Joint::left_big_toe,  Joint::left_small_toe,  Joint::left_heel,
+                                Joint::right_big_toe, Joint::right_small_toe, Joint::right_heel};
+  const std::vector<JointInImage> joints = joints_of(record);
+  json feet = json::array();
+  bool are_valid = false;
+  for (const Joint joint : kFeet) {
+    const JointInImage& at = joints.at(index_of(joint));
+    const int visibility = at.coco_visibility();
+    feet.insert(feet.end(), {at.place.x(), at.place.y(), visibility});
+    are_valid = are_valid || visibility > 0;
+  }
+  record["foot_kpts"] = std::move(feet);
+  record["foot_valid"] = are_valid;
+  for (const auto& [part, points] : {std::pair{"face", 68}, {"lefthand", 21}, {"righthand", 21}}) {
+    record[std::string(part) + "_box"] = json::array({0, 0, 0, 0});
+    record[std::string(part) + "_kpts"] = std::vector<int>(3UL * static_cast<std::size_t>(points));
+    record[std::string(part) + "_valid"] = false;
+  }
+}
+
 class CocoExporter : public Exporter {
  public:
-  CocoExporter(const DatasetInfo& info, Output output, bool keypoints)
-      : root_(info.root),
-        output_(std::move(output)),
-        keypoints_(keypoints),
-        drone_category_(info.categories.size()) {
-    const std::string kind = keypoints ? "person_keypoints" : "instances";
+  CocoExporter(const DatasetInfo& info, Output output, CocoKind kind)
+      : root_(info.root), output_(std::move(output)), kind_(kind) {
     for (const Split split : info.splits()) {
-      CocoFile& file = files_
-                           .try_emplace(split, output_,
-                                        fmt::format("annotations/{}_{}.json", kind, name_of(split)))
-                           .first->second;
-      file.begin(info, categories_of(info, keypoints));
+      CocoFile& file = files_.try_emplace(split, output_, coco_file_of(kind, split)).first->second;
+      file.begin(info, categories_of(info, kind != CocoKind::instances));
     }
   }
 
@@ -132,9 +168,9 @@ class CocoExporter : public Exporter {
     json record = image.record;
     record["file_name"] = name;
     file.add_image(record);
-    for (const Person& person : image.people) add(image, person, person.category, file);
-    if (keypoints_) return;
-    for (const Person& drone : image.drones) add(image, drone, drone_category_, file);
+    for (const Person& person : image.people) add(image, person, file);
+    if (kind_ != CocoKind::instances) return;
+    for (const Person& object : image.objects) add(image, object, file);
   }
 
   void finish() override {
@@ -142,9 +178,9 @@ class CocoExporter : public Exporter {
   }
 
  private:
-  void add(const Image& image, const Person& object, std::size_t category, CocoFile& file) const {
+  void add(const Image& image, const Person& object, CocoFile& file) const {
     json record = object.record;
-    record["category_id"] = category + 1;
+    record["category_id"] = object.category + 1;
     if (object.is_ignored) {
       record["iscrowd"] = 1;
       // COCO has run lengths of regions as plain numbers.
@@ -152,7 +188,8 @@ class CocoExporter : public Exporter {
           runs_of(object.mask, static_cast<std::uint64_t>(image.width) *
                                    static_cast<std::uint64_t>(image.height));
     }
-    if (!keypoints_) {
+    if (kind_ == CocoKind::whole_bodies) add_whole_body(record);
+    if (kind_ == CocoKind::instances) {
       for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
     }
     file.add_annotation(record);
@@ -161,19 +198,22 @@ class CocoExporter : public Exporter {
 
   fs::path root_;
   Output output_;
-  bool keypoints_;
-  std::size_t drone_category_;
+  CocoKind kind_;
   std::map<Split, CocoFile> files_;
 };
 
 }  // namespace
 
 ExporterPointer make_coco(const DatasetInfo& info, Output output) {
-  return std::make_unique<CocoExporter>(info, std::move(output), false);
+  return std::make_unique<CocoExporter>(info, std::move(output), CocoKind::instances);
 }
 
 ExporterPointer make_coco_keypoints(const DatasetInfo& info, Output output) {
-  return std::make_unique<CocoExporter>(info, std::move(output), true);
+  return std::make_unique<CocoExporter>(info, std::move(output), CocoKind::keypoints);
+}
+
+ExporterPointer make_coco_wholebody(const DatasetInfo& info, Output output) {
+  return std::make_unique<CocoExporter>(info, std::move(output), CocoKind::whole_bodies);
 }
 
 }  // namespace throng::formats

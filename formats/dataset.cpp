@@ -67,8 +67,16 @@ std::size_t category_of(const json& record, const json& track, const ClassOption
   return static_cast<std::size_t>(found - values.begin());
 }
 
-/// The values that people and drones have in common.
-Person thing_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
+/// Index into DatasetInfo::class_names() of a category that is not people's.
+std::optional<std::size_t> object_index(const DatasetInfo& info, const json& id) {
+  for (std::size_t i = 0; i < info.object_categories.size(); ++i) {
+    if (info.object_categories[i].id == id) return info.categories.size() + i;
+  }
+  return std::nullopt;
+}
+
+/// The values that people, drones and vehicles have in common.
+Person object_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
   Person person;
   record.at("id").get_to(person.id);
   record.at("track_id").get_to(person.track_id);
@@ -89,11 +97,26 @@ Person thing_of(json record, std::shared_ptr<const json> track, const ExportOpti
   return person;
 }
 
+/// Whether neither contrast in the record reaches the limit; records without any are kept.
+bool is_indistinct(const json& record, double min_contrast) {
+  const auto difficulty = record.find("difficulty");
+  if (min_contrast <= 0 || difficulty == record.end()) return false;
+  return std::max(difficulty->at("contrast").get<double>(),
+                  difficulty->at("edge_contrast").get<double>()) < min_contrast;
+}
+
 Person person_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
-  Person person = thing_of(std::move(record), std::move(track), options);
+  Person person = object_of(std::move(record), std::move(track), options);
   if (const json& head = person.record.at("head"); !head.is_null()) {
     person.head = vector_of<Eigen::Vector2d>(head);
   }
+  if (const auto box = person.record.find("head_box"); box != person.record.end()) {
+    if (!box->is_null()) person.head_box = box_of(*box);
+    const json& visibility = person.record.at("head_visibility");
+    if (!visibility.is_null()) person.head_visibility = visibility.get<double>();
+  }
+  person.is_ignored =
+      person.is_ignored || is_indistinct(person.record, options.filters.min_contrast);
   person.state = person.record.value("state", "");
   person.category = category_of(person.record, *person.track, options.classes);
   return person;
@@ -125,7 +148,7 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
   image.split = info.split_of(image.run);
   image.people.clear();
-  image.drones.clear();
+  image.objects.clear();
   read_hidden(record, info.options.filters, image);
   image.record = std::move(record);
 }
@@ -142,8 +165,9 @@ json sample_of(const Image& image, const DatasetInfo& info) {
     record["category"] = category;
     if (object.is_ignored) record["ignored"] = true;
   };
-  for (const Person& person : image.people) add(person, info.categories[person.category]);
-  for (const Person& drone : image.drones) add(drone, kDroneClass);
+  const std::vector<std::string> names = info.class_names();
+  for (const Person& person : image.people) add(person, names.at(person.category));
+  for (const Person& object : image.objects) add(object, names.at(object.category));
   return sample;
 }
 
@@ -158,6 +182,18 @@ std::string Image::stem() const { return fmt::format("{}-{}-{:06}", run, camera,
 
 bool DatasetInfo::has(annotate::GroundTruth kind) const {
   return annotate::holds(annotations, kind);
+}
+
+std::vector<std::string> DatasetInfo::class_names() const {
+  std::vector<std::string> names = categories;
+  for (const annotate::ObjectCategory& category : object_categories) {
+    names.emplace_back(category.name);
+  }
+  return names;
+}
+
+world::SemanticClass DatasetInfo::surface_of(const Person& object) const {
+  return object_categories.at(object.category - categories.size()).surface;
 }
 
 Split DatasetInfo::split_of(const std::string& run) const {
@@ -218,6 +254,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     const json& job = manifest.at("job");
     job.at("name").get_to(info.name);
     manifest.at("generator").get_to(info.generator);
+    info.seed = job.value("seed", info.seed);
     const json& capture = job.at("capture");
     capture.at("rate_hz").get_to(info.rate_hz);
     capture.at("from_s").get_to(info.from_s);
@@ -228,9 +265,16 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
             (capture.at("to_s").get<double>() - capture.at("from_s").get<double>()) * info.rate_hz +
             kSlack));
     for (const json& run : manifest.at("runs")) info.runs.push_back(run.at("run"));
+    if (const auto id = job.find("scenario"); id != job.end() && id->is_string()) {
+      info.scenario = id->get<std::string>();
+    }
     const json& outputs = job.at("outputs");
     outputs.at("annotations").get_to(info.annotations);
-    info.sees_drones = job.value("drones", json::array()).size() > 1;
+    info.count_areas = outputs.value("counts", info.count_areas);
+    info.field_cells_m =
+        outputs.value("fields", json::object()).value("cells_m", info.field_cells_m);
+    info.object_categories = annotate::object_categories(
+        job.value("drones", json::array()).size() > 1, info.has(annotate::GroundTruth::vehicles));
     info.formats = outputs.value("formats", info.formats);
     info.density_sigma_px =
         outputs.value("density", json::object()).value("sigma_px", info.density_sigma_px);
@@ -355,10 +399,12 @@ bool DatasetReader::next(Image& image) {
     tracks_->enter(image.run, info_->runs);
     while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {
       std::shared_ptr<const json> track = tracks_->find(waiting_.at("track_id"));
-      const bool is_drone = waiting_.at("category_id") == annotate::kDroneCategory;
-      (is_drone ? image.drones : image.people)
-          .push_back((is_drone ? thing_of : person_of)(std::move(waiting_), std::move(track),
-                                                       info_->options));
+      if (const auto category = object_index(*info_, waiting_.at("category_id"))) {
+        image.objects.push_back(object_of(std::move(waiting_), std::move(track), info_->options));
+        image.objects.back().category = *category;
+      } else {
+        image.people.push_back(person_of(std::move(waiting_), std::move(track), info_->options));
+      }
       waiting_ = annotations_->next();
     }
   } catch (const json::exception& error) {

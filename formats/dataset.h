@@ -34,7 +34,7 @@ struct Keypoint {
   int visibility = 0;
 };
 
-/// Somebody in an image, or another drone; docs/formats.md says what the values mean.
+/// Somebody in an image, another drone or a vehicle; docs/formats.md says what the values mean.
 struct Person {
   nlohmann::json record;  ///< the annotation as it stands in the COCO file
   /// That of `tracks`: what stays the same all run long. Empty if it has none; never null.
@@ -47,7 +47,9 @@ struct Person {
   double area = 0;   ///< visible pixels
   double visibility = 0;
   double truncation = 0;
-  std::optional<Eigen::Vector2d> head;                 ///< box coordinates
+  std::optional<Eigen::Vector2d> head;    ///< box coordinates
+  std::optional<Box> head_box;            ///< none without `heads`, or where the camera sees none
+  std::optional<double> head_visibility;  ///< the same
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   double heading_rad = 0;
@@ -55,7 +57,7 @@ struct Person {
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();
   std::string state;
   std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has none
-  std::size_t category = 0;         ///< index into DatasetInfo::categories
+  std::size_t category = 0;         ///< index into DatasetInfo::class_names()
   /// What track_id says of the person within its run, from 1: also in images of instances.
   std::int64_t number_in_run() const { return track_id % annotate::kTrackIdsPerRun; }
   bool is_ignored = false;  ///< fails the filters: to be written as an ignore region
@@ -81,7 +83,7 @@ struct Image {
   double time_s = 0;
   Split split = Split::train;
   std::vector<Person> people;
-  std::vector<Person> drones;  ///< others that it shows: what people and drones have in common
+  std::vector<Person> objects;  ///< drones and vehicles: what people have in common with them
   std::vector<HiddenPerson> hidden;
   Eigen::Matrix3d camera_matrix = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
@@ -99,24 +101,34 @@ struct DatasetInfo {
   std::filesystem::path root;
   std::string name;
   std::string generator;
+  std::uint64_t seed = 0;  ///< of the job
   double rate_hz = 1;
   double from_s = 0;  ///< time of the first frame
   double density_sigma_px = 4;
+  std::vector<double> field_cells_m;  ///< of the grids of fields beside the usual one
+  nlohmann::json count_areas = nlohmann::json::object();  ///< the job's outputs.counts
+  std::string scenario;                                   ///< its id; "" of a dataset of several
   std::int64_t frames_per_camera = 0;
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
   std::vector<std::string> formats;      ///< that it has below formats/
   std::vector<std::string> categories;   ///< names of people's classes to write
-  bool sees_drones = false;              ///< drones may show each other: a class after people's
+  /// Those of drones, if they may see each other, and vehicles, if the dataset has them: classes
+  /// after people's.
+  std::vector<annotate::ObjectCategory> object_categories;
   ExportOptions options;
 
   bool has(annotate::GroundTruth kind) const;
+  /// People's classes, then those of objects.
+  std::vector<std::string> class_names() const;
+  /// Drone, car or train, of one of an image's objects.
+  world::SemanticClass surface_of(const Person& object) const;
   /// The splits that have runs.
   std::vector<Split> splits() const;
   Split split_of(const std::string& run) const;
 };
 
-/// The image's record with `annotations`, its people's and drones' records with what their tracks
+/// The image's record with `annotations`, its people's and objects' records with what their tracks
 /// say, in which `category` names their class and `ignored` is true of who fails the filters:
 /// everything about an image in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
@@ -134,9 +146,6 @@ InputError bad_manifest(const std::filesystem::path& root, const nlohmann::json:
 
 /// Path of a dataset's COCO file, below its root.
 inline constexpr const char* kCocoFile = "annotations/instances.json";
-
-/// The class of drones.
-inline constexpr const char* kDroneClass = "drone";
 
 class DatasetReader {
  public:

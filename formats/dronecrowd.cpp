@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 
+#include "formats/heads.h"
 #include "formats/image_camera.h"
 #include "formats/makers.h"
 #include "formats/sequences.h"
@@ -39,7 +40,7 @@ class DroneCrowdExporter : public Exporter {
   static void append(std::string& lines, const Image& image, const camera::Camera& camera,
                      const Person& person) {
     const Eigen::Vector2d& at = *person.head;
-    if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) return;
+    if (!is_in_image(image, at)) return;
     const double size = std::max(pixels_across(camera, person.box_middle, kHeadM), 1.0);
     const bool is_hidden = person.visibility < 0.5;
     fmt::format_to(std::back_inserter(lines), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},0,{},-1,-1\n",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -31,7 +32,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
     if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) {
       problems.push_back({"", place, names[i] + " once more", "each format once"});
     }
-    for (const GroundTruth need : std::set{GroundTruth::coco, format->needs}) {
+    for (const GroundTruth need : std::set{GroundTruth::coco, format->needs, format->needs_also}) {
       if (annotate::holds(annotations, need)) continue;
       problems.push_back({"", place, names[i],
                           fmt::format("\"{}\" among outputs.annotations, which {} is made of",
@@ -62,8 +63,9 @@ std::vector<Problem> split_warnings(const DatasetInfo& info,
   return warnings;
 }
 
-void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
-                    const std::filesystem::path& output, Exporter* also) {
+std::vector<Problem> export_dataset(const DatasetInfo& info,
+                                    const std::vector<const Format*>& formats,
+                                    const std::filesystem::path& output, Exporter* also) {
   std::vector<std::unique_ptr<Exporter>> exporters;
   exporters.reserve(formats.size());
   for (const Format* format : formats) {
@@ -75,8 +77,13 @@ void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& f
     for (const auto& exporter : exporters) exporter->add(image);
     if (also != nullptr) also->add(image);
   }
-  for (const auto& exporter : exporters) exporter->finish();
+  std::vector<Problem> warnings;
+  for (const auto& exporter : exporters) {
+    exporter->finish();
+    for (Problem& warning : exporter->warnings()) warnings.push_back(std::move(warning));
+  }
   if (also != nullptr) also->finish();
+  return warnings;
 }
 
 }  // namespace throng::formats

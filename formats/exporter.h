@@ -23,6 +23,8 @@ class Exporter {
   Exporter& operator=(const Exporter&) = delete;
   virtual void add(const Image& image) = 0;
   virtual void finish() = 0;
+  /// Once finished: what of the data the format's programs want and the dataset lacks.
+  virtual std::vector<Problem> warnings() const { return {}; }
 };
 
 struct Format {
@@ -31,6 +33,7 @@ struct Format {
   annotate::GroundTruth needs;  ///< what it is made of: coco, or another kind beside it
   /// The info outlives the exporter.
   std::unique_ptr<Exporter> (*make)(const DatasetInfo& info, Output output);
+  annotate::GroundTruth needs_also = annotate::GroundTruth::coco;  ///< another kind
 };
 
 /// All formats there are: the one table (format_table.cpp).
@@ -50,8 +53,9 @@ std::vector<Problem> split_warnings(const DatasetInfo& info,
                                     const std::vector<const Format*>& formats);
 
 /// One pass over the dataset: each format below `output`, in a folder of its name. `also` is fed
-/// with them, if given.
-void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
-                    const std::filesystem::path& output, Exporter* also = nullptr);
+/// with them, if given. Gives the formats' warnings.
+std::vector<Problem> export_dataset(const DatasetInfo& info,
+                                    const std::vector<const Format*>& formats,
+                                    const std::filesystem::path& output, Exporter* also = nullptr);
 
 }  // namespace throng::formats

@@ -1,9 +1,13 @@
-// Middlebury's .flo: float32 motion to the next frame.
+// Middlebury's .flo: float32 motion to the next frame; to the previous one and a mask of occlusion,
+// if the dataset has them.
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <vector>
 
+#include "annotate/png.h"
 #include "formats/makers.h"
+#include "formats/pixels.h"
 #include "formats/raster_files.h"
 
 namespace throng::formats {
@@ -12,8 +16,6 @@ namespace {
 
 constexpr float kMagic = 202021.25F;
 constexpr float kUnknownFlow = 1e10F;
-constexpr float kPerPixel = 64;
-constexpr float kZeroAt = 32768;
 
 void append_bytes(std::string& bytes, const auto& value) {
   const std::size_t at = bytes.size();
@@ -21,25 +23,46 @@ void append_bytes(std::string& bytes, const auto& value) {
   std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
+std::string flo_of(const images::Raster& flow) {
+  std::string bytes;
+  bytes.reserve(12 + flow.samples.size() / 3 * 8);
+  append_bytes(bytes, kMagic);
+  append_bytes(bytes, static_cast<std::int32_t>(flow.width));
+  append_bytes(bytes, static_cast<std::int32_t>(flow.height));
+  for (std::size_t i = 0; i < flow.samples.size(); i += 3) {
+    const auto motion_px = flow_of(&flow.samples[i]);
+    for (const Eigen::Index axis : {0, 1}) {
+      append_bytes(bytes, motion_px ? static_cast<float>((*motion_px)[axis]) : kUnknownFlow);
+    }
+  }
+  return bytes;
+}
+
+/// 255 where flow leads to what the next frame does not show.
+std::string occlusion_png(const images::Raster& targets) {
+  constexpr std::uint16_t kHidden = 2;
+  std::vector<std::uint8_t> mask;
+  mask.reserve(targets.samples.size());
+  for (const std::uint16_t target : targets.samples) mask.push_back(target >= kHidden ? 255 : 0);
+  return annotate::png_bytes({targets.width, targets.height, 1}, mask);
+}
+
 class FloExporter : public Exporter {
  public:
   FloExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const images::Raster flow = images::read_raster(raster_path(info_.root, "flow", image.file));
-    std::string bytes;
-    bytes.reserve(12 + flow.samples.size() / 3 * 8);
-    append_bytes(bytes, kMagic);
-    append_bytes(bytes, static_cast<std::int32_t>(flow.width));
-    append_bytes(bytes, static_cast<std::int32_t>(flow.height));
-    for (std::size_t i = 0; i < flow.samples.size(); i += 3) {
-      const bool is_known = flow.samples[i + 2] != 0;
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const float value = (static_cast<float>(flow.samples[i + axis]) - kZeroAt) / kPerPixel;
-        append_bytes(bytes, is_known ? value : kUnknownFlow);
-      }
+    const auto raster_of = [&](const char* kind) {
+      return images::read_raster(raster_path(info_.root, kind, image.file));
+    };
+    const std::string stem = image.sequence() + "/" + image.stem();
+    output_.write(stem + ".flo", flo_of(raster_of("flow")));
+    if (info_.has(annotate::GroundTruth::flow_backward)) {
+      output_.write(stem + ".backward.flo", flo_of(raster_of("flow_backward")));
     }
-    output_.write(image.sequence() + "/" + image.stem() + ".flo", bytes);
+    if (info_.has(annotate::GroundTruth::flow_occlusion)) {
+      output_.write(stem + ".occlusion.png", occlusion_png(raster_of("flow_occlusion")));
+    }
   }
   void finish() override {}
 

@@ -26,9 +26,11 @@ std::unique_ptr<GroundTruthCheck> make() {
 }
 
 constexpr std::array kCheckers = {
+    GroundTruthChecker{GroundTruth::actions, make<ActionsCheck>},
     GroundTruthChecker{GroundTruth::density, make<PixelCheck<check_density>>},
     GroundTruthChecker{GroundTruth::exits, make<ExitsCheck>},
     GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
+    GroundTruthChecker{GroundTruth::counts, make<CountsCheck>},
     GroundTruthChecker{GroundTruth::trajectories, make<TrajectoriesCheck>},
     GroundTruthChecker{GroundTruth::events, make<EventsCheck>},
     GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
@@ -36,6 +38,10 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},
     GroundTruthChecker{GroundTruth::normals, make<PixelCheck<check_normal_lengths>>},
     GroundTruthChecker{GroundTruth::flow, make<PixelCheck<check_flow_values>>},
+    GroundTruthChecker{GroundTruth::flow_backward, make<PixelCheck<check_flow_values>>},
+    GroundTruthChecker{GroundTruth::flow_occlusion, make<PixelCheck<check_flow_occlusion_values>>},
+    GroundTruthChecker{GroundTruth::scene_flow, make<PixelCheck<check_scene_flow_values>>},
+    GroundTruthChecker{GroundTruth::hazard_opacity, make<HazardOpacityCheck>},
     GroundTruthChecker{GroundTruth::semantic, make<PixelCheck<check_semantic>>},
     GroundTruthChecker{GroundTruth::sensors, make<SensorTableCheck>},
 };

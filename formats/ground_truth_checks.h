@@ -71,6 +71,10 @@ void check_normal_lengths(const DatasetInfo& info, const Image& image, const Pix
 /// Flow is known or all 0.
 void check_flow_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                        Findings& findings);
+void check_flow_occlusion_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                                 Findings& findings);
+void check_scene_flow_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                             Findings& findings);
 /// Classes are those of the masks and of the instances.
 void check_semantic(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                     Findings& findings);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include "formats/image_camera.h"
 #include "formats/makers.h"
@@ -21,7 +22,8 @@ int kitti_occlusion(double visibility) {
 }
 
 /// type truncated occluded alpha left top right bottom height width length x y z rotation_y
-void append_label(std::string& text, const Image& image, const Person& person) {
+void append_label(std::string& text, const Image& image, const Person& person,
+                  std::string_view type) {
   const auto out = std::back_inserter(text);
   const Box& box = person.box;
   if (person.is_ignored) {
@@ -38,9 +40,9 @@ void append_label(std::string& text, const Image& image, const Person& person) {
   const double rotation_y = std::atan2(-ahead.z(), ahead.x());
   const double alpha = geometry::wrapped_rad(rotation_y - std::atan2(at.x(), at.z()));
   fmt::format_to(out,
-                 "Pedestrian {:.2f} {} {:.4f} {:.2f} {:.2f} {:.2f} {:.2f} {:.3f} {:.3f} {:.3f} "
+                 "{} {:.2f} {} {:.4f} {:.2f} {:.2f} {:.2f} {:.2f} {:.3f} {:.3f} {:.3f} "
                  "{:.3f} {:.3f} {:.3f} {:.4f}\n",
-                 person.truncation, kitti_occlusion(person.visibility), alpha, box.x, box.y,
+                 type, person.truncation, kitti_occlusion(person.visibility), alpha, box.x, box.y,
                  box.x + box.width, box.y + box.height, person.box_size.z(), person.box_size.y(),
                  person.box_size.x(), at.x(), at.y(), at.z(), rotation_y);
 }
@@ -98,7 +100,12 @@ class KittiExporter : public Exporter {
     const std::string stem = image.stem();
     output_.link(fmt::format("{}/image_2/{}.jpg", split, stem), info_.root / image.file);
     std::string labels;
-    for (const Person& person : image.people) append_label(labels, image, person);
+    for (const Person& person : image.people) append_label(labels, image, person, "Pedestrian");
+    for (const Person& object : image.objects) {
+      const world::SemanticClass surface = info_.surface_of(object);
+      if (surface == world::SemanticClass::drone) continue;
+      append_label(labels, image, object, surface == world::SemanticClass::car ? "Car" : "Tram");
+    }
     output_.write(fmt::format("{}/label_2/{}.txt", split, stem), labels);
     output_.write(fmt::format("{}/calib/{}.txt", split, stem), calibration(image));
     has_lens_ = has_lens_ || camera_of(image).intrinsics.distortion.has_value();

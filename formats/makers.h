@@ -11,6 +11,9 @@ using ExporterPointer = std::unique_ptr<Exporter>;
 
 ExporterPointer make_coco(const DatasetInfo& info, Output output);
 ExporterPointer make_coco_keypoints(const DatasetInfo& info, Output output);
+ExporterPointer make_coco_wholebody(const DatasetInfo& info, Output output);
+ExporterPointer make_openpose(const DatasetInfo& info, Output output);
+ExporterPointer make_jta(const DatasetInfo& info, Output output);
 ExporterPointer make_coco_panoptic(const DatasetInfo& info, Output output);
 ExporterPointer make_yolo_detect(const DatasetInfo& info, Output output);
 ExporterPointer make_yolo_segment(const DatasetInfo& info, Output output);
@@ -24,6 +27,10 @@ ExporterPointer make_points(const DatasetInfo& info, Output output);
 ExporterPointer make_points_adaptive(const DatasetInfo& info, Output output);
 ExporterPointer make_points_perspective(const DatasetInfo& info, Output output);
 ExporterPointer make_dronecrowd(const DatasetInfo& info, Output output);
+ExporterPointer make_nwpu(const DatasetInfo& info, Output output);
+ExporterPointer make_jhu_crowd(const DatasetInfo& info, Output output);
+ExporterPointer make_up_count(const DatasetInfo& info, Output output);
+ExporterPointer make_moving_drone_crowd(const DatasetInfo& info, Output output);
 ExporterPointer make_kitti(const DatasetInfo& info, Output output);
 ExporterPointer make_voc(const DatasetInfo& info, Output output);
 ExporterPointer make_cvat(const DatasetInfo& info, Output output);
@@ -41,6 +48,8 @@ ExporterPointer make_eth_ucy(const DatasetInfo& info, Output output);
 ExporterPointer make_trajnet(const DatasetInfo& info, Output output);
 ExporterPointer make_rosbag(const DatasetInfo& info, Output output);
 ExporterPointer make_rosbag_lz4(const DatasetInfo& info, Output output);
+ExporterPointer make_market1501(const DatasetInfo& info, Output output);
+ExporterPointer make_wildtrack(const DatasetInfo& info, Output output);
 ExporterPointer make_table(const DatasetInfo& info, Output output);
 
 }  // namespace throng::formats

@@ -4,7 +4,6 @@
 #include <limits>
 #include <numeric>
 
-#include "annotate/labels.h"
 #include "base/error.h"
 
 namespace throng::formats {
@@ -53,6 +52,14 @@ bool Bitmap::at(int column, int row) const {
   if (column < x || row < y || column >= x + width || row >= y + height) return false;
   return set[static_cast<std::size_t>(row - y) * static_cast<std::size_t>(width) +
              static_cast<std::size_t>(column - x)] != 0;
+}
+
+render::PixelMask pixel_mask_of(const Bitmap& bitmap) {
+  render::PixelMask mask(
+      Eigen::AlignedBox2i(Eigen::Vector2i(bitmap.x, bitmap.y),
+                          Eigen::Vector2i(bitmap.x + bitmap.width, bitmap.y + bitmap.height)));
+  mask.set = bitmap.set;
+  return mask;
 }
 
 std::uint64_t Bitmap::area() const {

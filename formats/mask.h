@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "annotate/labels.h"
 #include "formats/dataset.h"
 
 namespace throng::formats {
@@ -32,6 +33,9 @@ struct Bitmap {
 
 /// A mask of an image `image_height` pixels high, cut to its bounds; width 0 for an empty one.
 Bitmap bitmap_of(const std::vector<std::uint32_t>& runs, int image_height);
+
+/// Pixels of the same place, as annotations take them.
+render::PixelMask pixel_mask_of(const Bitmap& bitmap);
 
 /// Run lengths of the union of bitmaps of one image.
 std::vector<std::uint32_t> runs_of(const std::vector<Bitmap>& bitmaps, int width, int height);

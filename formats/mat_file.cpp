@@ -45,13 +45,43 @@ std::string array_start(Class kind, std::int32_t rows, std::int32_t columns,
 }
 
 /// Column by column.
-std::string number_array(std::int32_t rows, std::int32_t columns, std::string_view values) {
-  std::string bytes = array_start(Class::numbers, rows, columns, "");
+std::string number_array(std::int32_t rows, std::int32_t columns, std::string_view values,
+                         std::string_view name = "") {
+  std::string bytes = array_start(Class::numbers, rows, columns, name);
   add_element(bytes, Type::doubles, values);
   return bytes;
 }
 
+/// The head, before the first variable.
+std::string file_start() {
+  constexpr std::size_t kTextLength = 124;
+  constexpr std::uint16_t kVersion = 0x0100;
+  std::string file = "MATLAB 5.0 MAT-file, written by throng";
+  file.resize(kTextLength - kAligned, ' ');
+  file.resize(kTextLength, '\0');
+  add(file, kVersion);
+  file += "IM";  // little-endian
+  return file;
+}
+
 }  // namespace
+
+std::string matrices_mat(const std::vector<NamedMatrix>& matrices) {
+  std::string file = file_start();
+  for (const NamedMatrix& matrix : matrices) {
+    const std::size_t rows = matrix.values.size() / matrix.columns;
+    std::string values;
+    for (std::size_t column = 0; column < matrix.columns; ++column) {
+      for (std::size_t row = 0; row < rows; ++row) {
+        add(values, matrix.values[row * matrix.columns + column]);
+      }
+    }
+    add_element(file, Type::matrix,
+                number_array(static_cast<std::int32_t>(rows),
+                             static_cast<std::int32_t>(matrix.columns), values, matrix.name));
+  }
+  return file;
+}
 
 std::string image_info_mat(std::span<const Eigen::Vector2d> points) {
   std::string places;
@@ -79,13 +109,7 @@ std::string image_info_mat(std::span<const Eigen::Vector2d> points) {
   std::string outer = array_start(Class::cell, 1, 1, "image_info");
   add_element(outer, Type::matrix, inner);
 
-  constexpr std::size_t kTextLength = 124;
-  constexpr std::uint16_t kVersion = 0x0100;
-  std::string file = "MATLAB 5.0 MAT-file, written by throng";
-  file.resize(kTextLength - kAligned, ' ');
-  file.resize(kTextLength, '\0');
-  add(file, kVersion);
-  file += "IM";  // little-endian
+  std::string file = file_start();
   add_element(file, Type::matrix, outer);
   return file;
 }

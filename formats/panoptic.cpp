@@ -202,7 +202,7 @@ class PanopticExporter : public Exporter {
                                             {"prop", "place", 1},
                                             {"ground", "place", 0},
                                             {"umbrella", "accessory", 1},
-                                            {kDroneClass, "vehicle", 1}}) {
+                                            {"drone", "vehicle", 1}}) {
       list.push_back(
           {{"id", list.size() + 1}, {"name", name}, {"supercategory", group}, {"isthing", kind}});
     }

@@ -105,6 +105,13 @@ std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& imag
 
 }  // namespace
 
+std::optional<Eigen::Vector2d> flow_of(const std::uint16_t* sample) {
+  constexpr double kPerPixel = 64;
+  constexpr double kZero = 32768;
+  if (sample[2] == 0) return std::nullopt;
+  return Eigen::Vector2d(sample[0] - kZero, sample[1] - kZero) / kPerPixel;
+}
+
 std::string raster_name(const char* kind, const Image& image) {
   return raster_path("", kind, image.file).string();
 }
@@ -125,6 +132,10 @@ Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findin
   pixels.depth_cm = read_plane(info, image, GroundTruth::depth, 1, 16, findings);
   pixels.normals = read_plane(info, image, GroundTruth::normals, 3, 8, findings);
   pixels.flow = read_plane(info, image, GroundTruth::flow, 3, 16, findings);
+  pixels.flow_backward = read_plane(info, image, GroundTruth::flow_backward, 3, 16, findings);
+  pixels.flow_occlusion = read_plane(info, image, GroundTruth::flow_occlusion, 1, 8, findings);
+  pixels.scene_flow = read_plane(info, image, GroundTruth::scene_flow, 3, 16, findings);
+  pixels.hazard_opacity = read_plane(info, image, GroundTruth::hazard_opacity, 3, 8, findings);
   pixels.parts = read_plane(info, image, GroundTruth::parts, 1, 8, findings);
   pixels.semantic = read_plane(info, image, GroundTruth::semantic, 1, 8, findings);
   return pixels;

@@ -1,7 +1,9 @@
 // A dataset's values per pixel of one image, read once for all checks.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,15 @@ namespace throng::formats {
 struct Pixels {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;        ///< the image, 3 a pixel
-  std::vector<std::uint32_t> ids;       ///< instances
-  std::vector<std::uint16_t> depth_cm;  ///< camera z; 0: sky
-  std::vector<std::uint16_t> normals;   ///< 3 a pixel, as in the file
-  std::vector<std::uint16_t> flow;      ///< 3 a pixel, as in the file
+  std::vector<std::uint8_t> rgb;              ///< the image, 3 a pixel
+  std::vector<std::uint32_t> ids;             ///< instances
+  std::vector<std::uint16_t> depth_cm;        ///< camera z; 0: sky
+  std::vector<std::uint16_t> normals;         ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> flow;            ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> flow_backward;   ///< the same
+  std::vector<std::uint16_t> flow_occlusion;  ///< as in the file
+  std::vector<std::uint16_t> scene_flow;      ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> hazard_opacity;  ///< 3 a pixel
   std::vector<std::uint16_t> parts;
   std::vector<std::uint16_t> semantic;  ///< world::SemanticClass
 
@@ -44,6 +50,9 @@ struct Pixels {
 /// Reads the image and every raster that the dataset has of it; what is missing, damaged or of
 /// another size or kind is a finding.
 Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
+
+/// Motion (px) that a sample of flow/ or flow_backward/ holds; nothing if it is unknown.
+std::optional<Eigen::Vector2d> flow_of(const std::uint16_t* sample);
 
 /// "depth/run000/d1/000003.png"
 std::string raster_name(const char* kind, const Image& image);

@@ -9,6 +9,7 @@
 
 #include "annotate/density.h"
 #include "base/error.h"
+#include "formats/heads.h"
 #include "formats/image_camera.h"
 #include "formats/makers.h"
 #include "formats/mat_file.h"
@@ -35,7 +36,7 @@ Heads heads_of(const Image& image) {
   for (const Person& person : image.people) {
     if (person.is_ignored || !person.head) continue;
     const Eigen::Vector2d& at = *person.head;
-    if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) continue;
+    if (!is_in_image(image, at)) continue;
     heads.place.push_back(at);
     heads.body.push_back(person.box_middle);
   }

@@ -77,6 +77,27 @@ class FieldsCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
 };
 
+/// counts/RUN.csv and the images' `zones` against the people that cameras see.
+class CountsCheck : public GroundTruthCheck {
+ public:
+  using Places = std::map<std::int64_t, Eigen::Vector2d>;  ///< by track
+
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Visible {
+    std::int64_t id = 0;
+    nlohmann::json zones;
+    std::vector<Eigen::Vector2d> places;  ///< of the people whom the image shows
+  };
+  static void check_visible(const std::string& id, const std::vector<Eigen::Vector2d>& corners,
+                            const Visible& image, std::size_t zone, Findings& findings);
+
+  std::map<std::string, std::map<std::int64_t, Places>> seen_;  ///< by run and frame
+  std::map<std::string, std::vector<Visible>> images_;          ///< by run
+};
+
 /// trajectories/RUN.npy against the people in the images, and against how fast people run.
 class TrajectoriesCheck : public GroundTruthCheck {
  public:
@@ -113,6 +134,30 @@ class EventsCheck : public GroundTruthCheck {
   std::map<std::string, Frames> runs_;
 };
 
+/// actions/RUN.csv and the actions in the images' records.
+class ActionsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Seen {
+    std::int64_t id = 0;  ///< of the annotation
+    std::int64_t track_id = 0;
+    double time_s = 0;
+    std::set<std::string> actions;
+  };
+
+  static void check_names(const Person& person, const nlohmann::json& names, Findings& findings);
+  static void check_together(const Person& person,
+                             const std::map<std::int64_t, const Person*>& by_track,
+                             Findings& findings);
+  static void check_table(const CsvTable& table, const std::string& file,
+                          const std::vector<Seen>& seen, Findings& findings);
+
+  std::map<std::string, std::vector<Seen>> seen_;  ///< by run
+};
+
 /// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
 class ConstancyCheck {
  public:
@@ -133,6 +178,58 @@ class ConstancyCheck {
   std::set<std::int64_t> tracks_;
   std::map<std::string, std::set<std::int64_t>> tracks_of_run_;
   std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
+};
+
+/// Places and sizes of vehicles in the images of a run.
+class VehicleCheck {
+ public:
+  void add(const Image& image, Findings& findings);
+
+ private:
+  std::map<std::int64_t, nlohmann::json> poses_;  ///< by track
+};
+
+/// Hazards of the images of a run, and the danger to people.
+class HazardCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+
+ private:
+  struct Known {
+    double time_s = 0;
+    nlohmann::json record;
+  };
+  struct Inside {
+    double time_s = 0;
+    double inside_s = 0;
+  };
+
+  void check_hazard(const Image& image, const nlohmann::json& hazard, Findings& findings);
+  void check_danger(const Image& image, const Person& person, const nlohmann::json& hazards,
+                    Findings& findings);
+
+  std::map<std::pair<std::string, int>, Known> last_;  ///< by run and hazard
+  std::map<std::int64_t, Inside> inside_;              ///< by track
+};
+
+/// hazard_opacity/ against the hazards of the images of a run.
+class HazardOpacityCheck : public GroundTruthCheck {
+ public:
+  void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                  Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  /// Something that none of an image's hazards makes.
+  struct Unexplained {
+    std::string run;
+    std::string file;
+    std::string record;
+    std::string text;
+  };
+
+  std::set<std::string> runs_with_hazards_;
+  std::vector<Unexplained> without_hazard_;
 };
 
 /// A person in the records of the frames before and after is in those of the frame between.

@@ -13,6 +13,7 @@
 #include "camera/camera.h"
 #include "formats/findings.h"
 #include "formats/instances.h"
+#include "formats/mask.h"
 #include "formats/pixel_rays.h"
 #include "formats/pixels.h"
 
@@ -28,6 +29,8 @@ struct Shot {
 
   std::string record() const { return "image " + std::to_string(image.id); }
   const Person* find(std::int64_t track_id) const;
+  /// Visible pixels of somebody in the image.
+  Bitmap mask_of(const Person& person) const;
   /// camera.unproject({x, y}, depth_m) for a pixel of the image.
   Eigen::Vector3d point_at(int x, int y, double depth_m) const;
 };
@@ -45,12 +48,26 @@ void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings);
 void check_buildings(const Shot& shot, Findings& findings);
 /// Normals face the camera and are those of the surface that the depth shows.
 void check_normals(const Shot& shot, Findings& findings);
-/// Flow of `before` against depth, cameras and people of `after`, the next frame of its camera.
+/// Flow of all kinds against depth, cameras and people, between a frame and the next of its camera.
 void check_flow_between(const Shot& before, const Shot& after, Findings& findings);
+/// Motion in the world is 0 for what stands still, leads where flow does, and people move with it.
+void check_scene_flow(const Shot& before, const Shot& after, Findings& findings);
+/// The occlusion of flow against depth and ids of the next frame.
+void check_flow_occlusion(const Shot& before, const Shot& after, Findings& findings);
+/// The first frame has no backward flow.
+void check_first_flow(const Shot& shot, Findings& findings);
 /// The last frame has no flow.
 void check_last_flow(const Shot& shot, Findings& findings);
 /// Whole bodies: amodal masks, boxes in the world and heads.
 void check_whole_bodies(const Shot& shot, Findings& findings);
+/// Contrasts against the image; occluders against instances.
+void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findings);
+/// People who are said to look alike do in the image, and no others nearby.
+void check_lookalikes(const Shot& shot, Findings& findings);
+/// Boxes of heads against heads, bodies and masks.
+void check_heads(const DatasetInfo& info, const Shot& shot, Findings& findings);
+/// Joints, turns of bones and gaze against each other, keypoints and the image.
+void check_joints(const DatasetInfo& info, const Shot& shot, Findings& findings);
 /// Keypoints in the world against box, heading and parts.
 void check_skeletons(const Shot& shot, Findings& findings);
 /// People of consecutive frames of one camera: places, velocities, who is left out.

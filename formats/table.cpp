@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/csv_field.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -13,22 +14,6 @@ namespace throng::formats {
 using nlohmann::json;
 
 namespace {
-
-/// A field of the record as CSV; texts in quotes where they need them.
-std::string field_of(const json& record, const char* key) {
-  const auto found = record.find(key);
-  if (found == record.end() || found->is_null()) return "";
-  if (!found->is_string()) return found->dump();
-  const std::string text = *found;
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted(1, '"');
-  for (const char c : text) {
-    if (c == '"') quoted.push_back(c);
-    quoted.push_back(c);
-  }
-  quoted.push_back('"');
-  return quoted;
-}
 
 class TableExporter : public Exporter {
  public:
@@ -79,7 +64,7 @@ class TableExporter : public Exporter {
 
   void add_field(const json& record, const char* key) {
     text_.push_back(',');
-    text_ += field_of(record, key);
+    text_ += csv_field(record, key);
   }
 
   Output output_;

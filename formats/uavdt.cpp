@@ -1,5 +1,6 @@
 // UAVDT (benchmark of detection and tracking): texts of a sequence, classes of occlusion and of
-// what is out of view. Its categories are vehicles; people get the next number.
+// what is out of view. Its categories are vehicles: cars are its first; people get the number after
+// its last. Trains and drones have none.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -13,6 +14,7 @@ namespace throng::formats {
 
 namespace {
 
+constexpr int kUavdtCar = 1;
 constexpr int kUavdtPerson = 4;
 
 /// 1: nothing, and then 3: up to `small`, 2: more, as UAVDT numbers how much is out of view.
@@ -47,12 +49,16 @@ class UavdtExporter : public Exporter {
         info_.root / image.file);
     std::string lines;
     std::string ignored;
-    for (const Person& person : image.people) {
+    const auto add = [&](const Person& person, int category) {
       const Box& box = person.box;
       std::string& text = person.is_ignored ? ignored : lines;
       fmt::format_to(std::back_inserter(text), "{},{},{:.0f},{:.0f},{:.0f},{:.0f},{},{},{}\n",
                      image.frame + 1, person.number_in_run(), box.x, box.y, box.width, box.height,
-                     out_of_view_of(person), uavdt_occlusion_of(person), kUavdtPerson);
+                     out_of_view_of(person), uavdt_occlusion_of(person), category);
+    };
+    for (const Person& person : image.people) add(person, kUavdtPerson);
+    for (const Person& object : image.objects) {
+      if (info_.surface_of(object) == world::SemanticClass::car) add(object, kUavdtCar);
     }
     bool is_new = false;
     const std::string place = fmt::format("{}/GT/{}", split, sequence);

@@ -86,6 +86,7 @@ ExportOptions options_of(const json& manifest) {
   const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  options.filters.min_contrast = filters.value("min_contrast", 0.0);
   if (filters.contains("max_truncation")) {
     options.filters.max_truncation = filters["max_truncation"].get<double>();
   }
@@ -161,8 +162,13 @@ class ShotChecks {
     alignment_.add(shot);
     clothes_.add(shot);
     check_whole_bodies(shot, findings);
+    check_joints(info, shot, findings);
     check_skeletons(shot, findings);
+    check_difficulty(info, shot, findings);
+    check_lookalikes(shot, findings);
+    check_heads(info, shot, findings);
     check_facing_motion(shot, findings);
+    if (image.frame == 0) check_first_flow(shot, findings);
     if (image.frame + 1 == info.frames_per_camera) check_last_flow(shot, findings);
     for (const auto& [camera, other] : last_) {
       if (other.image.run != image.run) continue;
@@ -216,6 +222,8 @@ class RecordChecks {
     last_.insert_or_assign(image.camera, std::move(light));
     constancy_.add(info, image, findings);
     presence_.add(image, findings);
+    vehicles_.add(image, findings);
+    hazards_.add(info, image, findings);
     check_preview(info, image, findings);
   }
   void finish(const DatasetInfo& info, Findings& findings) { constancy_.finish(info, findings); }
@@ -224,6 +232,8 @@ class RecordChecks {
   std::map<std::string, Image> last_;  ///< each camera's, without people
   ConstancyCheck constancy_;
   PresenceCheck presence_;
+  VehicleCheck vehicles_;
+  HazardCheck hazards_;
 };
 
 /// Runs what reads the manifest. Throws InputError naming that where a value is none that throng
@@ -257,7 +267,7 @@ Validation validate_dataset(const fs::path& root) {
     Image image;
     while (reader.next(image)) {
       ++validation.images;
-      validation.annotations += image.people.size() + image.drones.size();
+      validation.annotations += image.people.size() + image.objects.size();
       ids.add(info, image, findings);
       check_time(info, image, findings);
       check_camera(image, findings);

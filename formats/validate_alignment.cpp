@@ -64,7 +64,7 @@ std::vector<std::uint32_t> labels_of(const Shot& shot) {
   if (!shot.pixels.ids.empty()) return shot.pixels.ids;
   std::vector<std::uint32_t> labels(shot.pixels.count());
   for (const Person& person : objects_of(shot.image)) {
-    const Bitmap mask = bitmap_of(runs_of(person.mask, shot.pixels.count()), shot.image.height);
+    const Bitmap mask = shot.mask_of(person);
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
         if (mask.at(x, y)) labels[shot.pixels.at(x, y)] = instance_of(person);

@@ -166,12 +166,16 @@ void check_head(const Shot& shot, const Person& person, Findings& findings) {
 }  // namespace
 
 const Person* Shot::find(std::int64_t track_id) const {
-  for (const std::vector<Person>* objects : {&image.people, &image.drones}) {
+  for (const std::vector<Person>* objects : {&image.people, &image.objects}) {
     for (const Person& object : *objects) {
       if (object.track_id == track_id) return &object;
     }
   }
   return nullptr;
+}
+
+Bitmap Shot::mask_of(const Person& person) const {
+  return bitmap_of(runs_of(person.mask, pixels.count()), image.height);
 }
 
 Eigen::Vector3d Shot::point_at(int x, int y, double depth_m) const {
@@ -188,6 +192,11 @@ void check_whole_bodies(const Shot& shot, Findings& findings) {
     if (!person.track->contains("attributes")) continue;
     if (shot.is_plain) check_box_is_tight(shot, person, findings);
     check_head(shot, person, findings);
+  }
+  for (const Person& object : shot.image.objects) {
+    if (shot.is_plain && object.track->contains("vehicle")) {
+      check_box_is_tight(shot, object, findings);
+    }
   }
 }
 

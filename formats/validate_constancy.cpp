@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
 
+#include "annotate/color_name.h"
 #include "formats/json_vectors.h"
 #include "formats/run_checks.h"
 #include "geometry/angle.h"
+#include "skinning/clothes.h"
 
 namespace throng::formats {
 
@@ -33,6 +37,20 @@ constexpr std::array<Bone, 10> kBones = {{{0, 1, 0.03},
                                           {12, 14, 0.08},
                                           {5, 7, 0.15},
                                           {6, 8, 0.15}}};
+
+/// The bytes of "#rrggbb".
+std::optional<std::array<std::uint8_t, 3>> rgb_of_hex(const std::string& text) {
+  if (text.size() != 7 || text[0] != '#' ||
+      text.find_first_not_of("0123456789abcdef", 1) != std::string::npos) {
+    return std::nullopt;
+  }
+  std::array<std::uint8_t, 3> rgb{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    constexpr int kHexadecimal = 16;
+    rgb[c] = static_cast<std::uint8_t>(std::stoi(text.substr(1 + 2 * c, 2), nullptr, kHexadecimal));
+  }
+  return rgb;
+}
 
 /// Direction of the sun: Spencer's declination, solar time. Azimuth counter-clockwise from east.
 struct SunPlace {
@@ -78,6 +96,43 @@ std::string wrong_speed(const std::string& state, double speed_mps) {
   if (state == "walking" && speed_mps > kRunning + kRounding) return "above 2.07 m/s";
   if (state == "running" && speed_mps < kRunning - kRounding) return "below 2.07 m/s";
   return "";
+}
+
+/// `clothes` says what `wears`, `carries` and the colors of the tracks say.
+void check_clothes(const json& attributes, const std::function<void(const std::string&)>& fault) {
+  std::string worn;
+  std::string carried = "nothing";
+  for (const json& clothing : attributes.at("clothes")) {
+    const std::string slot = clothing.at("slot");
+    const std::string type = clothing.at("type");
+    if (slot == "carried") {
+      carried = type;
+    } else {
+      worn += (worn.empty() ? "" : ", ") + fmt::format("{} ({})", type, slot);
+    }
+    const std::string color = clothing.value("colour", "");
+    const auto rgb = rgb_of_hex(color);
+    if (color.empty() ? clothing.contains("colour_name")
+                      : !rgb || clothing.at("colour_name") != annotate::color_name(rgb->data())) {
+      fault(fmt::format("name and value of the color of {} differ", clothing.dump()));
+    }
+    const bool is_upper = slot == "upper" || slot == "whole";
+    const char* key = is_upper ? "top_colour" : slot == "lower" ? "bottom_colour" : "shoes_colour";
+    if (slot != "carried" && !color.empty() && attributes.value(key, "") != color) {
+      fault(fmt::format("the color of {} is not that of {}", clothing.dump(), key));
+    }
+  }
+  if (carried != attributes.at("carries")) {
+    fault(fmt::format("clothes have {} carried, but carries is {}", carried,
+                      attributes.at("carries").dump()));
+  }
+  const std::string wears = attributes.at("wears");
+  std::string known;
+  for (const skinning::Clothing& clothing : skinning::clothes_in(wears)) {
+    known +=
+        (known.empty() ? "" : ", ") + fmt::format("{} ({})", clothing.type, name_of(clothing.slot));
+  }
+  if (worn != known) fault(fmt::format("clothes are {}, but wears is {}", worn, known));
 }
 
 }  // namespace
@@ -199,6 +254,12 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
     const std::string& key = it.key();
     const bool is_dyed = key.size() > 7 && key.substr(key.size() - 7) == "_colour";
     it = is_dyed ? others.erase(it) : std::next(it);
+  }
+  if (const auto clothes = others.find("clothes"); clothes != others.end()) {
+    check_clothes(*attributes, fault);
+    for (json& clothing : *clothes) {
+      for (const char* dyed : {"colour", "colour_name"}) clothing.erase(dyed);
+    }
   }
   const std::string key = attributes->value("character", fmt::format("{}/{}", stature_m, years));
   const auto [known, is_new] = characters_.try_emplace(key, person.track_id, others);

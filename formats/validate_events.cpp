@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kRule = "events";
 constexpr double kMaxSpeedMps = 15;
 constexpr double kMaxOffM = 0.05;
-constexpr double kSlackS = 1e-4;
+constexpr double kEventSlackS = 1e-4;
 
 using Frames = EventsCheck::Frames;
 
@@ -59,7 +59,7 @@ FrameTimes times_of(const Frames& frames) {
 
 /// The last frame that is not after a time.
 std::optional<std::int64_t> frame_at(const FrameTimes& times, double time_s) {
-  const auto next = std::upper_bound(times.begin(), times.end(), time_s + kSlackS,
+  const auto next = std::upper_bound(times.begin(), times.end(), time_s + kEventSlackS,
                                      [](double at, const auto& frame) { return at < frame.first; });
   if (next == times.begin()) return std::nullopt;
   return std::prev(next)->second;
@@ -124,7 +124,7 @@ void check_presence(const std::vector<Event>& events, const Frames& frames, cons
         const bool arrives = events[change].type == "arrives";
         constexpr double kStepS = 0.11;
         const double from_s = arrives ? events[change].time_s - kStepS : events[change].time_s;
-        if (frame.time_s <= from_s + kSlackS) break;
+        if (frame.time_s <= from_s + kEventSlackS) break;
         is_here = arrives;
         last = change;
       }

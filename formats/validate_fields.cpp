@@ -50,6 +50,28 @@ Field read_field(const fs::path& file, const Grid& grid) {
           grid.cells()};
 }
 
+/// People in each cell of a level, by points of the finer grid's cells, each of which stands for an
+/// equal part of its cell.
+std::vector<double> people_of_level(const Grid& fine, const Field& field, const Grid& level) {
+  constexpr int kPoints = 8;  // along a cell's side
+  const double part_m2 = fine.cell_m * fine.cell_m / (kPoints * kPoints);
+  std::vector<double> people(level.cells());
+  const auto cell_of = [&](int index, double cell_m, int count) {
+    const double place_m = (index + 0.5) / kPoints * fine.cell_m;
+    return static_cast<std::size_t>(std::min(static_cast<int>(place_m / cell_m), count - 1));
+  };
+  for (int y = 0; y < fine.rows * kPoints; ++y) {
+    for (int x = 0; x < fine.columns * kPoints; ++x) {
+      const double density = field.density(static_cast<std::size_t>(y / kPoints) *
+                                               static_cast<std::size_t>(fine.columns) +
+                                           static_cast<std::size_t>(x / kPoints));
+      people[cell_of(y, level.cell_m, level.rows) * static_cast<std::size_t>(level.columns) +
+             cell_of(x, level.cell_m, level.columns)] += density * part_m2;
+    }
+  }
+  return people;
+}
+
 /// Density and momentum of the people whom cameras see, without buildings.
 struct Share {
   std::vector<double> density;
@@ -117,6 +139,19 @@ class FieldFile {
     }
   }
 
+  /// The same people as in the field of the finer cells, where that has them.
+  void check_level(const Grid& fine, const Field& of_fine, double count) const {
+    const std::vector<double> people = people_of_level(fine, of_fine, grid_);
+    double off = 0;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      off += std::abs(people[i] - field_.density(i) * grid_.cell_m * grid_.cell_m);
+    }
+    constexpr double kSlack = 0.03;
+    if (off > kSlack * (1 + count)) {
+      fault(fmt::format("{:.2f} people are in other cells than those of cell_m have them", off));
+    }
+  }
+
   template <typename People>
   void check_people(const People& people) const {
     if (people.empty()) return;
@@ -176,6 +211,21 @@ class FieldFile {
   Findings& findings_;
 };
 
+struct Level {
+  Grid grid;
+  std::string folder;
+};
+
+std::vector<Level> levels_of(const json& record, const Grid& grid) {
+  std::vector<Level> levels;
+  for (const json& level : record.value("levels", json::array())) {
+    levels.push_back({{grid.origin_m, level.at("cell_m").get<double>(), grid.kernel_m,
+                       level.at("rows").get<int>(), level.at("columns").get<int>()},
+                      level.at("folder").get<std::string>()});
+  }
+  return levels;
+}
+
 }  // namespace
 
 void FieldsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings& /*findings*/) {
@@ -198,6 +248,12 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
           record.at("rows").get<int>(),
           record.at("columns").get<int>()};
       const json& people = record.at("people");
+      const std::vector<Level> levels = levels_of(record, grid);
+      if (!std::equal(
+              levels.begin(), levels.end(), info.field_cells_m.begin(), info.field_cells_m.end(),
+              [](const Level& level, double cell_m) { return level.grid.cell_m == cell_m; })) {
+        findings.add("fields", description, "", "levels that are not those of the job");
+      }
       if (static_cast<std::int64_t>(people.size()) != info.frames_per_camera) {
         findings.add("fields", description, "", "people of another number of frames");
       }
@@ -207,6 +263,13 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
         const Field field = read_field(info.root / path, grid);
         const FieldFile file(path, grid, field, findings);
         file.check_sums(people.at(frame).get<double>());
+        for (const Level& level : levels) {
+          const std::string place = fmt::format("fields/{}/{}/{:06}.npy", run, level.folder, frame);
+          const Field coarse = read_field(info.root / place, level.grid);
+          const FieldFile level_file(place, level.grid, coarse, findings);
+          level_file.check_sums(people.at(frame).get<double>());
+          level_file.check_level(grid, field, people.at(frame).get<double>());
+        }
         const auto seen = runs_.find(run);
         if (seen == runs_.end()) continue;
         const auto here = seen->second.find(static_cast<std::int64_t>(frame));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,10 +56,35 @@ void check_map(const DatasetInfo& info, const Image& image, Findings& findings) 
 
 std::uint32_t instance_of(const Person& object) {
   const auto number = object.number_in_run();
-  const bool is_drone = number > annotate::kFirstDroneNumber;
-  return static_cast<std::uint32_t>(
-      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
+  if (number > annotate::kFirstDroneNumber) {
+    return static_cast<std::uint32_t>(kFirstDrone + number - annotate::kFirstDroneNumber - 1);
+  }
+  if (number > annotate::kFirstVehicleNumber) {
+    return kFirstProp + object.track->value("prop", 0U);
+  }
+  return static_cast<std::uint32_t>(number);
 }
+
+namespace {
+
+/// Instances that have annotations: people, drones and, if the dataset has their labels, vehicles.
+class LabeledIds {
+ public:
+  explicit LabeledIds(const Image& image) {
+    for (const Person& object : image.objects) {
+      if (object.track->contains("vehicle")) vehicles_.insert(instance_of(object));
+    }
+  }
+  bool contains(std::uint32_t id) const {
+    if (is_labeled(id)) return true;
+    return id >= kFirstProp && id < kFirstDrone && vehicles_.contains(id);
+  }
+
+ private:
+  std::set<std::uint32_t> vehicles_;
+};
+
+}  // namespace
 
 void check_density(const DatasetInfo& info, const Image& image, const Pixels& /*pixels*/,
                    Findings& findings) {
@@ -76,8 +102,9 @@ void check_instances(const DatasetInfo& /*info*/, const Image& image, const Pixe
   if (ids.empty()) return;
   const std::string path = raster_name("instances", image);
   std::map<std::uint32_t, std::uint64_t> areas;
+  const LabeledIds labeled(image);
   for (const std::uint32_t id : ids) {
-    if (is_labeled(id)) ++areas[id];
+    if (labeled.contains(id)) ++areas[id];
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
@@ -112,8 +139,9 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
   const std::vector<std::uint32_t>& ids = pixels.ids;
   if (is_plain(image)) check_ground_depth(image, path, ids, pixels.depth_cm, findings);
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
+  const LabeledIds labeled(image);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!is_labeled(ids[i])) continue;
+    if (!labeled.contains(ids[i])) continue;
     const double z = pixels.depth_m(i);
     auto& [low, high] =
         range.try_emplace(ids[i], std::numeric_limits<double>::infinity(), 0.0).first->second;
@@ -140,10 +168,37 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
 
 void check_flow_values(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
                        Findings& findings) {
-  for (std::size_t i = 0; i < pixels.flow.size(); i += 3) {
-    const std::uint16_t* pixel = pixels.flow.data() + i;
-    if (pixel[2] == 1 || (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0)) continue;
-    findings.add("flow", raster_name("flow", image), fmt::format("pixel {}", i / 3),
+  const auto check_plane = [&](const char* kind, const std::vector<std::uint16_t>& samples) {
+    for (std::size_t i = 0; i < samples.size(); i += 3) {
+      const std::uint16_t* pixel = samples.data() + i;
+      if (pixel[2] == 1 || (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0)) continue;
+      findings.add("flow", raster_name(kind, image), fmt::format("pixel {}", i / 3),
+                   "neither known nor all 0");
+      return;
+    }
+  };
+  check_plane("flow", pixels.flow);
+  check_plane("flow_backward", pixels.flow_backward);
+}
+
+void check_flow_occlusion_values(const DatasetInfo& /*info*/, const Image& image,
+                                 const Pixels& pixels, Findings& findings) {
+  constexpr std::uint16_t kMaxTarget = 3;
+  const auto found = std::find_if(pixels.flow_occlusion.begin(), pixels.flow_occlusion.end(),
+                                  [](std::uint16_t value) { return value > kMaxTarget; });
+  if (found == pixels.flow_occlusion.end()) return;
+  findings.add("flow-occlusion", raster_name("flow_occlusion", image),
+               fmt::format("pixel {}", found - pixels.flow_occlusion.begin()),
+               fmt::format("{}, expected 0 to {}", *found, kMaxTarget));
+}
+
+void check_scene_flow_values(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
+                             Findings& findings) {
+  for (std::size_t i = 0; i < pixels.scene_flow.size(); i += 3) {
+    const std::uint16_t* pixel = pixels.scene_flow.data() + i;
+    const auto zeros = std::count(pixel, pixel + 3, 0);
+    if (zeros == 0 || zeros == 3) continue;
+    findings.add("scene-flow", raster_name("scene_flow", image), fmt::format("pixel {}", i / 3),
                  "neither known nor all 0");
     return;
   }

@@ -16,16 +16,23 @@ namespace throng::formats {
 
 namespace {
 
-constexpr double kFlowScale = 64;
-constexpr double kFlowZero = 32768;
 constexpr double kFlowReachPx = 511;  ///< farther is not written
 /// Rounding of flow and boxes, and pixels whose middle is just outside of the outline.
 constexpr double kFlowSlackPx = 2;
 
-std::optional<Eigen::Vector2d> flow_at(const Pixels& pixels, std::size_t pixel) {
-  const std::uint16_t* sample = &pixels.flow[3 * pixel];
-  if (sample[2] == 0) return std::nullopt;
-  return Eigen::Vector2d(sample[0] - kFlowZero, sample[1] - kFlowZero) / kFlowScale;
+/// Flow to the next frame, or to the previous one.
+struct FlowPlane {
+  const char* kind;
+  std::vector<std::uint16_t> Pixels::*samples;
+
+  std::string file(const Shot& shot) const { return raster_name(kind, shot.image); }
+};
+constexpr FlowPlane kForward{"flow", &Pixels::flow};
+constexpr FlowPlane kBackward{"flow_backward", &Pixels::flow_backward};
+
+std::optional<Eigen::Vector2d> flow_at(const FlowPlane& plane, const Pixels& pixels,
+                                       std::size_t pixel) {
+  return flow_of(&(pixels.*plane.samples)[3 * pixel]);
 }
 
 /// Of the pixels that show what stands still, and of sky.
@@ -37,7 +44,8 @@ struct StillFlow {
   Eigen::Vector2d expected = Eigen::Vector2d::Zero();
 };
 
-void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlow& tally) {
+void look_at_still(const FlowPlane& plane, const Shot& before, const Shot& after, int x, int y,
+                   StillFlow& tally) {
   const Pixels& pixels = before.pixels;
   const std::size_t pixel = pixels.at(x, y);
   const bool is_sky = pixels.ids[pixel] == 0;
@@ -53,7 +61,7 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
   const Eigen::Vector2d expected = seen.pixel - Eigen::Vector2d(x, y);
   if (!(expected.cwiseAbs().maxCoeff() < kFlowReachPx)) return;
   ++tally.looked_at;
-  const auto flow = flow_at(pixels, pixel);
+  const auto flow = flow_at(plane, pixels, pixel);
   if (!flow) {
     ++tally.unknown;
     return;
@@ -67,7 +75,8 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
   }
 }
 
-void check_still_flow(const Shot& before, const Shot& after, Findings& findings) {
+void check_still_flow(const FlowPlane& plane, const Shot& before, const Shot& after,
+                      Findings& findings) {
   const Pixels& pixels = before.pixels;
   constexpr int kMaxPoints = 6000;
   const int step =
@@ -75,7 +84,7 @@ void check_still_flow(const Shot& before, const Shot& after, Findings& findings)
   std::map<bool, StillFlow> tallies;  // by whether it is the ground
   for (int y = 0; y < pixels.height; y += step) {
     for (int x = y % step; x < pixels.width; x += step) {
-      look_at_still(before, after, x, y, tallies[pixels.ids[pixels.at(x, y)] == kGround]);
+      look_at_still(plane, before, after, x, y, tallies[pixels.ids[pixels.at(x, y)] == kGround]);
     }
   }
   for (const auto& [is_ground, tally] : tallies) {
@@ -84,7 +93,7 @@ void check_still_flow(const Shot& before, const Shot& after, Findings& findings)
     if (tally.looked_at < kMinCount) continue;
     const double max_value = kMaxWrong * static_cast<double>(tally.looked_at);
     if (static_cast<double>(tally.wrong) > max_value) {
-      findings.add("flow-of-still", raster_name("flow", before.image), before.record(),
+      findings.add("flow-of-still", plane.file(before), before.record(),
                    fmt::format("{} of {} still pixels do not move as depth and cameras say: "
                                "({:.2f}, {:.2f}), expected ({:.2f}, {:.2f})",
                                tally.wrong, tally.looked_at, tally.found.x(), tally.found.y(),
@@ -92,7 +101,7 @@ void check_still_flow(const Shot& before, const Shot& after, Findings& findings)
     }
     if (static_cast<double>(tally.unknown) > max_value) {
       findings.add(
-          "flow-of-still", raster_name("flow", before.image), before.record(),
+          "flow-of-still", plane.file(before), before.record(),
           fmt::format("flow of {} of {} still pixels is unknown", tally.unknown, tally.looked_at));
     }
   }
@@ -110,15 +119,15 @@ struct Led {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
 };
 
-Led lead(const Shot& before, const Person& person, const Bitmap& body) {
+Led lead(const FlowPlane& plane, const Shot& before, const Person& person, const Bitmap& body) {
   Led led;
   const Pixels& pixels = before.pixels;
-  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels.count()), pixels.height);
+  const Bitmap mask = before.mask_of(person);
   for (int y = mask.y; y < mask.y + mask.height; ++y) {
     for (int x = mask.x; x < mask.x + mask.width; ++x) {
       if (!mask.at(x, y)) continue;
       ++led.pixels;
-      const auto flow = flow_at(pixels, pixels.at(x, y));
+      const auto flow = flow_at(plane, pixels, pixels.at(x, y));
       if (!flow) continue;
       ++led.known;
       led.sum += *flow;
@@ -153,15 +162,15 @@ Bitmap whole_mask(const Shot& shot, const Person& person) {
   }
   constexpr double kWhole = 0.99;
   if (person.visibility < kWhole) return {};
-  return bitmap_of(runs_of(person.mask, shot.pixels.count()), shot.image.height);
+  return shot.mask_of(person);
 }
 
-void check_person_flow(const Shot& before, const Shot& after, const Person& then, const Person& now,
-                       Findings& findings) {
-  const std::string file = raster_name("flow", before.image);
+void check_person_flow(const FlowPlane& plane, const Shot& before, const Shot& after,
+                       const Person& then, const Person& now, Findings& findings) {
+  const std::string file = plane.file(before);
   const std::string record = fmt::format("annotation {}", then.id);
   const Bitmap body = whole_mask(after, now);
-  const Led led = lead(before, then, body);
+  const Led led = lead(plane, before, then, body);
   constexpr std::size_t kMinCount = 12;
   if (led.pixels < kMinCount) return;
   const Box& box = now.amodal;
@@ -212,10 +221,6 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
   }
 }
 
-}  // namespace
-
-namespace {
-
 double median_of_axis(const std::vector<Eigen::Vector2d>& values, int axis) {
   std::vector<double> of_axis;
   of_axis.reserve(values.size());
@@ -226,7 +231,8 @@ double median_of_axis(const std::vector<Eigen::Vector2d>& values, int axis) {
 /// Flow where keypoints are seen is the motion of these, on the average over an image's people: a
 /// joint is inside of the limb whose surface flows, so that one alone differs by some of its
 /// motion.
-void check_keypoint_flow(const Shot& before, const Shot& after, Findings& findings) {
+void check_keypoint_flow(const FlowPlane& plane, const Shot& before, const Shot& after,
+                         Findings& findings) {
   const Pixels& pixels = before.pixels;
   std::vector<Eigen::Vector2d> off;
   for (const Person& then : before.image.people) {
@@ -238,7 +244,7 @@ void check_keypoint_flow(const Shot& before, const Shot& after, Findings& findin
       const int x = static_cast<int>(a.x);
       const int y = static_cast<int>(a.y);
       if (a.visibility != 2 || b.visibility == 0 || !pixels.holds(x, y)) continue;
-      const auto flow = flow_at(pixels, pixels.at(x, y));
+      const auto flow = flow_at(plane, pixels, pixels.at(x, y));
       if (flow) off.emplace_back(*flow - Eigen::Vector2d(b.x - a.x, b.y - a.y));
     }
   }
@@ -249,33 +255,61 @@ void check_keypoint_flow(const Shot& before, const Shot& after, Findings& findin
   const Eigen::Vector2d spread(median_of_axis(off, 0), median_of_axis(off, 1));
   constexpr double kSlackPx = 0.3;
   if ((median.cwiseAbs() - 2 * spread).maxCoeff() <= kSlackPx) return;
-  findings.add("flow-of-keypoints", raster_name("flow", before.image), before.record(),
+  findings.add("flow-of-keypoints", plane.file(before), before.record(),
                fmt::format("flow at {} keypoints is ({:.2f}, {:.2f}) px other than their motion "
                            "(median)",
                            off.size(), median.x(), median.y()));
 }
 
-}  // namespace
-
-void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
-  if (before.pixels.flow.empty() || !before.at_once || !after.at_once) return;
-  if (!before.pixels.ids.empty() && !before.pixels.depth_cm.empty()) {
-    check_still_flow(before, after, findings);
+/// Flow of `from` that leads to `to`, a frame of the same camera.
+void check_flow_of(const FlowPlane& plane, const Shot& from, const Shot& to, Findings& findings) {
+  if ((from.pixels.*plane.samples).empty() || !from.at_once || !to.at_once) return;
+  if (!from.pixels.ids.empty() && !from.pixels.depth_cm.empty()) {
+    check_still_flow(plane, from, to, findings);
   }
-  check_keypoint_flow(before, after, findings);
-  for (const Person& then : before.image.people) {
-    const Person* now = after.find(then.track_id);
-    if (now != nullptr) check_person_flow(before, after, then, *now, findings);
+  check_keypoint_flow(plane, from, to, findings);
+  for (const Person& then : from.image.people) {
+    const Person* now = to.find(then.track_id);
+    if (now != nullptr) check_person_flow(plane, from, to, then, *now, findings);
   }
 }
 
-void check_last_flow(const Shot& shot, Findings& findings) {
-  const Pixels& pixels = shot.pixels;
+void check_no_flow(const FlowPlane& plane, const Shot& shot, Findings& findings) {
+  const std::vector<std::uint16_t>& samples = shot.pixels.*plane.samples;
   std::size_t known = 0;
-  for (std::size_t i = 2; i < pixels.flow.size(); i += 3) known += pixels.flow[i] != 0 ? 1 : 0;
+  for (std::size_t i = 2; i < samples.size(); i += 3) known += samples[i] != 0 ? 1 : 0;
   if (known == 0) return;
-  findings.add("flow", raster_name("flow", shot.image), shot.record(),
-               fmt::format("flow of {} pixels is known, but no frame follows", known));
+  findings.add(
+      "flow", plane.file(shot), shot.record(),
+      fmt::format("flow of {} pixels is known, but there is no frame that it could lead to",
+                  known));
+}
+
+}  // namespace
+
+void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
+  check_flow_of(kForward, before, after, findings);
+  check_flow_of(kBackward, after, before, findings);
+  check_scene_flow(before, after, findings);
+  check_flow_occlusion(before, after, findings);
+}
+
+void check_first_flow(const Shot& shot, Findings& findings) {
+  check_no_flow(kBackward, shot, findings);
+}
+
+void check_last_flow(const Shot& shot, Findings& findings) {
+  check_no_flow(kForward, shot, findings);
+  const auto is_known = [](std::uint16_t value) { return value != 0; };
+  const Pixels& pixels = shot.pixels;
+  if (std::any_of(pixels.scene_flow.begin(), pixels.scene_flow.end(), is_known)) {
+    findings.add("scene-flow", raster_name("scene_flow", shot.image), shot.record(),
+                 "motion is known, but no frame follows");
+  }
+  if (std::any_of(pixels.flow_occlusion.begin(), pixels.flow_occlusion.end(), is_known)) {
+    findings.add("flow-occlusion", raster_name("flow_occlusion", shot.image), shot.record(),
+                 "what the next frame shows is known, but no frame follows");
+  }
 }
 
 }  // namespace throng::formats

@@ -65,8 +65,8 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
     } else if (format == "visdrone-det") {
       const fs::path file = in_a_split(folder, fs::path("annotations") / (image.stem() + ".txt"));
       std::ifstream text(file);
-      compare(file.lexically_relative(info.root).string(), image, text, lines_of(format, image),
-              findings);
+      compare(file.lexically_relative(info.root).string(), image, text,
+              lines_of(info, format, image), findings);
       if (std::string line; std::getline(text, line)) {
         findings.add("formats", file.lexically_relative(info.root).string(), "",
                      "more lines than the image has people");
@@ -78,7 +78,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
       const std::string name = file.lexically_relative(info.root).string();
       auto [text, is_new] = texts_.try_emplace(name);
       if (is_new) text->second.open(file);
-      compare(name, image, text->second, lines_of(format, image), findings);
+      compare(name, image, text->second, lines_of(info, format, image), findings);
     }
   }
 }
@@ -91,14 +91,14 @@ void FormatCheck::finish(Findings& findings) {
   }
 }
 
-std::vector<std::vector<double>> FormatCheck::lines_of(const std::string& format,
+std::vector<std::vector<double>> FormatCheck::lines_of(const DatasetInfo& info,
+                                                       const std::string& format,
                                                        const Image& image) {
   std::vector<std::vector<double>> lines;
   const auto frame = static_cast<double>(image.frame + 1);
-  for (const Person& person : image.people) {
+  const auto add = [&](const Person& person, const Box& box) {
     const auto id = static_cast<double>(person.number_in_run());
     const double counts = person.is_ignored ? 0 : 1;
-    const Box& box = format == "mot" ? person.amodal : person.box;
     if (format == "mot") {
       lines.push_back(
           {frame, id, box.x + 1, box.y + 1, box.width, box.height, counts, 1, person.visibility});
@@ -106,8 +106,16 @@ std::vector<std::vector<double>> FormatCheck::lines_of(const std::string& format
       lines.push_back({box.x, box.y, box.width, box.height, counts});
       if (format == "visdrone-mot") lines.back().insert(lines.back().begin(), {frame, id});
     }
+  };
+  for (const Person& person : image.people)
+    add(person, format == "mot" ? person.amodal : person.box);
+  if (format != "mot") {
+    for (const Person& object : image.objects) {
+      if (info.surface_of(object) == world::SemanticClass::drone) continue;
+      add(object, object.box);
+    }
+    return lines;
   }
-  if (format != "mot") return lines;
   for (const HiddenPerson& person : image.hidden) {
     const Box& box = person.amodal;
     lines.push_back({frame, static_cast<double>(person.number_in_run()), box.x + 1, box.y + 1,
@@ -133,7 +141,7 @@ void FormatCheck::compare(const std::string& file, const Image& image, std::istr
 }
 
 void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const fs::path& folder,
-                             bool with_drones, Findings& findings) {
+                             bool with_objects, Findings& findings) {
   const fs::path file = in_a_split(folder / "labels", image.stem() + ".txt");
   const std::string name = file.lexically_relative(info.root).string();
   std::vector<std::vector<double>> lines;
@@ -146,16 +154,16 @@ void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const 
     const Box& box = person.box;
     if (!person.is_ignored) expected.push_back({box.x, box.y, box.width, box.height});
   }
-  if (with_drones) {
-    for (const Person& drone : image.drones) {
-      const Box& box = drone.box;
-      if (!drone.is_ignored) expected.push_back({box.x, box.y, box.width, box.height});
+  if (with_objects) {
+    for (const Person& object : image.objects) {
+      const Box& box = object.box;
+      if (!object.is_ignored) expected.push_back({box.x, box.y, box.width, box.height});
     }
   }
   const std::string record = fmt::format("image {}", image.id);
   if (lines.size() != expected.size()) {
     findings.add("formats", name, record,
-                 fmt::format("{} lines, but {} people and drones are labeled", lines.size(),
+                 fmt::format("{} lines, but {} people and objects are labeled", lines.size(),
                              expected.size()));
     return;
   }

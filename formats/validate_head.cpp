@@ -25,13 +25,14 @@ void check_categories(const DatasetInfo& info, Findings& findings) {
   if (!categories.is_array()) return;
   for (const json& category : categories) {
     const json id = category.value("id", json());
-    const std::string expected = id == annotate::kPersonCategory  ? "person"
-                                 : id == annotate::kDroneCategory ? "drone"
-                                                                  : "";
+    std::string_view expected = id == annotate::kPersonCategory ? "person" : "";
+    for (const annotate::ObjectCategory& known : annotate::kObjectCategories) {
+      if (id == known.id) expected = known.name;
+    }
     if (category.value("name", "") == expected) continue;
     findings.add("category", kCocoFile, "categories",
-                 fmt::format("{} is called {}, expected 1, person, and 2, drone", id.dump(),
-                             category.value("name", json()).dump()));
+                 fmt::format("{} is called {}, expected 1, person, 2, drone, 3, car, and 4, train",
+                             id.dump(), category.value("name", json()).dump()));
   }
 }
 

@@ -126,12 +126,23 @@ void check_visibility(const Person& person, Findings& findings) {
   }
 }
 
-void check_category(const Person& object, Findings& findings) {
-  const bool is_drone = object.number_in_run() > annotate::kFirstDroneNumber;
-  if (object.record.at("category_id") !=
-      (is_drone ? annotate::kDroneCategory : annotate::kPersonCategory)) {
-    findings.add("category", object, "another category than that of people, 1, or drones, 2");
+/// That of people, drones, or what a vehicle's track says; 0 for a vehicle that is none.
+int expected_category(const Person& object) {
+  if (object.number_in_run() > annotate::kFirstDroneNumber) return annotate::kDroneCategory;
+  if (object.number_in_run() <= annotate::kFirstVehicleNumber) return annotate::kPersonCategory;
+  const std::string vehicle = object.track->value("vehicle", "");
+  for (const annotate::ObjectCategory& known : annotate::kObjectCategories) {
+    if (known.name == vehicle) return known.id;
   }
+  return 0;
+}
+
+void check_category(const Person& object, Findings& findings) {
+  const int expected = expected_category(object);
+  if (object.record.at("category_id") == expected) return;
+  findings.add("category", object,
+               fmt::format("category {}, expected {}", object.record.at("category_id").dump(),
+                           expected == 0 ? "that of its track" : std::to_string(expected)));
 }
 
 /// Whether the mask shows somebody within a pixel of a place, and one more for its rounding.
@@ -333,7 +344,7 @@ void check_people(const Image& image, Findings& findings) {
     if (counts->at("visible") != image.people.size() ||
         counts->at("all") != image.people.size() + image.hidden.size() ||
         counts->at("truncated") != truncated ||
-        counts->value("drones", 0U) != image.drones.size()) {
+        counts->value("drones", 0U) + counts->value("vehicles", 0U) != image.objects.size()) {
       findings.add(
           "counts", kCocoFile, fmt::format("image {}", image.id),
           fmt::format("counts {}, but {} have annotations and {} are hidden, {} are truncated",

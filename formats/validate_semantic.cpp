@@ -66,7 +66,7 @@ std::vector<std::uint8_t> covered_by(const std::vector<Person>& objects, const I
 
 }  // namespace
 
-void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
+void check_semantic(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                     Findings& findings) {
   const std::vector<std::uint16_t>& classes = pixels.semantic;
   if (classes.empty()) return;
@@ -90,7 +90,13 @@ void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixel
     fault(wrong, what);
   };
   compare(image.people, SemanticClass::person, "are of a person, but in no mask, or the reverse");
-  compare(image.drones, SemanticClass::drone, "are of a drone, but in no mask, or the reverse");
+  // Drones show whether or not the job has several; vehicles have labels only if it asks for them.
+  std::map<SemanticClass, std::vector<Person>> objects = {{SemanticClass::drone, {}}};
+  for (const annotate::ObjectCategory& known : info.object_categories) objects[known.surface];
+  for (const Person& object : image.objects) objects[info.surface_of(object)].push_back(object);
+  for (const auto& [surface, shown] : objects) {
+    compare(shown, surface, "are of a drone or vehicle, but in no mask, or the reverse");
+  }
   const Disagreements found = disagreements(classes, pixels.ids);
   fault(found.kind, "have a class of another kind than the instance that they show");
   fault(found.prop, "are of a prop that shows another class elsewhere in the image");

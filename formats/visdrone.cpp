@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <string>
 
 #include "formats/makers.h"
@@ -14,12 +15,26 @@ namespace throng::formats {
 
 namespace {
 
-enum class Category : std::uint8_t { ignored = 0, pedestrian = 1, people = 2 };
+enum class Category : std::uint8_t {
+  ignored = 0,
+  pedestrian = 1,
+  people = 2,
+  car = 4,
+  others = 11
+};
 
 /// Standing and walking people are pedestrians; in other poses they are "people".
 Category category_of(const Person& person) {
   if (person.is_ignored) return Category::ignored;
   return person.state == "lying" ? Category::people : Category::pedestrian;
+}
+
+/// Trains are "others"; drones have no category: nothing.
+std::optional<Category> category_of_object(const DatasetInfo& info, const Person& object) {
+  const world::SemanticClass surface = info.surface_of(object);
+  if (surface == world::SemanticClass::drone) return std::nullopt;
+  if (object.is_ignored) return Category::ignored;
+  return surface == world::SemanticClass::car ? Category::car : Category::others;
 }
 
 /// 0 none, 1 up to a half, 2 more; what rounds to nothing is none.
@@ -31,12 +46,12 @@ int occlusion_of(const Person& person) {
 }
 
 /// left,top,width,height,score,category,truncation,occlusion
-void append_person(std::string& text, const Person& person) {
+void append(std::string& text, const Person& person, Category category) {
   const Box& box = person.box;
   constexpr double kNone = 0.005;
   fmt::format_to(std::back_inserter(text), "{:.0f},{:.0f},{:.0f},{:.0f},{},{},{},{}\n", box.x,
                  box.y, box.width, box.height, person.is_ignored ? 0 : 1,
-                 static_cast<int>(category_of(person)), person.truncation < kNone ? 0 : 1,
+                 static_cast<int>(category), person.truncation < kNone ? 0 : 1,
                  occlusion_of(person));
 }
 
@@ -48,7 +63,10 @@ class VisDroneDet : public Exporter {
     const std::string_view split = name_of(image.split);
     output_.link(fmt::format("{}/images/{}.jpg", split, image.stem()), info_.root / image.file);
     std::string text;
-    for (const Person& person : image.people) append_person(text, person);
+    for (const Person& person : image.people) append(text, person, category_of(person));
+    for (const Person& object : image.objects) {
+      if (const auto category = category_of_object(info_, object)) append(text, object, *category);
+    }
     output_.write(fmt::format("{}/annotations/{}.txt", split, image.stem()), text);
   }
   void finish() override {}
@@ -68,9 +86,13 @@ class VisDroneMot : public Exporter {
     output_.link(fmt::format("{}/sequences/{}/{:07}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
     std::string lines;
-    for (const Person& person : image.people) {
-      fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1, person.number_in_run());
-      append_person(lines, person);
+    const auto add = [&](const Person& object, Category category) {
+      fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1, object.number_in_run());
+      append(lines, object, category);
+    };
+    for (const Person& person : image.people) add(person, category_of(person));
+    for (const Person& object : image.objects) {
+      if (const auto category = category_of_object(info_, object)) add(object, *category);
     }
     texts_.annotations_of(image).write(lines);
   }

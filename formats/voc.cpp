@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "formats/makers.h"
 #include "formats/xml_text.h"
@@ -28,7 +29,8 @@ std::string object_xml(const std::string& name, const Person& person) {
 
 class VocExporter : public Exporter {
  public:
-  VocExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {
+  VocExporter(const DatasetInfo& info, Output output)
+      : info_(info), output_(std::move(output)), names_(info.class_names()) {
     for (const Split split : info.splits()) {
       sets_.try_emplace(split, output_.open(fmt::format("ImageSets/Main/{}.txt", name_of(split))));
     }
@@ -44,10 +46,8 @@ class VocExporter : public Exporter {
         "</size>\n"
         "  <segmented>0</segmented>\n",
         stem, xml_text(info_.name), image.width, image.height);
-    for (const Person& person : image.people) {
-      xml += object_xml(info_.categories[person.category], person);
-    }
-    for (const Person& drone : image.drones) xml += object_xml(kDroneClass, drone);
+    for (const Person& person : image.people) xml += object_xml(names_[person.category], person);
+    for (const Person& object : image.objects) xml += object_xml(names_[object.category], object);
     output_.write("Annotations/" + stem + ".xml", xml + "</annotation>\n");
     sets_.at(image.split).write(stem + "\n");
   }
@@ -59,6 +59,7 @@ class VocExporter : public Exporter {
  private:
   const DatasetInfo& info_;
   Output output_;
+  std::vector<std::string> names_;  ///< of classes
   std::map<Split, OutputStream> sets_;
 };
 

@@ -39,11 +39,11 @@ class YoloExporter : public Exporter {
     output_.link("images" / fs::path(place.string() + ".jpg"), info_.root / image.file);
     std::string text;
     for (const Person& person : image.people) {
-      if (!person.is_ignored) append(text, image, person, person.category);
+      if (!person.is_ignored) append(text, image, person);
     }
     if (task_ != Task::pose) {
-      for (const Person& drone : image.drones) {
-        if (!drone.is_ignored) append(text, image, drone, info_.categories.size());
+      for (const Person& object : image.objects) {
+        if (!object.is_ignored) append(text, image, object);
       }
     }
     output_.write("labels" / fs::path(place.string() + ".txt"), text);
@@ -54,8 +54,8 @@ class YoloExporter : public Exporter {
     std::string yaml;
     for (const Split split : info_.splits())
       yaml += fmt::format("{0}: images/{0}\n", name_of(split));
-    std::vector<std::string> names = info_.categories;
-    if (info_.sees_drones && task_ != Task::pose) names.emplace_back(kDroneClass);
+    const std::vector<std::string> names =
+        task_ == Task::pose ? info_.categories : info_.class_names();
     yaml += fmt::format("nc: {}\nnames:\n", names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
       yaml += fmt::format("  {}: {}\n", i, nlohmann::json(names[i]).dump());
@@ -68,10 +68,9 @@ class YoloExporter : public Exporter {
   }
 
  private:
-  void append(std::string& text, const Image& image, const Person& person,
-              std::size_t category) const {
+  void append(std::string& text, const Image& image, const Person& person) const {
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{}", category);
+    fmt::format_to(out, "{}", person.category);
     if (task_ == Task::segment) {
       const auto pixels =
           static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);

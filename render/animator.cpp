@@ -126,6 +126,19 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   }
 }
 
+const Animator::Stay& Animator::stay_at(std::size_t agent, std::size_t step) const {
+  const std::vector<Stay>& stays = stays_[agent];
+  return *(std::upper_bound(stays.begin(), stays.end(), step,
+                            [](std::size_t at, const Stay& s) { return at < s.first_step; }) -
+           1);
+}
+
+skinning::Actions Animator::actions_at(std::size_t agent, std::size_t step) const {
+  if (!is_rendered(trace_->header.role[agent])) return {};
+  const Stay& stay = stay_at(agent, step);
+  return stay.plan.actions_at(static_cast<double>(step - stay.first_step));
+}
+
 Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   const world::Trace& trace = *trace_;
   Scene scene;
@@ -149,12 +162,11 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
     person.position.head<2>() = trace.position[a] + share * (trace.position[b] - trace.position[a]);
     person.velocity = trace.velocity[a] + share * (trace.velocity[b] - trace.velocity[a]);
     person.yaw_rad = geometry::interpolated_rad(trace.yaw_rad[a], trace.yaw_rad[b], share);
-    const std::vector<Stay>& stays = stays_[agent];
-    const auto stay =
-        std::upper_bound(stays.begin(), stays.end(), at.before,
-                         [](std::size_t step, const Stay& s) { return step < s.first_step; }) -
-        1;
-    person.pose = stay->plan.at(static_cast<double>(at.before - stay->first_step) + share);
+    const Stay& stay = stay_at(agent, at.before);
+    const double step =
+        static_cast<double>(at.before - stay.first_step) + static_cast<double>(share);
+    person.pose = stay.plan.at(step);
+    person.actions = stay.plan.actions_at(step);
     scene.people.push_back(person);
   }
   return scene;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,7 +13,9 @@
 
 #include "camera/camera.h"
 #include "render/pixel_mask.h"
+#include "skinning/animate/action.h"
 #include "skinning/landmarks.h"
+#include "world/semantic_class.h"
 
 namespace throng::render {
 
@@ -64,12 +67,19 @@ struct PersonInView {
   Eigen::AlignedBox2d amodal_box;
   /// Pixels that the person would cover were nothing in front of it, image borders included.
   std::uint64_t amodal_area_px = 0;
+  double blur_px = 0;       ///< motion of its middle in the image while the shutter is open
   std::uint32_t level = 0;  ///< of detail, that it was rendered with
   /// The middle of the head in box coordinates, where it does not follow from the frame's camera:
   /// rows of a rolling shutter see it from elsewhere.
   std::optional<Eigen::Vector2d> head_px = std::nullopt;
-  /// As posed, m, world.
+  /// Bounds of the head in the image with hair and headwear, hidden or not, like amodal_box; empty
+  /// where the camera sees nothing of it.
+  Eigen::AlignedBox2d head_box = Eigen::AlignedBox2d();
+  /// Joints as posed, m, world.
   skinning::Keypoints keypoints = skinning::keypoints_at(Eigen::Vector3f::Zero());
+  /// How each bone is turned from the rest pose, in which bodies face +x of the world.
+  std::array<Eigen::Quaternionf, skinning::kBoneCount> bone_turns = {};
+  skinning::Actions actions = {};  ///< that the pose is part of
   /// Upright box around the body with all it carries, turned by yaw_rad: its middle (m, world) and
   /// its size ahead, to the side and up (m).
   Eigen::Vector3f box_middle = Eigen::Vector3f::Zero();
@@ -82,11 +92,14 @@ struct PersonInView {
   std::shared_ptr<const PixelMask> whole_mask = nullptr;
 };
 
-/// Ground truth of another drone that the camera sees, or would were nothing in front of it.
-struct DroneInView {
-  std::uint32_t drone = 0;                                          ///< number in the run's trace
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< of its middle, m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s
+/// Ground truth of another drone or a vehicle that the camera sees, or would were nothing in front
+/// of it.
+struct ObjectInView {
+  std::uint32_t id = 0;      ///< in the id buffer
+  std::uint32_t number = 0;  ///< of the drone in the run's trace; of the vehicle in the scenario
+  world::SemanticClass surface = world::SemanticClass::drone;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of a drone's middle or vehicle's foot, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
   double yaw_rad = 0;
   /// As of people; areas beyond the image count as far as it is wide and high.
@@ -119,16 +132,28 @@ inline skinning::Keypoints keypoints_in(const PersonInView& person, const camera
   return seen;
 }
 
+/// Channels of Frame::hazard_opacity.
+enum class HazardMatter : std::uint8_t { fire, smoke, gas };
+
+/// State, in the next frame of the camera, of what a pixel shows, for training of flow and for
+/// masks of occlusion.
+enum class FlowTarget : std::uint8_t {
+  unknown,  ///< as its flow
+  visible,
+  hidden,  ///< inside of the image, behind something
+  outside  ///< of the image
+};
+
 /// One rendered frame. Rows top-down, pixels row-major.
 struct Frame {
   std::int64_t index = 0;  ///< frame number within the run, from 0
   double time_s = 0;
   camera::Camera camera;
-  std::vector<std::uint8_t> rgb;     ///< width * height * 3, sRGB
-  std::vector<std::uint32_t> id;     ///< width * height
-  std::vector<float> depth_m;        ///< camera z; +infinity for sky
-  std::vector<PersonInView> people;  ///< by agent id
-  std::vector<DroneInView> drones;   ///< by number; only where Lens renders
+  std::vector<std::uint8_t> rgb;      ///< width * height * 3, sRGB
+  std::vector<std::uint32_t> id;      ///< width * height
+  std::vector<float> depth_m;         ///< camera z; +infinity for sky
+  std::vector<PersonInView> people;   ///< by agent id
+  std::vector<ObjectInView> objects;  ///< drones and vehicles, by id; only where Lens renders
   // Only as asked for in RenderOptions, else empty.
   /// width * height * 3: world x, y, z of the surface's normal n as round(128 + 127 n); 0 for sky.
   std::vector<std::uint8_t> normal;
@@ -136,6 +161,18 @@ struct Frame {
   /// (px), also if it is hidden or outside there; NaN where that has no answer (it goes behind the
   /// camera, the person leaves, or there is no next frame).
   std::vector<float> flow;
+  std::vector<float> flow_backward;  ///< likewise to the previous frame
+  /// width * height: camera z that what a pixel shows has in the next frame (m), +infinity for sky;
+  /// NaN where flow is.
+  std::vector<float> flow_depth_m;
+  /// width * height * 3: motion in the world until the next frame (m), 0 for what stands still; NaN
+  /// for sky and where flow is.
+  std::vector<float> scene_flow_m;
+  /// width * height: FlowTarget. Filled by flow_targets() (render/truth/flow_targets.h).
+  std::vector<std::uint8_t> flow_target;
+  /// width * height * 3: how much of what a pixel shows is hidden by each HazardMatter, of 255;
+  /// smoke includes dust.
+  std::vector<std::uint8_t> hazard_opacity;
   std::vector<std::uint8_t> part;     ///< width * height: BodyPart
   std::vector<std::uint8_t> surface;  ///< width * height: world::SemanticClass
 

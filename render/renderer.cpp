@@ -7,6 +7,7 @@
 #include "render/gl/context.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/multisample_target.h"
+#include "render/gl/opacity_target.h"
 #include "render/gl/shadow_map.h"
 #include "render/gl/surface_target.h"
 #include "render/gl/target.h"
@@ -24,7 +25,7 @@
 #include "render/place/lamps.h"
 #include "render/place/lighting.h"
 #include "render/truth/coverage.h"
-#include "render/truth/drones_in_view.h"
+#include "render/truth/objects_in_view.h"
 #include "render/truth/silhouettes.h"
 #include "render/truth/surface_classes.h"
 #include "render/view.h"
@@ -121,8 +122,13 @@ struct Renderer::State {
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                  PeoplePass::Purpose purpose);
   void place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
-  void draw_surfaces(const Scene& scene, const NextFrame* next, const std::vector<Seen>& seen,
-                     Frame& frame);
+  void draw_surfaces(const Scene& scene, const NeighborFrame* next, const NeighborFrame* previous,
+                     const std::vector<Seen>& seen, Frame& frame);
+  void draw_opacity(const Scene& scene, Frame& frame);
+  void draw_motion(const Scene& scene, const NeighborFrame* other, const std::vector<Seen>& seen,
+                   const camera::Camera& camera);
+  void read_motion(const Scene& scene, const NeighborFrame* other, const Frame& frame,
+                   std::vector<float>& flow, std::vector<float>* depth_m) const;
   void measure_coverage(const Scene& scene, const Frame& frame, const PixelWeights* weights,
                         std::vector<Seen>& seen);
 
@@ -152,6 +158,7 @@ struct Renderer::State {
   std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
   ShadowMap metering_shadows;
+  std::vector<Vehicle> vehicles;
   Silhouettes silhouettes;
   CoverageCounter coverage;
   Buffer view_buffer;
@@ -162,6 +169,7 @@ struct Renderer::State {
   std::optional<Target> fine_target;
   std::optional<MultisampleTarget> multisample_target;
   std::optional<SurfaceTarget> surface_target;
+  std::optional<OpacityTarget> opacity_target;  ///< made when asked for
   std::optional<Target> metering_target;
   Frame metered;
   Frame spare;  ///< its buffers serve the next frame
@@ -197,6 +205,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
   glFrontFace(GL_CW);
   glDepthFunc(GL_GREATER);
   if (daylight.lamps_on) lamp_map.emplace(scenario);
+  if (options.vehicles) vehicles = vehicles_of(scenario);
   check_gl("setting up");
 }
 
@@ -331,29 +340,57 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   sky.draw_rain(camera, scene.index);
 }
 
-void Renderer::State::draw_surfaces(const Scene& scene, const NextFrame* next,
-                                    const std::vector<Seen>& seen, Frame& frame) {
-  const int width = frame.width();
-  const int height = frame.height();
-  if (!surface_target || surface_target->width() != width || surface_target->height() != height) {
-    surface_target.reset();
-    surface_target.emplace(width, height, target->depth_texture());
+void Renderer::State::draw_surfaces(const Scene& scene, const NeighborFrame* next,
+                                    const NeighborFrame* previous, const std::vector<Seen>& seen,
+                                    Frame& frame) {
+  resize(surface_target, frame.width(), frame.height(), target->depth_texture(),
+         options.flow_depth);
+  if (options.normals || options.parts || options.flow) {
+    draw_motion(scene, next, seen, frame.camera);
   }
-  const ViewBlock next_view =
-      view_block(next == nullptr ? frame.camera : next->camera, guarded_viewport(width, height));
-  glNamedBufferData(next_view_buffer.name(), sizeof(next_view), &next_view, GL_STREAM_DRAW);
+  if (options.normals) {
+    surface_target->read_normals(frame.normal);
+    fill_still_normals(frame);
+  }
+  if (options.parts) surface_target->read_parts(frame.part);
+  if (options.flow) {
+    read_motion(scene, next, frame, frame.flow, options.flow_depth ? &frame.flow_depth_m : nullptr);
+  }
+  if (options.scene_flow) {
+    frame.scene_flow_m = scene_flow_of(frame, next == nullptr ? frame.camera : next->camera);
+  }
+  if (!options.flow_backward) return;
+  draw_motion(scene, previous, seen, frame.camera);
+  read_motion(scene, previous, frame, frame.flow_backward, nullptr);
+}
+
+void Renderer::State::draw_opacity(const Scene& scene, Frame& frame) {
+  resize(opacity_target, frame.width(), frame.height(), target->depth_texture());
+  opacity_target->begin();
+  smoke.draw_opacity(scene, frame.camera);
+  opacity_target->read(frame.hazard_opacity);
+}
+
+void Renderer::State::draw_motion(const Scene& scene, const NeighborFrame* other,
+                                  const std::vector<Seen>& seen, const camera::Camera& camera) {
+  const Viewport viewport = guarded_viewport(camera.intrinsics.width, camera.intrinsics.height);
+  const ViewBlock view = view_block(other == nullptr ? camera : other->camera, viewport);
+  glNamedBufferData(next_view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 2, next_view_buffer.name());
   surface_target->begin();
   people_pass.draw_surfaces(
       scene.people, draws_of(seen),
-      next == nullptr ? std::span<const PersonInstance>() : std::span(next->scene.people));
+      other == nullptr ? std::span<const PersonInstance>() : std::span(other->scene.people));
   surface_target->end();
-  surface_target->read(options.normals, options.flow, options.parts, frame);
-  if (options.normals) fill_still_normals(frame);
-  if (options.flow && next != nullptr) {
-    fill_still_flow(next->camera, frame);
-    fill_drone_flow(scene, *next, frame);
-  }
+}
+
+void Renderer::State::read_motion(const Scene& scene, const NeighborFrame* other,
+                                  const Frame& frame, std::vector<float>& flow,
+                                  std::vector<float>* depth_m) const {
+  surface_target->read_flow(flow, depth_m);
+  if (other == nullptr) return;
+  fill_still_flow(other->camera, frame, flow, depth_m);
+  fill_drone_flow(scene, *other, frame, flow, depth_m);
 }
 
 void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
@@ -408,7 +445,7 @@ Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& 
 
 Renderer::~Renderer() = default;
 
-Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next,
+Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next,
                      const DrawChoice& choice) {
   check(!camera.intrinsics.distortion, "a renderer renders pinhole cameras");
   State& state = *state_;
@@ -416,13 +453,18 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   Frame frame = std::move(state.spare);
   frame.normal.clear();
   frame.flow.clear();
+  frame.flow_backward.clear();
+  frame.flow_depth_m.clear();
+  frame.scene_flow_m.clear();
+  frame.flow_target.clear();
+  frame.hazard_opacity.clear();
   frame.part.clear();
   frame.surface.clear();
   frame.index = scene.index;
   frame.time_s = scene.time_s;
   frame.camera = camera;
   frame.people.clear();
-  frame.drones.clear();
+  frame.objects.clear();
   std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
   state.draw_image(scene, camera, choice, seen, frame);
@@ -433,9 +475,13 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   if (state.quality.smooth_edges && !state.multisample) smooth_edges(frame);
   state.lap("smooth");
   const RenderOptions& options = state.options;
-  if (choice.truth && (options.normals || options.flow || options.parts)) {
-    state.draw_surfaces(scene, next, seen, frame);
+  if (choice.truth && (options.normals || options.flow || options.flow_backward || options.parts)) {
+    state.draw_surfaces(scene, next, choice.previous, seen, frame);
     state.lap("surfaces");
+  }
+  if (choice.truth && options.hazard_opacity) {
+    state.draw_opacity(scene, frame);
+    state.lap("opacity");
   }
   if (choice.truth) state.measure_coverage(scene, frame, choice.weights, seen);
   check_gl("drawing a frame");
@@ -453,6 +499,8 @@ double Renderer::metered_gain(const Scene& scene, const camera::Camera& camera) 
   check_gl("metering a frame");
   return metering_gain(image.rgb, metered_lightness(state.daylight.illuminance_lux));
 }
+
+std::span<const Vehicle> Renderer::vehicles() const { return state_->vehicles; }
 
 double Renderer::illuminance_lux() const { return state_->daylight.illuminance_lux; }
 

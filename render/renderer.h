@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "camera/camera.h"
 #include "render/frame.h"
 #include "render/pixel_weights.h"
+#include "render/props/vehicles.h"
 #include "render/scene.h"
 #include "render/spec/environment.h"
 #include "render/spec/quality.h"
@@ -31,11 +33,16 @@ int max_image_px(const DeviceChoice& device = {});
 /// Ground truth to render beside the scene itself.
 struct RenderOptions {
   Quality quality = Quality::standard;
-  bool normals = false;      ///< fill Frame::normal
-  bool flow = false;         ///< fill Frame::flow
-  bool parts = false;        ///< fill Frame::part
-  bool semantic = false;     ///< fill Frame::surface
-  bool whole_masks = false;  ///< fill PersonInView::whole_mask
+  bool normals = false;         ///< fill Frame::normal
+  bool flow = false;            ///< fill Frame::flow
+  bool flow_backward = false;   ///< fill Frame::flow_backward
+  bool flow_depth = false;      ///< with flow: fill Frame::flow_depth_m
+  bool scene_flow = false;      ///< with flow_depth: fill Frame::scene_flow_m
+  bool parts = false;           ///< fill Frame::part
+  bool hazard_opacity = false;  ///< fill Frame::hazard_opacity
+  bool semantic = false;        ///< fill Frame::surface
+  bool whole_masks = false;     ///< fill PersonInView::whole_mask
+  bool vehicles = false;        ///< have vehicles among Frame::objects
   /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
   /// determines, so this is for tests and comparisons.
   std::optional<bool> multisample = std::nullopt;
@@ -46,8 +53,9 @@ struct RenderOptions {
 /// Options of a draw.
 struct DrawChoice {
   const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
-  bool truth = true;         ///< else people's areas are 0 and there are no normals, flow or parts
-  double exposure_gain = 1;  ///< all light on the film is multiplied by it
+  bool truth = true;  ///< else people's areas are 0 and there are no normals, flow or parts
+  const NeighborFrame* previous = nullptr;  ///< serves the backward flow only
+  double exposure_gain = 1;                 ///< all light on the film is multiplied by it
 };
 
 /// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
@@ -64,13 +72,16 @@ class Renderer {
 
   /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
   /// is a pinhole; Lens (render/lens/lens.h) renders all cameras. `next` serves the flow only.
-  Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
+  Frame draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next = nullptr,
              const DrawChoice& choice = {});
 
   /// The gain of the camera's automatic exposure for this view: that by which a small image of the
   /// place, without people, has the lightness that a camera gives an image in this light
   /// (render/lens/metering.h). Any lens.
   double metered_gain(const Scene& scene, const camera::Camera& camera);
+
+  /// The vehicles that Frame::objects has, as far as the camera sees them; none unless asked for.
+  std::span<const Vehicle> vehicles() const;
 
   /// On level ground in the open.
   double illuminance_lux() const;

@@ -7,6 +7,7 @@
 
 #include "camera/camera.h"
 #include "render/props/airframe_mesh.h"
+#include "skinning/animate/action.h"
 #include "skinning/animate/motion.h"
 #include "skinning/appearance.h"
 
@@ -20,6 +21,7 @@ struct PersonInstance {
   float yaw_rad = 0;
   skinning::Appearance appearance;
   skinning::PoseBlend pose;
+  skinning::Actions actions = {};  ///< that the pose is part of
 };
 
 /// Everything that is in the world at one instant.
@@ -32,8 +34,8 @@ struct Scene {
   std::vector<DroneInstance> drones = {};
 };
 
-/// The next frame of the same camera: what flow leads to.
-struct NextFrame {
+/// The next or the previous frame of the same camera: what flow leads to.
+struct NeighborFrame {
   Scene scene;
   camera::Camera camera;
 };

@@ -81,7 +81,7 @@ class HttpServer::BoundedServer : public httplib::Server {
     httplib::ThreadPool threads(kThreads);
     while (svr_sock_ != INVALID_SOCKET) {
       pollfd wait{listener_, POLLIN, 0};
-      if (::poll(&wait, 1, kIdleStepMs) <= 0) continue;
+      if (::poll(&wait, 1, -1) <= 0) continue;  // end() shuts the socket down, which wakes this
       const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
       if (socket >= 0) {
         threads.enqueue([this, socket] { process_and_close_socket(socket); });

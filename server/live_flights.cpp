@@ -45,9 +45,12 @@ LiveFlights::LiveFlights(const std::filesystem::path& data, LiveLimits limits)
   std::filesystem::create_directories(folder_);
   thread_ = std::jthread([this](const std::stop_token& stop) {
     constexpr std::chrono::milliseconds kPause(200);
-    while (!stop.stop_requested()) {
-      std::this_thread::sleep_for(kPause);
+    std::unique_lock lock(mutex_);
+    while (begun_.wait(lock, stop, [this] { return !flights_.empty(); })) {
+      if (begun_.wait_for(lock, stop, kPause, [&] { return stop.stop_requested(); })) return;
+      lock.unlock();
       end_unseen();
+      lock.lock();
     }
   });
 }
@@ -89,6 +92,7 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   require_room(owner, spec.memory_mib);
   auto flight = std::make_shared<LiveFlight>(std::move(spec));
   flights_.emplace(flight->id(), flight);
+  begun_.notify_all();
   spdlog::info("live flight {} begun", flight->id());
   return flight;
 }

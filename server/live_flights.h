@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -53,6 +54,7 @@ class LiveFlights {
   std::filesystem::path folder_;
   LiveLimits limits_;
   mutable std::mutex mutex_;
+  std::condition_variable_any begun_;                           ///< a flight
   std::map<std::string, std::shared_ptr<LiveFlight>> flights_;  ///< by id; guarded by mutex_
   std::jthread thread_;
 };

@@ -54,11 +54,16 @@ class SignalWatch {
   explicit SignalWatch(std::function<void()> action)
       : thread_([action = std::move(action)](const std::stop_token& stop) {
           const sigset_t signals = ending_signals();
-          constexpr timespec kPatience{0, 100'000'000};
-          while (!stop.stop_requested()) {
-            if (sigtimedwait(&signals, nullptr, &kPatience) > 0) return action();
+          while (sigwaitinfo(&signals, nullptr) < 0) {
           }
+          if (!stop.stop_requested()) action();
         }) {}
+  ~SignalWatch() {
+    thread_.request_stop();
+    pthread_kill(thread_.native_handle(), SIGTERM);  // wakes it; without polling it takes no time
+  }
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
 
  private:
   std::jthread thread_;

@@ -1,5 +1,6 @@
 #include "skinning/landmarks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,13 +14,12 @@ namespace throng::skinning {
 
 namespace {
 
-// Places in kKeypointNames.
-constexpr std::size_t kNose = 0;
-constexpr std::size_t kLeftEye = 1;
-constexpr std::size_t kRightEye = 2;
-constexpr std::size_t kLeftEar = 3;
-constexpr std::size_t kRightEar = 4;
-constexpr std::size_t kLeftShoulder = 5;
+constexpr std::size_t kNose = index_of(Joint::nose);
+constexpr std::size_t kLeftEye = index_of(Joint::left_eye);
+constexpr std::size_t kRightEye = index_of(Joint::right_eye);
+constexpr std::size_t kLeftEar = index_of(Joint::left_ear);
+constexpr std::size_t kRightEar = index_of(Joint::right_ear);
+constexpr std::size_t kLeftShoulder = index_of(Joint::left_shoulder);
 
 /// Bones that begin at the keypoints from the left shoulder on.
 constexpr std::array kJointBones = {
@@ -93,7 +93,98 @@ std::optional<Eigen::Vector3f> farthest(const std::vector<Eigen::Vector3f>& poin
   return best;
 }
 
+/// Joints of the rig beside COCO's, with the bones that begin there.
+struct RigJoint {
+  Joint joint;
+  Bone bone;
+};
+constexpr std::array kRigJoints = {
+    RigJoint{Joint::neck, Bone::neck},
+    RigJoint{Joint::chest, Bone::chest},
+    RigJoint{Joint::spine, Bone::spine},
+    RigJoint{Joint::pelvis, Bone::hips},
+    RigJoint{Joint::left_clavicle, Bone::left_clavicle},
+    RigJoint{Joint::right_clavicle, Bone::right_clavicle},
+};
+
+/// Points of the surface that move with one of two bones by more than a half, but for carried
+/// items.
+std::vector<Eigen::Vector3f> surface_of(const Mesh& mesh, Bone one, Bone other) {
+  std::vector<Eigen::Vector3f> points;
+  for (const Part& part : mesh.parts) {
+    if (part.tint == Tint::item) continue;
+    for (std::uint32_t i = 0; i < part.index_count; ++i) {
+      const Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
+      int weight = 0;
+      for (std::size_t k = 0; k < vertex.bones.size(); ++k) {
+        const bool is_one = vertex.bones[k] == static_cast<std::uint8_t>(one) ||
+                            vertex.bones[k] == static_cast<std::uint8_t>(other);
+        if (is_one) weight += vertex.weights[k];
+      }
+      if (weight > 127) points.push_back(position_of(vertex));
+    }
+  }
+  return points;
+}
+
+constexpr float kLowest = -std::numeric_limits<float>::infinity();
+constexpr float kHighest = std::numeric_limits<float>::infinity();
+
+/// Hand, toes and heel of one side (+1: left).
+void add_ends_of_limbs(const Character& character, float side, Landmarks& landmarks) {
+  const bool is_left = side > 0;
+  const auto set = [&](Joint left, Bone bone, const Eigen::Vector3f& at) {
+    const std::size_t joint = index_of(left) + (is_left ? 0 : 1);
+    landmarks.bone[joint] = bone;
+    landmarks.rest[joint] = at;
+  };
+  const Bone hand = is_left ? Bone::left_hand : Bone::right_hand;
+  const Bone foot = is_left ? Bone::left_foot : Bone::right_foot;
+  const Bone toe = is_left ? Bone::left_toe : Bone::right_toe;
+  const Eigen::Vector3f wrist = character.joints[index_of(hand)];
+  const Eigen::Vector3f ankle = character.joints[index_of(foot)];
+  std::vector<Eigen::Vector3f> of_hand;
+  std::vector<Eigen::Vector3f> of_foot;
+  if (!character.levels.empty()) {
+    of_hand = surface_of(character.levels.front(), hand, hand);
+    of_foot = surface_of(character.levels.front(), foot, toe);
+  }
+  Eigen::AlignedBox3f bounds;
+  // Hands are 0.108 of stature long; what is farther from the wrist is carried.
+  for (const Eigen::Vector3f& point : of_hand) {
+    if ((point - wrist).norm() <= 0.115F * character.stature_m) bounds.extend(point);
+  }
+  set(Joint::left_hand, hand, bounds.isEmpty() ? wrist : Eigen::Vector3f(bounds.center()));
+  // Of a foot without surface: its length, of which a quarter is behind the ankle.
+  const float length_m = 0.152F * character.stature_m;
+  const float half_width_m = 0.15F * length_m;
+  const auto at_foot = [&](const Eigen::Vector3f& direction, float ahead_m, float out_m) {
+    return farthest(of_foot, kLowest, kHighest, direction)
+        .value_or(Eigen::Vector3f(ankle.x() + ahead_m, ankle.y() + side * out_m, 0));
+  };
+  set(Joint::left_big_toe, toe, at_foot({1, -0.5F * side, 0}, 0.75F * length_m, -half_width_m));
+  set(Joint::left_small_toe, toe, at_foot({0.7F, side, 0}, 0.6F * length_m, half_width_m));
+  set(Joint::left_heel, foot, at_foot({-1, 0, -0.3F}, -0.25F * length_m, 0));
+}
+
 }  // namespace
+
+const std::array<std::string_view, kJointCount>& joint_names() {
+  static constexpr std::array<std::string_view, kJointCount> kNames = [] {
+    std::array<std::string_view, kJointCount> names = {};
+    std::copy(kKeypointNames.begin(), kKeypointNames.end(), names.begin());
+    constexpr std::array<std::string_view, kJointCount - kKeypointCount> kOthers = {
+        "head_top",       "head_center",     "neck",          "chest",
+        "spine",          "pelvis",          "left_clavicle", "right_clavicle",
+        "left_hand",      "right_hand",      "left_big_toe",  "right_big_toe",
+        "left_small_toe", "right_small_toe", "left_heel",     "right_heel"};
+    std::copy(kOthers.begin(), kOthers.end(), names.begin() + kKeypointCount);
+    return names;
+  }();
+  return kNames;
+}
+
+const std::array<std::string_view, kBoneCount>& bone_names() { return kBoneNames; }
 
 Landmarks landmarks_of(const Character& character) {
   const Eigen::Vector3f head = character.joints[index_of(Bone::head)];
@@ -133,12 +224,25 @@ Landmarks landmarks_of(const Character& character) {
     landmarks.bone[kLeftShoulder + i] = kJointBones[i];
     landmarks.rest[kLeftShoulder + i] = character.joints[index_of(kJointBones[i])];
   }
+  for (const RigJoint& rig : kRigJoints) {
+    landmarks.bone[index_of(rig.joint)] = rig.bone;
+    landmarks.rest[index_of(rig.joint)] = character.joints[index_of(rig.bone)];
+  }
+  for (const Joint joint : {Joint::head_top, Joint::head_center}) {
+    landmarks.bone[index_of(joint)] = Bone::head;
+  }
+  landmarks.rest[index_of(Joint::head_center)] =
+      0.5F * (landmarks.rest[kLeftEar] + landmarks.rest[kRightEar]);
+  landmarks.rest[index_of(Joint::head_top)] =
+      farthest(face.skin, kLowest, kHighest, Eigen::Vector3f::UnitZ())
+          .value_or(Eigen::Vector3f(head.x(), 0, stature));
+  for (const float side : {1.0F, -1.0F}) add_ends_of_limbs(character, side, landmarks);
   return landmarks;
 }
 
 Keypoints posed_keypoints(const Landmarks& landmarks, const Palette& palette) {
   Keypoints posed;
-  for (std::size_t i = 0; i < kKeypointCount; ++i) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
     const BoneMatrix& bone = palette[index_of(landmarks.bone[i])];
     posed[i] = bone.leftCols<3>() * landmarks.rest[i] + bone.col(3);
   }

@@ -17,10 +17,18 @@ namespace throng::annotate {
 enum class GroundTruth : std::uint8_t {
   coco,
   keypoints,
+  skeletons,
+  actions,
   amodal,
+  vehicles,
+  difficulty,
+  heads,
+  occluders,
   density,
   exits,
+  hazards,
   fields,
+  counts,
   trajectories,
   events,
   depth,
@@ -28,6 +36,10 @@ enum class GroundTruth : std::uint8_t {
   parts,
   normals,
   flow,
+  flow_backward,
+  flow_occlusion,
+  scene_flow,
+  hazard_opacity,
   semantic,
   sensors,
 };
@@ -43,8 +55,13 @@ enum class Extent : std::uint8_t {
 struct RenderNeeds {
   bool normals = false;
   bool flow = false;
+  bool flow_backward = false;
+  bool flow_depth = false;
+  bool scene_flow = false;
+  bool hazard_opacity = false;
   bool parts = false;
   bool whole_masks = false;
+  bool vehicles = false;
   bool semantic = false;
 };
 

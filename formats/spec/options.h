@@ -38,6 +38,8 @@ struct FilterOptions {
   double min_visibility = 0;
   double min_height_px = 0;
   std::optional<double> max_truncation = std::nullopt;  ///< share outside of the image; none: any
+  /// CIELAB difference to the surroundings, in the mean or along the outline (`difficulty`).
+  double min_contrast = 0;
 };
 
 /// Classes by a property that people have; "none": everybody is a person.

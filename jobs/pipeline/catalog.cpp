@@ -33,10 +33,13 @@ json airframe_list() {
 json format_list() {
   json list = json::array();
   for (const formats::Format& format : formats::all_formats()) {
-    const bool is_plain = format.needs == annotate::GroundTruth::coco;
-    list.push_back({{"name", format.name},
-                    {"summary", format.summary},
-                    {"needs", is_plain ? "" : annotate::kind_of(format.needs).name}});
+    std::string needs;
+    for (const annotate::GroundTruth kind : {format.needs, format.needs_also}) {
+      if (kind == annotate::GroundTruth::coco) continue;
+      if (!needs.empty()) needs += ", ";
+      needs += annotate::kind_of(kind).name;
+    }
+    list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", needs}});
   }
   return list;
 }

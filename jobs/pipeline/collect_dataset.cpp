@@ -54,7 +54,9 @@ class Collector {
       const std::string path = file_of(annotate::GroundTruth::coco, "");
       fs::create_directories((staging_.path() / path).parent_path());
       annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name,
-                           {wants(job_, annotate::GroundTruth::keypoints), job_.drones.size() > 1});
+                           {wants(job_, annotate::GroundTruth::keypoints), job_.drones.size() > 1,
+                            wants(job_, annotate::GroundTruth::vehicles),
+                            wants(job_, annotate::GroundTruth::skeletons)});
       list(path);
     }
     json manifest = manifest_of(std::move(runs));
@@ -165,7 +167,9 @@ class Collector {
     for (const Problem& warning : formats::split_warnings(info, chosen)) {
       fmt::print(stderr, "warning: {}\n", warning.text());
     }
-    formats::export_dataset(info, chosen, folder, &card);
+    for (const Problem& warning : formats::export_dataset(info, chosen, folder, &card)) {
+      fmt::print(stderr, "warning: {}\n", warning.text());
+    }
     for (const char* path : {"dataset.json", "README.md"}) list(path);
     if (!fs::exists(folder)) return;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -2,6 +2,7 @@
 #include "jobs/pipeline/sensor_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -13,6 +14,7 @@
 #include "jobs/pipeline/pipeline.h"
 #include "render/lens/metering.h"
 #include "render/lens/sensor.h"
+#include "render/truth/flow_targets.h"
 #include "sim/spec/airframe.h"
 
 namespace throng::jobs {
@@ -51,7 +53,9 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
       trace_(&trace),
       clock_(clock),
       animator_(trace, population, job.styling),
-      lens_(renderer, population) {
+      lens_(renderer, population),
+      looks_ahead_(annotate::holds(job.outputs.annotations, annotate::GroundTruth::flow_occlusion)),
+      ahead_(job.drones.size()) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
@@ -109,21 +113,37 @@ std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const
 }
 
 CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
+  if (!looks_ahead_) return capture(drone, frame);
+  std::optional<CapturedFrame>& ahead = ahead_.at(drone);
+  CapturedFrame now =
+      ahead && ahead->frame.index == frame ? std::move(*ahead) : capture(drone, frame);
+  ahead.reset();
+  if (frame + 1 < job_->frames_per_camera()) {
+    ahead = capture(drone, frame + 1);
+    now.frame.flow_target = render::flow_targets(now.frame, ahead->frame);
+  } else {
+    now.frame.flow_target = render::unknown_flow_targets(now.frame);
+  }
+  return now;
+}
+
+CapturedFrame FrameCapture::capture(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
   const camera::FrameOffsets draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
   camera::CameraSpec camera = camera_of_frame(cameras_[drone], draw);
   const double time_s = job_->frame_time_s(frame);
-  std::optional<double> next_s;
-  if (annotate::render_needs(job_->outputs.annotations).flow &&
-      frame + 1 < job_->frames_per_camera()) {
-    next_s = job_->frame_time_s(frame + 1);
-  }
+  const render::NeighborTimes neighbors = neighbors_of(frame);
   const render::MomentAt moment = [&](double at_s) {
-    const bool is_next = next_s && at_s > 0.5 * (time_s + *next_s);
-    return moment_at(drone, is_next ? frame + 1 : frame, frame, at_s);
+    const auto is_beyond_half = [&](const std::optional<double>& other_s) {
+      return other_s && std::abs(at_s - *other_s) < 0.5 * std::abs(time_s - *other_s);
+    };
+    const std::int64_t shown = is_beyond_half(neighbors.next_s)       ? frame + 1
+                               : is_beyond_half(neighbors.previous_s) ? frame - 1
+                                                                      : frame;
+    return moment_at(drone, shown, frame, at_s);
   };
   render::Exposed exposed =
-      render::expose(lens_, moment, time_s, camera.exposure, next_s, camera.sensor.is_metered);
+      render::expose(lens_, moment, time_s, camera.exposure, neighbors, camera.sensor.is_metered);
   if (!camera.sensor.iso) {
     camera.sensor.iso = render::metered_iso(exposed.illuminance_lux, exposed.gain);
   }
@@ -139,6 +159,16 @@ CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
   captured.drawn = to_json(cameras_[drone], draw);
   captured.frame = std::move(exposed.frame);
   return captured;
+}
+
+render::NeighborTimes FrameCapture::neighbors_of(std::int64_t frame) const {
+  const annotate::RenderNeeds needs = annotate::render_needs(job_->outputs.annotations);
+  render::NeighborTimes times;
+  if (needs.flow && frame + 1 < job_->frames_per_camera()) {
+    times.next_s = job_->frame_time_s(frame + 1);
+  }
+  if (needs.flow_backward && frame > 0) times.previous_s = job_->frame_time_s(frame - 1);
+  return times;
 }
 
 void FrameCapture::recycle(CapturedFrame&& captured) { lens_.recycle(std::move(captured.frame)); }

@@ -4,10 +4,13 @@
 #include <optional>
 #include <set>
 
+#include "annotate/actions.h"
 #include "annotate/coco.h"
 #include "annotate/frame_writers.h"
+#include "annotate/hazard_view.h"
 #include "annotate/labels.h"
 #include "annotate/preview.h"
+#include "annotate/zone_counts.h"
 #include "base/error.h"
 #include "camera/camera.h"
 #include "jobs/pipeline/frame_capture.h"
@@ -27,17 +30,45 @@ namespace throng::jobs {
 
 namespace {
 
+/// Of the run, for labels; those that are not asked for are not there.
+struct RunViews {
+  annotate::PersonFacts facts;
+  std::optional<annotate::ExitView> exits = std::nullopt;
+  std::optional<annotate::HazardView> hazards = std::nullopt;
+  std::optional<annotate::ActionFacts> actions = std::nullopt;
+  std::optional<std::vector<annotate::CountZone>> zones = std::nullopt;
+};
+
+RunViews views_of(const JobSpec& job, const world::Scenario& scenario, const world::Trace& trace,
+                  const skinning::Population& population) {
+  using annotate::GroundTruth;
+  RunViews views{annotate::PersonFacts(trace, population, job.styling)};
+  if (!wants(job, GroundTruth::coco)) return views;
+  if (wants(job, GroundTruth::exits)) {
+    views.exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
+  }
+  if (wants(job, GroundTruth::hazards)) views.hazards.emplace(scenario, trace);
+  if (wants(job, GroundTruth::actions)) views.actions.emplace(trace, population, job.styling);
+  if (wants(job, GroundTruth::counts)) {
+    views.zones = annotate::count_areas(scenario, job.outputs.counts).zones;
+  }
+  return views;
+}
+
+template <typename View>
+const View* pointer_to(const std::optional<View>& view) {
+  return view ? &*view : nullptr;
+}
+
 // One shard in the making: everything that its frames share.
 class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
-              std::string environment, nlohmann::json drawn, const annotate::PersonFacts& facts,
-              const annotate::ExitView* exits, const std::vector<std::string>& drone_ids,
-              StageClock* clock)
+              std::string environment, nlohmann::json drawn, const RunViews& views,
+              const std::vector<std::string>& drone_ids, StageClock* clock)
       : job_(job),
         shard_(shard),
-        facts_(facts),
-        exits_(exits),
+        views_(views),
         drone_ids_(drone_ids),
         environment_(std::move(environment)),
         drawn_(std::move(drawn)),
@@ -67,7 +98,7 @@ class ShardOutput {
     image.drawn = drawn_of(captured);
     image.sensor = captured.sensor;
     image.flight = captured.flight;
-    image.facts = &facts_;
+    image.facts = &views_.facts;
     image.drone_ids = &drone_ids_;
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
@@ -83,7 +114,7 @@ class ShardOutput {
     }
     if (coco_) coco_->add(image, labels);
     lap("write");
-    annotations_ += static_cast<std::int64_t>(labels.people.size() + labels.drones.size());
+    annotations_ += static_cast<std::int64_t>(labels.people.size() + labels.objects.size());
     for (const annotate::PersonLabel& label : labels.people) agents_.insert(label.agent);
     ++images_;
   }
@@ -111,7 +142,10 @@ class ShardOutput {
         .frame = frame,
         .labels = labels,
         .record = image,
-        .exits = exits_,
+        .exits = pointer_to(views_.exits),
+        .actions = pointer_to(views_.actions),
+        .hazards = pointer_to(views_.hazards),
+        .zones = pointer_to(views_.zones),
         .density_sigma_px = job_.outputs.density_sigma_px,
         .add = [this](const std::string& path,
                       std::string_view bytes) { publication_.add(path, bytes); },
@@ -127,8 +161,7 @@ class ShardOutput {
 
   const JobSpec& job_;
   const Shard& shard_;
-  const annotate::PersonFacts& facts_;
-  const annotate::ExitView* exits_;  ///< null unless exits are asked for
+  const RunViews& views_;
   const std::vector<std::string>& drone_ids_;
   std::string environment_;  ///< JSON
   nlohmann::json drawn_;     ///< for the run
@@ -161,26 +194,28 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   const annotate::RenderNeeds needs = annotate::render_needs(job.outputs.annotations);
   options.normals = needs.normals;
   options.flow = needs.flow;
+  options.flow_backward = needs.flow_backward;
+  options.flow_depth = needs.flow_depth;
+  options.hazard_opacity = needs.hazard_opacity;
+  options.scene_flow = needs.scene_flow;
   options.parts = needs.parts;
   options.semantic = needs.semantic;
   options.whole_masks = needs.whole_masks;
+  options.vehicles = needs.vehicles;
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
   FrameCapture frame_capture(job, seed, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = samples_of_run(whole_job, shard.run);
-  const annotate::PersonFacts facts(trace, population, job.styling);
-  std::optional<annotate::ExitView> exits;
-  if (wants(job, annotate::GroundTruth::exits) && wants(job, annotate::GroundTruth::coco)) {
-    exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
-  }
-  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,
-                     exits ? &*exits : nullptr, trace.header.drone_ids, options.clock);
+  RunViews views = views_of(job, scenario, trace, population);
+  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, views,
+                     trace.header.drone_ids, options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;
   for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
+    if (views.hazards) views.hazards->advance(job.frame_time_s(frame));
     for (std::size_t i = 0; i < job.drones.size(); ++i) {
       if (stop.stop_requested()) throw Cancelled();
       CapturedFrame captured = frame_capture.take(i, frame);

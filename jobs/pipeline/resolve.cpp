@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "annotate/coco.h"
+#include "annotate/spec/ground_truth.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"
 #include "formats/exporter.h"
+#include "jobs/pipeline/ground_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/lens_check.h"
 #include "jobs/pipeline/pipeline.h"
@@ -18,6 +21,7 @@
 #include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/schema_problems.h"
 #include "jobs/spec/spec.h"
+#include "render/props/vehicles.h"
 #include "sim/people/participants.h"
 #include "sim/planning/aimed_start.h"
 #include "sim/planning/moved_goals.h"
@@ -261,6 +265,32 @@ void check_places(const JobSpec& job, const std::vector<world::Scenario>& scenar
   }
 }
 
+/// Ids of annotations have room for so many people and vehicles of a run.
+void check_ids(const JobSpec& job, const world::Scenario& scenario, std::int64_t people,
+               std::vector<Problem>& problems) {
+  if (!wants(job, annotate::GroundTruth::coco)) return;
+  if (people > annotate::kFirstVehicleNumber) {
+    problems.push_back(
+        {"", "/crowd/agents", fmt::format("{} people", people),
+         fmt::format("at most {} with the annotation coco", annotate::kFirstVehicleNumber)});
+  }
+  if (!wants(job, annotate::GroundTruth::vehicles)) return;
+  const auto vehicles = static_cast<std::int64_t>(render::vehicle_count(scenario));
+  if (vehicles > annotate::kMaxVehiclesPerRun) {
+    problems.push_back(
+        {"", "/outputs/annotations", fmt::format("{} vehicles", vehicles),
+         fmt::format("at most {} with the annotation vehicles", annotate::kMaxVehiclesPerRun)});
+  }
+}
+
+/// A filter by contrast needs the annotation that measures it.
+void check_filters(const JobSpec& job, std::vector<Problem>& problems) {
+  const double min_contrast = job.outputs.exports.filters.min_contrast;
+  if (min_contrast <= 0 || wants(job, annotate::GroundTruth::difficulty)) return;
+  problems.push_back({"", "/outputs/filters/min_contrast", fmt::format("{}", min_contrast),
+                      "the annotation difficulty, too, which measures contrast"});
+}
+
 ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
                      const std::string& source, std::vector<Problem> problems,
                      DefaultDrones default_drones) {
@@ -269,17 +299,23 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
   if (job.mix.empty()) take_from_scenario(job, scenarios.front(), default_drones);
   if (default_drones == DefaultDrones::of_scenario) check_has_drones(job, problems);
   check_image_count(job, problems);
+  check_filters(job, problems);
+  check_ground_outputs(job.outputs, scenarios, problems);
   if (problems.empty()) check_cameras(job, problems);
   check_places(job, scenarios, problems);
+  int people = 0;
+  if (problems.empty()) {
+    const std::vector<int> first = first_runs(job);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const int here = people_of(in_scenario_of_run(job, first[i]), scenarios[i]);
+      check_ids(job, scenarios[i], std::max(here, job.agents.value_or(0)), problems);
+      people = std::max(people, here);
+    }
+  }
   for (Problem& problem : problems) {
     if (problem.source.empty()) problem.source = source;
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  int people = 0;
-  const std::vector<int> first = first_runs(job);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    people = std::max(people, people_of(in_scenario_of_run(job, first[i]), scenarios[i]));
-  }
   return ResolvedJob(std::move(job), people);
 }
 

@@ -6,14 +6,20 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "annotate/actions.h"
 #include "annotate/coco.h"
 #include "annotate/events.h"
 #include "annotate/exits_csv.h"
+#include "annotate/field_levels.h"
 #include "annotate/ground_field.h"
 #include "annotate/trajectories.h"
+#include "annotate/zone_counts.h"
 #include "base/error.h"
 #include "jobs/pipeline/flight_record.h"
+#include "jobs/spec/environment.h"
 #include "jobs/spec/plan.h"
+#include "render/animator.h"
+#include "skinning/population.h"
 
 namespace throng::jobs {
 
@@ -35,18 +41,33 @@ void write_fields(RunOutput& output) {
   nlohmann::json people = nlohmann::json::array();
   const annotate::GroundGrid ground(output.scenario);
   const std::string run = run_name(output.run);
+  std::vector<annotate::FieldLevel> levels;
+  for (const double cell_m : output.job.outputs.field_cells_m) {
+    levels.push_back(annotate::field_level(ground, cell_m));
+  }
   for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
     const auto field = annotate::ground_field(output.trace, ground, output.job.frame_time_s(frame));
     output.publication.add(file_of(GroundTruth::fields, run, "", frame),
                            annotate::npy_bytes(ground, field));
+    for (const annotate::FieldLevel& level : levels) {
+      output.publication.add(
+          fmt::format("fields/{}/{}/{:06}.npy", run, annotate::level_folder(level.cell_m), frame),
+          annotate::npy_bytes(level, annotate::field_on(level, ground, field)));
+    }
     people.push_back(field.people);
   }
-  const nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
-                               {"cell_m", ground.cell_m()},
-                               {"kernel_m", annotate::kFieldKernelM},
-                               {"columns", ground.columns()},
-                               {"rows", ground.rows()},
-                               {"people", people}};
+  nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
+                         {"cell_m", ground.cell_m()},
+                         {"kernel_m", annotate::kFieldKernelM},
+                         {"columns", ground.columns()},
+                         {"rows", ground.rows()},
+                         {"people", people}};
+  for (const annotate::FieldLevel& level : levels) {
+    grid["levels"].push_back({{"cell_m", level.cell_m},
+                              {"columns", level.columns},
+                              {"rows", level.rows},
+                              {"folder", annotate::level_folder(level.cell_m)}});
+  }
   output.publication.add("fields/" + run + ".json", grid.dump(kJsonIndent) + "\n");
 }
 
@@ -56,6 +77,30 @@ std::vector<double> frame_times_s(const JobSpec& job) {
     times_s.push_back(job.frame_time_s(frame));
   }
   return times_s;
+}
+
+void write_counts_table(RunOutput& output) {
+  const annotate::CountAreas areas =
+      annotate::count_areas(output.scenario, output.job.outputs.counts);
+  const std::string run = run_name(output.run);
+  output.publication.add(
+      file_of(GroundTruth::counts, run),
+      annotate::counts_csv(output.trace, areas, frame_times_s(output.job), output.run));
+  output.publication.add("counts/" + run + ".json", annotate::counts_json(areas));
+}
+
+void write_actions_table(RunOutput& output) {
+  const JobSpec job = job_of_run(output.job, output.run);
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(output.run)).seed;
+  const RunEnvironment environment = environment_of_run(job.environment, seed);
+  const skinning::Styling styling = styling_in(job, environment.light.weather);
+  const skinning::Population population = skinning::load_population(skinning::population_folder());
+  const render::Animator animator(output.trace, population, styling);
+  const annotate::ActionFacts facts(output.trace, population, styling);
+  output.publication.add(
+      file_of(GroundTruth::actions, run_name(output.run)),
+      annotate::actions_csv(output.trace, animator, facts, output.job.capture.from_s,
+                            output.job.capture.to_s, output.run));
 }
 
 void write_trajectories(RunOutput& output) {
@@ -94,8 +139,10 @@ void write_sensors(RunOutput& output) {
 }
 
 constexpr std::array kRunWriters = {
+    RunWriter{GroundTruth::actions, write_actions_table},
     RunWriter{GroundTruth::exits, write_exits_table},
     RunWriter{GroundTruth::fields, write_fields},
+    RunWriter{GroundTruth::counts, write_counts_table},
     RunWriter{GroundTruth::trajectories, write_trajectories},
     RunWriter{GroundTruth::events, write_events},
     RunWriter{GroundTruth::sensors, write_sensors},

@@ -144,7 +144,7 @@ ExitStatus end_of(ChildProcess& child) {
   while (!child.has_ended()) {
     if (std::chrono::steady_clock::now() > end) return {0, SIGALRM};  // it ends with its object
     // The child's output is closed when it ends, a moment before it can be collected.
-    constexpr int kPollMs = 50;
+    constexpr int kPollMs = 500;
     pollfd output{child.output(), POLLIN, 0};
     ::poll(&output, 1, kPollMs);
     child.read_lines();
@@ -178,8 +178,8 @@ ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
   return [run = std::move(run), slots](const json& request, const fs::path& work) {
     const Slot slot(*slots);
     // The request may hold any bytes that a client sent.
-    write_file_atomically(work / kRequestName,
-                          request.dump(-1, ' ', false, json::error_handler_t::replace));
+    write_temporary_file(work / kRequestName,
+                         request.dump(-1, ' ', false, json::error_handler_t::replace));
     return answer_of(run(work), request, work);
   };
 }
@@ -204,8 +204,8 @@ int run_confined_task(const fs::path& work, const std::function<json(const json&
   confine_this_process();
   ::setenv("TMPDIR", work.c_str(), 1);  // removed with the work folder, however this process ends
   const auto write = [&](const json& value) {
-    write_file_atomically(work / kAnswerName,
-                          value.dump(-1, ' ', false, json::error_handler_t::replace));
+    write_temporary_file(work / kAnswerName,
+                         value.dump(-1, ' ', false, json::error_handler_t::replace));
   };
   try {
     const json request = parse_own_json(read_file(work / kRequestName), kRequestName);

@@ -32,10 +32,13 @@ struct KindBytes {
   std::string_view kind;
   double per_pixel;
 };
-constexpr std::array kKindBytes = {KindBytes{"density", 0.2},   KindBytes{"depth", 0.9},
-                                   KindBytes{"instances", 0.1}, KindBytes{"parts", 0.05},
-                                   KindBytes{"normals", 1},     KindBytes{"flow", 1.5},
-                                   KindBytes{"semantic", 0.05}};
+constexpr std::array kKindBytes = {
+    KindBytes{"density", 0.2},         KindBytes{"depth", 0.9},
+    KindBytes{"instances", 0.1},       KindBytes{"parts", 0.05},
+    KindBytes{"normals", 1},           KindBytes{"flow", 1.5},
+    KindBytes{"semantic", 0.05},       KindBytes{"flow_backward", 1.5},
+    KindBytes{"flow_occlusion", 0.02}, KindBytes{"scene_flow", 0.15},
+    KindBytes{"hazard_opacity", 0.25}};
 
 double bytes_per_pixel(const OutputSpec& outputs) {
   double bytes =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "annotate/spec/count_areas.h"
 #include "annotate/spec/ground_truth.h"
 #include "formats/spec/options.h"
 #include "jobs/spec/camera_spec.h"
@@ -37,6 +38,8 @@ struct OutputSpec {
   int image_quality = 95;
   std::vector<std::string> annotations = annotate::default_ground_truth();
   double density_sigma_px = 4;
+  std::vector<double> field_cells_m;  ///< sizes of cells beside the usual one
+  annotate::CountAreas counts;        ///< of the job; the ground and exits come with them
   int previews = 3;
   std::vector<std::string> formats;  ///< other formats, below formats/ in the dataset
   formats::ExportOptions exports;

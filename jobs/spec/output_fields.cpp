@@ -8,6 +8,7 @@
 #include "annotate/spec/ground_truth.h"
 #include "base/suggest.h"
 #include "formats/spec/options.h"
+#include "jobs/spec/ground_fields.h"
 #include "jobs/spec/job_fields.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/scenario_mix.h"
@@ -168,6 +169,12 @@ void add_export_fields(FieldTable<JobSpec>& table) {
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
                &FilterOptions::max_truncation),
             "Maximum share of a person outside of the image; without it, any.");
+  table.add("outputs/filters/min_contrast", "Min contrast", "CIELAB", numbers(0, 100),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
+               &FilterOptions::min_contrast),
+            "Minimum color difference of a person to the surroundings, in the mean or along the "
+            "outline, whichever is larger; needs the annotation difficulty. About 2.3 is just "
+            "noticeable.");
   table.group("outputs/webdataset", "WebDataset", "Options of the webdataset format.");
   table.add("outputs/webdataset/shard_mb", "Size of a shard", "MB", numbers(1, 100000),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::webdataset,
@@ -201,6 +208,7 @@ void add_output_fields(FieldTable<JobSpec>& table) {
            at(&JobSpec::outputs, &OutputSpec::density_sigma_px),
            "Standard deviation of the Gaussian of one head.")
       .randomized();
+  add_ground_fields(table);
   table.add("outputs/previews", "Previews", "images", integers(0, 100),
             at(&JobSpec::outputs, &OutputSpec::previews),
             "Images with the annotations drawn on them per run and camera, evenly spread over the "

@@ -2,10 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <string_view>
 
+#include "annotate/spec/ground_truth.h"
 #include "jobs/spec/spec.h"
 #include "render/spec/quality.h"
 
@@ -16,6 +15,7 @@ namespace {
 constexpr double kMibPerPerson = 0.006;
 constexpr double kSimulateMib = 192;
 constexpr double kRenderMib = 512;
+constexpr double kPeopleMib = 256;  // of the character library
 // MiB per million pixels, that is bytes per pixel.
 constexpr double kImageBytes = 42;
 constexpr double kSampleBytes = 28;  // each further sample of color
@@ -23,11 +23,9 @@ constexpr double kTruthBytes = 48;   // ground truth per pixel
 constexpr double kPixelsPerMegapixel = 1e6;
 
 bool has_pixel_truth(const OutputSpec& outputs) {
-  constexpr std::array<std::string_view, 6> kPerPixel = {"depth",   "instances", "parts",
-                                                         "normals", "flow",      "semantic"};
-  return std::any_of(kPerPixel.begin(), kPerPixel.end(), [&](std::string_view name) {
-    return std::find(outputs.annotations.begin(), outputs.annotations.end(), name) !=
-           outputs.annotations.end();
+  return std::any_of(outputs.annotations.begin(), outputs.annotations.end(), [](const auto& name) {
+    const annotate::GroundTruthKind* kind = annotate::find_kind(name);
+    return kind != nullptr && kind->extent == annotate::Extent::pixel;
   });
 }
 
@@ -53,14 +51,18 @@ double rendered_megapixels(const camera::CameraSpec& camera) {
 
 double render_mib(const JobSpec& job, std::uint64_t run_seed) {
   double megapixels = 0;
+  double kept = 0;  // images that wait for what follows them
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const auto camera = camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i));
     megapixels = std::max(megapixels, rendered_megapixels(camera));
+    kept += static_cast<double>(camera.width) * camera.height / kPixelsPerMegapixel;
   }
   const int side = render::settings_of(job.quality).supersampling;
   const double bytes = kImageBytes + (side * side - 1) * kSampleBytes +
                        (has_pixel_truth(job.outputs) ? kTruthBytes : 0);
-  return kRenderMib + megapixels * bytes;
+  const bool keeps =
+      annotate::holds(job.outputs.annotations, annotate::GroundTruth::flow_occlusion);
+  return kRenderMib + megapixels * bytes + (keeps ? kept * kTruthBytes : 0);
 }
 
 }  // namespace
@@ -69,8 +71,12 @@ TaskMemory::TaskMemory(const JobSpec& job, int people_of_scenario) {
   for (const RunPlan& run : plan_runs(job)) {
     const JobSpec of_run = job_of_run(job, run.index);
     const double people = of_run.agents.value_or(people_of_scenario) * kMibPerPerson;
-    runs_.push_back({static_cast<std::int64_t>(kSimulateMib + people),
-                     static_cast<std::int64_t>(render_mib(of_run, run.seed) + people)});
+    const bool has_actions =
+        annotate::holds(job.outputs.annotations, annotate::GroundTruth::actions);
+    runs_.push_back(
+        {static_cast<std::int64_t>(kSimulateMib + people),
+         static_cast<std::int64_t>(kSimulateMib + people + (has_actions ? kPeopleMib : 0)),
+         static_cast<std::int64_t>(render_mib(of_run, run.seed) + people)});
   }
 }
 
@@ -78,12 +84,13 @@ std::int64_t TaskMemory::mib_of(const Task& task) const {
   if (task.kind == Task::Kind::report) return kReportMemoryMib;
   // Beyond the job's runs there are tasks of all runs: the largest stands for them.
   const auto run = std::min(static_cast<std::size_t>(task.run), runs_.size() - 1);
-  return task.kind == Task::Kind::render ? runs_[run].render_mib : runs_[run].simulate_mib;
+  if (task.kind == Task::Kind::render) return runs_[run].render_mib;
+  return task.kind == Task::Kind::measure ? runs_[run].measure_mib : runs_[run].simulate_mib;
 }
 
 std::int64_t TaskMemory::max_mib() const {
   std::int64_t most = 0;
-  for (const Run& run : runs_) most = std::max({most, run.simulate_mib, run.render_mib});
+  for (const Run& run : runs_) most = std::max({most, run.measure_mib, run.render_mib});
   return most;
 }
 

@@ -25,6 +25,7 @@ class TaskMemory {
  private:
   struct Run {
     std::int64_t simulate_mib;
+    std::int64_t measure_mib;
     std::int64_t render_mib;
   };
   std::vector<Run> runs_;

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,11 @@ from . import masks as _masks
 from .errors import DatasetError
 
 FloatArray = NDArray[np.float64]
+_Item = TypeVar("_Item", int, str)
 PERSON, DRONE = 1, 2
+#: Category ids of vehicles, which datasets have whose job asks for the annotation "vehicles".
+CAR, TRAIN = 3, 4
+NAMES = {PERSON: "person", DRONE: "drone", CAR: "car", TRAIN: "train"}
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class AnnotationFilter:
     min_visibility: float = 0.0
     min_height_px: float = 0.0
     min_area_px: float = 0.0
+    min_contrast: float = 0.0
     predicate: Callable[[Mapping[str, Any]], bool] | None = None
 
     def keeps(self, record: Mapping[str, Any]) -> bool:
@@ -38,6 +43,10 @@ class AnnotationFilter:
             return False
         if record.get("visibility", 1.0) < self.min_visibility or record.get("area", 0) < self.min_area_px:
             return False
+        if self.min_contrast > 0 and isinstance(record.get("difficulty"), dict):
+            contrasts = [record["difficulty"].get(key) for key in ("contrast", "edge_contrast")]
+            if max((value for value in contrasts if isinstance(value, (int, float))), default=0.0) < self.min_contrast:
+                return False
         if self.min_height_px > 0 and (record.get("bbox_amodal") or record["bbox"])[3] < self.min_height_px:
             return False
         return self.predicate is None or bool(self.predicate(record))
@@ -80,7 +89,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
         return iter(self.records)
 
     def __repr__(self) -> str:
-        return f"Annotations({len(self.people)} people, {len(self.drones)} drones)"
+        return f"Annotations({len(self.people)} people, {len(self.drones)} drones, {len(self.vehicles)} vehicles)"
 
     def _with(self, records: Collection[Mapping[str, Any]]) -> Annotations:
         return Annotations(records, self._height, self._width, self._where, self._tracks, self._track_offset)
@@ -98,6 +107,11 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @property
     def drones(self) -> Annotations:
         return self.select([record.get("category_id") == DRONE for record in self.records])
+
+    @property
+    def vehicles(self) -> Annotations:
+        """Cars and trains, of jobs with "vehicles" in outputs.annotations."""
+        return self.select([record.get("category_id") in (CAR, TRAIN) for record in self.records])
 
     def _column(
         self, key: str, shape: tuple[int, ...], dtype: Any = np.float64, *, required: str = "", cut: int | None = None
@@ -169,6 +183,77 @@ class Annotations(Sequence[Mapping[str, Any]]):
         return np.nan_to_num(self._column("truncation", ()))
 
     @cached_property
+    def head_boxes(self) -> FloatArray:
+        """(N, 4): x, y, width, height of the head with hair and headwear, hidden or not; NaN where the camera sees none.
+
+        With "heads" in outputs.annotations.
+        """
+        return self._column("head_box", (4,), required="heads")
+
+    @cached_property
+    def head_visibility(self) -> FloatArray:
+        """Visible share of what each person has in their head's box; NaN where that is no pixel."""
+        return self._column("head_visibility", (), required="heads")
+
+    def _member(self, name: str, key: str) -> FloatArray:
+        """The number record[name][key] of each annotation, NaN where there is no record[name]."""
+        values = []
+        for record in self.records:
+            group = record.get(name)
+            value = group.get(key) if isinstance(group, dict) else None
+            if group is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
+                raise DatasetError(f"{self._where}: found a {name} whose {key} is no number, expected one")
+            values.append(np.nan if value is None else float(value))
+        return np.array(values, dtype=np.float64)
+
+    def _items(self, record: Any, key: str, kind: type[_Item]) -> list[_Item]:
+        """The list record[key], empty where there is none; all of its items are of one kind."""
+        values = record.get(key, []) if isinstance(record, dict) else None
+        if not isinstance(values, list) or not all(type(value) is kind for value in values):
+            expected = "integers" if kind is int else "names"
+            raise DatasetError(f"{self._where}: found a {key} that is no list of {expected}")
+        return list(values)
+
+    @property
+    def contrasts(self) -> FloatArray:
+        """CIELAB difference to the surroundings; NaN without "difficulty" in outputs.annotations."""
+        return self._member("difficulty", "contrast")
+
+    @property
+    def edge_contrasts(self) -> FloatArray:
+        """Median CIELAB difference along the outline; NaN without "difficulty" in outputs.annotations."""
+        return self._member("difficulty", "edge_contrast")
+
+    @property
+    def blur_px(self) -> FloatArray:
+        """Motion in the image during the exposure; NaN without "difficulty" in outputs.annotations."""
+        return self._member("difficulty", "blur_px")
+
+    @property
+    def lookalikes(self) -> list[list[int]]:
+        """Track ids of people nearby who look alike; empty without "difficulty" in outputs.annotations."""
+        groups = [record.get("difficulty", {}) for record in self.records]
+        return [self._items(group, "lookalikes", int) for group in groups]
+
+    @property
+    def danger_m(self) -> FloatArray:
+        """Distance to the reach of the nearest hazard, 0 within; NaN before any, and without "hazards"."""
+        return self._member("danger", "distance_m")
+
+    @property
+    def danger_s(self) -> FloatArray:
+        """Time within reach of any hazard so far; NaN before any, and without "hazards"."""
+        return self._member("danger", "inside_s")
+
+    @property
+    def occluders(self) -> list[list[tuple[int, float]]]:
+        """Of each person, instances that hide a share of them; empty without "occluders" in outputs.annotations."""
+        try:
+            return [[(int(i), float(share)) for i, share in record.get("occluded_by", [])] for record in self.records]
+        except (TypeError, ValueError, OverflowError):
+            raise DatasetError(f"{self._where}: found an occluded_by that is no list of [instance, share]") from None
+
+    @cached_property
     def is_crowd(self) -> NDArray[np.bool_]:
         return np.array([bool(record.get("iscrowd", 0)) for record in self.records], dtype=np.bool_)
 
@@ -220,10 +305,45 @@ class Annotations(Sequence[Mapping[str, Any]]):
         """(N, 17, 3): keypoints in the world, m; NaN of drones."""
         return self._column("keypoints_3d", (17, 3), required='a job writes it with "keypoints" in outputs.annotations')
 
+    @cached_property
+    def joints(self) -> FloatArray:
+        """(N, 33, 3): x, y and state of each joint: 0 outside of the image, 1 hidden, 2 visible, 3 hidden by the own body.
+
+        Names are in categories[0]["joints"] of the COCO file. 0 of drones.
+        """
+        flat = self._column("joints", (99,), required='a job writes it with "skeletons" in outputs.annotations')
+        return np.nan_to_num(flat).reshape(-1, 33, 3)
+
+    @cached_property
+    def joints_3d(self) -> FloatArray:
+        """(N, 33, 3): joints in the world, m; NaN of drones."""
+        return self._column("joints_3d", (33, 3), required='a job writes it with "skeletons" in outputs.annotations')
+
+    @cached_property
+    def bone_turns(self) -> FloatArray:
+        """(N, 21, 4): unit quaternions (w, x, y, z) that turn bones from the rest pose, which faces +x; NaN of drones."""
+        return self._column("bone_turns", (21, 4), required='a job writes it with "skeletons" in outputs.annotations')
+
+    @cached_property
+    def gazes(self) -> FloatArray:
+        """(N, 3): unit vectors in the world that heads face along; NaN of drones."""
+        return self._column("gaze", (3,), required='a job writes it with "skeletons" in outputs.annotations')
+
     @property
     def states(self) -> list[str | None]:
         """Activities: waiting, walking, running, following, panicking or lying."""
         return [record.get("state") for record in self.records]
+
+    @property
+    def actions(self) -> list[list[str]]:
+        """Names of the actions of each person; empty without "actions" in outputs.annotations. A motion (stand, walk, run, turn, fall,
+        lie or get_up) and others: look_around, use_phone, look_at_drone, panic, carry."""
+        return [self._items(record, "actions", str) for record in self.records]
+
+    @property
+    def together_with(self) -> list[list[int]]:
+        """Track ids of members of each person's group within 3 m; empty without "actions" in outputs.annotations."""
+        return [self._items(record, "together_with", int) for record in self.records]
 
     @property
     def exits(self) -> list[str | None]:

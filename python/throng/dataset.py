@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ._npy import read_npy
 from ._optional import require
-from .annotations import PERSON, AnnotationFilter
+from .annotations import NAMES, AnnotationFilter
 from .errors import DatasetError
 from .frame import Frame
 from .source import Source, verify_files
@@ -148,16 +148,47 @@ class Dataset(Sequence[Frame]):
         """Readings of a drone's sensors, and the truth, about 60 rows per second."""
         return self._csv(f"sensors/{run}/{camera_id}.csv")
 
-    def _csv(self, name: str) -> Table:
+    def _csv(self, name: str, texts: Collection[str] = ()) -> Table:
         storage = self._sources[0].storage
-        return read_csv(storage.read(name), storage.where(name))
+        return read_csv(storage.read(name), storage.where(name), texts)
 
-    def field(self, run: str, frame: int) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
-        """(4, rows, columns): people per m2, velocity in x and y, people per m2 by Voronoi cells; and the grid."""
+    def field(
+        self, run: str, frame: int, cell_m: float | None = None
+    ) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
+        """(4, rows, columns): people per m2, velocity in x and y, people per m2 by Voronoi cells; and the grid.
+
+        cell_m: one of the sizes in outputs.fields.cells_m.
+        """
         source = self._sources[0]
         grid = source.object(f"fields/{run}.json")
+        folder = f"fields/{run}"
+        if cell_m is not None:
+            levels = {level["cell_m"]: level for level in grid.get("levels", [])}
+            if cell_m not in levels:
+                known = ", ".join(f"{size:g}" for size in levels) or "none"
+                raise ValueError(f"cell_m: found {cell_m:g}, expected one of outputs.fields.cells_m: {known}")
+            folder += "/" + str(levels[cell_m]["folder"])
+            grid = {**grid, **levels[cell_m]}
         expected = (4, grid.get("rows"), grid.get("columns"))
-        return read_npy(source, f"fields/{run}/{frame:06d}.npy", expected), grid
+        return read_npy(source, f"{folder}/{frame:06d}.npy", expected), grid
+
+    def counts(self, run: str) -> Table:
+        """People in zones and across lines of the ground, a row per frame and area (docs/formats_pixels.md).
+
+        The columns "entered" and "left" are track ids with blanks between.
+        """
+        return self._csv(f"counts/{run}.csv", ("entered", "left"))
+
+    def actions(self, run: str) -> Table:
+        """Stretches of time in which people do something, seen or not: track_id, action, other, from_s, to_s.
+
+        "other" is the track id of whom they are "together" with, else empty.
+        """
+        return self._csv(f"actions/{run}.csv", ("other",))
+
+    def count_areas(self, run: str) -> Mapping[str, Any]:
+        """The "zones" and "lines" of counts(), with their places on the ground, m."""
+        return self._sources[0].object(f"counts/{run}.json")
 
     def trajectories(self, run: str) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
         """(frames, people, 4): x, y (m), heading (rad) and the state's number of everybody, seen or not, NaN where
@@ -213,10 +244,11 @@ class Dataset(Sequence[Frame]):
         min_visibility: float = 0.0,
         min_height_px: float = 0.0,
         min_area_px: float = 0.0,
+        min_contrast: float = 0.0,
     ) -> Dataset:
         """The same frames with only those annotations for which all conditions hold.
 
-        min_height_px is of the whole person, predicate gets a record of the COCO file. It replaces an earlier filter.
+        min_height_px is of the whole person, min_contrast of datasets with "difficulty", predicate gets a record of the COCO file. It replaces an earlier filter.
         """
         view = self._view(self._frames)
         view._keep = AnnotationFilter(
@@ -225,6 +257,7 @@ class Dataset(Sequence[Frame]):
             min_visibility,
             min_height_px,
             min_area_px,
+            min_contrast,
             predicate,
         )
         return view
@@ -405,7 +438,7 @@ def _rows(frame: Frame) -> dict[str, Any]:
     return {
         **{name: [value] * count for name, value in same.items()},
         "track_id": a.track_ids,
-        "category": ["person" if category == PERSON else "drone" for category in a.category_ids],
+        "category": [NAMES.get(category, str(category)) for category in a.category_ids.tolist()],
         **dict(zip(("x", "y", "width", "height"), a.boxes.T)),
         "area_px": a.areas,
         "visibility": a.visibility,

@@ -12,10 +12,10 @@ from typing import Any, Literal, Mapping, Sequence
 from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 
 __all__ = [
-    "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Crowd", "Density", "Distortion",
-    "Distribution", "Drone", "Environment", "Filters", "Gimbal", "Guidance", "Image", "Job", "Outputs", "PerFrame",
-    "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits", "Webdataset", "Wind", "choice",
-    "log_uniform", "normal", "uniform",
+    "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Counts", "Crowd", "Density",
+    "Distortion", "Distribution", "Drone", "Environment", "Fields", "Filters", "Gimbal", "Guidance", "Image", "Job",
+    "Line", "Outputs", "PerFrame", "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits", "Webdataset",
+    "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
 ]
 
 
@@ -50,6 +50,9 @@ class Filters(Part):
     """Minimum height of the whole person in the image. Unit: px. Default: 0."""
     max_truncation: float | None = None
     """Maximum share of a person outside of the image; without it, any."""
+    min_contrast: float | None = None
+    """Minimum color difference of a person to the surroundings, in the mean or along the outline, whichever is
+    larger; needs the annotation difficulty. About 2.3 is just noticeable. Unit: CIELAB. Default: 0."""
 
 
 @dataclass
@@ -79,6 +82,49 @@ class Splits(Part):
 
 
 @dataclass
+class Line(Part):
+    """A straight line on the ground; crossings to its left are inward."""
+
+    id: str
+    """Unique among zones, lines and exits."""
+    start: Sequence[float]
+    """[x, y]."""
+    end: Sequence[float]
+    """[x, y]."""
+
+
+@dataclass
+class Zone(Part):
+    """A simple polygon on the ground."""
+
+    id: str
+    """Unique among zones, lines and exits."""
+    corners: Sequence[Sequence[float]]
+    """[x, y] of each, in their order."""
+
+
+@dataclass
+class Counts(Part):
+    """Areas of the annotation counts."""
+
+    _: KW_ONLY
+    zones: Sequence[Zone] | None = None
+    """Polygons on the ground in which people are counted, beside the whole ground. Unit: m."""
+    lines: Sequence[Line] | None = None
+    """Lines on the ground across which people are counted, beside the exits' doors. Unit: m."""
+
+
+@dataclass
+class Fields(Part):
+    """Grids of the annotation fields."""
+
+    _: KW_ONLY
+    cells_m: Sequence[float] | None = None
+    """Sizes of cells that the fields are written with, too, below fields/RUN/cell_SIZE/. The densities of each sum
+    to the same people. Unit: m."""
+
+
+@dataclass
 class Density(Part):
     """Kernel of the heads."""
 
@@ -105,16 +151,28 @@ class Outputs(Part):
     _: KW_ONLY
     image: Image | None = None
     """Storage of frames."""
-    annotations: Sequence[Literal["coco", "keypoints", "amodal", "density", "exits", "fields", "trajectories", "events", "depth", "instances", "parts", "normals", "flow", "semantic", "sensors"]] | None = None
+    annotations: Sequence[Literal["coco", "keypoints", "skeletons", "actions", "amodal", "vehicles", "difficulty", "heads", "occluders", "density", "exits", "hazards", "fields", "counts", "trajectories", "events", "depth", "instances", "parts", "normals", "flow", "flow_backward", "flow_occlusion", "scene_flow", "hazard_opacity", "semantic", "sensors"]] | None = None
     """Which ground truth is written: coco (boxes, masks, cameras, activity and appearance of people), keypoints
-    (COCO's 17 of each person in the image and in the world, with coco), amodal (masks of whole people, with
-    coco), density (crowd density maps), exits (counts and clogging index per exit and frame), fields (density and
-    velocity on the ground, per frame), trajectories (everybody's, seen or not), events (escapes, falls,
-    collisions, notices, with time, place and person); per pixel, as PNG: depth, instances, parts (of the body),
-    normals, flow (motion to the next frame), semantic (the class of the visible surface: road, person, tree,
-    ...); per drone: sensors (a table of their readings and the truth). Default: ["coco", "density", "exits"]."""
+    (COCO's 17 of each person in the image and in the world, with coco), skeletons (33 joints of each person,
+    turns of 21 bones and gaze, with coco), actions (of each person over the run, with times, and in images;
+    members of groups who are together), amodal (masks of whole people, with coco), vehicles (boxes, masks and 3-D
+    boxes of cars and trains, with coco), difficulty (contrast, blur and visible keypoints of each person, with
+    coco), heads (box and visible share of each person's head, with coco), occluders (what hides each person and
+    how much of them, with coco), density (crowd density maps), exits (counts and clogging index per exit and
+    frame), hazards (place and reach of each disaster, danger to each person, with coco), fields (density and
+    velocity on the ground, per frame), counts (people in zones and across lines since the frame before, with
+    identities), trajectories (everybody's, seen or not), events (escapes, falls, collisions, notices, with time,
+    place and person); per pixel, as PNG: depth, instances, parts (of the body), normals, flow (motion to the next
+    frame), flow_backward (motion to the previous frame), flow_occlusion (whether the next frame shows the same),
+    scene_flow (motion in the world to the next frame), hazard_opacity (of fire, smoke and gas before what shows),
+    semantic (the class of the visible surface: road, person, tree, ...); per drone: sensors (a table of their
+    readings and the truth). Default: ["coco", "density", "exits"]."""
     density: Density | None = None
     """Kernel of the heads."""
+    fields: Fields | None = None
+    """Grids of the annotation fields."""
+    counts: Counts | None = None
+    """Areas of the annotation counts."""
     previews: int | None = None
     """Images with the annotations drawn on them per run and camera, evenly spread over the frames. Unit: images.
     Default: 3."""

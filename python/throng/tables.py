@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import Any, Iterator, Mapping
+from typing import Any, Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +44,8 @@ class Table(Mapping[str, NDArray[Any]]):
         return require("pandas", "to_pandas()").DataFrame(self._columns)
 
 
-def read_csv(data: bytes, where: str) -> Table:
+def read_csv(data: bytes, where: str, texts: Collection[str] = ()) -> Table:
+    """texts: columns that stay texts, whatever stands in them."""
     try:
         rows = list(csv.reader(io.StringIO(data.decode("utf-8"))))
     except (UnicodeDecodeError, csv.Error) as error:
@@ -56,7 +57,12 @@ def read_csv(data: bytes, where: str) -> Table:
         if len(row) != len(names):
             raise DatasetError(f"{where}: line {line}: found {len(row)} fields, expected {len(names)}")
     columns = list(zip(*rows[1:])) if len(rows) > 1 else [() for _ in names]
-    return Table({name: _column(column) for name, column in zip(names, columns)})
+    return Table(
+        {
+            name: np.array(column, dtype=np.str_) if name in texts else _column(column)
+            for name, column in zip(names, columns)
+        }
+    )
 
 
 def _column(values: tuple[str, ...]) -> NDArray[Any]:

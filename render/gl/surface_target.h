@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/frame.h"
@@ -13,7 +14,7 @@ class SurfaceTarget {
  public:
   /// `depth` is the image's depth texture, of this size. Throws EnvironmentError when the device
   /// cannot make the buffers.
-  SurfaceTarget(int width, int height, GLuint depth);
+  SurfaceTarget(int width, int height, GLuint depth, bool with_flow_depth);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -23,10 +24,16 @@ class SurfaceTarget {
   /// Ends that mode of depth testing.
   void end() const;
 
-  /// Fills the frame's normal, flow and part for people; elsewhere they are 0, NaN and none.
-  void read(bool normals, bool flow, bool parts, Frame& frame) const;
+  // Values as in Frame, of people; elsewhere normals are 0, flow is NaN and parts are none.
+  void read_normals(std::vector<std::uint8_t>& normals) const;
+  void read_parts(std::vector<std::uint8_t>& parts) const;
+  /// `depth_m` may be null; otherwise the target must have been made with flow's depth.
+  void read_flow(std::vector<float>& flow, std::vector<float>* depth_m) const;
 
  private:
+  std::size_t pixels() const;
+  void select(GLenum attachment) const;
+
   int width_;
   int height_;
   Texture normal_;

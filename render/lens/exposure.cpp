@@ -76,9 +76,40 @@ double motion_during(const MomentAt& moment_at, double time_s, double duration_s
   return image_motion_px(moment_at(time_s - duration_s / 2), moment_at(time_s + duration_s / 2));
 }
 
+/// Positions of people, by agent.
+std::unordered_map<std::uint32_t, Vector3d> places_of(const Scene& scene) {
+  std::unordered_map<std::uint32_t, Vector3d> places;
+  for (const PersonInstance& person : scene.people) {
+    places[person.agent] = person.position.cast<double>();
+  }
+  return places;
+}
+
+/// Sets how far everybody's middle, at half of the standing height, moves in the image meanwhile.
+void set_blur(const ShutterMoment& open, const ShutterMoment& closed, Frame& frame) {
+  const auto before = places_of(*open.scene);
+  const auto after = places_of(*closed.scene);
+  for (PersonInView& person : frame.people) {
+    const auto first = before.find(person.agent);
+    const auto last = after.find(person.agent);
+    if (first == before.end() || last == after.end()) continue;
+    const Vector3d half(0, 0, person.stature_m / 2);
+    const camera::Camera::Projection from = open.camera.project(first->second + half);
+    const camera::Camera::Projection to = closed.camera.project(last->second + half);
+    if (from.visible && to.visible) person.blur_px = (to.pixel - from.pixel).norm();
+  }
+}
+
+NeighborTimes shifted(NeighborTimes times, double by_s) {
+  for (std::optional<double>* time_s : {&times.next_s, &times.previous_s}) {
+    if (*time_s) **time_s += by_s;
+  }
+  return times;
+}
+
 /// A strip of rows: the middle moment's everything, with the colors of all moments.
 Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double exposure_s,
-                    int samples, const Rows& rows, std::optional<double> next_s, double gain) {
+                    int samples, const Rows& rows, const NeighborTimes& neighbors, double gain) {
   std::vector<float> light;
   Frame strip;
   for (int i = 0; i < samples; ++i) {
@@ -86,13 +117,16 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
     // The middles of equal parts of the exposure; the middle one's share is exactly 0.
     const double offset_s = exposure_s * (2 * i + 1 - samples) / (2.0 * samples);
     const ShutterMoment moment = moment_at(time_s + offset_s);
-    std::optional<NextFrame> next;
-    if (middle && next_s) {
-      const ShutterMoment later = moment_at(*next_s);
-      next = NextFrame{*later.scene, later.camera};
-    }
-    Frame frame = lens.draw_rows(*moment.scene, moment.camera, rows, next ? &*next : nullptr,
-                                 {.truth = middle, .exposure_gain = gain});
+    const auto neighbor_at = [&](const std::optional<double>& other_s) {
+      if (!middle || !other_s) return std::optional<NeighborFrame>();
+      const ShutterMoment other = moment_at(*other_s);
+      return std::optional(NeighborFrame{*other.scene, other.camera});
+    };
+    const std::optional<NeighborFrame> next = neighbor_at(neighbors.next_s);
+    const std::optional<NeighborFrame> previous = neighbor_at(neighbors.previous_s);
+    Frame frame = lens.draw_rows(
+        *moment.scene, moment.camera, rows, next ? &*next : nullptr,
+        {.truth = middle, .previous = previous ? &*previous : nullptr, .exposure_gain = gain});
     if (samples == 1) return frame;
     light.resize(frame.rgb.size());
     for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_of_srgb(frame.rgb[j]);
@@ -130,7 +164,7 @@ class PeopleInStrips {
       if (person.whole_mask != nullptr) {
         known.whole = union_of(known.whole, *person.whole_mask);
       }
-      see_head(strip.camera, person.head, rows, known);
+      see_head(strip.camera, person, rows, known);
       see_keypoints(strip.camera, person, rows, known);
     }
   }
@@ -142,6 +176,7 @@ class PeopleInStrips {
       people.back().amodal_box = known.box;
       people.back().amodal_area_px = known.area_px;
       people.back().head_px = known.head_px;
+      people.back().head_box = known.head_box;
       people.back().keypoints_px = known.keypoints_px;
       if (known.person.whole_mask != nullptr) {
         people.back().whole_mask = std::make_shared<PixelMask>(known.whole);
@@ -159,23 +194,25 @@ class PeopleInStrips {
     Eigen::AlignedBox2d box;
     PixelMask whole;
     std::optional<Vector2d> head_px;
+    Eigen::AlignedBox2d head_box;
     double head_off_rows = std::numeric_limits<double>::infinity();
     skinning::Keypoints keypoints_px =
         skinning::keypoints_at(Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-    std::array<float, skinning::kKeypointCount> keypoints_off_rows{};
+    std::array<float, skinning::kJointCount> keypoints_off_rows{};
     Known() { keypoints_off_rows.fill(std::numeric_limits<float>::infinity()); }
   };
 
   /// Keeps the sight of the head from the strip whose rows it is in, or nearest to.
-  static void see_head(const camera::Camera& camera, const Vector3d& head, const Rows& rows,
+  static void see_head(const camera::Camera& camera, const PersonInView& person, const Rows& rows,
                        Known& known) {
-    const camera::Camera::Projection seen = camera.project(head);
+    const camera::Camera::Projection seen = camera.project(person.head);
     if (!seen.visible) return;
     const Vector2d at = seen.pixel.array() + 0.5;
     const double off = std::max({rows.first - at.y(), at.y() - rows.end, 0.0});
     if (off >= known.head_off_rows) return;
     known.head_off_rows = off;
     known.head_px = at;
+    known.head_box = person.head_box;
   }
 
   /// The same for each keypoint.
@@ -196,39 +233,40 @@ class PeopleInStrips {
   std::map<std::uint32_t, Known> people_;
 };
 
-/// Drones of strips put together.
-class DronesInStrips {
+/// Drones and vehicles of strips put together.
+class ObjectsInStrips {
  public:
   void add(const Frame& strip) {
-    for (const DroneInView& drone : strip.drones) {
-      const auto [entry, is_new] = drones_.try_emplace(drone.drone, Known{drone, 0});
+    for (const ObjectInView& object : strip.objects) {
+      const auto [entry, is_new] = objects_.try_emplace(object.id, Known{object, 0});
       Known& known = entry->second;
       if (is_new) {
-        known.largest_px = drone.amodal_area_px;
+        known.largest_px = object.amodal_area_px;
         continue;
       }
-      DroneInView sum = drone.amodal_area_px > known.largest_px ? drone : known.drone;
-      known.largest_px = std::max(known.largest_px, drone.amodal_area_px);
-      sum.amodal_area_px = known.drone.amodal_area_px + drone.amodal_area_px;
-      sum.amodal_box = known.drone.amodal_box.merged(drone.amodal_box);
+      ObjectInView sum = object.amodal_area_px > known.largest_px ? object : known.object;
+      known.largest_px = std::max(known.largest_px, object.amodal_area_px);
+      sum.amodal_area_px = known.object.amodal_area_px + object.amodal_area_px;
+      sum.amodal_box = known.object.amodal_box.merged(object.amodal_box);
       sum.whole_mask =
-          std::make_shared<PixelMask>(union_of(*known.drone.whole_mask, *drone.whole_mask));
-      known.drone = std::move(sum);
+          std::make_shared<PixelMask>(union_of(*known.object.whole_mask, *object.whole_mask));
+      known.object = std::move(sum);
     }
   }
 
-  std::vector<DroneInView> take() const {
-    std::vector<DroneInView> drones;
-    for (const auto& [number, known] : drones_) drones.push_back(known.drone);
-    return drones;
+  std::vector<ObjectInView> take() const {
+    std::vector<ObjectInView> objects;
+    objects.reserve(objects_.size());
+    for (const auto& [id, known] : objects_) objects.push_back(known.object);
+    return objects;
   }
 
  private:
   struct Known {
-    DroneInView drone;  ///< in the strip that has most of it
+    ObjectInView object;  ///< in the strip that has most of it
     std::uint64_t largest_px = 0;
   };
-  std::map<std::uint32_t, Known> drones_;
+  std::map<std::uint32_t, Known> objects_;
 };
 
 }  // namespace
@@ -255,50 +293,62 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
 }
 
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
-               const camera::Exposure& exposure, std::optional<double> next_s, bool is_metered) {
+               const camera::Exposure& exposure, const NeighborTimes& neighbors, bool is_metered) {
   check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");
   Exposed exposed;
   exposed.illuminance_lux = lens.renderer().illuminance_lux();
   const ShutterMoment now = moment_at(time_s);
   const camera::Camera& camera = now.camera;
   if (is_metered) exposed.gain = lens.renderer().metered_gain(*now.scene, camera);
-  exposed.blur_px = motion_during(moment_at, time_s, exposure.exposure_s);
+  std::optional<ShutterMoment> open;
+  std::optional<ShutterMoment> closed;
+  if (exposure.exposure_s > 0) {
+    open = moment_at(time_s - exposure.exposure_s / 2);
+    closed = moment_at(time_s + exposure.exposure_s / 2);
+    exposed.blur_px = image_motion_px(*open, *closed);
+  }
   exposed.samples = samples_for(exposed.blur_px);
   const int height = camera.intrinsics.height;
   const int strips = strips_for(motion_during(moment_at, time_s, exposure.readout_s), height);
   const int strip_rows = (height + strips - 1) / strips;
   Frame& frame = exposed.frame;
   PeopleInStrips people;
-  DronesInStrips drones;
+  ObjectsInStrips objects;
   exposed.strips = 0;
   for (int first = 0; first < height; first += strip_rows, ++exposed.strips) {
     const Rows rows{first, std::min(first + strip_rows, height)};
     const double middle_row = 0.5 * (rows.first + rows.end - height);
     const double strip_s = strips == 1 ? time_s : time_s + exposure.readout_s * middle_row / height;
-    Frame strip = exposed_strip(
-        lens, moment_at, strip_s, exposure.exposure_s, exposed.samples, rows,
-        next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt, exposed.gain);
+    Frame strip = exposed_strip(lens, moment_at, strip_s, exposure.exposure_s, exposed.samples,
+                                rows, shifted(neighbors, strip_s - time_s), exposed.gain);
     if (strips == 1) {
       frame = std::move(strip);
       frame.time_s = time_s;
       exposed.strips = 1;
-      return exposed;
+      break;
     }
     people.add(strip, rows);
-    drones.add(strip);
+    objects.add(strip);
     frame.index = strip.index;
     append(frame.rgb, strip.rgb);
     append(frame.id, strip.id);
     append(frame.depth_m, strip.depth_m);
     append(frame.normal, strip.normal);
     append(frame.flow, strip.flow);
+    append(frame.flow_backward, strip.flow_backward);
+    append(frame.flow_depth_m, strip.flow_depth_m);
+    append(frame.scene_flow_m, strip.scene_flow_m);
+    append(frame.hazard_opacity, strip.hazard_opacity);
     append(frame.part, strip.part);
     append(frame.surface, strip.surface);
   }
-  frame.time_s = time_s;
-  frame.camera = camera;
-  frame.people = people.take();
-  frame.drones = drones.take();
+  if (strips > 1) {
+    frame.time_s = time_s;
+    frame.camera = camera;
+    frame.people = people.take();
+    frame.objects = objects.take();
+  }
+  if (open && closed) set_blur(*open, *closed, frame);
   return exposed;
 }
 

@@ -19,6 +19,12 @@ struct ShutterMoment {
 };
 using MomentAt = std::function<ShutterMoment(double time_s)>;
 
+/// When a camera's other frames are taken that flow leads to (s).
+struct NeighborTimes {
+  std::optional<double> next_s = std::nullopt;
+  std::optional<double> previous_s = std::nullopt;
+};
+
 /// How a frame was exposed.
 struct Exposed {
   Frame frame;
@@ -40,11 +46,11 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 /// what shows in each, their position that of the strip where most of them is. The frame's camera
 /// is the one at `time_s`.
 ///
-/// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
-/// as long after it. The gain of all light is that of the camera's metering at `time_s`
-/// (render/lens/metering.h), or 1 if the image is not metered.
+/// `neighbors` says when the next and the previous frame are taken, if flow is wanted: flow goes
+/// from each row's time to as long after or before it. The gain of all light is that of the
+/// camera's metering at `time_s` (render/lens/metering.h), or 1 if the image is not metered.
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
-               const camera::Exposure& exposure, std::optional<double> next_s = std::nullopt,
+               const camera::Exposure& exposure, const NeighborTimes& neighbors = {},
                bool is_metered = false);
 
 }  // namespace throng::render

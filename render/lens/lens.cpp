@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "render/lens/depth_between.h"
-#include "render/truth/drones_in_view.h"
+#include "render/truth/objects_in_view.h"
 
 namespace throng::render {
 
@@ -67,15 +67,24 @@ void copy_nearest(const Frame& wide, std::size_t from, std::size_t to, Frame& im
   if (!image.part.empty()) image.part[to] = wide.part[from];
   if (!image.surface.empty()) image.surface[to] = wide.surface[from];
   if (!image.normal.empty()) std::copy_n(&wide.normal[from * 3], 3, &image.normal[to * 3]);
+  if (!image.hazard_opacity.empty()) {
+    std::copy_n(&wide.hazard_opacity[from * 3], 3, &image.hazard_opacity[to * 3]);
+  }
+  if (!image.scene_flow_m.empty()) {
+    std::copy_n(&wide.scene_flow_m[from * 3], 3, &image.scene_flow_m[to * 3]);
+  }
 }
 
 /// Value of a pixel outside the domain of the lens model.
 void show_nothing(std::size_t pixel, Frame& image) {
   image.id[pixel] = kIdNothing;
   image.depth_m[pixel] = std::numeric_limits<float>::infinity();
-  if (image.flow.empty()) return;
-  image.flow[2 * pixel] = std::numeric_limits<float>::quiet_NaN();
-  image.flow[2 * pixel + 1] = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  for (std::vector<float>* flow : {&image.flow, &image.flow_backward}) {
+    if (!flow->empty()) std::fill_n(&(*flow)[2 * pixel], 2, kUnknown);
+  }
+  if (!image.flow_depth_m.empty()) image.flow_depth_m[pixel] = kUnknown;
+  if (!image.scene_flow_m.empty()) std::fill_n(&image.scene_flow_m[3 * pixel], 3, kUnknown);
 }
 
 /// Looks pixels [begin, end) of the image up in the wide image.
@@ -105,11 +114,20 @@ void look_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wi
     copy_nearest(wide, nearest, i, image);
     image.depth_m[i] = depth_between(
         wide, near, {x - static_cast<float>(near.x()), y - static_cast<float>(near.y())});
-    if (image.flow.empty()) continue;
-    const Eigen::Vector2f flow = flow_through(lens, map.wide, near.cast<double>(),
-                                              {wide.flow[2 * nearest], wide.flow[2 * nearest + 1]});
-    image.flow[2 * i] = flow.x();
-    image.flow[2 * i + 1] = flow.y();
+    if (!image.flow_depth_m.empty()) {
+      // The depth between pixels is what is compared with it: at the horizon they differ by meters.
+      const float share =
+          std::isinf(image.depth_m[i]) ? 1 : image.depth_m[i] / wide.depth_m[nearest];
+      image.flow_depth_m[i] = share * wide.flow_depth_m[nearest];
+    }
+    const auto look_up_flow = [&](const std::vector<float>& from, std::vector<float>& to) {
+      if (to.empty()) return;
+      Eigen::Map<Eigen::Vector2f> moved(&to[2 * i]);
+      moved = flow_through(lens, map.wide, near.cast<double>(),
+                           {from[2 * nearest], from[2 * nearest + 1]});
+    };
+    look_up_flow(wide.flow, image.flow);
+    look_up_flow(wide.flow_backward, image.flow_backward);
   }
 }
 
@@ -123,7 +141,11 @@ Frame looked_up(const LensMap& map, const camera::Intrinsics& lens, const Frame&
   image.id.resize(pixels);
   image.depth_m.resize(pixels);
   if (!wide.normal.empty()) image.normal.resize(pixels * 3);
+  if (!wide.hazard_opacity.empty()) image.hazard_opacity.resize(pixels * 3);
   if (!wide.flow.empty()) image.flow.resize(pixels * 2);
+  if (!wide.flow_backward.empty()) image.flow_backward.resize(pixels * 2);
+  if (!wide.flow_depth_m.empty()) image.flow_depth_m.resize(pixels);
+  if (!wide.scene_flow_m.empty()) image.scene_flow_m.resize(pixels * 3);
   if (!wide.part.empty()) image.part.resize(pixels);
   if (!wide.surface.empty()) image.surface.resize(pixels);
   parallel_ranges(
@@ -220,24 +242,30 @@ PixelMask seen_through(const LensMap* map, const camera::Intrinsics& lens, const
 
 }  // namespace
 
-Frame Lens::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next) {
+Frame Lens::draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next) {
   return draw_rows(scene, camera, {0, camera.intrinsics.height}, next);
 }
 
 Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
-                      const NextFrame* next, const DrawChoice& choice) {
+                      const NeighborFrame* next, const DrawChoice& choice) {
   const camera::Intrinsics& lens = camera.intrinsics;
   const LensMap* map = lens.distortion ? &map_of(lens, rows) : nullptr;
   if (map == nullptr && is_whole(rows, lens)) {
     Frame frame = renderer_->draw(scene, camera, next, choice);
-    if (choice.truth) measure_drones(scene, rows, frame);
+    if (choice.truth) measure_objects(scene, renderer_->vehicles(), rows, frame);
     return frame;
   }
   const camera::Intrinsics drawn = map == nullptr ? cropped(lens, rows) : map->wide;
   const PixelWeights weights = map == nullptr ? cropped_weights(lens, rows) : PixelWeights();
-  std::optional<NextFrame> next_rendered;
-  if (next != nullptr) next_rendered = NextFrame{next->scene, {drawn, next->camera.pose}};
+  const auto as_rendered = [&](const NeighborFrame* other) {
+    return other == nullptr
+               ? std::nullopt
+               : std::optional(NeighborFrame{other->scene, {drawn, other->camera.pose}});
+  };
+  const std::optional<NeighborFrame> next_rendered = as_rendered(next);
+  const std::optional<NeighborFrame> previous_rendered = as_rendered(choice.previous);
   DrawChoice weighted = choice;
+  weighted.previous = previous_rendered ? &*previous_rendered : nullptr;
   weighted.weights = map == nullptr ? &weights : &map->weights;
   Frame frame = renderer_->draw(scene, {drawn, camera.pose},
                                 next_rendered ? &*next_rendered : nullptr, weighted);
@@ -249,7 +277,7 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   frame.camera = camera;
   measure_boxes(scene, rows, frame);
-  if (choice.truth) measure_drones(scene, rows, frame);
+  if (choice.truth) measure_objects(scene, renderer_->vehicles(), rows, frame);
   for (PersonInView& person : frame.people) {
     if (person.whole_mask == nullptr) continue;
     person.whole_mask = std::make_shared<PixelMask>(seen_through(map, lens, rows, person));
@@ -269,15 +297,20 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     const PersonInstance& instance = *instances.at(person.agent);
     const skinning::Character& character = population_->characters[instance.appearance.character];
     const skinning::Mesh& mesh = character.levels[person.level];
+    const std::vector<skinning::Part> parts = parts_of(character, mesh, Share::body);
+    const skinning::Palette palette = blended_palette(*population_, instance);
     bool is_cut = false;
     const Eigen::AlignedBox2d box =
-        shown_box(mesh, parts_of(character, mesh, Share::body),
-                  blended_palette(*population_, instance), instance, frame.camera, rows, is_cut);
+        shown_box(mesh, parts, palette, instance, frame.camera, rows, is_cut);
     const bool shows = visible.contains(id_of_agent(person.agent));
     if (!shows && (box.isEmpty() || !box.intersects(image))) continue;
     // Of somebody right at the camera, or where the lens's model ends, it may show triangles but no
     // corner of them.
     person.amodal_box = box;
+    const skinning::Mesh& with_head =
+        character.levels[std::min<std::size_t>(person.level, kHeadLevel)];
+    person.head_box = head_box(head_points(with_head, parts_of(character, with_head, Share::body)),
+                               palette, instance, frame.camera);
     if (shows && (box.isEmpty() || is_cut)) {
       person.amodal_box.extend(visible_box(frame, rows, person.agent));
     }

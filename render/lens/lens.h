@@ -27,13 +27,13 @@ class Lens {
   Lens& operator=(const Lens&) = delete;
 
   /// `next` serves the flow only.
-  Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr);
+  Frame draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next = nullptr);
 
   /// Only these rows: the frame's buffers hold them alone, while its camera and its people's boxes
   /// are those of the whole image, the latter over what is in these rows. Of the
   /// choice, `weights` are the lens's own.
   Frame draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
-                  const NextFrame* next = nullptr, const DrawChoice& choice = {});
+                  const NeighborFrame* next = nullptr, const DrawChoice& choice = {});
 
   /// Takes the buffers of a frame that is not needed any more for one to come.
   void recycle(Frame&& frame);

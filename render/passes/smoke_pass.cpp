@@ -34,10 +34,14 @@ SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster
       array_(make_vertex_array()),
       program_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
                             {light_words(environment), embedded::shader_light,
+                             embedded::shader_noise, embedded::shader_smoke_frag})),
+      opacity_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
+                            {"#define OPACITY\n", light_words(environment), embedded::shader_light,
                              embedded::shader_noise, embedded::shader_smoke_frag})) {
   describe_vertices(array_, 0, instances_, sizeof(Puff), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Puff, place)},
-                     {1, 4, GL_FLOAT, false, offsetof(Puff, look)}});
+                     {1, 4, GL_FLOAT, false, offsetof(Puff, look)},
+                     {2, 1, GL_FLOAT, false, offsetof(Puff, kind)}});
 }
 
 SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double time_s) {
@@ -50,6 +54,7 @@ SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double t
       source.dust = 78;
       source.smoke_albedo = {0.42, 0.45, 0.20};
       source.dust_albedo = {0.46, 0.48, 0.24};
+      source.matter = HazardMatter::gas;
       break;
     case world::DisasterKind::collapse:
       source.rise = 0.4;
@@ -98,6 +103,7 @@ void SmokePass::add_puffs(const Source& source, std::size_t number, double time_
     puff.look = {static_cast<float>(albedo.x()), static_cast<float>(albedo.y()),
                  static_cast<float>(albedo.z()),
                  static_cast<float>((dust ? 0.35 : 0.75) * strength)};
+    puff.kind = static_cast<float>(source.matter);
     puff.depth_m = static_cast<float>(camera.project({at.x(), at.y(), height}).depth_m);
     if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
   }
@@ -130,14 +136,15 @@ void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, 
     // From yellow to red as it rises.
     puff.look = {2.4F, static_cast<float>(1.15 - 0.85 * share), 0.12F,
                  kShines + static_cast<float>(0.6 * fades * environment_.smoke * (1 - share))};
+    puff.kind = static_cast<float>(HazardMatter::fire);
     puff.depth_m = static_cast<float>(camera.project(at).depth_m);
     if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
   }
 }
 
-void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
-  if (environment_.smoke <= 0) return;
+void SmokePass::upload(const Scene& scene, const camera::Camera& camera) {
   puffs_.clear();
+  if (environment_.smoke <= 0) return;
   for (std::size_t i = 0; i < disasters_.size(); ++i) {
     if (disasters_[i].kind == world::DisasterKind::attacker) continue;
     add_puffs(source_of(disasters_[i], scene.time_s), i, scene.time_s, camera);
@@ -152,10 +159,28 @@ void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
   if (puffs_.empty()) return;
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(puffs_.size() * sizeof(Puff)),
                     puffs_.data(), GL_STREAM_DRAW);
-  const ColorOnly guard;
+}
+
+void SmokePass::draw_discs(const Program& program) const {
   glBindVertexArray(array_.name());
-  glUseProgram(program_.name());
+  glUseProgram(program.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(puffs_.size()));
+}
+
+void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
+  upload(scene, camera);
+  if (puffs_.empty()) return;
+  const ColorOnly guard;
+  draw_discs(program_);
+}
+
+void SmokePass::draw_opacity(const Scene& scene, const camera::Camera& camera) {
+  upload(scene, camera);
+  if (puffs_.empty()) return;
+  const ColorOnly guard;
+  // Transmittances of puffs multiply.
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_COLOR);
+  draw_discs(opacity_);
 }
 
 }  // namespace throng::render

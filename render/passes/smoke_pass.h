@@ -21,6 +21,9 @@ class SmokePass {
   /// the target to be bound and everything solid to be rendered. Does nothing without smoke.
   void draw(const Scene& scene, const camera::Camera& camera);
 
+  /// Into an OpacityTarget: how much of what is behind it each kind hides.
+  void draw_opacity(const Scene& scene, const camera::Camera& camera);
+
  private:
   /// One disc, as shaders/smoke.vert.glsl reads it.
   struct Puff {
@@ -29,6 +32,7 @@ class SmokePass {
     /// + 2.
     std::array<float, 4> look{};
     float depth_m = 0;  ///< of the camera
+    float kind = 0;     ///< HazardMatter
   };
   /// Shared properties of the puffs of one hazard.
   struct Source {
@@ -39,6 +43,7 @@ class SmokePass {
     std::uint64_t dust = 0;  ///< how many puffs stay on the ground
     Eigen::Vector3d smoke_albedo;
     Eigen::Vector3d dust_albedo;
+    HazardMatter matter = HazardMatter::smoke;
   };
   /// Flames at the foot of a fire, and of an explosion for as long as its fireball lasts.
   void add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
@@ -47,12 +52,17 @@ class SmokePass {
   void add_puffs(const Source& source, std::size_t number, double time_s,
                  const camera::Camera& camera);
 
+  /// Fills puffs_, the farthest first, and gives them to the device.
+  void upload(const Scene& scene, const camera::Camera& camera);
+  void draw_discs(const Program& program) const;
+
   Environment environment_;
   std::vector<world::Disaster> disasters_;
   std::vector<Puff> puffs_;  ///< of the frame
   Buffer instances_;
   VertexArray array_;
   Program program_;
+  Program opacity_;
 };
 
 }  // namespace throng::render

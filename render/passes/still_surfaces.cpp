@@ -82,25 +82,51 @@ void fill_still_normals(Frame& frame) {
   }
 }
 
-void fill_still_flow(const camera::Camera& next, Frame& frame) {
+void fill_still_flow(const camera::Camera& other, const Frame& frame, std::vector<float>& flow,
+                     std::vector<float>* depth_m) {
   const camera::Camera& here = frame.camera;
-  const Eigen::Matrix3d turn = next.pose.R * here.pose.R.transpose();
+  const Eigen::Matrix3d turn = other.pose.R * here.pose.R.transpose();
   const Eigen::Matrix3d from_far =
-      next.intrinsics.matrix() * turn * here.intrinsics.matrix().inverse();
-  const Eigen::Vector3d from_near = next.intrinsics.matrix() * (next.pose.t - turn * here.pose.t);
+      other.intrinsics.matrix() * turn * here.intrinsics.matrix().inverse();
+  const Eigen::Vector3d from_near = other.intrinsics.matrix() * (other.pose.t - turn * here.pose.t);
   std::size_t pixel = 0;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x, ++pixel) {
       if (is_posed(frame.id[pixel])) continue;
-      const double depth_m = frame.depth_m[pixel];
+      const double here_m = frame.depth_m[pixel];
       // The point's place times 1 / depth, which is 0 for sky.
-      const Eigen::Vector3d seen = from_far * Eigen::Vector3d(x, y, 1) + from_near / depth_m;
-      const bool known = seen.z() > 0 && (std::isinf(depth_m) || seen.z() * depth_m >= kNear);
+      const Eigen::Vector3d seen = from_far * Eigen::Vector3d(x, y, 1) + from_near / here_m;
+      const double there_m = seen.z() * here_m;
+      const bool known = seen.z() > 0 && (std::isinf(here_m) || there_m >= kNear);
       const Eigen::Vector2d moved = seen.head<2>() / seen.z() - Eigen::Vector2d(x, y);
-      frame.flow[pixel * 2] = known ? static_cast<float>(moved.x()) : kUnknown;
-      frame.flow[pixel * 2 + 1] = known ? static_cast<float>(moved.y()) : kUnknown;
+      flow[pixel * 2] = known ? static_cast<float>(moved.x()) : kUnknown;
+      flow[pixel * 2 + 1] = known ? static_cast<float>(moved.y()) : kUnknown;
+      if (depth_m != nullptr) (*depth_m)[pixel] = known ? static_cast<float>(there_m) : kUnknown;
     }
   }
+}
+
+std::vector<float> scene_flow_of(const Frame& frame, const camera::Camera& next) {
+  std::vector<float> motion_m(frame.id.size() * 3, kUnknown);
+  std::size_t pixel = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x, ++pixel) {
+      if (std::isinf(frame.depth_m[pixel]) || std::isnan(frame.flow[pixel * 2])) continue;
+      Eigen::Map<Eigen::Vector3f> motion(&motion_m[pixel * 3]);
+      if (!is_posed(frame.id[pixel]) && !is_drone(frame.id[pixel])) {
+        motion.setZero();
+        continue;
+      }
+      const Eigen::Vector2d here(x, y);
+      const Eigen::Vector2d moved(frame.flow[pixel * 2], frame.flow[pixel * 2 + 1]);
+      const Eigen::Vector3d from =
+          frame.camera.unproject(here, static_cast<double>(frame.depth_m[pixel]));
+      const Eigen::Vector3d to =
+          next.unproject(here + moved, static_cast<double>(frame.flow_depth_m[pixel]));
+      motion = (to - from).cast<float>();
+    }
+  }
+  return motion_m;
 }
 
 }  // namespace throng::render

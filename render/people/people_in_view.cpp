@@ -65,6 +65,7 @@ void PeopleFinder::measure(const PersonInstance& person, const skinning::Palette
   truth.head = posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m);
   truth.velocity = person.velocity.cast<double>();
   truth.yaw_rad = person.yaw_rad;
+  truth.actions = person.actions;
   truth.stature_m = stature_m;
   const std::vector<BodyShape>& all = bodies_[character];
   measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks_[character], palette, person,
@@ -120,6 +121,9 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     found.draw = draw;
     found.is_listed = shows(body);
     found.truth.amodal_box = body;
+    const std::size_t head_level = std::min<std::size_t>(draw.level, kHeadLevel);
+    found.truth.head_box =
+        head_box(bodies_[person.appearance.character][head_level].head, palette, person, camera);
     found.truth.level = draw.level;
     measure(person, palette, found.truth);
   }

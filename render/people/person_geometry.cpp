@@ -137,8 +137,29 @@ std::vector<skinning::Part> parts_of(const skinning::Character& character,
   return parts;
 }
 
+std::vector<SkinPoint> head_points(const skinning::Mesh& mesh,
+                                   const std::vector<skinning::Part>& parts) {
+  constexpr int kHalf = 127;  // weights sum to 255
+  std::set<std::uint32_t> known;
+  std::vector<SkinPoint> points;
+  for (const skinning::Part& part : parts) {
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+      const skinning::Vertex& vertex = mesh.vertices[mesh.indices[i]];
+      int weight = 0;
+      for (std::size_t k = 0; k < vertex.bones.size(); ++k) {
+        const bool is_head = vertex.bones[k] == static_cast<std::uint8_t>(skinning::Bone::head);
+        if (is_head) weight += vertex.weights[k];
+      }
+      if (weight > kHalf && known.insert(mesh.indices[i]).second) {
+        points.push_back(skin_point(vertex));
+      }
+    }
+  }
+  return points;
+}
+
 BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> its_parts)
-    : mesh(&of_mesh), parts(std::move(its_parts)) {
+    : mesh(&of_mesh), parts(std::move(its_parts)), head(head_points(of_mesh, parts)) {
   using Place =
       std::tuple<std::array<float, 3>, std::array<std::uint8_t, 4>, std::array<std::uint8_t, 4>>;
   std::set<Place> known;
@@ -162,6 +183,11 @@ void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
   const Eigen::Matrix3f to_world = turn(person.yaw_rad).cast<float>();
   truth.keypoints = skinning::posed_keypoints(landmarks, palette);
   for (Eigen::Vector3f& point : truth.keypoints) point = person.position + to_world * point;
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    const Eigen::Matrix3f turned = palette[i].leftCols<3>();
+    // Blends of poses shrink bones by some thousandths.
+    truth.bone_turns[i] = Eigen::Quaternionf(Eigen::Matrix3f(to_world * turned)).normalized();
+  }
   Eigen::AlignedBox3f box;
   Eigen::Matrix4f as_it_is = Eigen::Matrix4f::Identity();
   as_it_is.row(3) << 0, 0, 1, 0;  // height above the feet
@@ -221,7 +247,28 @@ Eigen::Vector2d last_shown(const camera::Intrinsics& k, Eigen::Vector4f from, Ei
   return *shown_place(k, from);
 }
 
+/// A camera without lens, whose "pixels" are directions.
+camera::Camera directions_of(const camera::Camera& camera) {
+  return {{1, 1, 1, 1, -0.5, -0.5}, camera.pose};
+}
+
+/// As far as a box of somebody in the image may leave it.
+Eigen::AlignedBox2d limited(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
+  const Eigen::Vector2d size(k.width, k.height);
+  return box.intersection(Eigen::AlignedBox2d(-size, 2 * size));
+}
+
 }  // namespace
+
+Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
+                             const PersonInstance& person, const camera::Camera& camera) {
+  const Projector project(palette, image_from_model(person, directions_of(camera)));
+  Eigen::AlignedBox2d box;
+  for (const SkinPoint& point : head) {
+    if (const auto place = shown_place(camera.intrinsics, project(point))) box.extend(*place);
+  }
+  return box.isEmpty() ? box : limited(box, camera.intrinsics);
+}
 
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
                               const skinning::Palette& palette, const PersonInstance& person,
@@ -230,10 +277,8 @@ Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skin
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const double top = rows.first == 0 ? -kEverywhere : rows.first;
   const double bottom = rows.end == k.height ? kEverywhere : rows.end;
-  // A camera without lens, whose "pixels" are directions.
-  const camera::Camera directions{{1, 1, 1, 1, -0.5, -0.5}, camera.pose};
   const std::vector<Eigen::Vector4f> places =
-      projected_vertices(mesh, Projector(palette, image_from_model(person, directions)));
+      projected_vertices(mesh, Projector(palette, image_from_model(person, directions_of(camera))));
   std::vector<std::optional<Eigen::Vector2d>> shown;
   shown.reserve(places.size());
   for (const Eigen::Vector4f& place : places) shown.push_back(shown_place(k, place));
@@ -254,9 +299,7 @@ Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skin
       box.extend(Eigen::Vector2d(*a + (*b - *a) * ((border - a->y()) / (b->y() - a->y()))));
     }
   });
-  if (box.isEmpty()) return box;
-  const Eigen::Vector2d size(k.width, k.height);
-  return box.intersection(Eigen::AlignedBox2d(-size, 2 * size));
+  return box.isEmpty() ? box : limited(box, k);
 }
 
 }  // namespace throng::render

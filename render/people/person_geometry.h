@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "camera/camera.h"
@@ -42,6 +44,14 @@ enum class Share : std::uint8_t { body, umbrella };
 std::vector<skinning::Part> parts_of(const skinning::Character& character,
                                      const skinning::Mesh& mesh, Share share);
 
+/// The coarsest level of detail that boxes of heads are taken from: coarser ones leave two or three
+/// points of some heads.
+inline constexpr std::size_t kHeadLevel = 3;
+
+/// Places of these parts that move with the head by more than a half: skin, hair and headwear.
+std::vector<SkinPoint> head_points(const skinning::Mesh& mesh,
+                                   const std::vector<skinning::Part>& parts);
+
 /// A share of a mesh and where its vertices are, each place once however many normals or texture
 /// coordinates it has. The mesh must outlive it.
 struct BodyShape {
@@ -50,6 +60,7 @@ struct BodyShape {
   const skinning::Mesh* mesh;
   std::vector<skinning::Part> parts;
   std::vector<SkinPoint> points;
+  std::vector<SkinPoint> head;  ///< head_points()
 };
 
 /// Sets the person's keypoints, and the upright box around this shape of theirs.
@@ -67,6 +78,12 @@ struct Silhouette {
 
 Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera);
+
+/// Bounds in box coordinates of a person's head points in the image of a camera with any lens,
+/// limited like Silhouette::box. Points that the camera does not see are left out; empty if it sees
+/// none.
+Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
+                             const PersonInstance& person, const camera::Camera& camera);
 
 /// Rows [first, end) of an image. Those at its border go on beyond it.
 struct Rows {

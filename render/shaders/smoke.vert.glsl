@@ -1,15 +1,18 @@
 // A disc of smoke that faces the camera.
 layout(location = 0) in vec4 place;  // per instance: middle and radius, m
 layout(location = 1) in vec4 look;   // albedo, opacity
+layout(location = 2) in float kind;  // HazardMatter
 
 out vec3 world;
 out vec2 on_disc;  // -1 to 1
 flat out vec4 puff;
+flat out vec3 matter;  // 1 in the channel of its kind
 flat out vec2 shift;  // no two puffs are torn alike
 
 void main() {
   on_disc = vec2(float((gl_VertexID & 1) * 2 - 1), float((gl_VertexID & 2) - 1));
   puff = look;
+  matter = vec3(kind == 0.0, kind == 1.0, kind == 2.0);
   shift = place.xy * 3.0 + vec2(gl_InstanceID);
   world = place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * on_disc.y);
   gl_Position = project(world);

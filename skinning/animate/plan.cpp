@@ -1,7 +1,9 @@
 #include "skinning/animate/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -165,6 +167,41 @@ class WalkLayer {
   bool laid_ = false;  ///< whether the last piece is of this clip and ends here
 };
 
+struct ClipActions {
+  std::string_view prefix;  ///< of the clip's name
+  Actions actions;
+};
+/// The first one whose prefix a name has counts.
+constexpr std::array kClipActions = {
+    ClipActions{"idle", Actions(Action::stand)},
+    ClipActions{"look_around", Actions(Action::stand, Action::look_around)},
+    ClipActions{"phone", Actions(Action::stand, Action::use_phone)},
+    ClipActions{"look_up", Actions(Action::stand, Action::look_at_drone)},
+    ClipActions{"turn_", Actions(Action::turn)},
+    ClipActions{"walk_look_up", Actions(Action::walk, Action::look_at_drone)},
+    ClipActions{"walk", Actions(Action::walk)},
+    ClipActions{"start_", Actions(Action::walk)},
+    ClipActions{"stop_", Actions(Action::walk)},
+    ClipActions{"run", Actions(Action::run)},
+    ClipActions{"panic", Actions(Action::run, Action::panic)},
+};
+
+/// Of a piece of a fall: forth falling, back getting up, and between them lying.
+Actions fall_actions(const Piece& piece) {
+  if (piece.to_frame > piece.frame) return Actions(Action::fall);
+  return piece.to_frame < piece.frame ? Actions(Action::get_up) : Actions(Action::lie);
+}
+
+Actions actions_of(const Piece& piece) {
+  // The blend at the end of a walk goes to standing.
+  if (piece.clip == nullptr) return Actions(Action::walk);
+  if (piece.clip->name.starts_with("fall_")) return fall_actions(piece);
+  for (const ClipActions& known : kClipActions) {
+    if (piece.clip->name.starts_with(known.prefix)) return known.actions;
+  }
+  return Actions(Action::stand);
+}
+
 }  // namespace
 
 MotionPlan::MotionPlan(const Population& population, const Appearance& appearance,
@@ -199,11 +236,21 @@ MotionPlan::MotionPlan(const Population& population, const Appearance& appearanc
   distance_m_ = std::move(trajectory).take_distances();
 }
 
-PoseBlend MotionPlan::at(double step) const {
+std::vector<Piece>::const_iterator MotionPlan::piece_at(double step) const {
   const auto next =
       std::upper_bound(pieces_.begin(), pieces_.end(), step,
                        [](double at, const Piece& piece) { return at < piece.begin; });
-  const Piece& piece = next == pieces_.begin() ? pieces_.front() : *(next - 1);
+  return next == pieces_.begin() ? next : next - 1;
+}
+
+Actions MotionPlan::actions_at(double step) const {
+  auto piece = piece_at(step);
+  while (piece->clip == nullptr && piece + 1 != pieces_.end()) ++piece;
+  return actions_of(*piece);
+}
+
+PoseBlend MotionPlan::at(double step) const {
+  const Piece& piece = *piece_at(step);
   const double driver = piece.by_distance ? at_step(distance_m_, step) : step;
   const double length = piece.to - piece.from;
   const double share = length > 0 ? std::clamp((driver - piece.from) / length, 0.0, 1.0) : 1.0;

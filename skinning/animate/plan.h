@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "skinning/animate/action.h"
 #include "skinning/animate/motion.h"
 #include "skinning/animate/trajectory.h"
 #include "skinning/appearance.h"
@@ -37,7 +38,12 @@ class MotionPlan {
   /// The pose at a step of the stay, fractions included; clamped to the stay.
   PoseBlend at(double step) const;
 
+  /// Actions that the pose is part of. A blend of two motions is the second one.
+  Actions actions_at(double step) const;
+
  private:
+  std::vector<Piece>::const_iterator piece_at(double step) const;
+
   std::vector<Piece> pieces_;
   std::vector<float> distance_m_;
 };

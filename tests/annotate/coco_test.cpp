@@ -276,8 +276,9 @@ TEST_F(Coco, WhoLiesIsLabeledSoWhateverTheirStateIsCalled) {
 
 TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
   render::Frame& frame = frames[0];
-  render::DroneInView drone;
-  drone.drone = 1;
+  render::ObjectInView drone;
+  drone.id = render::kIdDrone + 1;
+  drone.number = 1;
   drone.position = {1, 2, 3};
   drone.amodal_box = {Eigen::Vector2d(20, 30), Eigen::Vector2d(24, 33)};
   drone.amodal_area_px = 12;
@@ -286,7 +287,7 @@ TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
       if (x != 20) frame.id[static_cast<std::size_t>(y * frame.width() + x)] = render::kIdDrone + 1;
     }
   }
-  frame.drones.push_back(drone);
+  frame.objects.push_back(drone);
   const std::vector<std::string> ids = {"camera", "other"};
   CocoImage image = image_of(0);
   image.drone_ids = &ids;
@@ -294,7 +295,7 @@ TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
   CocoShardWriter writer(folder / "drones");
   writer.add(image, labels);
   writer.finish();
-  merge_coco({folder / "drones"}, folder / "coco.json", "a test", {false, true});
+  merge_coco({folder / "drones"}, folder / "coco.json", "a test", {.drones = true});
   const json coco = json::parse(read_file(folder / "coco.json"));
   EXPECT_EQ(coco["categories"][1]["name"], "drone");
   EXPECT_EQ(coco["images"][0]["counts"]["drones"], 1);
@@ -307,6 +308,50 @@ TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
   EXPECT_EQ(record["position"], json({1, 2, 3}));
   EXPECT_EQ(coco["tracks"].back()["id"], record["track_id"]);
   EXPECT_EQ(coco["tracks"].back()["drone"], "other");
+}
+
+TEST_F(Coco, VehiclesHaveCategoriesAndTracksOfTheirOwn) {
+  render::Frame& frame = frames[0];
+  const std::uint32_t prop = 7;
+  render::ObjectInView train;
+  train.id = render::kIdProp + prop;
+  train.number = 2;
+  train.surface = world::SemanticClass::train;
+  train.position = {5, 6, 0};
+  train.yaw_rad = 0.5;
+  train.box_middle = {5, 6, 2};
+  train.box_size = {20, 3, 4};
+  train.amodal_box = {Eigen::Vector2d(20, 30), Eigen::Vector2d(30, 34)};
+  train.amodal_area_px = 80;
+  for (int y = 30; y < 34; ++y) {
+    for (int x = 20; x < 30; ++x) {
+      frame.id[static_cast<std::size_t>(y * frame.width() + x)] = train.id;
+    }
+  }
+  frame.objects.push_back(train);
+  const FrameLabels labels = label_people(frame);
+  CocoShardWriter writer(folder / "vehicles");
+  writer.add(image_of(0), labels);
+  writer.finish();
+  merge_coco({folder / "vehicles"}, folder / "coco.json", "a test", {.vehicles = true});
+  const json coco = json::parse(read_file(folder / "coco.json"));
+  ASSERT_EQ(coco["categories"].size(), 3);
+  EXPECT_EQ(coco["categories"][1]["name"], "car");
+  EXPECT_EQ(coco["categories"][2]["name"], "train");
+  EXPECT_EQ(coco["images"][0]["counts"]["vehicles"], 1);
+  EXPECT_FALSE(coco["images"][0]["counts"].contains("drones"));
+  const json& record = coco["annotations"].back();
+  EXPECT_EQ(record["category_id"], 4);
+  EXPECT_EQ(record["bbox"], json({20, 30, 10, 4}));
+  EXPECT_EQ(record["visibility"], 0.5);
+  EXPECT_EQ(record["box_3d"], json({5, 6, 2, 20, 3, 4}));
+  EXPECT_EQ(record["heading"], 0.5);
+  EXPECT_EQ(record["velocity"], json({0, 0, 0}));
+  const json& track = coco["tracks"].back();
+  EXPECT_EQ(track["id"], record["track_id"]);
+  EXPECT_EQ(track["id"].get<std::int64_t>() % kTrackIdsPerRun, kFirstVehicleNumber + 2 + 1);
+  EXPECT_EQ(track["vehicle"], "train");
+  EXPECT_EQ(track["prop"], prop);
 }
 
 TEST_F(Coco, AHeadBehindTheCameraIsNull) {
@@ -333,7 +378,7 @@ TEST_F(Coco, IdsStayExactInDoubles) {
   CocoImage image = image_of(0);
   image.id = kMaxImageId;
   FrameLabels labels = label_people(frames[0]);
-  labels.people[0].agent = kFirstDroneNumber - 1;
+  labels.people[0].agent = kFirstVehicleNumber - 1;
   CocoShardWriter writer(folder / "big");
   writer.add(image, labels);
   writer.finish();

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "annotate/density.h"
+#include "annotate/field_levels.h"
 #include "base/random.h"
 #include "camera/camera.h"
 
@@ -183,6 +184,51 @@ TEST(GroundField, AgreesWithTheImagesMapInEveryRegion) {
     }
   }
   EXPECT_GT(seen, 200) << "most of them are in the image";
+}
+
+TEST(FieldLevels, HaveTheSamePeopleInTheSamePlaces) {
+  const world::Trace trace = ground_crowd(300);
+  const GroundGrid grid(yard());
+  const GroundField fine = ground_field(trace, grid, 0.5);
+  for (const double cell_m : {0.25, 0.5, 1.0, 3.7, 50.0}) {
+    const FieldLevel level = field_level(grid, cell_m);
+    const GroundField coarse = field_on(level, grid, fine);
+    EXPECT_EQ(level.columns, static_cast<int>(std::ceil(20 / cell_m)));
+    EXPECT_EQ(level.rows, static_cast<int>(std::ceil(10.5 / cell_m)));
+    ASSERT_EQ(coarse.density.size(), static_cast<std::size_t>(level.columns * level.rows));
+    double people = 0;
+    double moving = 0;
+    for (std::size_t i = 0; i < coarse.density.size(); ++i) {
+      people += static_cast<double>(coarse.density[i]) * cell_m * cell_m;
+      moving += static_cast<double>(coarse.density[i] * coarse.velocity_x[i]) * cell_m * cell_m;
+    }
+    EXPECT_NEAR(people, static_cast<double>(fine.people), 2e-3) << cell_m;
+    EXPECT_NEAR(moving, static_cast<double>(fine.people), 2e-3) << "everybody has 1 m/s";
+  }
+}
+
+TEST(FieldLevels, ShareCellsByTheirAreas) {
+  world::Scenario scenario;
+  scenario.ground = {{0, 0}, {1, 0.25}};
+  const GroundGrid grid(scenario);
+  ASSERT_EQ(grid.cells(), 4U);
+  const GroundField fine{.density = {16, 0, 8, 0},
+                         .velocity_x = {1, 0, 2, 0},
+                         .velocity_y = {0, 0, 0, 0},
+                         .voronoi = {4, 4, 0, 0},
+                         .people = 2};
+  // Of 0.625 m: the first has cells 0, 1 and half of cell 2, the second the rest; both are
+  // higher than the ground.
+  const FieldLevel level = field_level(grid, 0.625);
+  const GroundField coarse = field_on(level, grid, fine);
+  const double cell_m2 = 0.625 * 0.625;
+  ASSERT_EQ(coarse.density.size(), 2U);
+  EXPECT_NEAR(coarse.density[0] * cell_m2, 1 + 0.25, 1e-6);
+  EXPECT_NEAR(coarse.density[1] * cell_m2, 0.25, 1e-6);
+  EXPECT_NEAR(coarse.velocity_x[0], (1 * 1 + 0.25 * 2) / 1.25, 1e-6);
+  EXPECT_NEAR(coarse.voronoi[0] * cell_m2, 0.5, 1e-6);
+  EXPECT_EQ(level_folder(0.625), "cell_0.625");
+  EXPECT_EQ(level_folder(2), "cell_2");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ JOB = {
         "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
     }],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
-    "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields",
+    "outputs": {"annotations": ["coco", "keypoints", "skeletons", "amodal", "heads", "difficulty", "density", "depth", "instances", "flow", "fields",
                                 "sensors", "semantic", "trajectories"]},
 }
 
@@ -43,6 +43,24 @@ def throng(*arguments):
     done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+def mask_of(segmentation):
+    """Pixels of a mask, from the description of COCO's compressed run lengths."""
+    height, width = segmentation["size"]
+    runs, value, shift = [], 0, 0
+    for code in segmentation["counts"].encode():
+        group = code - 48
+        value |= (group & 31) << shift
+        shift += 5
+        if group & 32:
+            continue
+        if group & 16:
+            value -= 1 << shift
+        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
+        value, shift = 0, 0
+    pixels = numpy.repeat(numpy.arange(len(runs)) % 2, runs)
+    return pixels.reshape(width, height).T
 
 
 def install_stand_in_for_pycocotools():
@@ -67,20 +85,7 @@ def install_stand_in_for_pycocotools():
             return [self.imgs[image]]
 
         def annToMask(self, annotation):  # noqa: N802
-            height, width = annotation["segmentation"]["size"]
-            runs, value, shift = [], 0, 0
-            for code in annotation["segmentation"]["counts"].encode():
-                group = code - 48
-                value |= (group & 31) << shift
-                shift += 5
-                if group & 32:
-                    continue
-                if group & 16:
-                    value -= 1 << shift
-                runs.append(value + (runs[-2] if len(runs) > 2 else 0))
-                value, shift = 0, 0
-            pixels = numpy.repeat(numpy.arange(len(runs)) % 2, runs)
-            return pixels.reshape(width, height).T
+            return mask_of(annotation["segmentation"])
 
     package, module = types.ModuleType("pycocotools"), types.ModuleType("pycocotools.coco")
     module.COCO = COCO
@@ -223,6 +228,139 @@ class ExternalReaders(unittest.TestCase):
         done = throng("metrics", "--trajectory", self.out / "jupedsim/train/run000.txt", "--scenario", JOB["scenario"])
         self.assertEqual(json.loads(done)["people"], len(tracks))
 
+    def head_people(self, image):
+        """People whose heads are in the image, in the records' order."""
+        return [person for person in self.people(image) if person["head"] and
+                0 <= person["head"][0] < image["width"] and 0 <= person["head"][1] < image["height"]]
+
+    def share_of_head(self, person):
+        """The visible share of the person's pixels in the box of the head, from the masks."""
+        x, y, width, height = person["head_box"]
+        shares = []
+        for key in ("segmentation", "amodal_segmentation"):
+            mask = mask_of(person[key])
+            rows, columns = numpy.mgrid[:mask.shape[0], :mask.shape[1]] + 0.5
+            inside = (columns >= x) & (columns < x + width) & (rows >= y) & (rows < y + height)
+            shares.append(int((mask.astype(bool) & inside).sum()))
+        return shares[0] / shares[1] if shares[1] else person["visibility"]
+
+    def test_openpose_jta_and_wholebody_are_one_skeleton(self):
+        """JTA's places in the camera's frame project to its pixels, and the formats agree on joints that they share."""
+        rows_of = {}
+        for image in self.coco["images"]:
+            split = "train" if image["run"] == "run000" else "val"
+            name = f"jta/annotations/{split}/{image['run']}-{image['camera_id']}.json"
+            if name not in rows_of:
+                rows_of[name] = numpy.array(json.loads((self.out / name).read_text())).reshape(-1, 10)
+            rows = rows_of[name][rows_of[name][:, 0] == image["frame"] + 1]
+            k = numpy.array(image["camera"]["K"])
+            ahead = rows[:, 7] > 0.5
+            pixels = rows[ahead, 5:8] @ k.T
+            pixels = pixels[:, :2] / pixels[:, 2:] + 0.5
+            numpy.testing.assert_allclose(pixels, rows[ahead, 3:5], atol=0.1)
+            name = f"openpose/{split}/json/{self.stem(image)}_keypoints.json"
+            people = json.loads((self.out / name).read_text())["people"]
+            feet = json.loads((self.out / f"coco-wholebody/annotations/coco_wholebody_{split}_v1.0.json").read_text())
+            feet = {record["track_id"]: record["foot_kpts"] for record in feet["annotations"] if record["image_id"] == image["id"]}
+            self.assertEqual(len(people), len(rows) // 22)
+            for number, person in enumerate(people):
+                joints = numpy.array(person["pose_keypoints_2d"]).reshape(25, 3)
+                mine = rows[22 * number:22 * number + 22]
+                for body_25, jta in ((2, 4), (3, 5), (4, 6), (9, 16), (10, 17), (14, 21)):
+                    if joints[body_25, 2] > 0:
+                        numpy.testing.assert_allclose(joints[body_25, :2], mine[jta, 3:5], atol=0.006)
+                        self.assertEqual(joints[body_25, 2] == 1, mine[jta, 8] == 0)
+                foot = numpy.array(feet[person["person_id"][0]]).reshape(6, 3)
+                numpy.testing.assert_allclose(joints[19:25, :2], foot[:, :2], atol=1e-9)
+
+    def test_nwpu_as_its_authors_read_it(self):
+        # Wang et al., 2020: lists of name, luminance and scene level; jsons/ with points and boxes of corners.
+        root, number = self.out / "nwpu", 0
+        lists = {split: [line.split() for line in (root / f"{split}.txt").read_text().splitlines()]
+                 for split in ("train", "val")}
+        self.assertEqual(sum(map(len, lists.values())), len(self.coco["images"]))
+        for image in self.coco["images"]:
+            number += 1
+            name = f"{number:04}"
+            split = "train" if image["run"] == "run000" else "val"
+            (row,) = [row for row in lists[split] if row[0] == name]
+            record = json.loads((root / f"jsons/{name}.json").read_text())
+            people = self.head_people(image)
+            self.assertEqual((record["img_id"], record["human_num"]), (f"{name}.jpg", len(people)))
+            self.assertEqual(record["points"], [person["head"] for person in people])
+            boxes = numpy.array([person["head_box"] for person in people]).reshape(-1, 4)
+            boxes[:, 2:] += boxes[:, :2]
+            numpy.testing.assert_allclose(numpy.array(record["boxes"]).reshape(-1, 4), boxes, atol=0.006)
+            picture = Image.open(root / f"images/{name}.jpg").convert("L")
+            self.assertEqual(int(row[1]), min(3, int(numpy.asarray(picture).mean() / 255 * 4)))
+            self.assertEqual(int(row[2]), numpy.searchsorted([0, 100, 500, 5000], len(people)))
+            if importlib.util.find_spec("scipy"):
+                import scipy.io
+                mat = scipy.io.loadmat(root / f"mats/{name}.mat")
+                numpy.testing.assert_allclose(mat["annPoints"], numpy.array(record["points"]).reshape(-1, 2))
+                numpy.testing.assert_allclose(mat["annBoxes"], numpy.array(record["boxes"]).reshape(-1, 4))
+
+    def test_jhu_crowd_as_its_authors_describe_it(self):
+        # Sindagi et al., 2020: x y w h occlusion blur; name,count,scene,weather,distractor.
+        number, levels = 0, set()
+        for image in self.coco["images"]:
+            number += 1
+            root = self.out / "jhu-crowd" / ("train" if image["run"] == "run000" else "val")
+            labels = [line.split(",") for line in (root / "image_labels.txt").read_text().splitlines()]
+            (row,) = [row for row in labels if row[0] == f"{number:04}"]
+            people = self.head_people(image)
+            self.assertEqual(row[1:], [str(len(people)), JOB["scenario"], "0", str(int(not people))])
+            lines = (root / f"gt/{number:04}.txt").read_text().splitlines()
+            self.assertEqual(len(lines), len(people))
+            for line, person in zip(lines, people):
+                x, y, width, height, occlusion, blur = map(int, line.split())
+                self.assertEqual([x, y], [int(value) for value in person["head"]])
+                numpy.testing.assert_allclose([width, height], numpy.maximum(person["head_box"][2:], 1), atol=0.51)
+                share = self.share_of_head(person)
+                if person["head_visibility"] is not None:  # else a head of no pixel
+                    self.assertAlmostEqual(share, person["head_visibility"], delta=6e-4)
+                self.assertEqual(occlusion, 1 if share >= 0.95 else 2 if share > 0.05 else 3)
+                self.assertEqual(blur, 0, "nothing is blurred without an exposure time")
+                levels.add(occlusion)
+            self.assertEqual(Image.open(root / f"images/{number:04}.jpg").size, (320, 200))
+        self.assertGreaterEqual(levels, {1, 2})
+
+    def test_up_count_as_its_authors_load_it(self):
+        # github.com/up-count/uav-dot: a list of sequences; labels beside images, x y; the name ends with the height.
+        root, images = self.out / "up-count", {image["file_name"]: image for image in self.coco["images"]}
+        found = 0
+        for split, run in (("train", "run000"), ("val", "run001")):
+            for sequence in (root / f"{split}.txt").read_text().splitlines():
+                for frame, path in enumerate(sorted((root / "images" / sequence).glob("*.jpg"))):
+                    image = images[f"images/{run}/d1/{frame:06}.jpg"]
+                    self.assertAlmostEqual(float(str(path).split("__")[-1][:-4]),
+                                           image["flight"]["true"]["height_m"], delta=0.006)
+                    label = str(path).replace("images", "labels").replace(".jpg", ".txt")
+                    points = numpy.loadtxt(label, dtype=numpy.float32).reshape(-1, 2)
+                    expected = numpy.array([person["head"] for person in self.head_people(image)]).reshape(-1, 2)
+                    numpy.testing.assert_array_equal(points, numpy.floor(expected))
+                    found += 1
+        self.assertEqual(found, len(images))
+
+    def test_moving_drone_crowd_as_its_authors_load_it(self):
+        # github.com/fyw1999/MovingDroneCrowd: rows of frame (from 0), identity, left, top, width, height.
+        root = self.out / "movingdronecrowd"
+        for split, run in (("train", "run000"), ("val", "run001")):
+            self.assertEqual((root / f"{split}.txt").read_text().split(), [f"{run}/d1"])
+            rows = numpy.loadtxt(root / f"annotations/{run}/d1.csv", delimiter=",", ndmin=2)
+            frames = sorted((root / "frames" / run / "d1").iterdir(), key=lambda path: int(path.stem))
+            images = [image for image in self.coco["images"] if image["run"] == run]
+            self.assertEqual(len(frames), len(images))
+            seen, inflow = set(), 0
+            for path, image in zip(frames, images):
+                people = self.head_people(image)
+                here = rows[rows[:, 0] == int(path.stem) - 1]
+                self.assertEqual(here[:, 1].tolist(), [person["track_id"] % 1000000 for person in people])
+                numpy.testing.assert_allclose(here[:, 2:6], [person["head_box"] for person in people], atol=1e-9)
+                inflow += len(set(here[:, 1]) - seen)
+                seen |= set(here[:, 1])
+            self.assertEqual(inflow, len(numpy.unique(rows[:, 1])), "individuals of the clip")
+
     def test_tarfile_reads_webdataset(self):
         with tarfile.open(self.out / "webdataset/train-000000.tar") as archive:
             names = archive.getnames()
@@ -329,6 +467,128 @@ class ExternalReaders(unittest.TestCase):
 
     def test_validation_finds_no_faults(self):
         self.assertIn("no faults", throng("validate", self.dataset))
+
+
+def two_camera(yaw_deg, **more):
+    return {"width": 960, "height": 600, "hfov_deg": 62, "yaw_deg": yaw_deg, "pitch_deg": -45, **more}
+
+
+# Two drones that look at the same people from both sides.
+SEVERAL_CAMERAS_JOB = {
+    "name": "several cameras",
+    "scenario": "city_square/nearest_exit",
+    "seed": 9,
+    "runs": 2,
+    "crowd": {"agents": 150},
+    "drones": [
+        {"id": "d1", "start": [0, -14, 14], "camera": two_camera(0)},
+        {"id": "d2", "start": [0, 10, 14],
+         "camera": two_camera(-90, model="brown_conrady", distortion={"k1": -0.2, "k2": 0.05})},
+    ],
+    "capture": {"rate_hz": 1, "from_s": 6, "to_s": 8},
+    "outputs": {"annotations": ["coco"], "splits": {"train": 0.5, "test": 0.5}, "formats": ["market1501", "wildtrack"]},
+}
+
+
+def rotation(vector):
+    """Rodrigues' formula."""
+    angle = numpy.linalg.norm(vector)
+    x, y, z = vector / angle
+    cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return numpy.eye(3) + numpy.sin(angle) * cross + (1 - numpy.cos(angle)) * cross @ cross
+
+
+class SeveralCameras(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        base = pathlib.Path(cls.folder.name)
+        (base / "job.json").write_text(json.dumps(SEVERAL_CAMERAS_JOB))
+        throng("run", base / "job.json", "-o", base / "job")
+        cls.dataset = base / "job/dataset"
+        cls.formats = cls.dataset / "formats"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def crops(self, folder):
+        """(identity, camera, pixels) as readers of Market-1501 take them from the names."""
+        for path in sorted((self.formats / "market1501" / folder).glob("*.jpg")):
+            identity, rest = path.name.split("_")[:2]
+            with Image.open(path) as image:
+                yield int(identity), int(rest[1:].split("s")[0]), numpy.array(image.convert("RGB")).astype(float)
+
+    def test_crops_are_of_the_images(self):
+        with open(self.formats / "market1501/crops.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 500)
+        for row in rows[::20]:
+            x, y, width, height = (int(row[key]) for key in ("x", "y", "width", "height"))
+            with Image.open(self.dataset / row["image"]) as image:
+                whole = numpy.array(image.convert("RGB")).astype(float)
+            with Image.open(self.formats / "market1501" / row["file"]) as image:
+                crop = numpy.array(image.convert("RGB")).astype(float)
+            self.assertLess(numpy.abs(whole[y:y + height, x:x + width] - crop).mean(), 5)
+
+    def test_mean_colors_find_people_in_the_other_camera(self):
+        """The simplest features are far better than chance, as they are with real people."""
+        def feature(pixels):
+            height, width = pixels.shape[:2]
+            body = pixels[:, width // 4:max(width - width // 4, width // 4 + 1)]
+            return numpy.concatenate([body[height // 6:height // 2].mean((0, 1)), body[height // 2:-height // 12].mean((0, 1))])
+
+        gallery = [(number, camera, feature(pixels)) for number, camera, pixels in self.crops("bounding_box_test")]
+        trained = {number for number, _, _ in self.crops("bounding_box_train")}
+        queries = [(number, camera, feature(pixels)) for number, camera, pixels in self.crops("query")]
+        self.assertGreater(len(queries), 50)
+        found = chance = 0
+        for number, camera, wanted in queries:
+            self.assertNotIn(number, trained)
+            others = [entry for entry in gallery if entry[0] != -1 and entry[:2] != (number, camera)]
+            self.assertTrue(any(entry[0] == number for entry in others))
+            best = min(others, key=lambda entry: numpy.abs(entry[2] - wanted).sum())
+            found += best[0] == number
+            chance += sum(entry[0] == number for entry in others) / len(others)
+        self.assertGreater(found, 5 * chance)
+
+    def test_wildtracks_places_are_in_the_boxes_of_all_views(self):
+        looked_at = 0
+        for run in ("train/run000", "test/run001"):
+            folder = self.formats / "wildtrack" / run
+            grid = json.loads((folder / "grid.json").read_text())
+            views = [self.calibration(folder / "calibrations", number) for number in (1, 2)]
+            for path in sorted((folder / "annotations_positions").glob("*.json")):
+                for person in json.loads(path.read_text()):
+                    row, column = divmod(person["positionID"], grid["columns"])
+                    place = numpy.array(grid["origin_m"]) + grid["cell_m"] * numpy.array([column, row])
+                    hips_cm = numpy.array([100 * place[0], 100 * place[1], 80])
+                    for view in person["views"]:
+                        if not 5 < view["xmin"] < view["xmax"] < 954 or not 5 < view["ymin"] < view["ymax"] < 594:
+                            continue  # cut off, or not in this view
+                        u, v = views[view["viewNum"]](hips_cm)
+                        self.assertTrue(view["xmin"] - 3 <= u <= view["xmax"] + 3, (person, u))
+                        self.assertTrue(view["ymin"] - 3 <= v <= view["ymax"] + 3, (person, v))
+                        looked_at += 1
+        self.assertGreater(looked_at, 500)
+
+    def calibration(self, folder, number):
+        """A function from a point (cm) to its pixel."""
+        kind = "zero" if number == 1 else "original"
+        inner = xml.etree.ElementTree.parse(folder / f"intrinsic_{kind}/intr_C{number}.xml").getroot()
+        outer = xml.etree.ElementTree.parse(folder / f"extrinsic/extr_C{number}.xml").getroot()
+        numbers = lambda node: numpy.array([float(text) for text in node.text.split()])  # noqa: E731
+        k = numbers(inner.find("camera_matrix/data")).reshape(3, 3)
+        k1, k2 = numbers(inner.find("distortion_coefficients/data"))[:2]
+        turn, move = rotation(numbers(outer.find("rvec"))), numbers(outer.find("tvec"))
+
+        def project(point):
+            x, y, z = turn @ point + move
+            square = (x * x + y * y) / (z * z)
+            scale = (1 + k1 * square + k2 * square * square) / z
+            return k[0, 0] * scale * x + k[0, 2], k[1, 1] * scale * y + k[1, 2]
+
+        return project
 
 
 if __name__ == "__main__":

@@ -357,6 +357,36 @@ TEST_F(Exports, WhoIsTooFarOutsideOfTheImageIsIgnored) {
   EXPECT_GT(ignored(0), 0);
 }
 
+// Either contrast makes somebody distinct.
+TEST_F(Exports, WhoCannotBeToldFromTheSurroundingsIsIgnored) {
+  std::string coco = read_file(root_ / kCocoFile);
+  const std::string before = R"("iscrowd":0,)";
+  const std::string added =
+      R"("difficulty":{"contrast":1,"edge_contrast":2.5,"blur_px":0,"visible_keypoints":3},)";
+  for (std::size_t at = coco.find(before); at != std::string::npos; at = coco.find(before, at)) {
+    at += before.size();
+    coco.insert(at, added);
+  }
+  write_file_atomically(root_ / kCocoFile, coco);
+  const auto ignored = [&](double min_contrast) {
+    ExportOptions options;
+    options.filters.min_contrast = min_contrast;
+    const DatasetInfo described = info(options);
+    DatasetReader reader(described);
+    std::size_t people = 0;
+    std::size_t count = 0;
+    for (Image image; reader.next(image);) {
+      people += image.people.size();
+      for (const Person& person : image.people) count += person.is_ignored ? 1 : 0;
+    }
+    EXPECT_GT(people, 20U);
+    return count == people ? "all" : count == 0 ? "none" : "some";
+  };
+  EXPECT_STREQ(ignored(0), "none");
+  EXPECT_STREQ(ignored(2.4), "none");
+  EXPECT_STREQ(ignored(2.6), "all");
+}
+
 TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
   try {
     choose_formats({"mot", "docx", "mot", "yolo-pose"}, {"coco"}, "/outputs/formats");

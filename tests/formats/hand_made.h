@@ -101,11 +101,16 @@ class Export {
   DatasetInfo& dataset() { return info_; }
   const std::filesystem::path& root() const { return folder_.path(); }
 
-  void run(const std::string& format, const std::vector<Image>& images) {
-    for (const Image& each : images) write_file_atomically(root() / each.file, "JPEG " + each.file);
+  /// Image files that are not there yet become texts. Gives the format's warnings.
+  std::vector<Problem> run(const std::string& format, const std::vector<Image>& images) {
+    for (const Image& each : images) {
+      if (std::filesystem::exists(root() / each.file)) continue;
+      write_file_atomically(root() / each.file, "JPEG " + each.file);
+    }
     const auto exporter = find_format(format)->make(info_, Output(root() / "out"));
     for (const Image& each : images) exporter->add(each);
     exporter->finish();
+    return exporter->warnings();
   }
   std::string text(const std::string& path) const { return read_file(root() / "out" / path); }
   bool has(const std::string& path) const { return std::filesystem::exists(root() / "out" / path); }

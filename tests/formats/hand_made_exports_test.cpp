@@ -74,10 +74,11 @@ TEST(HandMadeYolo, HasCentersAndSizesAsShares) {
 TEST(HandMadeYolo, CountsDronesAfterPeoplesClasses) {
   Export out;
   out.dataset().categories = {"woman", "man"};
-  out.dataset().sees_drones = true;
+  out.dataset().object_categories = annotate::object_categories(true, false);
   Image image = crossing();
   image.people[0].category = 1;
-  image.drones = {hand_made::person(99'985, {50, 0, 10, 8}, {50, 0, 10, 8}, 1)};
+  image.objects = {hand_made::person(99'985, {50, 0, 10, 8}, {50, 0, 10, 8}, 1)};
+  image.objects[0].category = 2;
   out.run("yolo-detect", {image});
   EXPECT_EQ(out.text("labels/train/run002-d1-000004.txt"),
             "1 0.140000 0.437500 0.080000 0.375000\n"

@@ -15,7 +15,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "annotate/png.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/hash.h"
 #include "formats/npy.h"
 #include "tests/formats/dataset_fixture.h"
@@ -393,6 +395,29 @@ TEST_F(MoreExports, WebDatasetBeginsAShardWhereTheLastIsFull) {
     }
   }
   EXPECT_EQ(samples, 12);
+}
+
+TEST_F(MoreExports, FloHasBackwardFlowAndOcclusionIfTheDatasetHas) {
+  for (const char* kind : {"flow", "flow_backward", "flow_occlusion"})
+    annotations_.emplace_back(kind);
+  write_manifest();
+  for (const auto& entry : fs::recursive_directory_iterator(root_ / "flow")) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path inner = fs::relative(entry.path(), root_ / "flow");
+    write_file_atomically(root_ / "flow_backward" / inner, read_file(entry.path()));
+    std::vector<std::uint8_t> targets(160 * 120, 1);
+    targets[500] = 2;
+    targets[501] = 3;
+    write_file_atomically(
+        root_ / "flow_occlusion" / inner,
+        annotate::png_bytes({160, 120, 1}, std::span<const std::uint8_t>(targets)));
+  }
+  const fs::path stem = exported("flow-flo") / "run000-d1/run000-d1-000001";
+  EXPECT_EQ(read_file(stem.string() + ".backward.flo"), read_file(stem.string() + ".flo"));
+  const images::Raster mask = images::read_raster(stem.string() + ".occlusion.png");
+  for (std::size_t i = 0; i < mask.samples.size(); ++i) {
+    ASSERT_EQ(mask.samples[i], i == 500 || i == 501 ? 255 : 0) << i;
+  }
 }
 
 TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {

@@ -22,11 +22,11 @@ class TrajectoryTexts : public SmallDataset {
  protected:
   void SetUp() override {
     SmallDataset::SetUp();
-    constexpr int kFrames = 45;
+    constexpr int kSampled = 45;
     std::vector<double> times_s;
     std::vector<float> values;
     const float absent = std::numeric_limits<float>::quiet_NaN();
-    for (int frame = 0; frame < kFrames; ++frame) {
+    for (int frame = 0; frame < kSampled; ++frame) {
       times_s.push_back(2 + 0.4 * frame);
       const auto x = static_cast<float>(frame);
       values.insert(values.end(), {x, 0.25F, 0, 0});
@@ -34,7 +34,7 @@ class TrajectoryTexts : public SmallDataset {
       values.insert(values.end(), 4, absent);
       if (is_here) std::copy_n(std::array{-x, 1.5F, 1.0F, 0.0F}.begin(), 4, values.end() - 4);
     }
-    write("run000", times_s, {7, 9}, annotate::npy_bytes(std::array{kFrames, 2, 4}, values));
+    write("run000", times_s, {7, 9}, annotate::npy_bytes(std::array{kSampled, 2, 4}, values));
     write("run001", {2}, {1000007},
           annotate::npy_bytes(std::array{1, 1, 4}, std::vector<float>(4, absent)));
     annotations_.emplace_back("trajectories");

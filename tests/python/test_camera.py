@@ -208,6 +208,38 @@ class Labels(unittest.TestCase):
         self.assertGreater(both.sum(), 1000)
         self.assertLess(np.abs(moved - pixels - flow[ground])[both].max(), 0.1)
 
+    def test_motion_in_the_world_leads_where_flow_does(self):
+        for camera in ("d1", "d2"):
+            before, after = self.dataset.filter(runs=["run000"], cameras=[camera])[:2]
+            flow, known = before.flow()
+            motion = before.scene_flow()
+            person = known & (before.instances() < 0x400000) & (before.instances() > 0)
+            self.assertGreater(person.sum(), 30)
+            rows, columns = np.nonzero(person)
+            pixels = np.stack((columns, rows), axis=-1).astype(float)
+            points = before.camera.unproject(pixels, before.depth()[person]) + motion[person]
+            off = np.linalg.norm(after.camera.project(points) - pixels - flow[person], axis=-1)
+            self.assertLess(np.nanquantile(off, 0.95), 0.5 if camera == "d1" else 1.5)  # a lens shows depth beside edges
+            self.assertTrue((motion[before.instances() == 0xFF0000] == 0).all())
+            self.assertTrue(np.isnan(motion[before.instances() == 0]).all())
+
+    def test_backward_flow_undoes_flow_where_occlusion_says_visible(self):
+        before, after = self.dataset.filter(runs=["run000"], cameras=["d1"])[:2]
+        flow, known = before.flow()
+        back, back_known = after.flow(backward=True)
+        target = before.flow_occlusion()
+        np.testing.assert_array_equal(target == 0, ~known)
+        self.assertTrue((target == 1).any())
+        rows, columns = np.nonzero(target == 1)
+        to = np.rint(np.stack((columns, rows), axis=-1) + flow[rows, columns]).astype(int)
+        inside = ((to >= 0) & (to < [before.width, before.height])).all(axis=-1)
+        self.assertGreater(inside.mean(), 0.99)
+        to, rows, columns = to[inside], rows[inside], columns[inside]
+        usable = back_known[to[:, 1], to[:, 0]]
+        off = np.linalg.norm(back[to[:, 1], to[:, 0]] + flow[rows, columns], axis=-1)[usable]
+        self.assertLess(np.quantile(off, 0.98), 1)
+        self.assertFalse(before.flow(backward=True)[1].any())
+
 
 if __name__ == "__main__":
     common.main()

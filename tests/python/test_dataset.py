@@ -13,6 +13,7 @@ import common
 import numpy as np
 from PIL import Image
 from throng import Dataset, DatasetError, merge, tables
+from throng.annotations import Annotations
 
 
 class Reading(unittest.TestCase):
@@ -52,7 +53,7 @@ class Reading(unittest.TestCase):
                 self.assertEqual([frame.id for frame in dataset], [image["id"] for image in self.coco["images"]])
                 self.assertEqual(sorted(dataset.runs), ["run000", "run001"])
                 self.assertEqual(sorted(dataset.cameras), ["d1", "d2", "d3"])
-                self.assertEqual(dataset.categories, {1: "person", 2: "drone"})
+                self.assertEqual(dataset.categories, {1: "person", 2: "drone", 3: "car", 4: "train"})
                 self.assertEqual(
                     {k: v.runs for k, v in dataset.splits.items()}, {"train": ["run000"], "val": ["run001"]}
                 )
@@ -72,11 +73,140 @@ class Reading(unittest.TestCase):
                 self.assertEqual(a.positions.tolist(), [r["position"] for r in records])
                 self.assertEqual(a.states, [r.get("state") for r in records])
                 people = [r for r in records if r["category_id"] == 1]
-                self.assertEqual(len(frame.people) + len(a.drones), len(records))
+                self.assertEqual(len(frame.people) + len(a.drones) + len(a.vehicles), len(records))
                 self.assertEqual(frame.people.keypoints.reshape(-1, 51).tolist(), [r["keypoints"] for r in people])
+                self.assertEqual(frame.people.contrasts.tolist(), [r["difficulty"]["contrast"] for r in people])
+                self.assertEqual(frame.people.joints.reshape(-1, 99).tolist(), [r["joints"] for r in people])
+                self.assertEqual(frame.people.bone_turns.tolist(), [r["bone_turns"] for r in people])
+                self.assertEqual(frame.people.gazes.tolist(), [r["gaze"] for r in people])
+                self.assertEqual(frame.people.lookalikes, [r["difficulty"]["lookalikes"] for r in people])
+                self.assertEqual(frame.people.blur_px.tolist(), [r["difficulty"]["blur_px"] for r in people])
+                self.assertEqual(frame.hazards, image["hazards"])
+                dangers = [r["danger"]["distance_m"] if "danger" in r else None for r in people]
+                self.assertEqual([None if np.isnan(d) else d for d in frame.people.danger_m], dangers)
+                self.assertEqual(frame.people.occluders, [[tuple(o) for o in r["occluded_by"]] for r in people])
                 self.assertEqual(frame.people.heads.tolist(), [r["head"] for r in people])
+                boxes = [None if np.isnan(box).any() else box.tolist() for box in frame.people.head_boxes]
+                self.assertEqual(boxes, [r["head_box"] for r in people])
+                shares = [None if np.isnan(share) else share for share in frame.people.head_visibility]
+                self.assertEqual(shares, [r["head_visibility"] for r in people])
                 self.assertEqual(frame.people.boxes_3d[:, :6].tolist(), [r["box_3d"] for r in people])
         self.assertTrue(any(len(frame.annotations.drones) for frame in self.datasets["folder"]))
+        records = [{"category_id": category, "track_id": 7} for category in (1, 2, 3, 4)]
+        of_all = Annotations(records, 10, 10, "here", {})
+        self.assertEqual(list(of_all.vehicles), records[2:])
+
+    def test_fields_with_other_cells_have_the_same_people(self):
+        dataset = self.datasets["folder"]
+        for run in ("run000", "run001"):
+            for frame in range(2):
+                fine, grid = dataset.field(run, frame)
+                people = grid["people"][frame]
+                size = grid["cell_m"]
+                edges = [np.arange(n + 1) * size for n in (grid["rows"], grid["columns"])]
+                for cell_m in (1, 3.1):
+                    field, level = dataset.field(run, frame, cell_m)
+                    self.assertEqual(field.shape[1:], (level["rows"], level["columns"]))
+                    self.assertAlmostEqual(field[0].sum(dtype=np.float64) * cell_m**2, people, places=3)
+                    # The overlap of each cell of the fine grid with each of the coarse one, along both axes.
+                    shares = []
+                    for axis, edge in enumerate(edges):
+                        low = np.arange(field.shape[1 + axis])[:, None] * cell_m
+                        shares.append(np.clip(np.minimum(edge[1:], low + cell_m) - np.maximum(edge[:-1], low), 0, None))
+                    rows, columns = shares
+                    expected = rows @ fine[0].astype(float) @ columns.T / cell_m**2
+                    np.testing.assert_allclose(field[0], expected, atol=1e-5)
+                    moving = rows @ (fine[0].astype(float) * fine[1]) @ columns.T / cell_m**2
+                    np.testing.assert_allclose(field[0] * field[1], moving, atol=1e-5)
+        with self.assertRaisesRegex(ValueError, "found 2, expected one of outputs.fields.cells_m: 1, 3.1"):
+            dataset.field("run000", 0, 2)
+
+    def test_actions_of_images_are_in_the_table(self):
+        dataset = self.datasets["folder"]
+        motions, together = set(), 0
+        for run in ("run000", "run001"):
+            table = dataset.actions(run)
+            rows = {}
+            for track, action, other, begin, end in zip(*(table[c] for c in ("track_id", "action", "other", "from_s", "to_s"))):
+                rows.setdefault((int(track), action, other), []).append((begin, end))
+            for frame in dataset.filter(runs=[run]):
+                for track, names, others in zip(
+                    frame.people.track_ids, frame.people.actions, frame.people.together_with
+                ):
+                    motions.update(names)
+                    together += len(others)
+                    wanted = [(int(track), name, "") for name in names]
+                    wanted += [(int(track), "together", str(other)) for other in others]
+                    for key in wanted:
+                        stretches = rows.get(key, [])
+                        self.assertTrue(any(a - 0.25 <= frame.time_s <= b + 0.25 for a, b in stretches), (key, frame.time_s))
+        self.assertIn("walk", motions)
+        self.assertIn("carry", motions)
+
+    def test_counts_are_those_of_the_trajectories(self):
+        dataset = self.datasets["folder"]
+        crossings = 0
+        for run in ("run000", "run001"):
+            values, record = dataset.trajectories(run)
+            ids = np.array(record["track_ids"])
+            areas = dataset.count_areas(run)
+            self.assertEqual([zone["id"] for zone in areas["zones"]], ["ground", "corner"])
+            self.assertEqual(areas["zones"][1]["corners"], [[0, 0], [30, 0], [0, 30]])
+            self.assertEqual(areas["lines"][-1], {"id": "middle", "start": [0, -30], "end": [0, 30]})
+            table = dataset.counts(run)
+            self.assertEqual(len(table["id"]), len(values) * (len(areas["zones"]) + len(areas["lines"])))
+            before = set()
+            for frame in range(len(values)):
+                x, y = values[frame, :, 0].astype(float), values[frame, :, 1].astype(float)
+                here = table.where(frame=frame, id="corner")
+                entered, left = ([int(i) for i in here[key][0].split()] for key in ("entered", "left"))
+                now = set(ids[(x >= 0) & (y >= 0) & (x + y <= 30)].tolist())
+                self.assertEqual(int(here["inside"][0]), len(now))
+                self.assertEqual((entered, left), (sorted(now - before), sorted(before - now)))
+                self.assertEqual((int(here["inflow"][0]), int(here["outflow"][0])), (len(entered), len(left)))
+                before = now
+                # To the left of the way north is west.
+                here = table.where(frame=frame, id="middle")
+                entered, left = ([int(i) for i in here[key][0].split()] for key in ("entered", "left"))
+                crossings += len(entered) + len(left)
+                if frame == 0:
+                    self.assertEqual((entered, left), ([], []))
+                    continue
+                last = values[frame - 1].astype(float)
+                for person, number in enumerate(ids.tolist()):
+                    if np.isnan(last[person, 0]) or np.isnan(x[person]) or abs(y[person]) > 25:
+                        continue
+                    net = entered.count(number) - left.count(number)
+                    self.assertEqual(net, int(x[person] <= 0) - int(last[person, 0] <= 0), number)
+        self.assertGreater(crossings, 0)
+        for frame, record in zip(dataset, self.coco["images"]):
+            visible = {zone["id"]: zone["visible"] for zone in record["zones"]}
+            x, y, _ = frame.people.positions.T
+            self.assertEqual(visible["corner"], int(((x >= 0) & (y >= 0) & (x + y <= 30)).sum()))
+
+    def test_head_boxes_are_where_the_image_shows_heads(self):
+        """Bounds of the pixels of the part 1 (head, hair and neck), of people whose head nothing hides."""
+        dataset = self.datasets["folder"]
+        errors = []
+        for frame in dataset:
+            parts, instances = frame.parts(), frame.instances()
+            for person, box in zip(frame.people, frame.people.head_boxes):
+                x, y, width, height = box
+                inside = x > 1 and y > 1 and x + width < frame.width - 1 and y + height < frame.height - 1
+                if not inside or width * height < 6 or person["head_visibility"] != 1 or person["visibility"] < 1:
+                    continue
+                number = person["track_id"] % 1000000
+                rows, columns = np.nonzero((parts == 1) & (instances == number))
+                self.assertGreater(len(rows), 0)
+                errors.append([columns.min() - x, columns.max() + 1 - x - width, rows.min() - y])
+        # A pixel shows what is at its middle: the outermost half a pixel may be missing, not more than one over.
+        errors = np.array(errors)
+        self.assertGreater(len(errors), 20)
+        # Small people in drafts have coarse meshes, whose heads reach into the shoulders and are not quite as high.
+        self.assertGreater(np.quantile(errors[:, 2], 0.05), -1.01)
+        self.assertGreater(errors[:, 2].min(), -2)
+        self.assertLess(np.median(np.abs(errors[:, [0, 2]])), 1)
+        self.assertLess(np.median(np.abs(errors[:, 1])), 1)
 
     def test_pictures_and_label_files(self):
         for name, dataset in self.datasets.items():
@@ -103,6 +233,8 @@ class Reading(unittest.TestCase):
                     self.assertTrue(((lengths == 0) | (np.abs(lengths - 1) < 0.02)).all())
                     flow, known = frame.flow()
                     self.assertEqual(np.isnan(flow).any(axis=-1).tolist(), (~known).tolist())
+                    self.assertEqual(frame.scene_flow().shape, (frame.height, frame.width, 3))
+                    self.assertEqual(frame.hazard_opacity().shape, (frame.height, frame.width, 3))
 
     def test_masks_are_the_picture_of_instances(self):
         for frame in self.datasets["folder"]:
@@ -219,6 +351,11 @@ class Views(unittest.TestCase):
             a = before.annotations
             keep = (a.visibility >= 0.6) & (a.boxes_amodal[:, 3] >= 12) & (a.category_ids == 1)
             self.assertEqual(after.annotations.ids.tolist(), a.ids[keep].tolist())
+        distinct = self.dataset.filter_annotations(min_contrast=15)
+        for before, after in zip(self.dataset, distinct):
+            a = before.people
+            keep = np.maximum(a.contrasts, a.edge_contrasts) >= 15
+            self.assertEqual(after.people.ids.tolist(), a.ids[keep].tolist())
         walking = self.dataset.filter_annotations(lambda r: r["area"] > 20, states=["walking"])
         self.assertTrue(all(r["state"] == "walking" and r["area"] > 20 for f in walking for r in f.annotations))
 

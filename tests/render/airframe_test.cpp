@@ -5,7 +5,7 @@
 
 #include "render/lens/exposure.h"
 #include "render/lens/lens.h"
-#include "render/truth/drones_in_view.h"
+#include "render/truth/objects_in_view.h"
 #include "stage.h"
 
 namespace throng::render {
@@ -44,9 +44,9 @@ class Airframes : public testing::Test {
 TEST_F(Airframes, AreDrawnWhereTheirPoseProjects) {
   const camera::Camera camera = camera_at(kHigh, 0, -45, 640, 480, 50);
   const Frame frame = lens_.draw(two_drones(), camera);
-  ASSERT_EQ(frame.drones.size(), 1U) << "a camera does not see what it hangs from";
-  const DroneInView& drone = frame.drones[0];
-  EXPECT_EQ(drone.drone, kOther);
+  ASSERT_EQ(frame.objects.size(), 1U) << "a camera does not see what it hangs from";
+  const ObjectInView& drone = frame.objects[0];
+  EXPECT_EQ(drone.number, kOther);
   const Mask mask = mask_of(frame, kIdDrone + kOther);
   ASSERT_GT(mask.pixels, 300U);
   // Nothing is in front: what is visible is all of it, to the rounding of corners.
@@ -93,8 +93,8 @@ TEST_F(Airframes, AreOneConnectedShape) {
 
 TEST_F(Airframes, FlowCarriesThemAsTheyFlyAndTilt) {
   const camera::Camera camera = camera_at(kHigh, 0, -45, 640, 480, 40);
-  NextFrame next{two_drones({0.3, 0.5, 0.1}, 0.2),
-                 camera_at(kHigh + Eigen::Vector3d(0, -0.2, 0), 2, -44, 640, 480, 40)};
+  NeighborFrame next{two_drones({0.3, 0.5, 0.1}, 0.2),
+                     camera_at(kHigh + Eigen::Vector3d(0, -0.2, 0), 2, -44, 640, 480, 40)};
   next.scene.drones[0].position.y() -= 0.2;
   const Frame before = lens_.draw(two_drones(), camera, &next);
   const Frame after = lens_.draw(next.scene, next.camera);
@@ -123,13 +123,13 @@ TEST_F(Airframes, AreMeasuredThroughALensAndInStrips) {
     return ShutterMoment{std::make_shared<const Scene>(two_drones({0, 8 * time_s, 0})), camera};
   };
   for (const double readout_s : {0.0, 0.05}) {
-    const Exposed exposed = expose(lens_, moment, 0, {0.02, readout_s}, 0.5);
+    const Exposed exposed = expose(lens_, moment, 0, {0.02, readout_s}, {.next_s = 0.5});
     const Frame& frame = exposed.frame;
-    ASSERT_EQ(frame.drones.size(), 1U);
+    ASSERT_EQ(frame.objects.size(), 1U);
     EXPECT_GT(exposed.samples, 1) << "it moves while the shutter is open";
     EXPECT_EQ(exposed.strips > 1, readout_s > 0);
     const Mask mask = mask_of(frame, kIdDrone + kOther);
-    const DroneInView& drone = frame.drones[0];
+    const ObjectInView& drone = frame.objects[0];
     EXPECT_GT(mask.pixels, 200U);
     EXPECT_NEAR(static_cast<double>(mask.pixels), static_cast<double>(drone.amodal_area_px),
                 0.03 * static_cast<double>(mask.pixels) + 4);
@@ -143,8 +143,8 @@ TEST_F(Airframes, BehindABuildingAreNotVisibleButMeasured) {
   Lens lens(stage.renderer(), stage.people());
   const Frame frame = lens.draw(two_drones(), camera_at(kHigh, 0, -45, 320, 240, 50));
   EXPECT_EQ(mask_of(frame, kIdDrone + kOther).pixels, 0U);
-  ASSERT_EQ(frame.drones.size(), 1U);
-  EXPECT_GT(frame.drones[0].amodal_area_px, 50U);
+  ASSERT_EQ(frame.objects.size(), 1U);
+  EXPECT_GT(frame.objects[0].amodal_area_px, 50U);
 }
 
 }  // namespace

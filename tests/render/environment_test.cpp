@@ -215,6 +215,52 @@ TEST(Smoke, HidesFromTheEyeAndNotFromTheGroundTruth) {
   EXPECT_NE(drawn(0.8, 21).rgb, thick.rgb) << "it drifts";
 }
 
+TEST(HazardOpacity, SaysWhereAndHowMuchAnImageIsHidden) {
+  using Kind = world::DisasterKind;
+  const auto drawn = [](Kind kind, double smoke) {
+    world::Scenario scenario = open_ground({block(-6, -4, 1, 3, 4)});
+    scenario.disasters = {{kind, 0, {0, 0}, 10, 2, 0.2, 4}};
+    Environment lighting;
+    lighting.smoke = smoke;
+    Stage stage(scenario, lighting, {.hazard_opacity = true});
+    Scene scene;
+    scene.time_s = 20;
+    return stage.renderer().draw(scene, camera_at({-16, 0, 7}, 0, -20));
+  };
+  for (const Kind kind : {Kind::fire, Kind::gas, Kind::collapse}) {
+    const Frame clear = drawn(kind, 0);
+    const Frame thick = drawn(kind, 0.8);
+    ASSERT_EQ(thick.hazard_opacity.size(), thick.rgb.size());
+    std::array<std::size_t, 3> shown{};
+    std::size_t hidden = 0;
+    std::size_t dimmer = 0;   // at edges, which are smoothed
+    std::size_t changed = 0;  // though nothing is in front of it
+    for (std::size_t i = 0; i < thick.id.size(); ++i) {
+      ASSERT_EQ(clear.hazard_opacity[3 * i] + clear.hazard_opacity[3 * i + 1] +
+                    clear.hazard_opacity[3 * i + 2],
+                0);
+      double through = 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        shown[c] += thick.hazard_opacity[3 * i + c] > 0 ? 1 : 0;
+        through *= 1 - thick.hazard_opacity[3 * i + c] / 255.0;
+      }
+      // At least that part of the light of the clear image passes; each layer rounds.
+      for (std::size_t c = 0; c < 3; ++c) {
+        dimmer += thick.rgb[3 * i + c] < (through - 0.06) * clear.rgb[3 * i + c] - 3 ? 1 : 0;
+        const int change = std::abs(int{thick.rgb[3 * i + c]} - int{clear.rgb[3 * i + c]});
+        changed += through == 1 && change > 3 ? 1 : 0;
+      }
+      hidden += through < 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(hidden, 300U);
+    EXPECT_LT(dimmer, thick.id.size() / 100);
+    EXPECT_LT(changed, thick.id.size() / 100);
+    EXPECT_EQ(shown[0] > 0, kind == Kind::fire);
+    EXPECT_EQ(shown[1] > 0, kind != Kind::gas);
+    EXPECT_EQ(shown[2] > 0, kind == Kind::gas);
+  }
+}
+
 /// The pixels that are redder than blue by more than `red`, with nobody about.
 Mask flames(const world::Disaster& disaster, double time_s, double smoke, int red) {
   world::Scenario scenario = open_ground();

@@ -56,6 +56,7 @@ TEST(Exposure, AnInstantIsAStillImage) {
   EXPECT_EQ(exposed.samples, 1);
   EXPECT_EQ(exposed.strips, 1);
   EXPECT_EQ(exposed.frame.rgb, street.still(street.walking(3, 5), 0).rgb);
+  EXPECT_EQ(exposed.frame.people[0].blur_px, 0);
 }
 
 TEST(Exposure, LightIsTheMeanOverTheExposure) {
@@ -66,6 +67,7 @@ TEST(Exposure, LightIsTheMeanOverTheExposure) {
   ASSERT_GT(blurred.samples, 2);
   EXPECT_EQ(blurred.samples % 2, 1);
   EXPECT_NEAR(blurred.blur_px, 0.12 / 5.0 * 277, 1);  // 12 cm, 5 m away
+  EXPECT_NEAR(blurred.frame.people[0].blur_px, 0.12 / 5.0 * 277, 1);
   // Ids are sharp: those of the middle.
   const Frame still = street.still(walk, 0);
   EXPECT_EQ(blurred.frame.id, still.id);

@@ -29,7 +29,7 @@ class LensFlow : public testing::TestWithParam<Distortion> {
 };
 
 TEST_P(LensFlow, OfStillThingsIsWhereTheModelSeesThemNext) {
-  NextFrame next;
+  NeighborFrame next;
   next.camera = seen_through(GetParam(), camera_at({-9, 1, 6.5}, 8, -28));
   const Frame frame =
       lens_.draw({}, seen_through(GetParam(), camera_at({-10, 0, 7}, 0, -25)), &next);
@@ -55,7 +55,7 @@ TEST_P(LensFlow, OfStillThingsIsWhereTheModelSeesThemNext) {
 
 TEST_P(LensFlow, CarriesEachPersonsMaskToTheNextFrame) {
   Scene now;
-  NextFrame next;
+  NeighborFrame next;
   for (std::uint32_t i = 0; i < 12; ++i) {
     Random random(5, Stream::crowd_generator, i);
     const Vector2d at(2.5 * (i / 4) - 2, 2.2 * (i % 4) - 3.3);

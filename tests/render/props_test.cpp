@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "geometry/angle.h"
 #include "render/props/prop_shapes.h"
+#include "render/props/vehicles.h"
 #include "stage.h"
 
 namespace throng::render {
@@ -229,6 +230,22 @@ TEST_F(MeshFile, StandsUprightWhereTheScenarioPutsIt) {
   const std::size_t i =
       3 * index_of(frame, static_cast<int>(inside.x()), static_cast<int>(inside.y()));
   EXPECT_GT(frame.rgb[i], 2 * frame.rgb[i + 2]) << "red";
+}
+
+TEST_F(MeshFile, IsAVehicleWhoseFootIsThatOfItsShape) {
+  world::Scenario scenario = open_ground();
+  scenario.meshes = {{folder_ / "t.obj", {10, 1, 0}, 0.3, 1.5}};
+  scenario.meshes[0].semantic_class = world::SemanticClass::car;
+  ASSERT_EQ(vehicle_count(scenario), 1U);
+  const Vehicle car = vehicles_of(scenario).at(0);
+  EXPECT_EQ(car.id, kIdProp);
+  EXPECT_NEAR(car.position.z(), 0, 1e-6);
+  // Its shape reaches 1.5 m to one side of its origin, 3 m wide: turned by 0.3 about it.
+  Eigen::AlignedBox2d around;
+  for (const PropVertex& vertex : car.mesh.vertices) {
+    around.extend(Eigen::Vector2d(vertex.position[0], vertex.position[1]));
+  }
+  EXPECT_TRUE(around.contains(Eigen::Vector2d(car.position.head<2>())));
 }
 
 TEST_F(MeshFile, BadFilesAreNamed) {

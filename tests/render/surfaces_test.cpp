@@ -24,7 +24,7 @@ Eigen::Vector3d normal_at(const Frame& frame, int x, int y) {
 TEST(Surfaces, FlowCarriesEachPersonsMaskToTheNextFrame) {
   Stage stage(open_ground(), {}, kEverything);
   Scene now;
-  NextFrame next;
+  NeighborFrame next;
   next.camera = camera_at({-9.6, 0.3, 7.1}, 1.5, -34, 960, 720);
   for (std::uint32_t i = 0; i < 12; ++i) {
     Random random(5, Stream::crowd_generator, i);
@@ -53,7 +53,7 @@ TEST(Surfaces, FlowCarriesEachPersonsMaskToTheNextFrame) {
 
 TEST(Surfaces, WhatStandsStillMovesWithTheCamera) {
   Stage stage(open_ground({block(2, 4, -1, 1, 3)}), {}, kEverything);
-  NextFrame next;
+  NeighborFrame next;
   next.camera = camera_at({-9, 1, 6.5}, 8, -28);
   const Frame frame = stage.renderer().draw({}, camera_at({-10, 0, 7}, 0, -25), &next);
   int measured = 0;
@@ -77,8 +77,8 @@ TEST(Surfaces, NobodyFollowsWhoLeaves) {
   Stage stage(open_ground(), {}, kEverything);
   const camera::Camera camera = camera_at({-6, 0, 3}, 0, -15);
   const Scene now{0, 0, {stage.standing(3, 0, 0)}, {}};
-  const NextFrame next{{}, camera};
-  for (const NextFrame* given : {&next, static_cast<const NextFrame*>(nullptr)}) {
+  const NeighborFrame next{{}, camera};
+  for (const NeighborFrame* given : {&next, static_cast<const NeighborFrame*>(nullptr)}) {
     const Frame frame = stage.renderer().draw(now, camera, given);
     for (std::size_t i = 0; i < frame.id.size(); ++i) {
       if (is_agent(frame.id[i])) {

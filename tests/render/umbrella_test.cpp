@@ -76,7 +76,7 @@ TEST_P(Umbrella, MovesWithItsOwner) {
   there.position.y() += 0.1F;
   Scene now;
   now.people = {here};
-  NextFrame next;
+  NeighborFrame next;
   next.scene.people = {there};
   next.camera = from_above();
   const Frame frame = wet_.renderer().draw(now, from_above(), &next);

@@ -104,6 +104,22 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
   }
 }
 
+TEST(Plan, ActionsAreThoseOfTheMotion) {
+  std::vector<Moment> moments =
+      straight_trajectory(speeds({{60, 0.0}, {60, 1.3}, {60, 3.2}, {60, 0.0}}), kDtS);
+  const MotionPlan plan = plan_for(moments);
+  EXPECT_TRUE(plan.actions_at(30).has(Action::stand));
+  EXPECT_EQ(plan.actions_at(90), Actions(Action::walk));
+  EXPECT_EQ(plan.actions_at(150), Actions(Action::run));
+  EXPECT_TRUE(plan.actions_at(230).has(Action::stand));
+  for (std::size_t step = 100; step < moments.size(); ++step) moments[step].down = true;
+  moments.resize(160);
+  const MotionPlan falls = plan_for(moments);
+  EXPECT_EQ(falls.actions_at(95), Actions(Action::walk));
+  EXPECT_EQ(falls.actions_at(102), Actions(Action::fall));
+  EXPECT_EQ(falls.actions_at(150), Actions(Action::lie));
+}
+
 TEST(Plan, StridesFollowThePublishedLaw) {
   // Counts the strikes of the left heel over a long path.
   for (const double speed : {0.5, 0.8, 1.04, 1.32, 1.62, 1.9, 2.5, 3.0, 3.5}) {

@@ -5,9 +5,15 @@ usage: python3 tests/cli/damages THRONG DATASET [NAME...]    prints a table; DAT
 runs, two cameras and five frames; damages of formats/ need `mot`, `yolo-detect`, `kitti`, `voc` and `table` there.
 
 All damages by the module that holds them; names on the command line have blanks for underscores."""
-from . import cameras, exits, exports, fields, identities, images, lenses, pixels, poses, shapes, trajectories
+from . import cameras, counts, difficulty, exits, exports, fields, hazards, heads, identities, images, lenses, motion, pixels, poses, shapes, trajectories, vehicles
 
 TABLE = {
+    motion: """
+        backward_flow_is_forward_flow backward_flow_reversed backward_flow_of_people_zero
+        backward_flow_of_the_first_frame occlusion_all_visible occlusion_inverted occlusion_outside_is_hidden
+        occlusion_of_the_frame_before occlusion_of_unknown_values scene_flow_reversed scene_flow_axes_exchanged
+        scene_flow_in_centimeters scene_flow_of_one_person_zero scene_flow_of_still_pixels_5_cm
+        scene_flow_of_the_last_frame""",
     trajectories: """
         trajectories_10_cm_off trajectories_one_frame_late trajectories_without_somebody_seen
         trajectories_of_two_people_exchanged trajectory_headings_from_north trajectory_states_exchanged
@@ -31,7 +37,10 @@ TABLE = {
         position_of_one_person_1_m_off position_axes_exchanged positions_of_the_frame_before
         keypoint_visibility_inverted keypoints_2_px_to_the_right all_places_50_cm_higher
         positions_at_the_middle_of_the_body places_in_a_run_30_cm_off places_of_one_person_30_cm_off
-        velocities_one_frame_late velocities_in_km_per_h headings_are_of_velocity_reversed_for_those_who_stand""",
+        velocities_one_frame_late velocities_in_km_per_h headings_are_of_velocity_reversed_for_those_who_stand
+        joints_left_and_right_exchanged_in_the_image_only joints_2_px_to_the_right
+        self_hidden_joints_called_hidden all_joints_visible gaze_backward
+        turns_of_heads_and_gazes_backward toes_are_heels bone_turns_of_length_2 joints_left_out""",
     shapes: """
         box_3d_30_cm_off boxes_3d_20_percent_too_large box_3d_sizes_exchanged head_of_one_person_off
         heads_at_the_feet amodal_box_4_px_off amodal_boxes_are_visible_boxes amodal_masks_moved
@@ -43,6 +52,9 @@ TABLE = {
     identities: """
         somebody_erased two_people_exchanged_in_one_frame poses_of_two_people_exchanged
         attributes_of_two_people_exchanged attributes_of_all_people_moved_by_one colors_of_clothes_exchanged
+        walking_people_stand everybody_carries unknown_action
+        two_motions_at_once actions_a_second_late together_with_a_stranger
+        garment_called_another_color garment_in_another_slot garment_left_out
         colors_as_bgr sex_of_one_person stature_of_one_person_20_cm_less state_of_walkers_waiting
         state_of_one_person_running exits_of_people_exchanged labels_of_the_frame_before ids_permuted_after_a_frame
         ids_of_two_people_exchanged_after_a_frame ids_of_two_people_exchanged_in_one_camera
@@ -105,7 +117,31 @@ TABLE = {
         formats_yolo_class_one_more formats_visdrone_category_pedestrians_called_people
         formats_visdrone_occlusion_inverted formats_mot_boxes_2_px_off formats_mot_frames_from_zero
         formats_coco_box_moved""",
+    difficulty: """
+        contrasts_doubled edge_contrast_of_one_person_zero difficulties_of_two_people_exchanged blur_of_10_px
+        visible_keypoints_one_more difficulty_left_out occluders_left_out occluders_are_others
+        occluder_shares_of_the_visible_area lookalikes_left_out lookalike_of_other_colors
+        lookalike_of_oneself lookalike_of_another_image""",
+    counts: """
+        count_of_visible_people_one_more counts_of_the_other_run people_inside_one_more
+        somebody_enters_who_was_inside zones_of_another_place lines_in_the_other_direction coarse_field_mirrored
+        coarse_fields_10_percent_more""",
+    heads: """
+        head_boxes_moved_by_their_width head_box_twice_as_large head_boxes_are_those_of_the_bodies
+        head_boxes_of_a_tenth head_box_left_out head_visibility_inverted head_visibility_is_the_bodys""",
+    hazards: """
+        hazard_left_out hazard_3_m_off hazard_areas_10_px_off hazards_twice_as_large hazard_of_another_kind
+        hazard_begins_later danger_from_the_middle danger_left_out time_in_danger_is_a_minute
+        opacity_of_smoke_called_gas opacity_of_fire_upside_down opacity_before_the_fire""",
+    vehicles: """
+        vehicle_left_out vehicles_of_one_image_left_out vehicle_count_one_more vehicle_box_2_px_wider
+        vehicle_category_exchanged vehicle_track_and_category_exchanged vehicle_tracks_exchanged_in_one_image
+        vehicle_mask_moved vehicle_box_3d_1_m_off vehicle_boxes_3d_turned_by_90_degrees vehicle_boxes_3d_twice_as_high
+        vehicle_in_motion vehicle_place_jumps vehicle_visibility_is_a_half vehicle_amodal_box_is_5_px_off""",
 }
+#: Damages that need a dataset with cars, or one in which a disaster has begun.
+OF_VEHICLES = {name.replace("_", " ") for name in TABLE[vehicles].split()}
+OF_HAZARDS = {name.replace("_", " ") for name in TABLE[hazards].split()}
 KINDS = {name.replace("_", " "): getattr(module, name) for module, names in TABLE.items() for name in names.split()}
 
 for _module, _names in TABLE.items():

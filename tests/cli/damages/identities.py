@@ -56,6 +56,30 @@ def attributes_of_two_people_exchanged(d):
     d.save_coco()
 
 
+def first_garment(d):
+    track = tracks_by_frequency(d)[0]
+    return track["attributes"]["clothes"][0]
+
+
+@damage
+def garment_called_another_color(d):
+    garment = next(g for t in d.coco["tracks"] if "attributes" in t for g in t["attributes"]["clothes"] if "colour" in g)
+    garment["colour_name"] = "pink" if garment["colour_name"] != "pink" else "blue"
+    d.save_coco()
+
+
+@damage
+def garment_in_another_slot(d):
+    first_garment(d)["slot"] = "hat"
+    d.save_coco()
+
+
+@damage
+def garment_left_out(d):
+    tracks_by_frequency(d)[0]["attributes"]["clothes"].pop()
+    d.save_coco()
+
+
 @damage
 def attributes_of_all_people_moved_by_one(d):
     tracks = [t for t in d.coco["tracks"] if "attributes" in t]
@@ -335,4 +359,52 @@ def carried_items_left_out(d):
     assert people, "nobody carries anything"
     for attributes in people:
         attributes["carries"] = "nothing"
+    d.save_coco()
+
+
+def change_actions(d, change):
+    """Of everybody in one image."""
+    for person in d.people(d.image()):
+        person["actions"] = change(person["actions"])
+    d.save_coco()
+
+
+@damage
+def walking_people_stand(d):
+    change_actions(d, lambda names: ["stand" if name in ("walk", "run") else name for name in names])
+
+
+@damage
+def everybody_carries(d):
+    change_actions(d, lambda names: names + [] if "carry" in names else names + ["carry"])
+
+
+@damage
+def unknown_action(d):
+    d.largest(d.image())["actions"].append("dance")
+    d.save_coco()
+
+
+@damage
+def two_motions_at_once(d):
+    person = d.largest(d.image())
+    person["actions"].append("walk" if "walk" not in person["actions"] else "run")
+    d.save_coco()
+
+
+@damage
+def actions_a_second_late(d):
+    for run in d.runs:
+        name = f"actions/{run}.csv"
+        head, *rows = d.path(name).read_text().splitlines()
+        late = [row.split(",") for row in rows]
+        late = [",".join(row[:3] + [f"{float(value) + 1:g}" for value in row[3:]]) for row in late]
+        d.write(name, "\n".join([head, *late]) + "\n")
+
+
+@damage
+def together_with_a_stranger(d):
+    a, b = d.people(d.image())[:2]
+    a["together_with"].append(b["track_id"])
+    b["together_with"].append(a["track_id"])
     d.save_coco()

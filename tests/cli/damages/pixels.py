@@ -119,10 +119,10 @@ def normals_of_the_frame_before(d):
     d.copy(raster_name("normals", d.image(-1, 1)), raster_name("normals", d.image(-1, 2)))
 
 
-def change_flow(d, images, change, where=lambda ids: ids >= 0):
+def change_flow(d, images, change, where=lambda ids: ids >= 0, kind="flow"):
     for image in images:
         ids = instances(d, image)
-        name, a = d.raster("flow", image)
+        name, a = d.raster(kind, image)
         flow = (a[..., :2].astype(float) - 32768) / 64
         changed = a.copy()
         known = (a[..., 2] > 0) & where(ids)

@@ -261,3 +261,70 @@ def headings_are_of_velocity_reversed_for_those_who_stand(d):
     people = [p for p in d.everybody if numpy.hypot(*p["velocity"]) < 0.2]
     assert people, "nobody stands"
     change_headings(d, people, lambda h: h + numpy.pi)
+
+
+@damage
+def joints_left_and_right_exchanged_in_the_image_only(d):
+    for person in d.people(d.image()):
+        for a, b in [(25, 26), (27, 28), (31, 32)]:
+            j = person["joints"]
+            j[3 * a : 3 * a + 3], j[3 * b : 3 * b + 3] = j[3 * b : 3 * b + 3], j[3 * a : 3 * a + 3]
+    d.save_coco()
+
+
+@damage
+def joints_2_px_to_the_right(d):
+    for person in d.people(d.image()):
+        person["joints"][3 * 17 :: 3] = [x + 2 if x else x for x in person["joints"][3 * 17 :: 3]]
+    d.save_coco()
+
+
+@damage
+def self_hidden_joints_called_hidden(d):
+    for person in d.everybody:
+        person["joints"][2::3] = [1 if state == 3 else state for state in person["joints"][2::3]]
+    d.save_coco()
+
+
+@damage
+def all_joints_visible(d):
+    for person in d.everybody:
+        person["joints"][2::3] = [2 if state else 0 for state in person["joints"][2::3]]
+    d.save_coco()
+
+
+@damage
+def gaze_backward(d):
+    person = d.largest(d.image())
+    person["gaze"] = [-value for value in person["gaze"]]
+    d.save_coco()
+
+
+@damage
+def turns_of_heads_and_gazes_backward(d):
+    for person in d.everybody:
+        w, x, y, z = person["bone_turns"][4]
+        person["bone_turns"][4] = [-z, y, -x, w]  # half a turn about z first
+        person["gaze"] = [-value for value in person["gaze"]]
+    d.save_coco()
+
+
+@damage
+def toes_are_heels(d):
+    person = d.largest(d.image())
+    j = person["joints_3d"]
+    j[27], j[31] = j[31], [value + 0.2 for value in j[31]]
+    d.save_coco()
+
+
+@damage
+def bone_turns_of_length_2(d):
+    person = d.largest(d.image())
+    person["bone_turns"][7] = [2 * value for value in person["bone_turns"][7]]
+    d.save_coco()
+
+
+@damage
+def joints_left_out(d):
+    del d.largest(d.image())["joints"]
+    d.save_coco()

@@ -6,7 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "annotate/coco.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "jobs/pipeline/pipeline.h"
 #include "sim/run.h"
 #include "tests/jobs/yard.h"
@@ -17,6 +19,7 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class Resolve : public testing::Test {
  protected:
@@ -95,6 +98,8 @@ TEST_F(Resolve, EachMistakeIsNamedByItsPointer) {
        "/capture"},
       {R"({"scenario": "yard", "outputs": {"formats": ["mot", "docx"]}})", "/outputs/formats/1"},
       {R"({"scenario": "yard", "outputs": {"formats": ["yolo-pose"]}})", "/outputs/formats/0"},
+      {R"({"scenario": "yard", "outputs": {"filters": {"min_contrast": 2.3}}})",
+       "/outputs/filters/min_contrast"},
   };
   for (const auto& [text, pointer] : cases) {
     EXPECT_THAT(pointers_of(text), ElementsAre(pointer)) << text;
@@ -213,6 +218,19 @@ TEST_F(Resolve, AnAimWithAHeightForEachRunIsFlown) {
     EXPECT_EQ(spec.drones[0].aim->height_m,
               samples_of_run(job, run)["drones.0.aim.height_m"].get<double>());
   }
+}
+
+TEST_F(Resolve, MoreVehiclesThanIdsAreRefused) {
+  json parking = json::parse(read_file(folder.path() / "yard.json"));
+  parking["props"] = json::array();
+  for (int i = 0; i < annotate::kMaxVehiclesPerRun + 1; ++i) {
+    parking["props"].push_back({{"kind", "car"}, {"position", {40 + i, 40}}});
+  }
+  write_file_atomically(folder.path() / "parking.json", parking.dump());
+  EXPECT_THAT(pointers_of(R"({"scenario": "parking"})"), IsEmpty());
+  EXPECT_THAT(
+      pointers_of(R"({"scenario": "parking", "outputs": {"annotations": ["coco", "vehicles"]}})"),
+      ElementsAre("/outputs/annotations"));
 }
 
 }  // namespace

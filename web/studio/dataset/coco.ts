@@ -32,6 +32,8 @@ export interface Annotation {
   keypoints?: number[];
   state?: string;
   exit?: string;
+  difficulty?: { contrast: number; edge_contrast: number; blur_px: number; visible_keypoints: number };
+  occluded_by?: [number, number][]; ///< instance and share
 }
 
 export interface ExitRecord {
@@ -59,8 +61,10 @@ export interface ImageRecord {
 
 export interface Track {
   id: number;
-  group: number | null;
+  group?: number | null; ///< of people
   attributes?: Record<string, string | number>;
+  vehicle?: string; ///< car or train
+  prop?: number;
 }
 
 export interface Labels {

@@ -23,7 +23,7 @@ export const kLayers: Layer[] = [
   { id: "flow", key: "f", label: "Flow" },
 ];
 
-export const kColorings = ["track", "state", "visibility"] as const;
+export const kColorings = ["track", "state", "visibility", "contrast"] as const;
 export type Coloring = (typeof kColorings)[number];
 
 export interface Drawing {
@@ -33,7 +33,8 @@ export interface Drawing {
   selected: number | null; ///< a track
 }
 
-const kDrone = 2; ///< category
+/** Of categories that are not people's: drones, cars, trains. */
+const kObjectColors: Record<number, string> = { 2: "#00e5ff", 3: "#ffe14d", 4: "#ff9a4d" };
 const kHues = 47; ///< degrees between neighbors in a list: far apart
 const kStateColors: Record<string, string> = {
   waiting: "#6ea8ff",
@@ -49,10 +50,19 @@ const kLimbs = [
   [15, 13], [13, 11], [16, 14], [14, 12], [11, 12], [5, 11], [6, 12], [5, 6], [5, 7], [6, 8], [7, 9], [8, 10], [1, 2], [0, 1], [0, 2],
 ] as const;
 
+/** Red where a person is hard to distinguish from the surroundings, green from a CIELAB difference of 30 on. */
+function colorOfContrast({ difficulty }: Annotation): string {
+  if (!difficulty) return "#cccccc";
+  const contrast = Math.max(difficulty.contrast, difficulty.edge_contrast);
+  return `hsl(${Math.round(4 * Math.min(contrast, 30))} 90% 50%)`;
+}
+
 export function colorOf(annotation: Annotation, coloring: Coloring): string {
-  if (annotation.category_id === kDrone) return "#00e5ff";
+  const object = kObjectColors[annotation.category_id];
+  if (object) return object;
   if (coloring === "state") return kStateColors[annotation.state ?? ""] ?? "#cccccc";
   if (coloring === "visibility") return `hsl(${Math.round(120 * annotation.visibility)} 90% 50%)`;
+  if (coloring === "contrast") return colorOfContrast(annotation);
   return `hsl(${(annotation.track_id * kHues) % 360} 85% 60%)`;
 }
 

@@ -6,6 +6,15 @@ import type { Annotation, Dataset, Track } from "./coco";
 const percent = (share: number) => `${Math.round(100 * share)} %`;
 const fixed = (values: readonly number[]) => values.map((value) => value.toFixed(1)).join(", ");
 
+/** Of a value of instances/*.png (docs/formats_pixels.md). */
+function nameOfInstance(instance: number): string {
+  if (instance >= 0xff0000) return "the ground";
+  if (instance >= 0xe00000) return `drone ${instance - 0xe00000}`;
+  if (instance >= 0xc00000) return `prop ${instance - 0xc00000}`;
+  if (instance >= 0x800000) return `building ${instance - 0x800000}`;
+  return instance >= 0x400000 ? `the umbrella of person ${instance - 0x400000}` : `person ${instance}`;
+}
+
 function rowsOf(annotation: Annotation, track: Track | null): [string, string][] {
   const rows: [string, string][] = [
     ["track", String(annotation.track_id)],
@@ -16,12 +25,23 @@ function rowsOf(annotation: Annotation, track: Track | null): [string, string][]
   if (annotation.truncation) rows.push(["outside of the image", percent(annotation.truncation)]);
   if (annotation.state) rows.push(["state", annotation.state]);
   if (annotation.exit) rows.push(["exit", annotation.exit]);
+  const difficulty = annotation.difficulty;
+  if (difficulty) {
+    rows.push(
+      ["contrast", `${difficulty.contrast} around, ${difficulty.edge_contrast} at the outline`],
+      ["motion blur", `${difficulty.blur_px} px`],
+      ["visible keypoints", `${difficulty.visible_keypoints} of 17`],
+    );
+  }
+  const hiding = annotation.occluded_by?.map(([instance, share]) => `${percent(share)} by ${nameOfInstance(instance)}`);
+  if (hiding?.length) rows.push(["hidden", hiding.slice(0, 3).join(", ")]);
+  if (track?.vehicle) rows.push(["vehicle", track.vehicle]);
   const about = track?.attributes;
   if (about) {
     rows.push(["person", `${about["sex"]}, ${about["age_years"]} years, ${about["stature_m"]} m`], ["wears", String(about["wears"])]);
     if (about["carries"] !== "nothing") rows.push(["carries", String(about["carries"])]);
   }
-  if (track && track.group !== null) rows.push(["group", String(track.group)]);
+  if (track && (track.group ?? null) !== null) rows.push(["group", String(track.group)]);
   return rows;
 }
 

@@ -6,7 +6,7 @@ import { isTruth, readerOf, truthReaderOf } from "./formats";
 export interface FormatEntry {
   name: string;
   summary: string;
-  needs: string; ///< a kind of ground truth; "": none
+  needs: string; ///< kinds of ground truth, with commas between; "": none
 }
 
 const kUsualNeed = "coco";
@@ -64,7 +64,7 @@ export function FormatList({ job, formats, truths, written, splits }: FormatList
         </p>
         <div class="format-list">
           {formats.map((format) => (
-            <Format key={format.name} format={format} job={job} folder={written[format.name] ?? null} split={split} isMissing={!((format.needs || kUsualNeed) in truths)} />
+            <Format key={format.name} format={format} job={job} folder={written[format.name] ?? null} split={split} isMissing={(format.needs || kUsualNeed).split(", ").some((kind) => !(kind in truths))} />
           ))}
         </div>
       </section>

@@ -11,6 +11,26 @@ const kReaders: Reader[] = [
   { names: ["coco"], text: 'from pycocotools.coco import COCO\ncoco = COCO("FOLDER/annotations/instances_SPLIT.json")' },
   { names: ["coco-keypoints"], text: 'from pycocotools.coco import COCO\ncoco = COCO("FOLDER/annotations/person_keypoints_SPLIT.json")' },
   {
+    names: ["coco-wholebody"],
+    text: 'import json\nfile = json.load(open("FOLDER/annotations/coco_wholebody_SPLIT_v1.0.json"))\nfeet = [record["foot_kpts"] for record in file["annotations"]]  # x, y, visibility of six points',
+  },
+  {
+    names: ["openpose"],
+    text: 'import glob, json\nfor name in glob.glob("FOLDER/SPLIT/json/*_keypoints.json"):\n    people = json.load(open(name))["people"]  # pose_keypoints_2d: x, y, confidence of 25 joints',
+  },
+  {
+    names: ["jta"],
+    text: 'import glob, json, numpy as np\nfor name in glob.glob("FOLDER/annotations/SPLIT/*.json"):\n    rows = np.array(json.load(open(name)))  # frame, person, joint, x, y, x, y, z, hidden, self-hidden',
+  },
+  {
+    names: ["market1501"],
+    text: 'import glob, re\nfor name in glob.glob("FOLDER/bounding_box_train/*.jpg"):\n    identity, camera = map(int, re.search(r"(-?\\d+)_c(\\d+)", name).groups())',
+  },
+  {
+    names: ["wildtrack"],
+    text: 'import glob, json\nfor name in glob.glob("FOLDER/SPLIT/*/annotations_positions/*.json"):\n    people = json.load(open(name))  # personID, positionID, views with boxes',
+  },
+  {
     names: ["coco-panoptic"],
     text: 'import json\npanoptic = json.load(open("FOLDER/annotations/panoptic_SPLIT.json"))\n# ids: red + 256 green + 65536 blue of FOLDER/panoptic_SPLIT/*.png',
   },
@@ -60,6 +80,18 @@ const kReaders: Reader[] = [
     names: ["trajnet"],
     text: 'import glob, json\nfor name in glob.glob("FOLDER/SPLIT/*.ndjson"):\n    rows = [json.loads(line) for line in open(name)]  # "scene" or "track"',
   },
+  {
+    names: ["nwpu"],
+    text: 'import glob, json\nfor name in glob.glob("FOLDER/jsons/*.json"):\n    record = json.load(open(name))  # human_num, points, boxes; FOLDER/SPLIT.txt lists the split',
+  },
+  {
+    names: ["jhu-crowd"],
+    text: 'import glob, numpy as np\nfor name in glob.glob("FOLDER/SPLIT/gt/*.txt"):\n    heads = np.loadtxt(name, ndmin=2)  # x, y, width, height, occlusion, blur',
+  },
+  {
+    names: ["movingdronecrowd"],
+    text: 'import glob, numpy as np\nfor name in glob.glob("FOLDER/annotations/*/*.csv"):\n    heads = np.loadtxt(name, delimiter=",", ndmin=2)  # frame, person, left, top, width, height',
+  },
   { names: ["rosbag", "rosbag-lz4"], text: "rosbag info FOLDER/SPLIT/run000.bag" },
   { names: ["table"], text: 'import glob, pandas\npeople = pandas.read_csv(glob.glob("FOLDER/**/people.csv", recursive=True)[0])' },
 ];
@@ -77,9 +109,11 @@ const kTruthReaders: Record<string, string> = {
   coco: "frame.people.boxes, frame.people.masks()",
   keypoints: "frame.people.keypoints, frame.people.keypoints_3d",
   amodal: "frame.people.masks(amodal=True)",
+  heads: "frame.people.head_boxes, frame.people.head_visibility",
   density: "frame.density()",
   exits: 'dataset.exits("run000")',
   fields: 'dataset.field("run000", 0)',
+  counts: 'dataset.counts("run000"), dataset.count_areas("run000")',
   trajectories: 'values, record = dataset.trajectories("run000")',
   events: 'dataset.events("run000")',
   depth: "frame.depth()",

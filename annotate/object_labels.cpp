@@ -1,30 +1,29 @@
-#include "annotate/drone_labels.h"
+#include "annotate/object_labels.h"
 
 #include <algorithm>
+
+#include "annotate/visible_mask.h"
 
 namespace throng::annotate {
 
 namespace {
 
-/// The pixels of a drone, and their bounds and number.
-DroneLabel shown(const render::Frame& frame, const render::DroneInView& drone) {
+/// The pixels of an object, and their bounds and number.
+ObjectLabel shown(const render::Frame& frame, const render::ObjectInView& object) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
                                   Eigen::Vector2i(frame.width(), frame.height()));
-  const Eigen::AlignedBox2d& box = drone.amodal_box;
+  const Eigen::AlignedBox2d& box = object.amodal_box;
   const Eigen::Array2d far(1e6, 1e6);
-  render::PixelMask mask(
+  const render::PixelMask mask = visible_mask(
+      frame, object.id,
       image.intersection(Eigen::AlignedBox2i(box.min().array().max(-far).floor().cast<int>() - 2,
                                              box.max().array().min(far).ceil().cast<int>() + 2)));
   Eigen::AlignedBox2i bounds;
-  DroneLabel label;
+  ObjectLabel label;
   if (mask.set.empty()) return label;
   for (int y = mask.pixels.min().y(); y < mask.pixels.max().y(); ++y) {
     for (int x = mask.pixels.min().x(); x < mask.pixels.max().x(); ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
-          static_cast<std::size_t>(x);
-      if (frame.id[pixel] != render::kIdDrone + drone.drone) continue;
-      mask.put(x, y);
+      if (!mask.at(x, y)) continue;
       bounds.extend(Eigen::Vector2i(x, y));
       ++label.area_px;
     }
@@ -33,19 +32,19 @@ DroneLabel shown(const render::Frame& frame, const render::DroneInView& drone) {
   const Eigen::Vector2i size = bounds.sizes().array() + 1;
   label.box = {bounds.min().x(), bounds.min().y(), size.x(), size.y()};
   label.mask = run_lengths(mask, frame.width(), frame.height());
-  label.drone = drone;
-  label.drone.amodal_area_px = std::max(drone.amodal_area_px, label.area_px);
+  label.object = object;
+  label.object.amodal_area_px = std::max(object.amodal_area_px, label.area_px);
   label.visibility =
-      static_cast<double>(label.area_px) / static_cast<double>(label.drone.amodal_area_px);
+      static_cast<double>(label.area_px) / static_cast<double>(label.object.amodal_area_px);
   return label;
 }
 
 }  // namespace
 
-std::vector<DroneLabel> label_drones(const render::Frame& frame) {
-  std::vector<DroneLabel> labels;
-  for (const render::DroneInView& drone : frame.drones) {
-    DroneLabel label = shown(frame, drone);
+std::vector<ObjectLabel> label_objects(const render::Frame& frame) {
+  std::vector<ObjectLabel> labels;
+  for (const render::ObjectInView& object : frame.objects) {
+    ObjectLabel label = shown(frame, object);
     if (label.area_px > 0) labels.push_back(std::move(label));
   }
   return labels;

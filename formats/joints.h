@@ -1,0 +1,29 @@
+// Joints of a person's record, as formats of skeletons take them.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "skinning/landmarks.h"
+
+namespace throng::formats {
+
+struct JointInImage {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< box coordinates; 0 outside of the image
+  int state = 0;                                    ///< annotate::JointLabel::State
+
+  bool is_inside() const { return state != 0; }
+  bool is_visible() const { return state == 2; }
+  bool is_self_hidden() const { return state == 3; }
+  /// COCO's: 0 outside of the image, 1 hidden, 2 visible.
+  int coco_visibility() const { return is_visible() ? 2 : is_inside() ? 1 : 0; }
+};
+
+/// By skinning::Joint. Throws InputError if the record has not all of them.
+std::vector<JointInImage> joints_of(const nlohmann::json& record);
+
+/// The same in the world, m.
+std::vector<Eigen::Vector3d> joints_3d_of(const nlohmann::json& record);
+
+}  // namespace throng::formats

@@ -1,0 +1,29 @@
+// The vehicles of a scenario: cars and trains, which stand.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/props/prop_shapes.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+struct Vehicle {
+  std::uint32_t id = 0;  ///< in the id buffer
+  world::SemanticClass surface{};
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the middle of its foot, m
+  double yaw_rad = 0;
+  PropMesh mesh;  ///< in the world
+};
+
+/// How many vehicles_of() a scenario there are.
+std::size_t vehicle_count(const world::Scenario& scenario);
+
+/// Props and meshes whose class is car or train, by id. Throws InputError for a mesh file that
+/// cannot be read.
+std::vector<Vehicle> vehicles_of(const world::Scenario& scenario);
+
+}  // namespace throng::render

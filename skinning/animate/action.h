@@ -1,0 +1,47 @@
+// Actions that the motion of a body shows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace throng::skinning {
+
+enum class Action : std::uint8_t {
+  stand,
+  walk,
+  run,
+  turn,  ///< on the spot
+  fall,
+  lie,
+  get_up,
+  look_around,
+  use_phone,      ///< looks at a phone in the hand
+  look_at_drone,  ///< looks up at one
+  panic,          ///< runs with raised arms
+};
+inline constexpr std::size_t kActionCount = 11;
+inline constexpr std::array<std::string_view, kActionCount> kActionNames = {
+    "stand",  "walk",        "run",       "turn",          "fall", "lie",
+    "get_up", "look_around", "use_phone", "look_at_drone", "panic"};
+
+/// Several actions at once: one of stand to get_up, and others.
+class Actions {
+ public:
+  constexpr Actions() = default;
+  template <typename... Each>
+  constexpr explicit Actions(Each... each) : bits_((0U | ... | bit(each))) {}
+
+  constexpr bool has(Action action) const { return (bits_ & bit(action)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr bool operator==(const Actions&) const = default;
+
+ private:
+  static constexpr std::uint32_t bit(Action action) {
+    return std::uint32_t{1} << static_cast<unsigned>(action);
+  }
+
+  std::uint32_t bits_ = 0;
+};
+
+}  // namespace throng::skinning
