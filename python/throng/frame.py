@@ -83,10 +83,24 @@ class Frame:
         """The split that the job put the frame's run in."""
         return self._source.split_of(self.run)
 
+    def _object(self, key: str) -> dict[str, Any]:
+        """The object record[key], empty where there is none."""
+        value = self.record.get(key) or {}
+        if not isinstance(value, dict):
+            raise DatasetError(f"{self._where}: found a {key} that is no object")
+        return dict(value)
+
+    def _objects(self, key: str) -> list[Mapping[str, Any]]:
+        """The list of objects record[key], empty where there is none."""
+        values = self.record.get(key) or []
+        if not isinstance(values, list) or not all(isinstance(value, dict) for value in values):
+            raise DatasetError(f"{self._where}: found a {key} that is no list of objects")
+        return list(values)
+
     @property
     def drawn(self) -> Mapping[str, Any]:
         """Values that were sampled for the frame's run, by dotted path ("drones.0.camera.pitch_deg")."""
-        return dict(self.record.get("drawn") or {})
+        return self._object("drawn")
 
     @property
     def place(self) -> str:
@@ -99,26 +113,31 @@ class Frame:
     @property
     def environment(self) -> Mapping[str, Any]:
         """Light and weather."""
-        return dict(self.record.get("environment") or {})
+        return self._object("environment")
 
     @property
     def flight(self) -> Mapping[str, Any]:
         """The drone at time_s: what is true and what was measured."""
-        return dict(self.record.get("flight") or {})
+        return self._object("flight")
 
     @property
     def sensor(self) -> Mapping[str, Any]:
-        return dict(self.record.get("sensor") or {})
+        return self._object("sensor")
 
     @property
     def counts(self) -> Mapping[str, int]:
         """People in the image as the file has it, without regard to filters: all, visible, truncated."""
-        return dict(self.record.get("counts") or {})
+        return self._object("counts")
 
     @property
     def exits(self) -> list[Mapping[str, Any]]:
         """State of each exit, with its door and zone as polygons in box coordinates."""
-        return list(self.record.get("exits") or [])
+        return self._objects("exits")
+
+    @property
+    def hazards(self) -> list[Mapping[str, Any]]:
+        """Place, reach and area of each hazard that has begun; empty without "hazards" in outputs.annotations."""
+        return self._objects("hazards")
 
     @cached_property
     def camera(self) -> Camera:
@@ -169,7 +188,7 @@ class Frame:
         return pixels
 
     def has(self, kind: str) -> bool:
-        """Whether there is a label file: density, depth, instances, parts, normals, flow or semantic."""
+        """Whether there is a label file: density, or a kind of `outputs.annotations` that has a value for each pixel."""
         return self._source.storage.exists(self._label_name(kind))
 
     def _label_name(self, kind: str) -> str:
@@ -255,13 +274,31 @@ class Frame:
         vectors = np.where((p == 0).all(axis=-1, keepdims=True), np.float32(0), (p.astype(np.float32) - 128) / 127)
         return vectors.astype(np.float32)
 
-    def flow(self) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """(height, width, 2) motion in x and y to the next frame, px, NaN where unknown; and where it is known."""
-        p = self._png("flow", np.uint16, 3)
+    def flow(self, *, backward: bool = False) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """(height, width, 2) motion in x and y to the next frame, px, NaN where unknown; and where it is known.
+
+        With `backward` it is that to the previous frame.
+        """
+        p = self._png("flow_backward" if backward else "flow", np.uint16, 3)
         known = p[..., 2] > 0
         motion = (p[..., :2].astype(np.float32) - 32768) / 64
         motion[~known] = np.nan
         return motion, known
+
+    def flow_occlusion(self) -> NDArray[np.uint8]:
+        """(height, width) where the next frame shows the same: 0 unknown, 1 visible, 2 hidden, 3 outside of the image."""
+        return self._png("flow_occlusion", np.uint8, 1)
+
+    def scene_flow(self) -> FloatArray:
+        """(height, width, 3) motion in the world to the next frame, m; NaN where unknown."""
+        p = self._png("scene_flow", np.uint16, 3)
+        motion = (p.astype(np.float32) - 32768) / 1000
+        motion[(p == 0).all(axis=-1)] = np.nan
+        return motion
+
+    def hazard_opacity(self) -> FloatArray:
+        """(height, width, 3) share of what shows that fire, smoke with dust, and gas hide, each 0 to 1."""
+        return self._png("hazard_opacity", np.uint8, 3).astype(np.float32) / 255
 
     def lens_mask(self) -> NDArray[np.bool_]:
         """(height, width) where the lens shows something."""

@@ -270,30 +270,49 @@ class Damage(unittest.TestCase):
         coco["images"], coco["tracks"] = coco["images"][:2], coco["tracks"][:5]
         ids = [image["id"] for image in coco["images"]]
         coco["annotations"] = [a for a in coco["annotations"] if a["image_id"] in ids][:8]
-        rng = random.Random(7)
         others = (None, "x", [], {}, -1, True, [[]], 10**20, "", [None], float("nan"), 0.5)
+        changes = [*self.changes_of_every_member(coco, others), *self.changes_anywhere(coco, others, 200)]
+        path = self.folder / "changed"
+        (path / "annotations").mkdir(parents=True)
         outcomes = collections.Counter()
-        for _ in range(400):
+        for *members, value in changes:
             changed = copy.deepcopy(coco)
-            place = rng.choice(
-                [*changed["images"], *changed["annotations"], *changed["tracks"], *changed["categories"]]
-            )
+            place = changed
+            for key in members[:-1]:
+                place = place[key]
+            place[members[-1]] = value
+            (path / LABELS).write_text(json.dumps(changed))
+            with self.subTest(members=members, value=value):
+                try:
+                    self.read_all_columns(Dataset(path))
+                    outcomes["read"] += 1
+                except DatasetError as error:
+                    self.assertIn("changed", str(error))
+                    outcomes["refused"] += 1
+        self.assertGreater(min(outcomes["read"], outcomes["refused"]), 50)
+
+    def changes_of_every_member(self, coco, others):
+        """Every member of the first image, annotation, track and category, replaced by a value of each type."""
+        types = {type(value): value for value in others}
+        for table in ("images", "annotations", "tracks", "categories"):
+            for key in coco[table][0]:
+                for value in types.values():
+                    yield table, 0, key, value
+
+    def changes_anywhere(self, coco, others, count):
+        """Values at random places, also within lists and objects."""
+        rng = random.Random(7)
+        for _ in range(count):
+            table = rng.choice(("images", "annotations", "tracks", "categories"))
+            members = [table, rng.randrange(len(coco[table]))]
+            place = coco[table][members[1]]
             while True:
                 key = rng.choice(list(place)) if isinstance(place, dict) else rng.randrange(len(place))
+                members.append(key)
                 if not place[key] or not isinstance(place[key], (dict, list)) or rng.random() < 0.5:
                     break
                 place = place[key]
-            place[key] = rng.choice(others)
-            path = self.folder / "changed"
-            (path / "annotations").mkdir(parents=True, exist_ok=True)
-            (path / LABELS).write_text(json.dumps(changed))
-            try:
-                self.read_all_columns(Dataset(path))
-                outcomes["read"] += 1
-            except DatasetError as error:
-                self.assertIn("changed", str(error))
-                outcomes["refused"] += 1
-        self.assertGreater(min(outcomes["read"], outcomes["refused"]), 50)
+            yield *members, rng.choice(others)
 
     def read_all_columns(self, dataset):
         dataset.name, dataset.runs, dataset.categories, dataset.splits, dataset.tracks(), dataset.resample(1.0)
@@ -304,7 +323,10 @@ class Damage(unittest.TestCase):
             frame.annotations.boxes
         columns = [name for name, kind in vars(type(dataset[0].people)).items() if not name.startswith("_")]
         for frame in dataset:
-            repr(frame), frame.exits, frame.environment, frame.flight, frame.sensor, frame.counts, frame.split
+            repr(frame)
+            for name, kind in vars(type(frame)).items():
+                if isinstance(kind, property) and not name.startswith("_") and name != "camera":
+                    getattr(frame, name)
             for name in columns:
                 value = getattr(frame.people, name)
                 if name in ("corners_3d", "masks"):
