@@ -74,40 +74,6 @@ function(throng_embed target symbol file)
   set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n COMPUTES OPTIMIZED): one GoogleTest program per module,
-# test_NAME. Its tests run in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one.
-# scripts/test.sh runs it once: COMPUTES, with the release build; else with AddressSanitizer, where computing takes five
-# times as long (`scripts/test.sh long` runs all with both). OPTIMIZED: also with sanitizers, where tests that look at
-# every pixel or vertex themselves take longer than what they test.
-function(throng_test name)
-  cmake_parse_arguments(ARG "COMPUTES;OPTIMIZED" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
-  set(group sanitized)
-  if(ARG_COMPUTES)
-    set(group computing)
-  endif()
-  add_executable(test_${name} ${ARG_SOURCES})
-  target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
-  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  # The tests' own code is compiled often and runs briefly.
-  set(options "")
-  if(CMAKE_BUILD_TYPE STREQUAL "Release" OR (THRONG_SANITIZE AND ARG_OPTIMIZED))
-    set(options -O1)
-  endif()
-  target_compile_options(test_${name} PRIVATE ${options})
-  throng_precompile(test_${name} THRONG_PRECOMPILED_TEST_HEADERS ${options})
-  add_dependencies(throng_${group}_tests test_${name})
-  if(NOT ARG_SHARDS)
-    set(ARG_SHARDS 1)
-  endif()
-  foreach(shard RANGE 1 ${ARG_SHARDS})
-    math(EXPR index "${shard} - 1")
-    add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
-    set_tests_properties(${name}.${shard} PROPERTIES LABELS "${name};${group}" TIMEOUT 900
-      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
-  endforeach()
-endfunction()
-
 # throng_bench(NAME SOURCES file... LIBRARIES target...): one Google Benchmark program, bench_NAME.
 function(throng_bench name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})

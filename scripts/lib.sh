@@ -35,7 +35,7 @@ fetch_assets() {
   cp "$lock" "$assets/installed-lock.json"
 }
 
-# build PRESET [target...]
+# build PRESET [target...]: with keep_going=1, goes on where one file cannot be compiled, so that all such files are named.
 build() {
   local preset="$1"
   shift
@@ -44,7 +44,7 @@ build() {
     cat "$root/build/configure-$preset.log"
     return 1
   }
-  cmake --build "$root/build/$preset" ${1:+--target "$@"}
+  cmake --build "$root/build/$preset" ${1:+--target "$@"} ${keep_going:+-- -k 0}
 }
 
 # bake_people COUNT: builds the character library; the program itself sees when nothing has changed.

@@ -1,53 +1,97 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds everything and runs every check and test.
+# Installs what is needed, builds everything and runs every check and test. Every step runs, whatever failed before; a table
+# at the end names each step with its times, each failed test and the slowest ones.
 # usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, includes
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$root"
-mkdir -p build
 steps=("$@")
 [ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz)
+for step in "${steps[@]}"; do
+  case "$step" in
+    format | release | tidy | asan | tsan | fuzz | long | includes) ;;
+    *) echo "unknown step $step; steps: format release tidy asan tsan fuzz long includes" >&2; exit 2 ;;
+  esac
+done
+mkdir -p build/tmp
+
+# Temporary files of tests lie in memory, where a synced write takes 0.02 ms instead of 8: what a test waits for does not
+# depend on the disk. The file system is mounted in a name space of its own, so that nothing stays mounted.
+if [ -z "${THRONG_TESTS_IN_MEMORY:-}" ] && [ "$(id -u)" = 0 ] &&
+  unshare --mount mount -t tmpfs tmpfs build/tmp 2>/dev/null; then
+  export THRONG_TESTS_IN_MEMORY=1 TMPDIR="$root/build/tmp" TEST_TMPDIR="$root/build/tmp/"
+  exec unshare --mount bash -c 'mount -t tmpfs -o size=8g,mode=1777 tmpfs "$TMPDIR" && exec bash "$@"' bash "$0" "${steps[@]}"
+fi
 
 sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
 
+# run_parts FUNCTION...: runs each, whatever failed before. Fails if one did; their names go to build/checks/failed_parts.
+run_parts() {
+  local part status failed=0
+  for part in "$@"; do
+    set +e
+    (set -e; "$part")
+    status=$?
+    set -e
+    if [ $status != 0 ]; then
+      failed=1
+      echo "== failed: $part"
+      printf '%s ' "$part" >>build/checks/failed_parts
+    fi
+  done
+  return $failed
+}
+
 step_format() {
-  say "checking the format"
-  sources | xargs clang-format --dry-run --Werror
-  # Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
+  say "checking the format, the language and the types"
+  run_parts cpp_format json_readers shell_syntax language generated_types python_types
+}
+cpp_format() { sources | xargs clang-format --dry-run --Werror; }
+# Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
+json_readers() {
   if sources | grep -v -e '^tests/' -e '^bench/' -e '^base/json_text\.cpp$' | xargs grep -nE 'json::(parse|accept|sax_parse|from_)|>> *(json|document)\b'; then
     echo "base/json_text.h parses JSON; nothing else may" >&2
     return 1
   fi
-  bash -n scripts/*.sh .ci/run
-  /usr/bin/python3 scripts/check_language.py
-  /usr/bin/python3 python/generate_types.py --check
-  mypy --strict --cache-dir build/mypy python/throng python/generate_types.py
 }
+shell_syntax() { bash -n scripts/*.sh .ci/run; }
+language() { /usr/bin/python3 scripts/check_language.py; }
+generated_types() { /usr/bin/python3 python/generate_types.py --check; }
+python_types() { mypy --strict --cache-dir build/mypy python/throng python/generate_types.py; }
 
 # Each test program of a module runs once: those that compute with this build, the others with the sanitizers' (cmake/
-# Modules.cmake, throng_test). Tests of the program run here, the shorter ones there as well. Of the benchmarks only the
-# syntax is checked.
+# Tests.cmake). Tests of the program run here, the shorter ones there as well. Of the benchmarks only the syntax is checked.
 step_release() {
-  say "building (release)"
-  build release throng_computing_tests
+  say "building and testing (release)"
+  run_parts release_build
+  run_parts benchmarks release_tests
+}
+release_build() { build release throng_computing_tests; }
+benchmarks() {
   jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
     sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
-  bake_people 24  # enough for tests, in a quarter of the time
-  say "testing (release)"
-  # The tests of the program wait much.
-  ctest --preset release -j3 -LE '^sanitized$'
 }
+# The tests of the program wait much.
+release_tests() { run_ctest release release --repeat-waits -j3 -LE '^sanitized$'; }
+run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
 
 # Not among the default steps: every test program of a module with both builds, and tests of which the default steps take
 # a sample (all damages to datasets, all kinds of sound datasets, more people and time in all scenarios, more crashes).
 step_long() {
   say "testing what lasts"
+  run_parts long_sanitized_with_release long_samples long_computing_with_asan
+}
+long_sanitized_with_release() {
   build release throng_tests
-  bake_people 24  # enough for tests, in a quarter of the time
-  ctest --preset release -j2 -L '^sanitized$'
-  THRONG_LONG=1 THRONG_CRASHES=10 ctest --preset release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
+  run_ctest long-release release -j2 -L '^sanitized$'
+}
+long_samples() {
+  build release throng_computing_tests
+  THRONG_LONG=1 THRONG_CRASHES=10 run_ctest long-samples release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
+}
+long_computing_with_asan() {
   build asan throng_tests
-  ctest_asan -L '^computing$'
+  asan_ctest long-asan -j3 -L '^computing$'
 }
 
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
@@ -64,23 +108,21 @@ step_tidy() {
   echo "$state" >"$stamp"
 }
 
-ctest_asan() {
-  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j3 "$@"
+asan_ctest() {
+  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" run_ctest "$1" asan "${@:2}"
 }
 
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan throng_sanitized_tests throng_fuzz
-  ctest_asan -LE '^(slow|computing)$'
+  asan_ctest asan --repeat-waits -j3 -LE '^(slow|computing)$'
 }
 
+# Of the crowd's tests those that compare numbers of threads. None of these is ever repeated.
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
-  build tsan test_base test_crowd test_jobs_queue test_server
-  export TSAN_OPTIONS="suppressions=$root/tests/tsan.supp"
-  ctest --preset tsan -j2 -L '^(base|jobs_queue|server)$'
-  # Of the crowd's tests those that compare numbers of threads.
-  (cd build/tsan/tests/crowd && ./test_crowd --gtest_brief=1 --gtest_filter='Determinism.*:Threads.*')
+  build tsan test_base test_crowd_determinism test_jobs_queue test_server
+  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" run_ctest tsan tsan -j2 -L '^(base|crowd_determinism|jobs_queue|server)$'
 }
 
 # A quarter of a minute of new inputs each on top of the corpus, with the sanitizers' build. Findings stay in build/fuzz; make them
@@ -106,12 +148,28 @@ step_includes() {
 
 install_packages
 fetch_assets
-times=()
+keep_going=1
+rm -rf build/checks
+mkdir -p build/checks
+
+# note_cpu_time: sets cpu_s to the processor seconds of all children of this shell that have ended.
+note_cpu_time() {
+  times >build/checks/times
+  cpu_s="$(awk 'END { for (i = 1; i <= 2; ++i) { split($i, t, /[ms]/); sum += 60 * t[1] + t[2] } print int(sum) }' build/checks/times)"
+}
+
 for step in "${steps[@]}"; do
-  start=$SECONDS
-  "step_$step"
-  times+=("$(printf '%-8s %5d s' "$step" $((SECONDS - start)))")
-  say "${times[-1]}"
+  wall_start=$SECONDS
+  note_cpu_time
+  cpu_start=$cpu_s
+  rm -f build/checks/failed_parts
+  set +e
+  (set -e; "step_$step")
+  status=$?
+  set -e
+  note_cpu_time
+  printf '{"step": "%s", "wall_s": %d, "cpu_s": %d, "status": %d, "failed_parts": "%s"}\n' "$step" $((SECONDS - wall_start)) \
+    $((cpu_s - cpu_start)) "$status" "$(sort -u build/checks/failed_parts 2>/dev/null | tr '\n' ' ' | sed 's/ *$//')" >>build/checks/steps.jsonl
+  say "$step: $([ $status = 0 ] && echo passed || echo FAILED) after $((SECONDS - wall_start)) s"
 done
-say "all checks passed"
-printf '%s\n' "${times[@]}" "$(printf '%-8s %5d s' total $SECONDS)"
+/usr/bin/python3 scripts/report_checks.py build/checks
