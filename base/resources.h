@@ -7,9 +7,12 @@
 namespace throng {
 
 /// The folder `$<variable>` if set; else `<program>/../share/throng/<name>` if it exists (an
-/// installed throng); else `source_tree`, the place in the tree this program was built from.
+/// installed throng); else `in_source`, relative to source_folder().
 std::filesystem::path resource_folder(const char* variable, const std::string& name,
-                                      const std::filesystem::path& source_tree);
+                                      const std::filesystem::path& in_source);
+
+/// The checkout that this program was built from. It may be gone.
+std::filesystem::path source_folder();
 
 /// The running program itself.
 std::filesystem::path program_path();

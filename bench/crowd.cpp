@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/resources.h"
 #include "crowd/description/builder.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"
@@ -84,8 +85,7 @@ void step_open_square(benchmark::State& state, const std::string& model, int sid
 
 void step_city_square(benchmark::State& state, std::size_t threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  const std::filesystem::path folder =
-      std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios/city_square";
+  const std::filesystem::path folder = source_folder() / "scenarios/city_square";
   Simulation crowd(folder / "square_scene.xml", folder / "nearest_exit_behavior.xml", {});
   while (crowd.time_s() < 25) crowd.step();  // in the middle of the flight
   run(state, std::move(crowd));

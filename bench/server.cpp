@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "jobs/queue/executor.h"
 #include "server/api.h"
 
@@ -42,7 +43,7 @@ class RunningService {
   RunningService()
       : data_(make_folder()),
         service_({.data = data_,
-                  .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios",
+                  .scenarios = source_folder() / "scenarios",
                   .confined = jobs::confined_task_by(std::make_shared<jobs::ForkServer>(
                       std::vector<std::string>{THRONG_PROGRAM, "confined"}))},
                  executor_),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/resources.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
@@ -17,8 +18,8 @@ namespace {
 constexpr double kPhysicsHz = 480;
 
 const world::Scenario& city_square() {
-  static const world::Scenario scenario = world::find_scenario(
-      std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios", "city_square/nearest_exit");
+  static const world::Scenario scenario =
+      world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 

@@ -2,7 +2,7 @@
 # any other module, or of a private header of one, stops the configuration (cmake/ModuleRules.cmake). A module may lie in
 # a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
-include("${CMAKE_CURRENT_LIST_DIR}/Precompile.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 
 # These compute. The others are compiled with less optimization (release) or without (sanitizers), which takes half the time.
 set(THRONG_OPTIMIZED_MODULES base geometry crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
@@ -43,7 +43,7 @@ function(throng_module name)
       list(APPEND options -fsanitize=fuzzer-no-link)
     endif()
     target_compile_options(throng_${target} PRIVATE ${options})
-    throng_precompile(throng_${target} THRONG_PRECOMPILED_HEADERS ${options})
+    throng_join_sources(throng_${target})
   endif()
 endfunction()
 
@@ -51,7 +51,7 @@ endfunction()
 # report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
 function(throng_kernels)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi"
-    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+    SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # throng_embed(TARGET SYMBOL FILE): makes the file's text available as `extern const std::string_view throng::embedded::SYMBOL`.
@@ -71,7 +71,7 @@ function(throng_embed target symbol file)
   file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};  // NOLINT\nconst std::string_view ${symbol} =  // NOLINT\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
   target_sources(${target} PRIVATE "${output}")
   # Apart in joined builds: clang-tidy has nothing to say of it.
-  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # throng_bench(NAME SOURCES file... LIBRARIES target...): one Google Benchmark program, bench_NAME.
@@ -79,5 +79,4 @@ function(throng_bench name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(bench_${name} ${ARG_SOURCES})
   target_link_libraries(bench_${name} PRIVATE throng_flags ${ARG_LIBRARIES} benchmark::benchmark_main)
-  target_compile_definitions(bench_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endfunction()

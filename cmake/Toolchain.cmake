@@ -6,12 +6,12 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
 option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset asan)" OFF)
-option(THRONG_PRECOMPILE "Precompile the headers of libraries (instead of ccache)" OFF)
 set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
 
 find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM AND NOT THRONG_PRECOMPILE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # Paths below the source folder become relative to the build folder: what one checkout compiled holds for all others.
+  set(CMAKE_CXX_COMPILER_LAUNCHER /usr/bin/env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${CCACHE_PROGRAM}")
 endif()
 
 add_library(throng_flags INTERFACE)
@@ -35,7 +35,7 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # The sanitizers' builds: g++ decides on warnings.
   target_compile_options(throng_flags INTERFACE -w)
-elseif(CMAKE_UNITY_BUILD)
+elseif(THRONG_JOIN_SOURCES)
   # Several files compiled as one: g++ then takes a file's own namespace for a header's, and its flow warnings see
   # strings overlap themselves and function objects without value.
   target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized)

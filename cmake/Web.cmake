@@ -71,7 +71,7 @@ function(throng_studio target)
   target_sources(${target} PRIVATE "${output}/studio_files.cpp" "${output}/studio_bytes.S")
   target_include_directories(${target} PRIVATE "${output}")
   set_source_files_properties("${output}/studio_files.cpp" PROPERTIES
-    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+    SKIP_UNITY_BUILD_INCLUSION ON)
   # .incbin is invisible to the build: the assembler's file is written again with every change of the bytes.
   set_source_files_properties("${output}/studio_bytes.S" PROPERTIES LANGUAGE ASM)
 endfunction()

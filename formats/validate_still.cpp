@@ -198,8 +198,7 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   double both = 0;
   double then = 0;
   double now = 0;
-  std::vector<double> light_then;
-  std::vector<double> light_now;
+  std::vector<double> ratios;  // of each point's luminance now and then
   std::size_t count = 0;
   for (int y = 1; y + 1 < pixels.height; y += step) {
     for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
@@ -217,8 +216,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
       const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
       const double warm_a = static_cast<double>(a[0]) - a[2];
       const double warm_b = static_cast<double>(b[0]) - b[2];
-      light_then.push_back(luminance(a));
-      light_now.push_back(luminance(b));
+      constexpr double kDark = 1e-4;
+      ratios.push_back((luminance(b) + kDark) / (luminance(a) + kDark));
       both += warm_a * warm_b;
       then += warm_a * warm_a;
       now += warm_b * warm_b;
@@ -228,7 +227,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   constexpr std::size_t kMinCount = 200;
   if (count < kMinCount) return;
   if (have_one_exposure(before.image, after.image)) {
-    const double ratio = median(light_now) / std::max(1e-4, median(light_then));
+    // Not of medians: with half of the points in the sun, the middle one is in light or shadow.
+    const double ratio = median(std::move(ratios));
     // Light and exposure are a run's; a gentle vignette passes.
     constexpr double kMaxRatio = 1.35;
     if (ratio > kMaxRatio || ratio < 1 / kMaxRatio) {

@@ -17,11 +17,13 @@ mkdir -p build/tmp
 
 # Temporary files of tests lie in memory, where a synced write takes 0.02 ms instead of 8: what a test waits for does not
 # depend on the disk. The file system is mounted in a name space of its own, so that nothing stays mounted.
-if [ -z "${THRONG_TESTS_IN_MEMORY:-}" ] && [ "$(id -u)" = 0 ] &&
+if [ "$(stat -f -c %T build/tmp)" != tmpfs ] && [ "$(id -u)" = 0 ] &&
   unshare --mount mount -t tmpfs tmpfs build/tmp 2>/dev/null; then
-  export THRONG_TESTS_IN_MEMORY=1 TMPDIR="$root/build/tmp" TEST_TMPDIR="$root/build/tmp/"
+  export TMPDIR="$root/build/tmp" TEST_TMPDIR="$root/build/tmp/"
   exec unshare --mount bash -c 'mount -t tmpfs -o size=8g,mode=1777 tmpfs "$TMPDIR" && exec bash "$@"' bash "$0" "${steps[@]}"
 fi
+# Tests of what scripts/packages.txt lists fail where it is missing, instead of being skipped.
+export CI=true
 
 sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
 

@@ -78,9 +78,7 @@ Population load_population(const fs::path& folder) {
   return population;
 }
 
-fs::path population_folder() {
-  return resource_folder("THRONG_PEOPLE", "people", THRONG_PEOPLE_DIR);
-}
+fs::path population_folder() { return resource_folder("THRONG_PEOPLE", "people", "build/people"); }
 
 bool is_apart(const Character& character, const Part& part) {
   return character.carries == Carry::umbrella && part.tint == Tint::item;

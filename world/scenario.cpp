@@ -329,7 +329,7 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
 }
 
 fs::path scenarios_folder() {
-  return resource_folder("THRONG_SCENARIOS", "scenarios", THRONG_SCENARIOS_FOLDER);
+  return resource_folder("THRONG_SCENARIOS", "scenarios", "scenarios");
 }
 
 std::vector<std::string> list_scenarios(const fs::path& folder) {

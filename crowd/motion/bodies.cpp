@@ -15,7 +15,7 @@ namespace {
 constexpr float kTouchingM = 0.1F;   // between bodies
 constexpr float kMinCosine = 0.5F;   // within 60 degrees
 constexpr float kMinForceN = 20;     // less is not felt
-constexpr int kRounds = 12;          // how many people a push goes through
+constexpr int kPushedInTurn = 12;    // how many people a push goes through
 constexpr float kMaxPushMps = 0.5F;  // that a crowd gives in one step
 
 // How much of a force goes to somebody in a direction.
@@ -116,7 +116,7 @@ void Bodies::press(const Crowd& crowd, const Grid& grid, const std::vector<Vecto
   given_.assign(grid.size(), Vector2f::Zero());
   pressure_.assign(grid.size(), 0);
   hands_on_.assign(grid.size(), false);
-  for (int round = 0; round < kRounds; ++round) hand_on();
+  for (int round = 0; round < kPushedInTurn; ++round) hand_on();
 }
 
 void Bodies::hand_on() {

@@ -8,7 +8,7 @@ namespace throng::crowd {
 namespace {
 
 constexpr std::size_t kGrain = 64;  // agents per task
-constexpr int kRounds = 60;         // of pushing
+constexpr int kPushRounds = 60;     // of pushing
 /// Pushing ends when nobody overlaps by more than this, m.
 constexpr float kGoodEnough = 0.8F * Separation::kTolerance;
 /// How far somebody may go in a round, in radii: not past anybody, nor through a wall.
@@ -36,7 +36,7 @@ void Separation::remember(const Crowd& crowd) {
 void Separation::separate(Crowd& crowd) {
   sort(crowd);
   float worst = look_around();
-  for (int round = 0; round < kRounds && worst > kGoodEnough; ++round) {
+  for (int round = 0; round < kPushRounds && worst > kGoodEnough; ++round) {
     push_apart(crowd);
     worst = look_around();
   }

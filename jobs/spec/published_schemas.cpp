@@ -16,11 +16,11 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr std::string_view kJob = "job";
-constexpr const char* kSchemaField = "$schema";
+constexpr const char* kSchemaMember = "$schema";
 
 ordered_json job() {
   ordered_json schema = ordered_job_schema();
-  schema["properties"][kSchemaField] = {
+  schema["properties"][kSchemaMember] = {
       {"description", "The schema that an editor completes and checks with."}, {"type", "string"}};
   return schema;
 }

@@ -9,12 +9,16 @@ namespace {
 
 TEST(Resources, TheEnvironmentWinsOverTheSourceTree) {
   constexpr const char* kVariable = "THRONG_TEST_RESOURCES";
-  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "/source"), "/source");
+  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "docs"), source_folder() / "docs");
   ::setenv(kVariable, "/chosen", 1);
-  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "/source"), "/chosen");
+  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "docs"), "/chosen");
   ::setenv(kVariable, "", 1);
-  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "/source"), "/source");
+  EXPECT_EQ(resource_folder(kVariable, "nothing_of_that_name", "docs"), source_folder() / "docs");
   ::unsetenv(kVariable);
+}
+
+TEST(Resources, TheSourcesAreWhereTheyWere) {
+  EXPECT_TRUE(std::filesystem::is_regular_file(source_folder() / "tests/base/resources_test.cpp"));
 }
 
 TEST(Resources, TheProgramKnowsItself) { EXPECT_EQ(program_path().filename(), "test_base"); }

@@ -1,5 +1,6 @@
 // Boards found in images: real ones, and rendered ones whose corners are known.
 #include "calibrate/board.h"
+#include "base/resources.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -213,7 +214,7 @@ class RealBoards : public ::testing::Test {
   static fs::path folder() {
     const char* shared = std::getenv("THRONG_SHARED");
     const fs::path root =
-        shared != nullptr ? fs::path(shared) : fs::path(THRONG_SOURCE_DIR).parent_path() / "shared";
+        shared != nullptr ? fs::path(shared) : source_folder().parent_path() / "shared";
     return root / "data" / "calib" / "chess";
   }
   std::vector<fs::path> images_;

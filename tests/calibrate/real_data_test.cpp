@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "calibrate/intrinsics.h"
 
 namespace throng::calibrate {
@@ -24,7 +25,7 @@ class RealData : public ::testing::Test {
   static fs::path folder() {
     const char* shared = std::getenv("THRONG_SHARED");
     const fs::path root =
-        shared != nullptr ? fs::path(shared) : fs::path(THRONG_SOURCE_DIR).parent_path() / "shared";
+        shared != nullptr ? fs::path(shared) : source_folder().parent_path() / "shared";
     return root / "data" / "calib";
   }
   static json reference(const char* name) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/resources.h"
 #include "crowd/simulation.h"
 
 namespace throng::crowd::test {
@@ -93,7 +94,7 @@ inline const std::string& state_of(const Simulation& simulation, std::size_t age
 }
 
 inline std::filesystem::path city_square(const std::string& file) {
-  return std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios/city_square" / file;
+  return source_folder() / "scenarios/city_square" / file;
 }
 
 inline Simulation load_city_square(std::uint64_t seed) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "crowd/description/builder.h"
 #include "crowd/menge_files/read.h"
 #include "crowd/menge_files/write.h"
@@ -28,8 +29,7 @@ Description rewritten(const Description& description, const test::TemporaryFolde
 
 std::vector<fs::path> shipped_files() {
   std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::recursive_directory_iterator(fs::path(THRONG_SOURCE_DIR) / "scenarios")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() / "scenarios")) {
     if (entry.path().extension() == ".xml") files.push_back(entry.path());
   }
   return files;
@@ -125,7 +125,7 @@ TEST(Descriptions, ThatXmlCannotHoldAreNotWritten) {
 
 TEST(Descriptions, InMemoryMoveAsTheirFilesDo) {
   const test::TemporaryFolder folder;
-  const fs::path square = fs::path(THRONG_SOURCE_DIR) / "scenarios/city_square";
+  const fs::path square = source_folder() / "scenarios/city_square";
   const fs::path scene = square / "square_scene.xml";
   const fs::path behavior = square / "nearest_exit_behavior.xml";
   const auto from_files = positions_after(Simulation(scene, behavior, {.seed = 5}), 40);

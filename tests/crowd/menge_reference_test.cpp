@@ -7,14 +7,14 @@
 #include <map>
 #include <sstream>
 
+#include "base/resources.h"
 #include "crowd/project.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {
 namespace {
 
-const std::filesystem::path kExamples =
-    std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
+const std::filesystem::path kExamples = source_folder() / "../shared/data/menge_examples";
 
 /// How long a run can be expected to follow Menge's. Rounding differs, and dense crowds multiply a
 /// difference by ten every few seconds: what two of our own runs that start 1 micrometer apart do

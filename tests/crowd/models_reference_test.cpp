@@ -6,13 +6,13 @@
 #include <ostream>
 #include <sstream>
 
+#include "base/resources.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {
 namespace {
 
-const std::filesystem::path kExamples =
-    std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
+const std::filesystem::path kExamples = source_folder() / "../shared/data/menge_examples";
 
 struct Case {
   std::string scene;

@@ -1,5 +1,6 @@
 // Project files: what they say, what they leave out, and what is wrong with them.
 #include "crowd/project.h"
+#include "base/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,7 +108,7 @@ TEST_F(Projects, NameWhatIsWrong) {
 }
 
 TEST(ProjectFiles, OfMengesExamplesAreRead) {
-  const auto examples = std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
+  const auto examples = source_folder() / "../shared/data/menge_examples";
   if (!std::filesystem::exists(examples)) GTEST_SKIP() << "no examples here";
   for (const auto& entry : std::filesystem::directory_iterator(examples)) {
     if (entry.path().extension() != ".xml") continue;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "formats/class_mappings.h"
 #include "formats/raster_files.h"
 #include "images/raster.h"
@@ -159,7 +160,7 @@ TEST(ClassMappings, AreThoseOfTheOtherDatasets) {
 }
 
 TEST(ClassMappings, DocsListEveryClass) {
-  const std::string docs = read_file(fs::path(THRONG_SOURCE_DIR) / "docs/formats_pixels.md");
+  const std::string docs = read_file(source_folder() / "docs/formats_pixels.md");
   for (const SemanticClassInfo& info : world::semantic_classes()) {
     const std::string row = fmt::format("| {} | `{}` |", static_cast<int>(info.value), info.name);
     const std::string mapped = fmt::format("| {} | {} |\n", cityscapes_class(info.value).name,

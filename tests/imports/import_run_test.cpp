@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "imports/osm_map.h"
 #include "imports/place_writer.h"
 #include "imports/populate.h"
@@ -16,8 +17,7 @@
 namespace throng::imports {
 namespace {
 
-const std::filesystem::path kPlaces =
-    std::filesystem::path(THRONG_SOURCE_DIR) / "tests/imports/data";
+const std::filesystem::path kPlaces = source_folder() / "tests/imports/data";
 
 class Counter : public sim::RunObserver {
  public:

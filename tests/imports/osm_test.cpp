@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/resources.h"
 #include "geometry/polygon.h"
 #include "imports/osm_map.h"
 #include "imports/osm_tags.h"
@@ -19,7 +20,7 @@ using imports_testing::DrawnMap;
 using imports_testing::height_at;
 using imports_testing::stops_people;
 
-const std::filesystem::path kMaps = std::filesystem::path(THRONG_SOURCE_DIR) / "tests/imports/data";
+const std::filesystem::path kMaps = source_folder() / "tests/imports/data";
 
 class Quarter : public ::testing::Test {
  protected:

@@ -1,4 +1,5 @@
 // Gazebo's worlds: what becomes of each shape, where it is, and what is listed as skipped.
+#include "base/resources.h"
 #include "imports/sdf_world.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,7 @@ namespace {
 
 using throng::testing::TemporaryFolder;
 
-const std::filesystem::path kWorlds =
-    std::filesystem::path(THRONG_SOURCE_DIR) / "tests/imports/data";
+const std::filesystem::path kWorlds = source_folder() / "tests/imports/data";
 
 Place yard() { return read_sdf(kWorlds / "yard.sdf", {{kWorlds / "models"}, {}}); }
 

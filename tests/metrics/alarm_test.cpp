@@ -1,4 +1,5 @@
 #include "world/alarm.h"
+#include "base/resources.h"
 
 #include <gtest/gtest.h>
 
@@ -99,7 +100,7 @@ TEST_F(AlarmFiles, WhatIsNoXmlIsRefused) {
 }
 
 TEST(ShippedAlarms, AreThoseOfTheirFiles) {
-  const std::filesystem::path folder = std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios";
+  const std::filesystem::path folder = source_folder() / "scenarios";
   const auto alarm = [&](const char* id) {
     return world::alarm_of(world::find_scenario(folder, id));
   };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "tests/world/temporary_folder.h"
@@ -19,8 +20,7 @@ using throng::testing::TemporaryFolder;
 
 std::vector<fs::path> blueprints() {
   std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::recursive_directory_iterator(fs::path(THRONG_SOURCE_DIR) / "scenarios")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() / "scenarios")) {
     if (entry.path().filename().string().ends_with(".place.json")) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/resources.h"
 #include "places/blueprint.h"
 #include "schemas/schemas.h"
 #include "world/scenario.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using schemas::Kind;
 
-const fs::path kScenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios";
+const fs::path kScenarios = source_folder() / "scenarios";
 
 bool is_place(const fs::path& file) { return file.string().ends_with(".place.json"); }
 

@@ -1,5 +1,6 @@
 // The schemas of files.
 #include "schemas/schemas.h"
+#include "base/resources.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ void visit(const json& rules, const std::string& place,
 TEST(Schemas, AreTheFilesOfTheFolder) {
   for (const Entry& entry : entries()) {
     const std::string file =
-        std::string(THRONG_SOURCE_DIR) + "/schemas/" + std::string(entry.name) + ".schema.json";
+        source_folder().string() + "/schemas/" + std::string(entry.name) + ".schema.json";
     EXPECT_EQ(read_file(file), entry.text) << entry.name;
     EXPECT_EQ(schema_of(entry.kind).document()["title"], "throng " + std::string(entry.name));
   }

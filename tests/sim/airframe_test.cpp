@@ -1,4 +1,5 @@
 #include "sim/spec/airframe.h"
+#include "base/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 json f450() {
-  const std::string text = read_file(std::string(THRONG_SOURCE_DIR) + "/sim/spec/airframes.json");
+  const std::string text = read_file(source_folder().string() + "/sim/spec/airframes.json");
   return {{"mine", json::parse(text)["f450"]}};
 }
 

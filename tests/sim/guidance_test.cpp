@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "sim/guidance_loop.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 world::Scenario square(const std::string& id) {
-  return world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "city_square/" + id);
+  return world::find_scenario(source_folder() / "scenarios", "city_square/" + id);
 }
 
 RunSpec guided_run(const std::string& policy, double duration_s) {

@@ -1,5 +1,6 @@
 // Drones flown by commands: their pilot logs repeat the flight exactly.
 #include "sim/remote/remote_pilots.h"
+#include "base/resources.h"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kSteps = 120;
 
 world::Scenario square() {
-  return world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios",
-                              "city_square/nearest_exit");
+  return world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
 }
 
 RunSpec spec_of(int drones) {

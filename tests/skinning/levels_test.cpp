@@ -17,7 +17,7 @@ namespace throng::skinning {
 namespace {
 
 /// Pixels that somebody covers.
-struct Image {
+struct Silhouette {
   int size = 0;
   Mask covered;
 };
@@ -45,8 +45,8 @@ class Viewer {
     middle_ = {0, 0, 0.5F * character.stature_m};
   }
 
-  Image see(const Mesh& mesh) const {
-    Image image{size_, Mask(static_cast<std::size_t>(size_) * size_, 0)};
+  Silhouette see(const Mesh& mesh) const {
+    Silhouette image{size_, Mask(static_cast<std::size_t>(size_) * size_, 0)};
     std::vector<Eigen::Vector2f> points;
     for (const Vertex& vertex : mesh.vertices) {
       const Eigen::Vector3f p = skin(vertex, *palette_, *palette_, 0) - middle_;
@@ -94,7 +94,7 @@ class Viewer {
   Eigen::Vector3f middle_;
 };
 
-double overlap(const Image& a, const Image& b) {
+double overlap(const Silhouette& a, const Silhouette& b) {
   int both = 0;
   int either = 0;
   for (std::size_t i = 0; i < a.covered.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/resources.h"
 #include "metrics/evacuation.h"
 #include "sim/run.h"
 #include "study/outcome.h"
@@ -16,8 +17,7 @@
 namespace throng::study {
 namespace {
 
-const std::filesystem::path kScenarioFolder =
-    std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios";
+const std::filesystem::path kScenarioFolder = source_folder() / "scenarios";
 
 /// Escape times counted without any of the library's definitions.
 struct Counted {

@@ -1,5 +1,6 @@
 // Studies: their files, their runs, and going on after an interruption.
 #include "study/study.h"
+#include "base/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using throng::testing::TemporaryFolder;
 
-const fs::path kScenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios";
+const fs::path kScenarios = source_folder() / "scenarios";
 
 json small_study() {
   return json::parse(R"({

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "crowd/model.h"
 #include "validation/suite.h"
 
@@ -63,7 +64,7 @@ TEST(Report, FitsItsTableIntoMarkdown) {
 
 /// The page in docs/ is what the program prints: each test is in it, as it is described here.
 TEST(Report, IsThePageOfTheDocumentation) {
-  std::ifstream file(THRONG_SOURCE_DIR "/docs/validation.md");
+  std::ifstream file(source_folder() / "docs/validation.md");
   std::ostringstream page;
   page << file.rdbuf();
   ASSERT_GT(page.str().size(), 1000);

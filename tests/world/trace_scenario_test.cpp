@@ -1,5 +1,6 @@
 // The scenario that a trace holds.
 #include "world/trace_scenario.h"
+#include "base/resources.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +13,7 @@
 namespace throng::world {
 namespace {
 
-Scenario shipped(const char* id) {
-  return find_scenario(std::filesystem::path(THRONG_SOURCE_DIR) / "scenarios", id);
-}
+Scenario shipped(const char* id) { return find_scenario(source_folder() / "scenarios", id); }
 
 TraceHeader header_of(const Scenario& scenario) {
   TraceHeader header;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/spec/spec.h"
 #include "world/scenario.h"
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::IsSupersetOf;
 
-const fs::path kLibrary = fs::path(THRONG_SOURCE_DIR) / "scenarios";
+const fs::path kLibrary = source_folder() / "scenarios";
 
 /// The scenarios that the ready jobs of a place are for.
 std::set<std::string> scenarios_of_jobs(const fs::path& place) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/resources.h"
 #include "jobs/spec/field_docs.h"
 #include "jobs/spec/job_fields.h"
 #include "jobs/spec/spec.h"
@@ -17,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kSource = THRONG_SOURCE_DIR;
+const std::filesystem::path kSource = source_folder();
 
 TEST(JobFields, TheSchemasFileIsThatOfTheTables) {
   EXPECT_TRUE(read_file(kSource / "jobs/spec/job.schema.json") == job_schema_text())
