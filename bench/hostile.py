@@ -17,12 +17,17 @@ import shutil
 import socket
 import ssl
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 import urllib.request
+import uuid
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tests" / "cli"))
+from free_ports import free_ports  # noqa: E402
+
 JOB = {
     "name": "hostile",
     "scenario": "city_square/nearest_exit",
@@ -31,13 +36,7 @@ JOB = {
 }
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-def wait_until(condition, seconds=60):
+def wait_until(condition, seconds=300):
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
@@ -68,7 +67,7 @@ class Throng:
 
     def stop(self):
         self.process.terminate()
-        self.process.wait(20)
+        self.process.wait(120)
 
 
 class Nginx:
@@ -76,12 +75,25 @@ class Nginx:
 
     def __init__(self, folder, throng_port):
         folder = pathlib.Path(folder)
-        self.port = free_port()
         tls = folder / "tls"
         subprocess.run([ROOT / "docker" / "make_certificate.sh", tls, "localhost"], check=True,
                        stdout=subprocess.DEVNULL)
+        self.context = ssl.create_default_context(cafile=tls / "tls.crt")
+        # It cannot be asked to choose its ports: another program may take one before it does.
+        for attempts_left in (2, 1, 0):
+            self.start(folder, tls, throng_port)
+            try:
+                wait_until(self.answers)
+                return
+            except RuntimeError:
+                error = (folder / "error.log").read_text() if (folder / "error.log").exists() else ""
+                if not attempts_left or "Address already in use" not in error:
+                    raise
+
+    def start(self, folder, tls, throng_port):
+        self.port, plain_port = free_ports(2)
         text = (ROOT / "docker" / "nginx.conf").read_text()
-        for before, after in (("listen 8080;", f"listen 127.0.0.1:{free_port()};"),
+        for before, after in (("listen 8080;", f"listen 127.0.0.1:{plain_port};"),
                               ("listen 8443 ssl", f"listen 127.0.0.1:{self.port} ssl"),
                               ("server throng:8080;", f"server 127.0.0.1:{throng_port};"),
                               ("/etc/throng-tls", str(tls)), ("/tmp/nginx", str(folder / "nginx")),
@@ -96,21 +108,20 @@ class Nginx:
         settings = "daemon off;" + (" user root;" if os.geteuid() == 0 else "")
         self.process = subprocess.Popen([nginx_program(), "-c", conf, "-p", folder, "-g", settings],
                                         stderr=subprocess.DEVNULL)
-        self.context = ssl.create_default_context(cafile=tls / "tls.crt")
-        wait_until(self.answers)
 
     def answers(self):
         if self.process.poll() is not None:
             raise RuntimeError("nginx has ended")
-        try:
-            socket.create_connection(("127.0.0.1", self.port), 1).close()
+        try:  # by its certificate: another program may have taken the port
+            client = socket.create_connection(("127.0.0.1", self.port), 10)
+            self.context.wrap_socket(client, server_hostname="localhost").close()
             return True
         except OSError:
             return False
 
     def stop(self):
         self.process.terminate()
-        self.process.wait(20)
+        self.process.wait(120)
 
 
 def nginx_program():
@@ -124,7 +135,7 @@ class Front:
     key: str
     context: ssl.SSLContext = None
 
-    def request(self, path, body=None, method=None, headers=None, timeout=10):
+    def request(self, path, body=None, method=None, headers=None, timeout=60):
         scheme = "https" if self.context else "http"
         name = "localhost" if self.context else "127.0.0.1"
         request = urllib.request.Request(f"{scheme}://{name}:{self.port}{path}", data=body, method=method,
@@ -132,20 +143,28 @@ class Front:
         with urllib.request.urlopen(request, timeout=timeout, context=self.context) as answer:
             return answer.read()
 
+    def request_patiently(self, path, body=None, headers=None, seconds=300):
+        """Asks again while the connection breaks or the service is busy."""
+        end = time.monotonic() + seconds
+        while True:
+            try:
+                return self.request(path, body, headers=headers)
+            except OSError as error:
+                if getattr(error, "code", 503) not in (429, 503) or time.monotonic() > end:
+                    raise
+            time.sleep(0.3)
+
     def run_job(self):
         """Runs the job to its end; returns its images' and labels' bytes as one hash."""
-        job = json.loads(self.request("/v1/jobs", json.dumps(JOB).encode(),
-                                      headers={"Content-Type": "application/json"}))
+        headers = {"Content-Type": "application/json", "Idempotency-Key": uuid.uuid4().hex}
+        job = json.loads(self.request_patiently("/v1/jobs", json.dumps(JOB).encode(), headers))
         state = ""
         while state not in ("succeeded", "failed", "cancelled"):
             time.sleep(0.3)
-            try:
-                state = json.loads(self.request(f"/v1/jobs/{job['id']}"))["state"]
-            except OSError:
-                pass
+            state = json.loads(self.request_patiently(f"/v1/jobs/{job['id']}"))["state"]
         if state != "succeeded":
             raise RuntimeError(f"the job {state}")
-        manifest = json.loads(self.request(f"/v1/jobs/{job['id']}/manifest"))
+        manifest = json.loads(self.request_patiently(f"/v1/jobs/{job['id']}/manifest"))
         files = sorted((entry["path"], entry["sha256"]) for entry in manifest["files"])
         return hashlib.sha256(json.dumps(files).encode()).hexdigest()
 
@@ -229,7 +248,7 @@ def attack(throng, front, clients, seconds):
     most = before
     for client in crowd:
         client.start()
-    time.sleep(0.5)
+    wait_until(lambda: sum(client.connections for client in crowd) >= clients)
     result = {}
     job = threading.Thread(target=lambda: result.update(hash=front.run_job()), daemon=True)
     job.start()

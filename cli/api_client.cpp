@@ -100,6 +100,8 @@ const httplib::Response& checked(const httplib::Result& result, const std::strin
   }
   constexpr int kNotFound = 404;
   if (result->status == kNotFound) throw NotFound(problems_in(*result, url));
+  constexpr int kConflict = 409;
+  if (result->status == kConflict) throw Conflict(problems_in(*result, url));
   throw InputError(problems_in(*result, url));
 }
 
@@ -166,6 +168,15 @@ json ApiClient::post_form(const std::string& path, const std::vector<Part>& part
 
 void ApiClient::remove(const std::string& path) {
   checked(connection_->client.Delete(path, connection_->headers), url_, path);
+}
+
+void ApiClient::cancel(const std::string& path) {
+  try {
+    post(path + "/cancel");
+  } catch (const Conflict&) {
+    const json state = get(path)["state"];
+    if (state == "queued" || state == "running") throw;
+  }
 }
 
 bool ApiClient::download(const std::string& path, const fs::path& file, const OnBytes& on_bytes) {

@@ -22,6 +22,11 @@ struct NotFound : InputError {
   using InputError::InputError;
 };
 
+/// The resource is not in a state for this (409).
+struct Conflict : InputError {
+  using InputError::InputError;
+};
+
 /// Answers that are no success are thrown: InputError for errors that the server finds in the
 /// request, EnvironmentError when the server cannot be reached or has failed.
 class ApiClient {
@@ -53,6 +58,9 @@ class ApiClient {
   nlohmann::json post_form(const std::string& path, const std::vector<Part>& parts,
                            const std::pair<std::string, std::string>& header = {});
   void remove(const std::string& path);
+  /// Cancels the job or study at `path`. One that has ended stays as it is: it may end at any
+  /// moment.
+  void cancel(const std::string& path);
 
   /// Called with the bytes that are there and those there will be; false ends the download.
   using OnBytes = std::function<bool(std::int64_t done, std::int64_t total)>;

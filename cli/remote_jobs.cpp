@@ -290,7 +290,7 @@ void add_remote_jobs(CLI::App& app) {
   });
   add_for_id(app, "cancel", "Cancel a job; finished work is kept for a retry", id)->callback([id] {
     ApiClient api;
-    with_job(api, *id, [&] { api.post(path_of(*id) + "/cancel"); });
+    with_job(api, *id, [&] { api.cancel(path_of(*id)); });
   });
   add_for_id(app, "retry", "Queue a failed, partly failed or cancelled job again", id)
       ->callback([id] {

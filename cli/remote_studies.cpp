@@ -166,14 +166,14 @@ void add_remote_studies(CLI::App& app) {
     list_studies();
   });
   add_study_command(*studies, "watch", "Follow a study to its end", &watch_study);
-  const auto post = [](const char* action) {
-    return [action](ApiClient& api, const std::string& id) {
-      with_study(api, id, [&] { api.post(fmt::format("{}/{}", study_path(id), action)); });
-    };
-  };
   add_study_command(*studies, "cancel", "Cancel a study; finished runs are kept for a retry",
-                    post("cancel"));
-  add_study_command(*studies, "retry", "Queue a failed or cancelled study again", post("retry"));
+                    [](ApiClient& api, const std::string& id) {
+                      with_study(api, id, [&] { api.cancel(study_path(id)); });
+                    });
+  add_study_command(*studies, "retry", "Queue a failed or cancelled study again",
+                    [](ApiClient& api, const std::string& id) {
+                      with_study(api, id, [&] { api.post(study_path(id) + "/retry"); });
+                    });
   add_study_command(*studies, "remove", "Cancel a study and delete its files",
                     [](ApiClient& api, const std::string& id) {
                       with_study(api, id, [&] { api.remove(study_path(id)); });

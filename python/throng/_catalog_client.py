@@ -32,7 +32,7 @@ from .api_types import (
     Webhook,
     WebhookList,
 )
-from .errors import AccessError, JobFailedError
+from .errors import AccessError, ConflictError, JobFailedError
 
 DEFAULT_URL = "http://127.0.0.1:8080"
 
@@ -205,8 +205,8 @@ class CatalogClient:
             after = page["next"]
 
     def cancel_study(self, study_id: str) -> Study:
-        """Finished runs are kept for a retry."""
-        return self._send("POST", f"/v1/studies/{part(study_id)}/cancel")
+        """Finished runs are kept for a retry. A study that has ended is returned as it is."""
+        return self._cancel(f"/v1/studies/{part(study_id)}/cancel")
 
     def retry_study(self, study_id: str) -> Study:
         return self._send("POST", f"/v1/studies/{part(study_id)}/retry")
@@ -345,6 +345,16 @@ class CatalogClient:
 
     def _send(self, method: str, path: str, body: Any = None, *, repeatable: bool = False) -> Any:
         return self._http.request(method, path, json_body=body, repeatable=repeatable).json()
+
+    def _cancel(self, path: str) -> Any:
+        """Ends the job or study, or returns it as it is where it has ended already."""
+        try:
+            return self._send("POST", path)
+        except ConflictError:
+            ended = self._get(path.removesuffix("/cancel"))
+            if ended["state"] not in _events.ENDED:
+                raise
+            return ended
 
     def _remove(self, path: str) -> None:
         self._http.request("DELETE", path, repeatable=False)

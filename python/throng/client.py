@@ -124,8 +124,9 @@ class Client(CatalogClient):
         return self._send("PATCH", f"/v1/jobs/{part(job_id)}", body, repeatable=True)
 
     def cancel(self, job_id: str) -> Job:
-        """Ends a queued or running job; what it has published stays for retry()."""
-        return self._send("POST", f"/v1/jobs/{part(job_id)}/cancel")
+        """Ends a queued or running job; what it has published stays for retry(). A job that has ended is returned as it
+        is: it may end at any moment, so this is no error."""
+        return self._cancel(f"/v1/jobs/{part(job_id)}/cancel")
 
     def retry(self, job_id: str) -> Job:
         """Queues a job again that failed, at least in part, or was cancelled."""

@@ -35,6 +35,14 @@ def points_table():
     return "\n".join(lines) + "\n"
 
 
+def wait_until(condition, seconds=300):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError("waited in vain")
+        time.sleep(0.05)
+
+
 class Calibrate(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -160,11 +168,8 @@ class Calibrate(unittest.TestCase):
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
-        for _ in range(500):
-            if port.exists():
-                return int(port.read_text())
-            time.sleep(0.02)
-        self.fail("the server does not serve")
+        wait_until(lambda: port.exists() and port.read_text().strip())
+        return int(port.read_text())
 
     def test_calibrations_over_http(self):
         port = self.serve()
@@ -179,12 +184,13 @@ class Calibrate(unittest.TestCase):
         answer = client.getresponse()
         queued = json.loads(answer.read())
         self.assertEqual(answer.status, 201, queued)
-        for _ in range(300):
+
+        def asked():
             with urllib.request.urlopen(url + queued["links"]["self"]) as shown:
-                state = json.loads(shown.read())
-            if state["state"] in ("succeeded", "failed"):
-                break
-            time.sleep(0.05)
+                return json.loads(shown.read())
+
+        wait_until(lambda: asked()["state"] in ("succeeded", "failed"))
+        state = asked()
         self.assertEqual(state["state"], "succeeded", state)
         self.assertAlmostEqual(state["camera"]["fx"], 800, places=3)
         for result, word in (("camera", "rms_px"), ("opencv", "camera_matrix"), ("ros", "camera_name: wide"),

@@ -25,7 +25,7 @@ class Check(unittest.TestCase):
 
     def check(self, job, *options):
         return subprocess.run(
-            [THRONG, "check", str(self.write(job)), *options], capture_output=True, text=True, timeout=120
+            [THRONG, "check", str(self.write(job)), *options], capture_output=True, text=True, timeout=300
         )
 
     def answer(self, **fields):
@@ -135,14 +135,14 @@ class Check(unittest.TestCase):
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        self.addCleanup(server.wait, 30)
+        self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
         while not (port_file.exists() and port_file.read_text().strip()):
             time.sleep(0.05)
         url = f"http://127.0.0.1:{port_file.read_text().strip()}/v1/jobs?dry_run"
         job = {**SQUARE, "environment": {"rain_mm_per_h": 20}}
         request = urllib.request.Request(url, json.dumps(job).encode(), {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=60) as response:
+        with urllib.request.urlopen(request, timeout=300) as response:
             answer = json.loads(response.read())
         self.assertTrue(answer.pop("valid"))
         self.assertEqual(answer, json.loads(self.check(job, "--json").stdout))

@@ -11,6 +11,8 @@ import time
 import unittest
 import zipfile
 
+from free_ports import free_port
+
 THRONG = sys.argv.pop(1)
 
 JOB = {
@@ -21,7 +23,7 @@ JOB = {
 }
 
 
-def wait_until(condition, seconds=120):
+def wait_until(condition, seconds=300):
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
@@ -37,7 +39,7 @@ class Client(unittest.TestCase):
         self.job = self.base / "job.json"
         self.job.write_text(json.dumps(JOB))
         self.environment = dict(os.environ)
-        self.port = 0
+        self.port = free_port()  # at which it comes back
         self.start()
         self.addCleanup(self.stop)
 
@@ -53,10 +55,10 @@ class Client(unittest.TestCase):
 
     def stop(self):
         self.server.terminate()
-        self.server.wait(20)
+        self.server.wait(300)
 
     def throng(self, *arguments, code=0):
-        done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=240,
+        done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300,
                               env=self.environment)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout if code == 0 else done.stderr
@@ -120,7 +122,7 @@ class Client(unittest.TestCase):
         runs = self.base / "data" / "studies" / id_ / "runs"
         wait_until(lambda: len(list(runs.glob("*/*/*.json"))) >= 5)
         self.server.kill()
-        self.server.wait(20)
+        self.server.wait(300)
         finished = {path: path.stat().st_mtime_ns for path in runs.glob("*/*/*.json")}
         self.assertLess(len(finished), 40)
         self.start()
@@ -131,7 +133,8 @@ class Client(unittest.TestCase):
         self.throng("study", file, "-o", self.base / "here")
         for name in ("summary.json", "summary.csv", "summary.md", "values.json", "report.html"):
             self.assertEqual((self.base / "fetched" / name).read_bytes(), (self.base / "here" / name).read_bytes(), name)
-        self.throng("studies", "cancel", id_, code=2)
+        self.throng("studies", "cancel", id_)  # it has ended: nothing is left to cancel
+        self.assertRegex(self.throng("studies", "list"), rf"{id_} +succeeded")
         self.throng("studies", "retry", id_, code=2)
         self.assertIn(id_, self.throng("studies", "watch", id_[:-1], code=2))
         self.throng("studies", "remove", id_)
@@ -175,14 +178,14 @@ class Client(unittest.TestCase):
         self.throng("report", id_, "-o", pages[0], code=2)
 
     def test_cancel_and_retry(self):
-        self.job.write_text(json.dumps({**JOB, "runs": 20}))
+        self.job.write_text(json.dumps({**JOB, "runs": 200}))  # for longer than this test
         id_ = self.throng("submit", self.job).strip()
         wait_until(lambda: "running" in self.throng("jobs"))
         self.throng("cancel", id_)
         self.assertIn("cancelled", self.throng("jobs"))
         workers = subprocess.run(["pgrep", "-f", f"throng worker.*{id_}"], capture_output=True, text=True)
         self.assertEqual(workers.stdout, "", "nobody works on it any more")
-        self.throng("cancel", id_, code=2)
+        self.throng("cancel", id_)  # as it is already
         self.throng("watch", id_, code=130)
         self.throng("retry", id_)
         wait_until(lambda: "running" in self.throng("jobs"))
@@ -197,7 +200,7 @@ class Client(unittest.TestCase):
         self.server.kill()
         self.server.wait()
         self.start()
-        self.assertEqual(watcher.wait(120), 0)
+        self.assertEqual(watcher.wait(300), 0)
 
     def test_keys(self):
         data = self.base / "data"

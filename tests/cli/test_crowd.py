@@ -158,12 +158,12 @@ class Crowd(unittest.TestCase):
         before = self.names()
         process = subprocess.Popen([THRONG, "crowd", self.project, "-o", self.base / "o.scb", "--series", self.base / "s.csv",
                                     "--positions", self.base / "p.csv"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 300
         while len(self.names()) < len(before) + 3 and time.monotonic() < deadline:
             time.sleep(0.01)
         self.assertNotIn("o.scb", self.names())
         os.kill(process.pid, signal.SIGINT)
-        said = process.communicate(timeout=60)[1]
+        said = process.communicate(timeout=300)[1]
         self.assertEqual(process.returncode, 130, said)
         self.assertIn("cancelled", said)
         self.assertEqual(self.names(), before)

@@ -27,7 +27,7 @@ CRASH = "a damaged HDF5 file, which cannot be read"
 
 
 def throng(*arguments):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, errors="replace", timeout=120)
+    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, errors="replace", timeout=300)
 
 
 def address_damages(data):

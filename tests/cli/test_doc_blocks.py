@@ -11,7 +11,6 @@ import pathlib
 import re
 import resource
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
@@ -21,6 +20,7 @@ import urllib.request
 THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import doc_fixtures as fixtures  # noqa: E402
+from free_ports import free_port  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -76,12 +76,6 @@ def entry(table, page, block):
     return None, None
 
 
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]
-
-
 class Page:
     """Runs the blocks of one page in a folder of their own."""
 
@@ -120,7 +114,7 @@ class Page:
         finally:
             if server:
                 server.terminate()
-                server.wait(60)
+                server.wait(300)
         return None if done.returncode == 0 else f"exit code {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}"
 
     def start_service(self):
@@ -128,8 +122,8 @@ class Page:
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         command = [THRONG, "serve", "--data", "data", "--port", str(self.port)]
         server = subprocess.Popen(command, cwd=self.folder, env=self.environment, **quiet)
-        ready = ["curl", "-sf", "--retry", "60", "--retry-delay", "1", "--retry-connrefused", "-o", "/dev/null"]
-        subprocess.run([*ready, f"http://127.0.0.1:{self.port}/readyz"], check=True, timeout=120)
+        ready = ["curl", "-sf", "--retry", "280", "--retry-delay", "1", "--retry-connrefused", "-o", "/dev/null"]
+        subprocess.run([*ready, f"http://127.0.0.1:{self.port}/readyz"], check=True, timeout=300)
         return server
 
 

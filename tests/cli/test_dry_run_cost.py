@@ -37,7 +37,7 @@ def resident_mib(pid):
 def dry_run(url, job):
     request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(job).encode(),
                                      {"Content-Type": "application/json"})
-    with urllib.request.urlopen(request, timeout=150) as answer:
+    with urllib.request.urlopen(request, timeout=300) as answer:
         return json.load(answer)
 
 

@@ -15,7 +15,7 @@ class Language(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / name
             file.write_text(text)
-            done = subprocess.run([sys.executable, CHECK, file], capture_output=True, text=True, timeout=60)
+            done = subprocess.run([sys.executable, CHECK, file], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 1 if done.stdout else 0, done.stderr)
         return [line.split(": ", 1)[1] for line in done.stdout.splitlines()]
 
@@ -70,7 +70,7 @@ class Language(unittest.TestCase):
         )
 
     def test_this_tree(self):
-        done = subprocess.run([sys.executable, CHECK], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, CHECK], capture_output=True, text=True, timeout=300)
         self.assertEqual((done.returncode, done.stdout), (0, ""))
 
 

@@ -3,19 +3,20 @@ import json
 import os
 import pathlib
 import re
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
+from free_ports import free_port
+
 THRONG = sys.argv.pop(1)
 
 
 def throng(*arguments, **environment):
     return subprocess.run(
-        [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=60, env={**os.environ, **environment}
+        [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, env={**os.environ, **environment}
     )
 
 
@@ -176,7 +177,7 @@ class Messages(unittest.TestCase):
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        self.addCleanup(server.wait, 30)
+        self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
         while not (port_file.exists() and port_file.read_text().strip()):
             time.sleep(0.05)
@@ -189,9 +190,7 @@ class Messages(unittest.TestCase):
         throng("cancel", job, THRONG_URL=url)
 
     def test_a_server_that_is_not_there_is_named(self):
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            url = f"http://127.0.0.1:{free.getsockname()[1]}"
+        url = f"http://127.0.0.1:{free_port()}"
         self.refused(f"cannot reach {url} (is `throng serve` running?", "jobs", code=3, THRONG_URL=url)
 
     def test_renamed_options_keep_their_old_names_with_a_warning(self):

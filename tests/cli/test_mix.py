@@ -108,7 +108,7 @@ class Mix(unittest.TestCase):
         )
         try:
             port = self.folder / "port"
-            for _ in range(600):
+            for _ in range(3000):
                 if port.exists() and port.read_text().strip():
                     break
                 time.sleep(0.1)

@@ -172,7 +172,7 @@ class Sheet(WithFolder):
             stderr=subprocess.PIPE, text=True)
         process.stderr.readline()  # it has begun
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 130, said)
         self.assertIn("cancelled", said)
         self.assertEqual(self.names(), [])

@@ -90,9 +90,11 @@ class PowerLoss(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.base = pathlib.Path(folder.name)
         self.disk = Disk(self.base)
+
+    def start(self, faults=None):
         os.environ.update(self.disk.environment)
         self.server = crash.Server(self.base, self.disk.root / "data")
-        self.server.start()
+        self.server.start(faults)
         for name in self.disk.environment:
             del os.environ[name]
         self.addCleanup(lambda: self.server.stop())
@@ -114,6 +116,7 @@ class PowerLoss(unittest.TestCase):
         return after, lost
 
     def test_a_finished_dataset_is_there_afterwards(self):
+        self.start()
         job = self.server.request("POST", "/v1/jobs", crash.JOB)["id"]
         self.assertEqual(self.server.wait_for_end(job)["state"], "succeeded")
         before = self.server.hash_of(job)
@@ -126,6 +129,8 @@ class PowerLoss(unittest.TestCase):
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
 
     def test_a_job_goes_on_where_it_was(self):
+        # The job cannot end before the power does.
+        self.start("slow:run001/shard0000:3600")
         job = self.server.request("POST", "/v1/jobs", crash.JOB)["id"]
         crash.wait_until(lambda: list(self.server.data.glob(f"jobs/{job}/work/run*/shard*[0-9]")), what="a shard")
         after, _ = self.lose_power()
@@ -141,6 +146,7 @@ class PowerLoss(unittest.TestCase):
         self.assertEqual(after.hash_of(job), undisturbed.hash_of(again))
 
     def test_what_was_accepted_is_there_afterwards(self):
+        self.start()
         bundle = io.BytesIO()
         with zipfile.ZipFile(bundle, "w") as archive:
             for path in sorted((HERE.parents[1] / "scenarios" / "city_square").rglob("*")):
@@ -148,7 +154,7 @@ class PowerLoss(unittest.TestCase):
                     archive.write(path, path.relative_to(HERE.parents[1] / "scenarios" / "city_square"))
         request = urllib.request.Request(self.server.url + "/v1/scenarios?name=mine", data=bundle.getvalue(),
                                          method="POST", headers={"Content-Type": "application/zip"})
-        with urllib.request.urlopen(request, timeout=120) as answer:
+        with urllib.request.urlopen(request, timeout=300) as answer:
             self.assertEqual(answer.status, 201)
         hook = self.server.request("POST", "/v1/webhooks", {"url": "https://example.org/hook"})
         slow = dict(crash.JOB, runs=20)
@@ -168,7 +174,7 @@ class PowerLoss(unittest.TestCase):
         job = dict(crash.JOB, scenario="mine/nearest_exit")
         request = urllib.request.Request(after.url + "/v1/jobs?dry_run", data=json.dumps(job).encode(), method="POST",
                                          headers={"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=120) as answer:
+        with urllib.request.urlopen(request, timeout=300) as answer:
             self.assertTrue(json.load(answer)["valid"])
 
 

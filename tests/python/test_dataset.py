@@ -187,7 +187,7 @@ class Reading(unittest.TestCase):
     def test_head_boxes_are_where_the_image_shows_heads(self):
         """Bounds of the pixels of the part 1 (head, hair and neck), of people whose head nothing hides."""
         dataset = self.datasets["folder"]
-        errors = []
+        errors, missing = [], []
         for frame in dataset:
             parts, instances = frame.parts(), frame.instances()
             for person, box in zip(frame.people, frame.people.head_boxes):
@@ -197,11 +197,16 @@ class Reading(unittest.TestCase):
                     continue
                 number = person["track_id"] % 1000000
                 rows, columns = np.nonzero((parts == 1) & (instances == number))
-                self.assertGreater(len(rows), 0)
+                if len(rows) == 0:
+                    missing.append(min(width, height))
+                    continue
                 errors.append([columns.min() - x, columns.max() + 1 - x - width, rows.min() - y])
         # A pixel shows what is at its middle: the outermost half a pixel may be missing, not more than one over.
         errors = np.array(errors)
         self.assertGreater(len(errors), 20)
+        # A head of fewer than three pixels may lie between the middles of pixels.
+        self.assertLess(max(missing, default=0), 3)
+        self.assertLess(len(missing), 0.05 * len(errors))
         # Small people in drafts have coarse meshes, whose heads reach into the shoulders and are not quite as high.
         self.assertGreater(np.quantile(errors[:, 2], 0.05), -1.01)
         self.assertGreater(errors[:, 2].min(), -2)
@@ -284,7 +289,9 @@ class Reading(unittest.TestCase):
                 np.testing.assert_allclose(values[frame.index, person, :2], position[:2], atol=0.006)
                 seen.add((frame.index, track))
             self.assertAlmostEqual(description["times_s"][frame.index], frame.time_s, places=3)
-        self.assertGreater((~np.isnan(values[..., 0])).sum(), len(seen))
+        self.assertGreater(len(seen), 20)
+        # Far more than the few who may be hidden or not.
+        self.assertGreater((~np.isnan(values[..., 0])).sum(), len(seen) + 20)
 
     def test_copies_in_other_processes(self):
         for name, dataset in self.datasets.items():

@@ -1,5 +1,6 @@
 """Every example of docs/python.md, in its order and in one namespace, and the cells of the notebooks."""
 import contextlib
+import importlib.util
 import io
 import json
 import os
@@ -31,7 +32,7 @@ class Examples(unittest.TestCase):
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        self.addCleanup(server.wait, 20)
+        self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
         while not (port_file.exists() and port_file.read_text().strip()):
             time.sleep(0.02)
@@ -68,7 +69,7 @@ class Examples(unittest.TestCase):
     @unittest.skipUnless(common.has("matplotlib"), "matplotlib is not installed")
     def test_the_notebooks(self):
         """Without Jupyter: Debian's nbclient and a kernel are 40 packages."""
-        if not common.has("IPython"):
+        if not importlib.util.find_spec("IPython"):
             display = types.ModuleType("IPython.display")
             display.HTML = str
             sys.modules.update({"IPython": types.ModuleType("IPython"), "IPython.display": display})

@@ -87,7 +87,7 @@ class Examples(unittest.TestCase):
         # The same images and people in VisDrone's layout, boxes in whole pixels.
         limits = ["--min-visibility", "0.25", "--min-height", "6"]
         export = [common.THRONG, "export", self.dataset, "-o", self.root / "out", "--formats", "visdrone-det", *limits]
-        subprocess.run(export, check=True, capture_output=True, timeout=100)
+        subprocess.run(export, check=True, capture_output=True, timeout=300)
         photographs = ["--real", "visdrone", self.root / "out/visdrone-det/train"]
         real = self.score(trained, *photographs)
         self.assertEqual(real["people"], scores["people"])

@@ -202,7 +202,7 @@ class Exports(unittest.TestCase):
         cls.out = pathlib.Path(folder.name) / "out"
         formats = "visdrone-det,visdrone-mot,mot,uavdt,dronecrowd,shanghaitech"
         command = [common.THRONG, "export", common.dataset_folder(), "-o", cls.out, "--formats", formats]
-        subprocess.run(command, check=True, capture_output=True, timeout=100)
+        subprocess.run(command, check=True, capture_output=True, timeout=300)
         cls.dataset = throng.Dataset(common.dataset_folder())
 
     def read(self, kind, name):

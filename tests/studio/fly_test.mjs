@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { after, before, test as nodeTest } from "node:test";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
+import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
 import { attacked, launch, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
@@ -47,13 +47,7 @@ after(async () => {
 const go = (address) => page.goto(service.address + address);
 const figure = (name) => page.locator(".figures div", { has: page.locator("dt", { hasText: new RegExp(`^${name}$`) }) }).locator("dd").innerText();
 const number = async (name) => Number.parseFloat(await figure(name));
-async function until(condition, what) {
-  for (let attempt = 0; attempt < 200; ++attempt) {
-    if (await condition()) return;
-    await page.waitForTimeout(100);
-  }
-  assert.fail(`waited in vain until ${what}`);
-}
+const until = (condition, what) => eventually(what, condition);
 /** Colors that the canvas of a view holds. */
 const colorsOf = (label) =>
   page.getByRole("img", { name: label }).evaluate((canvas) => {
@@ -108,11 +102,15 @@ test("a drone is flown by keyboard", async () => {
   await page.locator('button[aria-pressed="true"]', { hasText: "Beacon" }).waitFor();
   await page.keyboard.press("KeyP");
   await page.getByText("paused", { exact: true }).waitFor();
-  await page.waitForTimeout(600);
-  const paused = await figure("Time");
-  await page.waitForTimeout(600);
-  assert.equal(await figure("Time"), paused);
+  // The word comes at once, the pause when the flight has the command.
+  let paused;
+  await until(async () => {
+    paused = await figure("Time");
+    await page.waitForTimeout(600);
+    return (await figure("Time")) === paused;
+  }, "time stands still");
   await check(page, "a flight");
+  assert.equal(await figure("Time"), paused);
   await page.keyboard.press("KeyP");
   await until(async () => (await figure("Time")) !== paused, "time goes on");
 });
@@ -143,7 +141,6 @@ test("views are changed", async () => {
   await page.getByRole("button", { name: "3-D" }).click();
   const scene = page.getByRole("img", { name: "The flight in space" });
   await scene.waitFor();
-  await page.waitForTimeout(1500);
   await check(page, "the flight in space");
   await page.keyboard.press("KeyV");
   await page.locator(".fly-inset").getByRole("img", { name: "The flight in space" }).waitFor();
@@ -159,7 +156,8 @@ test("another drone is flown by a gamepad", async () => {
   await until(async () => (await number("Height")) > height + 2, "the drone rises");
   await sticks([0, 0, 0, 0], [1]);
   await sticks([0, 0, 0, 0]);
-  await page.waitForTimeout(1000);
+  const time = await number("Time");
+  await until(async () => (await number("Time")) > time + 1, "the flight goes on for a second");
 });
 
 test("the flight becomes a job that repeats it", async () => {

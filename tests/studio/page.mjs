@@ -4,17 +4,27 @@ import { readFileSync } from "node:fs";
 import { packageFile } from "./service.mjs";
 
 const kWidths = [360, 768, 1440];
+const kWaitMs = 60_000; // a busy machine
 
 /** A page that notes what it complains of. Refused requests are expected answers; anything else on the console is a fault. */
 export async function openPage(browser, complaints) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
   const page = await context.newPage();
-  page.setDefaultTimeout(20_000);
+  page.setDefaultTimeout(kWaitMs);
   page.on("console", (message) => {
     if (message.type() === "error" && !/Failed to load resource: .* (400|401|403|404|409)/.test(message.text())) complaints.push(message.text());
   });
   page.on("pageerror", (error) => complaints.push(error.message));
   return page;
+}
+
+/** Waits until `condition`, which may be asynchronous, holds. */
+export async function eventually(what, condition) {
+  const end = Date.now() + kWaitMs;
+  while (!(await condition())) {
+    assert.ok(Date.now() < end, `waited in vain until ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
 }
 
 /** Each step begins where the last one ended: after a failure the rest is left out. */

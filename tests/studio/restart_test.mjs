@@ -19,7 +19,8 @@ const kJob = {
 const test = stepsOf(nodeTest);
 const check = screenChecker(packages);
 const complaints = [];
-const service = new TestService(program);
+// The third run of a job rests until the service is restarted in its midst.
+const service = new TestService(program, [], { THRONG_FAULTS: "slow:run002/trace:3600" });
 let browser;
 let page;
 
@@ -76,6 +77,7 @@ test("a job's screen goes on after a restart in the middle of the job", async ()
   await go(`/jobs/${id}`);
   await page.locator(".heading .badge", { hasText: "running" }).waitFor({ timeout: kJobMs });
   await service.halt();
+  service.environment = {};
   await page.getByText("connection lost, trying again").waitFor();
   await restart();
   await page.locator(".heading .badge", { hasText: "succeeded" }).waitFor({ timeout: kJobMs });

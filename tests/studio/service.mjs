@@ -1,6 +1,7 @@
 // A service with a folder of its own, and Debian's Chromium.
 import { execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { randomInt } from "node:crypto";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
@@ -17,16 +18,37 @@ export function packageFile(packages, name) {
   return path.join(packages, name);
 }
 
+/** A port that no outgoing connection of this machine takes while the service is away. */
+function portOfNobody() {
+  const lowest = 10_240;
+  const range = "/proc/sys/net/ipv4/ip_local_port_range";
+  const end = existsSync(range) ? Number.parseInt(readFileSync(range, "utf8")) : 32_768;
+  return end > lowest + 1000 ? randomInt(lowest, end) : 0;
+}
+
 export class TestService {
-  constructor(program, options = []) {
+  /** `environment`: variables beside those of the test. */
+  constructor(program, options = [], environment = {}) {
     this.program = program;
     this.options = options;
+    this.environment = environment;
     this.data = mkdtempSync(path.join(tmpdir(), "throng-studio-"));
   }
 
-  /** Resolves when the service listens. */
-  start() {
-    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", this.address ? new URL(this.address).port : "0", ...this.options], { stdio: ["ignore", "pipe", "pipe"] });
+  /** Resolves when the service listens: the first time at a free port, then at the same one again. */
+  async start() {
+    if (this.address) return this.listen(new URL(this.address).port);
+    for (let attempt = 0; ; ++attempt) {
+      try {
+        return await this.listen(portOfNobody());
+      } catch (error) {
+        if (attempt === 20 || !/in use|cannot listen/i.test(error.message)) throw error;
+      }
+    }
+  }
+
+  listen(port) {
+    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", String(port), ...this.options], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, ...this.environment } });
     return new Promise((resolve, reject) => {
       let text = "";
       const read = (chunk) => {

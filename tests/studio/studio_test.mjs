@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as nodeTest } from "node:test";
 import { pixelsOf } from "./masks.mjs";
-import { openPage, screenChecker, stepsOf } from "./page.mjs";
+import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
 import { kOtherHost, launch, OtherSite, TestService } from "./service.mjs";
 
 const [program, packages] = process.argv.slice(2);
@@ -307,11 +307,13 @@ test("pages of other sites can neither change nor read anything", async () => {
     await evil.evaluate((address) => {
       const frame = document.createElement("iframe");
       frame.src = address;
-      const loaded = new Promise((resolve) => frame.addEventListener("load", resolve));
       document.body.append(frame);
-      return loaded;
     }, service.address);
-    assert.match(evil.frames()[1].url(), /^chrome-error:/);
+    // The frame's address is known some time after the event `load` of its element: none before, then that of what it shows.
+    const addressOfFrame = () => evil.frames()[1]?.url() ?? "";
+    await eventually("the frame shows something", () => !["", "about:blank"].includes(addressOfFrame()));
+    assert.match(addressOfFrame(), /^chrome-error:/);
+    assert.match((await fetch(service.address)).headers.get("content-security-policy"), /frame-ancestors 'none'/);
     // A name of the attacker that leads to this machine (DNS rebinding) is not the service's.
     for (const path of ["/", "/v1/jobs"]) {
       const answer = await evil.goto(`http://${kOtherHost}:${new URL(service.address).port}${path}`);
