@@ -11,19 +11,11 @@
 #include <string>
 #include <variant>
 
+#include "server/connection_limits.h"
 #include "server/http.h"
 #include "server/request_head.h"
 
 namespace throng::server {
-
-struct ConnectionLimits {
-  std::chrono::milliseconds head_time{5'000};  ///< from a head's first byte to its last
-  std::chrono::milliseconds silence{10'000};   ///< in which nothing arrives
-  std::chrono::milliseconds stalled{30'000};   ///< in which nothing can be sent
-  /// A body may be slower than this for so long.
-  double body_bytes_per_s = 16'384;
-  std::chrono::milliseconds body_timeout{10'000};
-};
 
 class Connection : public httplib::Stream {
  public:

@@ -64,44 +64,59 @@ class EventStream {
                                      kMaxStreams)};
   }
 
-  /// Writes what there is, or waits a moment for it; false when the client has gone.
+  /// Writes what there is, or waits a moment for it; false when the client has gone. Past events
+  /// come first, in order; progress and previews follow the events that were there before them, and
+  /// none follows the end.
   bool step(httplib::DataSink& sink) {
     // Looked at before the events: what ends the job is among them.
     const auto row = job_.empty() ? std::nullopt : queue_.get(job_);
     const bool may_go_on = job_.empty() || (row && is_active(row->state));
-    const auto events = queue_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
+    const auto events = queue_.events(job_, after_, kPage, 0ms);
     if (!events.empty()) after_ = events.back().seq;
     std::string text;
-    // As it was before the events: none comes behind the end.
-    if (row && row->state == jobs::JobState::running && row->progress_json != progress_) {
-      progress_ = row->progress_json;
-      if (!progress_.empty()) text += fmt::format("event: progress\ndata: {}\n\n", progress_);
-    }
-    const auto now = std::chrono::steady_clock::now();
-    if (row && row->state == jobs::JobState::running && !folder_.empty() &&
-        now - last_look_ > kPreviewPause) {
-      last_look_ = now;
-      text += preview_event();
-    }
     for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
       text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
                           text_of(event_json(event)));
     }
+    const bool is_past_complete = static_cast<int>(events.size()) < kPage;
+    if (is_past_complete && row && row->state == jobs::JobState::running) text += news_of(*row);
+    const auto now = std::chrono::steady_clock::now();
     if (text.empty() && now - last_write_ > kKeepAlive) text = ": still here\n\n";
     if (!text.empty()) {
       last_write_ = now;
       if (!sink.write(text.data(), text.size())) return false;
     }
-    if (!may_go_on && events.empty()) sink.done();
+    if (!events.empty()) return true;
+    if (may_go_on) {
+      queue_.events(job_, after_, 1, kBeat);  // they are read with the next step
+    } else {
+      sink.done();
+    }
     return true;
   }
 
  private:
-  /// The newest preview, when it is another one than the last time.
-  std::string preview_event() {
-    const std::string name = newest_preview(folder_);
-    if (name.empty() || name == preview_) return {};
-    preview_ = name;
+  /// Progress and preview of a job that was running before the events were read, as far as they are
+  /// new; none if it has gone on since: the events that were read may hold its end.
+  std::string news_of(const jobs::JobRow& row) {
+    std::string text;
+    const std::string progress = row.progress_json == progress_ ? "" : row.progress_json;
+    if (!progress.empty()) text += fmt::format("event: progress\ndata: {}\n\n", progress);
+    const auto now = std::chrono::steady_clock::now();
+    const bool looks = !folder_.empty() && now - last_look_ > kPreviewPause;
+    const std::string preview = looks ? newest_preview(folder_) : "";
+    if (!preview.empty() && preview != preview_) text += preview_event(preview);
+    if (!text.empty()) {
+      const auto later = queue_.get(job_);
+      if (!later || later->state != row.state || later->attempt != row.attempt) return {};
+    }
+    progress_ = row.progress_json;
+    if (looks) last_look_ = now;
+    if (!preview.empty()) preview_ = preview;
+    return text;
+  }
+
+  std::string preview_event(const std::string& name) const {
     return fmt::format(
         "event: preview\ndata: {}\n\n",
         text_of({{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", job_, name)}}));

@@ -28,8 +28,7 @@ namespace {
 constexpr std::size_t kThreads = 256;  // one per open connection; half of them may be streams
 constexpr int kBacklog = 1024;
 constexpr std::size_t kRequestsPerConnection = 1'000'000;
-constexpr std::chrono::milliseconds kIdle(2'000);  // between requests
-constexpr int kIdleStepMs = 100;                   // bounds how long stop() takes
+constexpr int kIdleStepMs = 100;  // bounds how long stop() takes
 constexpr std::chrono::milliseconds kPauseWithoutFiles(100);
 constexpr std::size_t kSmallBody = 1 << 20;  // not worth to be counted
 
@@ -113,7 +112,7 @@ class HttpServer::BoundedServer : public httplib::Server {
 
   /// Whether the last request was answered.
   bool serve_all(socket_t socket) {
-    Connection connection(socket, limits_);
+    Connection connection(socket, options_.connection);
     bool served = false;
     for (std::size_t left = kRequestsPerConnection; left > 0 && is_next(connection); --left) {
       auto head = connection.read_head();
@@ -184,7 +183,7 @@ class HttpServer::BoundedServer : public httplib::Server {
   /// Waits for another request of this connection.
   bool is_next(const Connection& connection) const {
     if (connection.has_pending()) return true;
-    const auto end = std::chrono::steady_clock::now() + kIdle;
+    const auto end = std::chrono::steady_clock::now() + options_.connection.idle;
     while (svr_sock_ != INVALID_SOCKET && std::chrono::steady_clock::now() < end) {
       pollfd wait{connection.socket(), POLLIN, 0};
       if (::poll(&wait, 1, kIdleStepMs) > 0) return true;
@@ -193,7 +192,6 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   int listener_ = -1;
-  const ConnectionLimits limits_;
   const HttpOptions options_;
   const ErrorWriter write_error_;
   std::atomic<std::int64_t> body_bytes_ = 0;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "server/connection_limits.h"
 #include "server/http_error.h"
 #include "server/http_fwd.h"
 #include "server/request_head.h"
@@ -26,6 +27,7 @@ struct HttpOptions {
   /// Bytes that all bodies above a megabyte may have together while they are read and worked on;
   /// one more is refused with 503.
   std::int64_t max_all_body_bytes = 512 << 20;
+  ConnectionLimits connection = {};  ///< of each
 };
 
 /// Whether an address can only be reached from this machine.

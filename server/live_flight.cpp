@@ -42,7 +42,7 @@ const char* name_of(LiveState state) {
 }
 
 LiveFlight::LiveFlight(LiveFlightSpec spec)
-    : spec_(std::move(spec)), folder_(spec_.folder / spec_.id) {
+    : spec_(std::move(spec)), folder_(spec_.folder / spec_.id), last_seen_(spec_.now()) {
   write_file_atomically(folder_.path() / "job.json", spec_.job_json);
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw_environment_error("cannot create a pipe", errno);
@@ -83,9 +83,9 @@ json LiveFlight::outcome() const {
   return outcome_;
 }
 
-std::chrono::steady_clock::duration LiveFlight::unseen() const {
+SteadyTime::duration LiveFlight::unseen() const {
   const std::lock_guard lock(mutex_);
-  return viewers_ > 0 ? 0s : std::chrono::steady_clock::now() - last_seen_;
+  return viewers_ > 0 ? 0s : spec_.now() - last_seen_;
 }
 
 // The process dies with the thread that started it, so this thread lives as long as the process.
@@ -161,7 +161,7 @@ void LiveFlight::take(const Message& message) {
     case MessageType::failure:
       outcome_ = parse_own_json(message.bytes, "the outcome of a live flight");
       state_ = message.type == MessageType::result ? LiveState::ended : LiveState::failed;
-      last_seen_ = std::chrono::steady_clock::now();
+      last_seen_ = spec_.now();
       end_ = std::move(numbered);
       break;
     case MessageType::alive:
@@ -181,7 +181,7 @@ void LiveFlight::send(const json& line) {
 void LiveFlight::add_viewer(int change) {
   const std::lock_guard lock(mutex_);
   viewers_ += change;
-  last_seen_ = std::chrono::steady_clock::now();
+  last_seen_ = spec_.now();
   if (end_.number == 0) send({{"viewers", viewers_}});
 }
 

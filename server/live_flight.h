@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/steady_time.h"
 #include "live/spec/commands.h"
 #include "live/spec/messages.h"
 
@@ -31,6 +32,7 @@ struct LiveFlightSpec {
   std::int64_t memory_mib = 0;       ///< estimate; 0: not limited
   std::filesystem::path folder;      ///< of all flights; the flight's own is made and removed in it
   std::vector<std::string> command;  ///< the program; the flight's folder is appended
+  SteadyNow now = &steady_now;       ///< for the time since somebody has looked
 };
 
 /// Safe to use from many threads.
@@ -56,7 +58,7 @@ class LiveFlight {
   /// The result or the failure, once there is one.
   nlohmann::json outcome() const;
   /// How long nobody has looked.
-  std::chrono::steady_clock::duration unseen() const;
+  SteadyTime::duration unseen() const;
 
   /// False when it has ended.
   bool command(const live::Commands& commands);
@@ -102,7 +104,7 @@ class LiveFlight {
   int input_ = -1;  ///< to the process
   LiveState state_ = LiveState::starting;
   int viewers_ = 0;
-  std::chrono::steady_clock::time_point last_seen_ = std::chrono::steady_clock::now();
+  SteadyTime last_seen_;
   double time_s_ = 0;
   std::uint64_t count_ = 0;  ///< of messages
   Numbered hello_;

@@ -88,6 +88,7 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   spec.memory_mib = flight_memory_mib(job);
   spec.folder = folder_;
   spec.command = limits_.command;
+  spec.now = limits_.now;
   const std::lock_guard lock(mutex_);
   require_room(owner, spec.memory_mib);
   auto flight = std::make_shared<LiveFlight>(std::move(spec));

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "jobs/spec/resolved_job.h"
 #include "server/live_flight.h"
 
@@ -23,6 +24,7 @@ struct LiveLimits {
   std::chrono::milliseconds unseen{30'000};  ///< after which a flight ends
   std::chrono::milliseconds ended{600'000};  ///< after which an outcome is forgotten
   std::int64_t max_task_mib = 0;             ///< memory of a flight; 0: any
+  SteadyNow now = &steady_now;               ///< by which those times are measured
 };
 
 /// There are as many flights as there may be, or there is too little memory.

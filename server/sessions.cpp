@@ -1,6 +1,7 @@
 #include "server/sessions.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/hash.h"
@@ -16,7 +17,7 @@ constexpr std::chrono::hours kMaxIdle(7 * 24);
 
 }  // namespace
 
-Sessions::Sessions(Clock clock) : clock_(std::move(clock)) {}
+Sessions::Sessions(SteadyNow now) : now_(std::move(now)) {}
 
 std::string Sessions::open(std::string key) {
   std::string token = random_text(kTokenLength);
@@ -26,7 +27,7 @@ std::string Sessions::open(std::string key) {
         sessions_.begin(), sessions_.end(),
         [](const auto& a, const auto& b) { return a.second.used < b.second.used; }));
   }
-  sessions_[sha256_hex(token)] = {std::move(key), clock_()};
+  sessions_[sha256_hex(token)] = {std::move(key), now_()};
   return token;
 }
 
@@ -34,7 +35,7 @@ std::string Sessions::key_of(std::string_view token) {
   const std::lock_guard lock(mutex_);
   const auto found = sessions_.find(sha256_hex(token));
   if (found == sessions_.end()) return "";
-  const TimePoint now = clock_();
+  const SteadyTime now = now_();
   if (now - found->second.used > kMaxIdle) {
     sessions_.erase(found);
     return "";

@@ -3,22 +3,19 @@
 // key is looked up at each request.
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
+
+#include "base/steady_time.h"
 
 namespace throng::server {
 
 /// Safe to use from many threads.
 class Sessions {
  public:
-  using TimePoint = std::chrono::steady_clock::time_point;
-  using Clock = std::function<TimePoint()>;
-
-  explicit Sessions(Clock clock = &std::chrono::steady_clock::now);
+  explicit Sessions(SteadyNow now = &steady_now);
 
   /// Begins a session with a key and returns its token. There may be 1000 at once; the one that was
   /// not used for the longest time ends for another.
@@ -30,10 +27,10 @@ class Sessions {
  private:
   struct Session {
     std::string key;
-    TimePoint used;
+    SteadyTime used;
   };
 
-  Clock clock_;
+  SteadyNow now_;
   std::mutex mutex_;
   std::map<std::string, Session> sessions_;  ///< by the hash of the token
 };

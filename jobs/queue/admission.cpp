@@ -1,6 +1,7 @@
 #include "jobs/queue/admission.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace throng::jobs {
@@ -51,16 +52,17 @@ Admission::Lack Admission::lack_of(const Claim& claim) const {
     return Lack::limit;
   }
   if (!limits_.available_mib) return Lack::none;
+  const SteadyTime now = limits_.now();
   std::int64_t promised = 0;  // to tasks that have not taken it yet
   for (const Running& running : running_) {
-    if (Clock::now() - running.begun < kGrowth) promised += running.memory_mib;
+    if (now - running.begun < kGrowth) promised += running.memory_mib;
   }
   const bool has_left = limits_.available_mib() >= claim.memory_mib + promised + kReserveMib;
   return has_left ? Lack::none : Lack::machine;
 }
 
 bool Admission::may_begin(Claim& claim) {
-  const auto now = Clock::now();
+  const SteadyTime now = limits_.now();
   if (static_cast<int>(running_.size()) >= limits_.workers) return false;
   for (const Claim& other : claims_) {
     if (&other == &claim || !other.asked || now - *other.asked > kMaxSilence) continue;
@@ -80,7 +82,7 @@ void Admission::finish(std::list<Running>::iterator running) {
   const std::lock_guard lock(mutex_);
   Owner& owner = *running->owner;
   --owner.running;
-  owner.served_s += std::chrono::duration<double>(Clock::now() - running->begun).count();
+  owner.served_s += std::chrono::duration<double>(limits_.now() - running->begun).count();
   running_.erase(running);
 }
 
@@ -114,13 +116,14 @@ std::optional<Admission::Permit> Admission::Claimant::ask(int priority, std::siz
   claim_->priority = priority;
   claim_->tasks_left = tasks_left;
   claim_->memory_mib = memory_mib;
-  claim_->asked = Clock::now();
+  claim_->asked = admission_.limits_.now();
   if (!admission_.may_begin(*claim_)) return std::nullopt;
   claim_->asked.reset();
   ++claim_->owner->running;
   ++claim_->owner->turns;
   return Permit(admission_,
-                admission_.running_.insert(admission_.running_.end(), {claim_->owner, memory_mib}));
+                admission_.running_.insert(admission_.running_.end(),
+                                           {claim_->owner, memory_mib, admission_.limits_.now()}));
 }
 
 void Admission::Claimant::withdraw() {

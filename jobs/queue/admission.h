@@ -8,7 +8,6 @@
 // fourth task is the oldest job's, so that large ones end at all.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <list>
@@ -18,6 +17,8 @@
 #include <optional>
 #include <string>
 
+#include "base/steady_time.h"
+
 namespace throng::jobs {
 
 struct AdmissionLimits {
@@ -25,6 +26,7 @@ struct AdmissionLimits {
   std::int64_t memory_mib = 0;  ///< that all tasks may need together; 0: any
   /// Memory that the machine has left, in MiB; none: not asked.
   std::function<std::int64_t()> available_mib = {};
+  SteadyNow now = &steady_now;
 };
 
 /// Safe to use from many threads.
@@ -43,8 +45,6 @@ class Admission {
   class Claimant;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   struct Owner {
     std::string name = {};
     int claimants = 0;
@@ -67,15 +67,15 @@ class Admission {
     std::size_t tasks_left = 0;
     std::int64_t memory_mib = 0;  ///< of the task that waits
     /// When it last asked; not waiting if unset.
-    std::optional<Clock::time_point> asked = {};
+    std::optional<SteadyTime> asked = {};
     Lack lack = Lack::none;
-    std::optional<Clock::time_point> lacks_since = {};  ///< if `lack` is not none
+    std::optional<SteadyTime> lacks_since = {};  ///< if `lack` is not none
   };
 
   struct Running {
     Owner* owner = nullptr;
     std::int64_t memory_mib = 0;
-    Clock::time_point begun = Clock::now();
+    SteadyTime begun;
   };
 
   bool is_ahead(const Claim& a, const Claim& b) const;

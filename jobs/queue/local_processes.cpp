@@ -26,8 +26,6 @@ namespace throng::jobs {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // How late the end of a silent worker, or a wish to stop, may be noticed.
 constexpr int kPollMs = 50;
 
@@ -46,7 +44,7 @@ class Batch {
         on_progress_(on_progress),
         stop_(std::move(stop)),
         results_(tasks.size()) {
-    for (std::size_t i = 0; i < tasks.size(); ++i) waiting_.push_back({i, Clock::now()});
+    for (std::size_t i = 0; i < tasks.size(); ++i) waiting_.push_back({i, options.now()});
   }
 
   std::vector<TaskResult> run() {
@@ -67,29 +65,34 @@ class Batch {
  private:
   struct Waiting {
     std::size_t task;
-    Clock::time_point from;  ///< not to be begun earlier
+    SteadyTime from;  ///< not to be begun earlier
   };
 
   struct Worker {
     Worker(std::size_t index, Admission::Permit&& held, const std::vector<std::string>& command,
-           const ChildProcess::Variables& variables, const std::filesystem::path& log)
-        : task(index), permit(std::move(held)), process(command, variables, log) {}
+           const ChildProcess::Variables& variables, const std::filesystem::path& log,
+           const SteadyNow& now)
+        : task(index),
+          permit(std::move(held)),
+          process(command, variables, log),
+          begun(now()),
+          heard(begun) {}
     std::size_t task;
     Admission::Permit permit;  ///< given back when the process has ended
     ChildProcess process;
-    Clock::time_point begun = Clock::now();
-    Clock::time_point heard = begun;  ///< when it last said something
+    SteadyTime begun;
+    SteadyTime heard;  ///< when it last said something
     long long kills_before = kills_for_memory();
     std::optional<WorkerError> error;
     std::string timeout;
-    std::optional<Clock::time_point> kill_at;  ///< it was asked to end: its result is of no use
+    std::optional<SteadyTime> kill_at;  ///< it was asked to end: its result is of no use
   };
 
   // Begins the next task that need not rest; false when there is none, or others are ahead.
   bool start_next() {
-    const auto next = std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) {
-      return waiting.from <= Clock::now();
-    });
+    const SteadyTime now = options_.now();
+    const auto next = std::find_if(waiting_.begin(), waiting_.end(),
+                                   [&](const Waiting& waiting) { return waiting.from <= now; });
     if (next == waiting_.end()) {
       claimant_.withdraw();
       return false;
@@ -107,7 +110,7 @@ class Batch {
     try {
       running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
                                                   variables_of(attempt, memory_mib),
-                                                  folder_.log_of(tasks_[task])));
+                                                  folder_.log_of(tasks_[task]), options_.now));
       exhausted_.clear();
     } catch (const ResourcesExhausted& error) {
       // Nothing that the job could have caused: it waits for as long as it takes.
@@ -159,7 +162,7 @@ class Batch {
 
   void read_messages(Worker& worker) {
     for (const std::string& line : worker.process.read_lines()) {
-      worker.heard = Clock::now();
+      worker.heard = options_.now();
       const WorkerMessage message = read_worker_message(line);
       if (message.error) worker.error = message.error;
       if (message.progress && on_progress_) on_progress_(tasks_[worker.task], *message.progress);
@@ -168,12 +171,12 @@ class Batch {
 
   // Kills what hangs, takes too long, or does not end when asked to.
   void watch(Worker& worker) const {
-    const auto now = Clock::now();
-    const auto since = [&](Clock::time_point then) {
+    const SteadyTime now = options_.now();
+    const auto since = [&](SteadyTime then) {
       return std::chrono::duration<double>(now - then).count();
     };
     if (worker.kill_at) {
-      if (now >= *worker.kill_at) worker.process.signal_group(SIGKILL);
+      if (steady_now() >= *worker.kill_at) worker.process.signal_group(SIGKILL);
       return;
     }
     if (since(worker.heard) > options_.lease_s) {
@@ -235,15 +238,12 @@ class Batch {
     waiting_.erase(gone, waiting_.end());
     for (auto& worker : running_) {
       if (worker->kill_at || !condition(tasks_[worker->task])) continue;
-      worker->kill_at = after(options_.grace_s);
+      worker->kill_at = steady_now() + steady_seconds(options_.grace_s);
       worker->process.signal_group(SIGTERM);
     }
   }
 
-  static Clock::time_point after(double seconds) {
-    return Clock::now() +
-           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
+  SteadyTime after(double seconds) const { return options_.now() + steady_seconds(seconds); }
 
   const LocalProcessesOptions& options_;
   Admission& admission_;
@@ -268,7 +268,8 @@ LocalProcesses::LocalProcesses(LocalProcessesOptions options) : options_(std::mo
   if (options_.workers == 0) {
     options_.workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
-  AdmissionLimits limits{options_.workers, options_.memory_mib};
+  AdmissionLimits limits{
+      .workers = options_.workers, .memory_mib = options_.memory_mib, .now = options_.now};
   if (options_.waits_for_memory) limits.available_mib = &available_memory_mib;
   admission_ = std::make_unique<Admission>(std::move(limits));
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "jobs/queue/admission.h"
 #include "jobs/queue/executor.h"
 
@@ -37,6 +38,8 @@ struct LocalProcessesOptions {
   bool limits_by_need = false;
   /// How long a worker may take to end after SIGTERM, before SIGKILL.
   double grace_s = 2;
+  /// By which tasks rest, and leases and the longest time of a task are measured.
+  SteadyNow now = &steady_now;
 };
 
 /// Each worker leads a process group of its own, so that ending it ends its children too, and asks

@@ -43,17 +43,17 @@ void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
 void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
   const SlurmFate fate = fate_of(state);
   if (fate == SlurmFate::waiting) {
-    entry.heard = Clock::now();  // also one that was suspended
+    entry.heard = options_.now();  // also one that was suspended
     return;
   }
   follow(entry, state);
   if (take_end(array, entry, state)) return;
   if (fate != SlurmFate::running) {
-    if (!entry.ended) entry.ended = Clock::now();
+    if (!entry.ended) entry.ended = options_.now();
     // One that was killed has said what it had to say.
     const bool is_silent =
         fate != SlurmFate::completed && (fate != SlurmFate::failed || state.status.signal != 0);
-    if (!is_silent && Clock::now() < *entry.ended + kLastWords) return;
+    if (!is_silent && options_.now() < *entry.ended + kLastWords) return;
     TaskResult result =
         result_of_slurm(state, entry.messages.error(), folder_.log_of(tasks_[entry.task]));
     if (result.outcome == Outcome::succeeded) {
@@ -66,8 +66,8 @@ void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
     }
     return end_attempt(array, entry, state, std::move(result), is_blameless(fate));
   }
-  const auto since = [](Clock::time_point then) {
-    return std::chrono::duration<double>(Clock::now() - then).count();
+  const auto since = [this](Clock::time_point then) {
+    return std::chrono::duration<double>(options_.now() - then).count();
   };
   std::string timeout;
   if (since(entry.heard) > options_.lease_s) {
@@ -118,7 +118,7 @@ void SlurmBatch::look_for_absent(Array& array, Entry& entry, const SlurmQueue& q
 void SlurmBatch::follow(Entry& entry, const SlurmTask& state) {
   if (entry.node.empty() && !state.node.empty()) {
     entry.node = state.node;
-    entry.begun = entry.heard = Clock::now();
+    entry.begun = entry.heard = options_.now();
     shared_.book.begin(folder_, entry.node);
   }
   read_messages(entry);
@@ -126,7 +126,7 @@ void SlurmBatch::follow(Entry& entry, const SlurmTask& state) {
 
 void SlurmBatch::read_messages(Entry& entry) {
   if (!entry.messages.read()) return;
-  entry.heard = Clock::now();
+  entry.heard = options_.now();
   if (!on_progress_) return;
   for (TaskProgress step : entry.messages.steps()) {
     step.node = entry.node;
@@ -147,10 +147,10 @@ bool SlurmBatch::take_end(Array& array, Entry& entry, const SlurmTask& state) {
                 false);
     return true;
   }
-  if (!entry.ended) entry.ended = Clock::now();
+  if (!entry.ended) entry.ended = options_.now();
   if (has_published(*end)) {
     succeed(array, entry, state.node);
-  } else if (Clock::now() > *entry.ended + std::chrono::duration<double>(options_.visibility_s)) {
+  } else if (options_.now() > *entry.ended + std::chrono::duration<double>(options_.visibility_s)) {
     end_attempt(array, entry, state,
                 {Outcome::environment_error,
                  0,
@@ -182,7 +182,7 @@ void SlurmBatch::close(Array& array, Entry& entry, const std::string& outcome,
   if (entry.node.empty()) return;
   const double seconds = entry.messages.end()
                              ? entry.messages.end()->seconds
-                             : std::chrono::duration<double>(Clock::now() - entry.begun).count();
+                             : std::chrono::duration<double>(options_.now() - entry.begun).count();
   shared_.book.leave(folder_, entry.node);
   shared_.book.end(folder_,
                    {name_of(tasks_[entry.task]), results_[entry.task].attempts, entry.node,

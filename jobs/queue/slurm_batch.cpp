@@ -93,7 +93,7 @@ void SlurmBatch::adopt() {
       return std::any_of(array.entries.begin(), array.entries.end(),
                          [&](const Entry& entry) { return entry.task == i; });
     });
-    if (!is_taken) waiting_.push_back({i, Clock::now()});
+    if (!is_taken) waiting_.push_back({i, options_.now()});
   }
 }
 
@@ -132,8 +132,9 @@ void SlurmBatch::submit_ready() {
   if (!shared_.controller.queue()->away.empty()) return;
   std::map<SlurmNeed, std::vector<std::size_t>> ready;
   std::deque<Waiting> later;
+  const SteadyTime now = options_.now();
   for (const Waiting& waiting : waiting_) {
-    if (waiting.from > Clock::now()) {
+    if (waiting.from > now) {
       later.push_back(waiting);
       continue;
     }
@@ -310,9 +311,8 @@ void SlurmBatch::wait_for_cancelled() {
   }
 }
 
-SlurmBatch::Clock::time_point SlurmBatch::after(double seconds) {
-  return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+SteadyTime SlurmBatch::after(double seconds) const {
+  return options_.now() + steady_seconds(seconds);
 }
 
 }  // namespace throng::jobs

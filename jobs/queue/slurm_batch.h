@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_time.h"
 #include "jobs/queue/attempts.h"
 #include "jobs/queue/executor.h"
 #include "jobs/queue/message_file.h"
@@ -111,7 +112,7 @@ class SlurmBatch {
   void wait_for_cancelled();
 
   void say_why_nothing_runs(const SlurmQueue& queue);
-  static Clock::time_point after(double seconds);
+  SteadyTime after(double seconds) const;
 
   SlurmShared& shared_;
   const SlurmOptions& options_;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/steady_time.h"
+
 namespace throng::jobs {
 
 struct SlurmOptions {
@@ -35,6 +37,9 @@ struct SlurmOptions {
   int max_losses = 10;
   /// How long what one machine has written may take to be seen by another.
   double visibility_s = 60;
+  /// By which tasks rest, and leases, the longest time of a task and that of its last words are
+  /// measured.
+  SteadyNow now = &steady_now;
 };
 
 }  // namespace throng::jobs

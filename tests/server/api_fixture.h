@@ -1,32 +1,41 @@
 // The API over a service that pretends, and a client of it.
 #pragma once
 
-#include <arpa/inet.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "server/api.h"
 #include "server/http.h"
+#include "tests/server/http_client.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
 
 using nlohmann::json;
 
+/// Connections may take their time, as the machine may be busy.
+inline HttpOptions patient_http() {
+  using namespace std::chrono_literals;
+  return {
+      .connection = {
+          .head_time = 600s, .silence = 600s, .stalled = 600s, .idle = 600s, .body_timeout = 600s}};
+}
+
 class ApiTest : public ServiceFixture {
  protected:
   ApiTest()
       : service(options(), executor),
-        hooks(service.queue(), data.path(), {.post = {.allow_private = true}}),
-        api(service, keys, hooks, {}),
+        hooks(service.queue(), data.path(),
+              {.post = {.timeout = std::chrono::minutes(1), .allow_private = true}}),
+        api(service, keys, hooks, patient_http()),
         thread([this] { api.run(); }) {}
   ~ApiTest() override { api.stop(); }
 
-  httplib::Client client() const { return httplib::Client("127.0.0.1", api.port()); }
+  HttpClient client() const { return HttpClient(api.port()); }
 
   httplib::Result get(const std::string& path, const httplib::Headers& headers = {}) const {
     return client().Get(path, headers);
@@ -40,10 +49,42 @@ class ApiTest : public ServiceFixture {
     return json::parse(answer->body)["id"];
   }
 
+  /// The types of what a stream of events has sent, in order, when it ends or `is_enough`.
+  std::vector<std::string> streamed(
+      const std::string& path,
+      const std::function<bool(const std::vector<std::string>&)>& is_enough) const {
+    constexpr std::string_view kBegin = "event: ";
+    std::string text;
+    std::vector<std::string> types;
+    const auto receive = [&](const char* block, std::size_t count) {
+      text.append(block, count);
+      for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
+        const std::string line = text.substr(0, end);
+        if (line.starts_with(kBegin)) types.push_back(line.substr(kBegin.size()));
+        text.erase(0, end + 1);
+      }
+      return !is_enough(types);
+    };
+    client().Get(path, {{"Accept", "text/event-stream"}}, receive);
+    return types;
+  }
+
   std::string submit_and_wait() const {
     const std::string id = submit();
     EXPECT_TRUE(wait_until([&] { return get_json("/v1/jobs/" + id)["state"] == "succeeded"; }));
     return id;
+  }
+
+  /// The report of a job once it is made, as far as that takes a minute: the service lets its
+  /// clients wait five seconds, and ask again.
+  httplib::Result report_of(const std::string& id) const {
+    constexpr int kTries = 12;
+    constexpr int kAskAgain = 202;
+    httplib::Result page = get("/v1/jobs/" + id + "/report");
+    for (int i = 0; i < kTries && page->status == kAskAgain; ++i) {
+      page = get("/v1/jobs/" + id + "/report");
+    }
+    return page;
   }
 
   void expect_problem(const httplib::Result& answer, int status) const {
@@ -55,29 +96,11 @@ class ApiTest : public ServiceFixture {
     EXPECT_FALSE(problem["title"].get<std::string>().empty());
   }
 
-  // Sends bytes as they are and returns all that comes back until the server closes.
-  std::string raw(const std::string& request) const { return raw_in_parts({request}); }
-
-  // With a pause before each part but the first.
-  std::string raw_in_parts(const std::vector<std::string>& parts,
-                           std::chrono::milliseconds pause = std::chrono::milliseconds(300)) const {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(api.port()));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-    for (const std::string& part : parts) {
-      if (&part != &parts.front()) std::this_thread::sleep_for(pause);
-      ::send(socket, part.data(), part.size(), MSG_NOSIGNAL);
-    }
-    std::string answer;
-    char block[4096];
-    for (ssize_t count = 0; (count = ::recv(socket, block, sizeof(block), 0)) > 0;) {
-      answer.append(block, static_cast<std::size_t>(count));
-    }
-    ::close(socket);
-    return answer;
+  /// Sends bytes as they are and returns all that comes back until the server closes.
+  std::string raw(const std::string& request) const {
+    const RawConnection connection(api.port());
+    connection.send(request);
+    return connection.read();
   }
 
   Service service;

@@ -138,7 +138,7 @@ TEST_F(ApiTest, AReportIsMadeOnceWhenAskedFor) {
   };
   const std::string id = submit_and_wait();
   for (int i = 0; i < 2; ++i) {
-    const httplib::Result page = get("/v1/jobs/" + id + "/report");
+    const httplib::Result page = report_of(id);
     EXPECT_EQ(page->status, 200);
     EXPECT_EQ(page->body, "report of " + id);
     EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
@@ -149,13 +149,13 @@ TEST_F(ApiTest, AReportIsMadeOnceWhenAskedFor) {
 TEST_F(ApiTest, AReportThatFailsIsTriedAgain) {
   reporter = [](const auto&, const auto&, const auto&) { throw EnvironmentError("no room"); };
   const std::string id = submit_and_wait();
-  const httplib::Result failed = get("/v1/jobs/" + id + "/report");
+  const httplib::Result failed = report_of(id);
   expect_problem(failed, 503);
   EXPECT_EQ(failed->get_header_value("Retry-After"), "10");
   reporter = [](const auto&, const std::filesystem::path& file, const auto&) {
     write_file_atomically(file, "page");
   };
-  EXPECT_EQ(get("/v1/jobs/" + id + "/report")->body, "page");
+  EXPECT_EQ(report_of(id)->body, "page");
 }
 
 TEST_F(ApiTest, WhatIsWrongIsSaidInFullWhateverRangeIsAskedFor) {
@@ -260,7 +260,7 @@ TEST_F(ApiTest, AConnectionServesManyRequestsAndManyConnectionsAreServed) {
   std::vector<std::jthread> clients(16);
   for (std::jthread& thread_of_client : clients) {
     thread_of_client = std::jthread([this] {
-      httplib::Client kept = client();
+      HttpClient kept = client();
       kept.set_keep_alive(true);
       for (int request = 0; request < 20; ++request) EXPECT_EQ(kept.Get("/healthz")->status, 200);
     });

@@ -71,13 +71,16 @@ RawReceiver saying(const std::string& text) {
   return RawReceiver([text](int connection, const auto&) { say(connection, text); });
 }
 
-PostResult post(const std::string& url, std::chrono::milliseconds timeout = 5s,
+PostResult post(const std::string& url, std::chrono::milliseconds timeout = 60s,
                 const std::stop_token& stop = {}) {
   return bounded_post(url, {{"A", "b"}}, "{}", {.timeout = timeout, .allow_private = true}, stop);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point begun) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+/// Until the test ends, or for a minute: then the connection is closed, which is another error than
+/// that of a time limit.
+void wait_for_end(const std::atomic<bool>& ends) {
+  const auto last = std::chrono::steady_clock::now() + 60s;
+  while (!ends && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(5ms);
 }
 
 TEST(BoundedPost, TheStatusIsThatOfTheFinalAnswer) {
@@ -130,40 +133,29 @@ TEST(BoundedPost, InformationalAnswersWithoutEndAreCutOff) {
 
 TEST(BoundedPost, ADrippingAnswerEndsInTime) {
   const RawReceiver receiver([](int connection, const auto& ends) {
-    for (const char c : std::string("HTTP/1.1 100 Continue and so on and on and on")) {
-      if (ends) return;
-      say(connection, std::string(1, c));
+    say(connection, "HTTP/1.1 100 Continue");
+    for (int i = 0; i < 600 && !ends; ++i) {  // a minute
+      say(connection, "x");
       std::this_thread::sleep_for(100ms);
     }
   });
-  const auto begun = std::chrono::steady_clock::now();
   EXPECT_THAT(post(receiver.url(), 500ms).error, HasSubstr("no answer in time"));
-  EXPECT_LT(seconds_since(begun), 2);
 }
 
 TEST(BoundedPost, SilenceEndsInTimeAlsoBeforeTls) {
   for (const char* scheme : {"http", "https"}) {
-    const RawReceiver receiver([](int, const auto& ends) {
-      while (!ends) std::this_thread::sleep_for(5ms);
-    });
-    const auto begun = std::chrono::steady_clock::now();
+    const RawReceiver receiver([](int, const auto& ends) { wait_for_end(ends); });
     EXPECT_THAT(post(receiver.url(scheme), 300ms).error, HasSubstr("no answer in time")) << scheme;
-    EXPECT_LT(seconds_since(begun), 2);
   }
 }
 
 TEST(BoundedPost, AStopEndsItAtOnce) {
-  const RawReceiver receiver([](int, const auto& ends) {
-    while (!ends) std::this_thread::sleep_for(5ms);
-  });
   std::stop_source stop;
-  const std::jthread stopper([&] {
-    std::this_thread::sleep_for(100ms);
-    stop.request_stop();
+  const RawReceiver receiver([&](int, const auto& ends) {
+    stop.request_stop();  // the request has come
+    wait_for_end(ends);
   });
-  const auto begun = std::chrono::steady_clock::now();
-  EXPECT_THAT(post(receiver.url(), 60s, stop.get_token()).error, HasSubstr("the service ends"));
-  EXPECT_LT(seconds_since(begun), 2);
+  EXPECT_THAT(post(receiver.url(), 600s, stop.get_token()).error, HasSubstr("the service ends"));
 }
 
 TEST(BoundedPost, TlsNeedsACertificateThatIsTrusted) {

@@ -182,7 +182,7 @@ TEST_F(UploadsOutside, AnUploadedScenarioIsNotLoadedByTheService) {
   // Its child does, for plans and jobs.
   const std::string job = R"({"scenario": "mine/yard", "crowd": {"agents": 2}})";
   expect_problem(client().Post("/v1/jobs?dry_run", job, "application/json"), 400);
-  if (*kProgram != '\0') expect_problem(get("/v1/scenarios/mine/yard?format=svg"), 400);
+  if (!kProgram.empty()) expect_problem(get("/v1/scenarios/mine/yard?format=svg"), 400);
 }
 
 TEST_F(UploadsOutside, OneOfAnEarlierVersionIsDescribedAtTheStart) {

@@ -1,5 +1,13 @@
 // The bare port against malicious clients.
+#include "server/connection.h"
+
 #include <gmock/gmock.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <thread>
 
 #include "base/error.h"
 #include "tests/server/api_fixture.h"
@@ -23,13 +31,44 @@ TEST_F(HostileClients, EndlessHeadersAreCutOff) {
   EXPECT_EQ(get("/healthz")->status, 200);
 }
 
+TEST(Connection, AHeadInPiecesIsReadToItsEnd) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+  const ConnectionLimits limits = patient_http().connection;
+  Connection connection(ends[0], limits);
+  std::jthread client([&] {
+    for (const char byte : std::string("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")) {
+      EXPECT_EQ(::send(ends[1], &byte, 1, MSG_NOSIGNAL), 1);
+      EXPECT_TRUE(wait_until([&] {
+        int unread = 0;
+        return ::ioctl(ends[0], FIONREAD, &unread) == 0 && unread == 0;
+      }));
+    }
+  });
+  const auto head = connection.read_head();
+  client.join();
+  ASSERT_TRUE(std::holds_alternative<RequestHead>(head));
+  EXPECT_EQ(std::get<RequestHead>(head).path, "/healthz");
+  for (const int end : ends) ::close(end);
+}
+
+TEST_F(HostileClients, AHeadThatDoesNotEndIsAnswered) {
+  HttpOptions options = patient_http();
+  options.connection.head_time = std::chrono::milliseconds(20);
+  HttpServer hasty(options, [](const httplib::Request&, httplib::Response& response,
+                               const HttpError& error) { response.status = error.status; });
+  const std::jthread serving([&] { hasty.run(); });
+  const RawConnection connection(hasty.port());
+  connection.send("GET /healthz HTTP/1.1\r\nHost: loc");
+  EXPECT_THAT(connection.read(), StartsWith("HTTP/1.1 408 "));
+  hasty.stop();
+}
+
 TEST_F(HostileClients, LargeBodiesAreRefusedUnread) {
   const std::string head =
       "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
-  const auto before = std::chrono::steady_clock::now();
-  // The body never comes: the answer does not wait for it.
+  // The body never comes: the answer does not wait for it (patient_http() waits for minutes).
   EXPECT_THAT(raw(head + "Content-Length: 2000000\r\n\r\n"), StartsWith("HTTP/1.1 413"));
-  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(8));
   keys.create("somebody", Scope::admin);
   EXPECT_THAT(raw("POST /v1/calibrations HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
                   "application/json\r\nContent-Length: 2000000\r\n\r\n"),
@@ -58,7 +97,7 @@ TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
     response.set_content(std::to_string(request.body.size()), "text/plain");
   });
   const std::jthread serving([&] { small.run(); });
-  httplib::Client honest("127.0.0.1", small.port());
+  HttpClient honest(small.port());
   const std::string fits(2 << 20, 'x');
   // The memory is given back a moment after the answer.
   const auto is_taken = [&] {
@@ -79,7 +118,7 @@ TEST_F(HostileClients, WhatCannotBeCheckedIsRefused) {
   HttpServer server(options, [](const httplib::Request&, httplib::Response& response,
                                 const HttpError& error) { response.status = error.status; });
   const std::jthread serving([&] { server.run(); });
-  httplib::Client client("127.0.0.1", server.port());
+  HttpClient client(server.port());
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(client.Post("/locked", "x", "text/plain")->status, 503);
     EXPECT_EQ(client.Post("/", "x", "text/plain")->status, 418);

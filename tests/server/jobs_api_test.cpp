@@ -193,6 +193,30 @@ TEST_F(JobsApi, AStreamTellsAllAndEndsWithTheJob) {
       400);
 }
 
+TEST_F(JobsApi, AStreamOfARunningJobTellsThePastBeforeItsProgress) {
+  Gate gate(executor);
+  const std::string id = submit();
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  const std::string self = "/v1/jobs/" + id;
+  // Progress is there, and so are events, before anybody looks.
+  ASSERT_FALSE(get_json(self)["progress"].is_null());
+  std::vector<std::string> past = types_of(id);
+  ASSERT_GE(past.size(), 2U);
+  past.emplace_back("progress");
+  std::vector<std::string> first;
+  const auto has_ended = [&](const std::vector<std::string>& types) {
+    if (types.size() < past.size()) return false;
+    if (first.empty()) first.assign(types.begin(), types.begin() + static_cast<int>(past.size()));
+    gate.open();
+    return false;
+  };
+  const std::vector<std::string> all = streamed(self + "/events", has_ended);
+  EXPECT_EQ(first, past);
+  EXPECT_EQ(all.back(), "succeeded");
+  EXPECT_EQ(streamed(self + "/events", [](const auto&) { return false; }), types_of(id))
+      << "no progress once it has ended";
+}
+
 TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
   Gate gate(executor);
   const std::string id = submit();

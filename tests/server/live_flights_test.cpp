@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "jobs/spec/spec.h"
+#include "tests/base/virtual_clock.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
@@ -83,14 +84,22 @@ TEST(LiveFlights, AProcessThatDiesFailsItsFlight) {
 TEST(LiveFlights, OneThatNobodyLooksAtEnds) {
   const jobs::TemporaryFolder folder;
   LiveLimits limits = limits_with(folder, kUntilStop);
-  limits.unseen = 300ms;
+  VirtualClock clock;
+  limits.now = clock.now();
   LiveFlights flights(folder.path(), limits);
-  const std::string unseen = flights.begin(resolved(), "alice")->id();
   const auto seen = flights.begin(resolved(), "alice");
   const LiveFlight::Viewer viewer(seen);
-  EXPECT_TRUE(wait_until([&] { return flights.find(unseen) == nullptr; }));
-  std::this_thread::sleep_for(500ms);
-  EXPECT_EQ(flights.find(seen->id()), seen);
+  // When the second is gone, all were looked at since the time of the first was up.
+  for (int i = 0; i < 2; ++i) {
+    const std::string unseen = flights.begin(resolved(), "alice")->id();
+    clock.advance(limits.unseen - 1ms);
+    const int asked = clock.asked();
+    ASSERT_TRUE(wait_until([&] { return clock.asked() > asked + 3; }));  // once a look
+    EXPECT_NE(flights.find(unseen), nullptr);
+    clock.advance(1ms);
+    EXPECT_TRUE(wait_until([&] { return flights.find(unseen) == nullptr; }));
+    EXPECT_EQ(flights.find(seen->id()), seen);
+  }
 }
 
 TEST(LiveFlights, ARemovedOneTellsItsViewersAndLeavesNothingBehind) {

@@ -38,7 +38,7 @@ TEST(ReportMaker, PatienceEndsBeforeTheWork) {
   EXPECT_FALSE(reports.report_of(job.path(), {}, 1ms));
   EXPECT_FALSE(reports.report_of(job.path(), {}, 1ms));
   may_go_on = true;
-  const auto file = reports.report_of(job.path(), {}, 10s);
+  const auto file = reports.report_of(job.path(), {}, 60s);
   ASSERT_TRUE(file);
   EXPECT_EQ(read_file(*file), "page");
   ReportMaker::forget(job.path());
@@ -73,7 +73,7 @@ TEST(ReportMaker, OneThatHangsHoldsBackNoOther) {
   });
   ReportMaker reports(executor);
   EXPECT_FALSE(reports.report_of(hanging.path(), {}, 1ms));
-  EXPECT_TRUE(reports.report_of(quick.path(), {}, 10s));
+  EXPECT_TRUE(reports.report_of(quick.path(), {}, 60s));
 }
 
 TEST(ReportMaker, AFewWaitAndMoreAreRefused) {
@@ -104,7 +104,7 @@ TEST(ReportMaker, FailuresAreTold) {
     return jobs::TaskResult{jobs::Outcome::crashed, 3, "boom", {}};
   });
   ReportMaker reports(executor);
-  EXPECT_THROW(reports.report_of(job.path(), {}, 10s), EnvironmentError);
+  EXPECT_THROW(reports.report_of(job.path(), {}, 60s), EnvironmentError);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "jobs/queue/local_processes.h"
 #include "server/service.h"
+#include "tests/base/wait_until.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
 #include "tests/server/test_checks.h"
@@ -20,18 +21,6 @@
 namespace throng::server {
 
 inline constexpr const char* kJob = R"({"scenario": "yard", "capture": {"to_s": 2}})";
-
-/// Waits until something holds; false when it does not within a minute, which a busy machine may
-/// need.
-inline bool wait_until(const std::function<bool()>& condition) {
-  using namespace std::chrono_literals;
-  const auto end = std::chrono::steady_clock::now() + 60s;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(2ms);
-  }
-  return true;
-}
 
 class ServiceFixture : public ::testing::Test {
  protected:
@@ -68,7 +57,8 @@ class ServiceFixture : public ::testing::Test {
 
   jobs::TemporaryFolder scenarios;
   jobs::TemporaryFolder data;
-  jobs::LocalProcesses real{{.command = {kProgram, "worker"}, .workers = 2}};
+  jobs::LocalProcesses real{
+      {.command = {kProgram, "worker"}, .workers = 2, .rest_s = 0.05, .grace_s = 0.2}};
   jobs::FakeExecutor executor;
 };
 

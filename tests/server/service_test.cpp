@@ -102,7 +102,7 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
     ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
     const std::jthread ender([&] { service.reset(); });
     // The task ends only after the service has begun to.
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_TRUE(wait_until([&] { return executor.was_stopped(); }));
     gate.open();
   }
   const std::size_t done_before = executor.done().size();
@@ -118,14 +118,18 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
 }
 
 TEST_F(ServiceTest, RemovingARunningJobEndsItAndItsFiles) {
-  executor.before = [](const Task&) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return TaskResult{};
-  };
+  Gate gate(executor);
   Service service(options(), executor);
   const JobRow row = service.queue().submit({kJob}).row;
-  ASSERT_TRUE(wait_until([&] { return !executor.done().empty(); }));
-  EXPECT_TRUE(service.housekeeping().remove(row.id));
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  {
+    // Its task ends only after it was asked to.
+    const std::jthread opener([&] {
+      EXPECT_TRUE(wait_until([&] { return executor.was_stopped(); }));
+      gate.open();
+    });
+    EXPECT_TRUE(service.housekeeping().remove(row.id));
+  }
   EXPECT_FALSE(service.queue().get(row.id));
   EXPECT_FALSE(std::filesystem::exists(data.path() / "jobs" / row.id));
   EXPECT_FALSE(std::filesystem::exists(data.path() / "trash" / row.id));
@@ -202,8 +206,12 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
 
 TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
+  std::atomic<int> looks = 0;
   ServiceOptions limited = options();
-  limited.housekeeping.disk = [&] { return DiskState{free.load()}; };
+  limited.housekeeping.disk = [&] {
+    ++looks;
+    return DiskState{free.load()};
+  };
   limited.housekeeping.min_free_bytes = 100;
   // Fails like a worker that cannot write, once there is no free space.
   executor.before = [&](const Task& task) {
@@ -219,7 +227,8 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   const std::string queued = service.queue().submit({kJob}).row.id;
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 110;  // a little is not enough
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const int looks_before = looks;
+  ASSERT_TRUE(wait_until([&] { return looks >= looks_before + 3; }));  // two were acted on
   EXPECT_NE(service.queue().paused(), "");
   EXPECT_EQ(service.queue().get(queued)->state, JobState::queued);
   free = 1000;

@@ -87,14 +87,15 @@ TEST_F(SeveralJobs, BeyondTheLimitEachOwnerHasOneAndHigherPrioritiesBegin) {
   const std::string urgent = submit("a", 5);
   EXPECT_TRUE(is_at_work(urgent));
   const std::string as_urgent = submit("a", 5);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::string last = submit("c");
+  EXPECT_TRUE(is_at_work(last)) << "all that wait were looked at";
   EXPECT_EQ(service.queue().get(second)->state, JobState::queued);
   EXPECT_EQ(service.queue().get(as_urgent)->state, JobState::queued);
   // Raised above all others, it begins.
   service.queue().change(second, {.priority = 9});
   EXPECT_TRUE(is_at_work(second));
   release_all();
-  for (const std::string& id : {first, second, others, urgent, as_urgent}) {
+  for (const std::string& id : {first, second, others, urgent, as_urgent, last}) {
     EXPECT_TRUE(reaches(service, id, JobState::succeeded));
   }
 }
@@ -128,11 +129,13 @@ TEST_F(SeveralJobs, AllGoOnAfterAFullDiskAndAfterARestart) {
     for (const std::string& id : ids) ASSERT_TRUE(is_at_work(id));
     free_bytes = 50;
     ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
+    for (const std::string& id : ids) ASSERT_EQ(service.queue().get(id)->bytes, 0);
     release(ids[0]);
     release(ids[1]);
     release(ids[2]);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
     for (const std::string& id : ids) {
+      // Its files are counted when it has stopped.
+      ASSERT_TRUE(wait_until([&] { return service.queue().get(id)->bytes > 0; }));
       EXPECT_EQ(service.queue().get(id)->state, JobState::running);
       EXPECT_NE(service.queue().get(id)->waiting_for, "");
     }

@@ -1,7 +1,9 @@
 // Studies over HTTP: queued like jobs, simulated run by run.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <memory>
 
 #include "study/spec/study_files.h"
 #include "tests/server/api_fixture.h"
@@ -160,7 +162,7 @@ TEST_F(StudyApi, MistakesComeBackAtOnceWithTheirPointers) {
 
 TEST_F(StudyApi, ShowsProgressAndIsCancelledAndGoesOn) {
   SKIP_WITHOUT_PROGRAM();
-  ::setenv("THRONG_FAULTS", "slow:simulation/000003:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:simulation/000003:600", 1);
   const std::string self = submitted(small_study());
   ASSERT_TRUE(has_run(self, "runs/yard/none/001.json"));
   EXPECT_TRUE(wait_until([&] { return get_json(self)["progress"]["runs_done"] == 3; }));
@@ -171,6 +173,9 @@ TEST_F(StudyApi, ShowsProgressAndIsCancelledAndGoesOn) {
   EXPECT_EQ(get_json(self + "/files/values.json")["cases"][0]["runs"], (json{0}));
   EXPECT_EQ(get(self + "/files/summary.json")->status, 409);
   EXPECT_EQ(get(self + "/report")->status, 409);
+  // A stream that begins only now: the events so far, then the progress.
+  const auto types = streamed(self + "/events", [](const auto& some) { return some.size() >= 3; });
+  EXPECT_EQ(types, (std::vector<std::string>{"submitted", "started", "progress"}));
   const httplib::Result cancelled = act(self + "/cancel");
   EXPECT_EQ(cancelled->status, 200) << cancelled->body;
   EXPECT_EQ(json::parse(cancelled->body)["state"], "cancelled");
@@ -185,13 +190,30 @@ TEST_F(StudyApi, ShowsProgressAndIsCancelledAndGoesOn) {
 
 TEST_F(StudyApi, AStreamTellsItsProgressAndEndsWithIt) {
   SKIP_WITHOUT_PROGRAM();
+  // Its first run ends only when progress was seen.
+  const auto is_seen = std::make_shared<std::atomic<bool>>(false);
+  executor.other = [is_seen, work = executor.other](
+                       const jobs::JobFolder& folder, const jobs::Task& task,
+                       const jobs::Executor::OnProgress& on_progress, const std::stop_token& stop) {
+    jobs::TaskResult result = work(folder, task, on_progress, stop);
+    EXPECT_TRUE(wait_until([&] { return *is_seen || stop.stop_requested(); }));
+    return result;
+  };
   const std::string self = submitted(small_study());
-  const httplib::Result stream = get(self + "/events", {{"Accept", "text/event-stream"}});
-  EXPECT_THAT(stream->get_header_value("Content-Type"), HasSubstr("text/event-stream"));
-  EXPECT_THAT(stream->body, HasSubstr("event: submitted\ndata: {"));
-  EXPECT_THAT(stream->body, HasSubstr("event: progress\ndata: {"));
-  EXPECT_THAT(stream->body, HasSubstr("\"runs_total\":4"));
-  EXPECT_THAT(stream->body, HasSubstr("event: succeeded\n"));
+  std::string text;
+  client().Get(self + "/events", {{"Accept", "text/event-stream"}},
+               [&](const char* block, std::size_t count) {
+                 text.append(block, count);
+                 if (text.find("event: progress\ndata: {") != std::string::npos) *is_seen = true;
+                 return true;
+               });
+  EXPECT_TRUE(*is_seen);
+  EXPECT_EQ(
+      get(self + "/events", {{"Accept", "text/event-stream"}})->get_header_value("Content-Type"),
+      "text/event-stream");
+  EXPECT_THAT(text, HasSubstr("event: submitted\ndata: {"));
+  EXPECT_THAT(text, HasSubstr("\"runs_total\":4"));
+  EXPECT_THAT(text, HasSubstr("event: succeeded\n"));
   const json events = get_json(self + "/events")["events"];
   EXPECT_EQ(events.front()["type"], "submitted");
   EXPECT_EQ(events.back()["type"], "succeeded");
@@ -201,7 +223,7 @@ TEST_F(StudyApi, AStreamTellsItsProgressAndEndsWithIt) {
 
 TEST_F(StudyApi, PriorityLabelsAndKeepAreChanged) {
   SKIP_WITHOUT_PROGRAM();
-  ::setenv("THRONG_FAULTS", "slow:*:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:*:600", 1);
   const auto with = [](const std::string& key) {
     return httplib::Headers{{"Authorization", "Bearer " + key}};
   };
@@ -241,7 +263,7 @@ TEST_F(StudyApi, ARunThatFailsIsTriedAgainAndThenNamed) {
 
 TEST_F(StudyApi, IsItsOwnersAndCountsForTheirQuota) {
   SKIP_WITHOUT_PROGRAM();
-  ::setenv("THRONG_FAULTS", "slow:*:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:*:600", 1);
   const auto with = [](const std::string& key) {
     return httplib::Headers{{"Authorization", "Bearer " + key}};
   };
@@ -269,7 +291,7 @@ TEST_F(StudyApi, AScenarioThatItNamesIsNotRemoved) {
   SKIP_WITHOUT_PROGRAM();
   const auto uploaded = client().Post("/v1/scenarios?name=mine", yard_bundle(), "application/zip");
   ASSERT_EQ(uploaded->status, 201) << uploaded->body;
-  ::setenv("THRONG_FAULTS", "slow:*:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:*:600", 1);
   json study = small_study();
   study["cases"][0]["scenario"] = "mine/yard";
   const std::string self = submitted(study);
@@ -287,7 +309,7 @@ class StudyRestart : public ServiceFixture {
 TEST_F(StudyRestart, GoesOnWithTheRunsThatItHas) {
   SKIP_WITHOUT_PROGRAM();
   std::string id;
-  ::setenv("THRONG_FAULTS", "slow:simulation/000002:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:simulation/000002:600", 1);
   {
     Service first(options(), executor);
     ::setenv("THRONG_SCENARIOS", first.folders().scenarios().c_str(), 1);
@@ -310,7 +332,7 @@ TEST_F(StudyRestart, GoesOnWithTheRunsThatItHas) {
 TEST_F(StudyRestart, ResultsOfAnotherVersionAreMadeAgain) {
   SKIP_WITHOUT_PROGRAM();
   std::string id;
-  ::setenv("THRONG_FAULTS", "slow:simulation/000002:60", 1);
+  ::setenv("THRONG_FAULTS", "slow:simulation/000002:600", 1);
   {
     Service first(options(), executor);
     ::setenv("THRONG_SCENARIOS", first.folders().scenarios().c_str(), 1);

@@ -41,7 +41,7 @@ class StudioTest : public ApiTest {
   }
 
   httplib::Result get_raw(const std::string& path, const httplib::Headers& headers) const {
-    httplib::Client plain = client();
+    HttpClient plain = client();
     plain.set_decompress(false);
     return plain.Get(path, headers);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "jobs/queue/checked_scenarios.h"
 #include "jobs/queue/confined_task.h"
 #include "jobs/spec/job_cost.h"
@@ -20,15 +21,17 @@
 
 namespace throng::server {
 
-#ifdef THRONG_PROGRAM
-inline constexpr const char* kProgram = THRONG_PROGRAM;
+/// The program of the same build folder; empty where it is not built.
+#ifdef THRONG_HAS_PROGRAM
+inline const std::string kProgram =
+    (program_path().parent_path().parent_path().parent_path() / "cli/throng").string();
 #else
-inline constexpr const char* kProgram = "";
+inline const std::string kProgram;
 #endif
 
 /// Skips a test that needs the program where it is not built (ThreadSanitizer).
 #define SKIP_WITHOUT_PROGRAM() \
-  if (*throng::server::kProgram == '\0') GTEST_SKIP() << "the program is not part of this build"
+  if (throng::server::kProgram.empty()) GTEST_SKIP() << "the program is not part of this build"
 
 /// Resolves a job without its crowd, drones' flights and lenses.
 inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
@@ -96,7 +99,7 @@ inline jobs::ConfinedTask real_checks() {
 /// The program's children, but for jobs, of which there are many; everything lightly where there is
 /// no program.
 inline jobs::ConfinedTask test_checks() {
-  if (*kProgram == '\0')
+  if (kProgram.empty())
     return [](const auto& request, const auto&) { return check_lightly(request); };
   return [real = real_checks()](const nlohmann::json& request, const std::filesystem::path& work) {
     return request.at("task") == "job" ? check_lightly(request) : real(request, work);

@@ -6,8 +6,9 @@
 #include <chrono>
 #include <map>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "tests/base/virtual_clock.h"
 
 namespace throng::jobs {
 namespace {
@@ -55,7 +56,7 @@ void let_begin(const std::vector<TestJob*>& jobs) {
 }
 
 /// One worker takes one task: all have asked before it is free. The name of the task's job.
-std::string next_of(const std::vector<TestJob*>& jobs, std::chrono::milliseconds length = 0ms) {
+std::string next_of(const std::vector<TestJob*>& jobs) {
   std::vector<Admission::Permit> ended;
   for (TestJob* job : jobs) {
     for (Admission::Permit& permit : job->running) ended.push_back(std::move(permit));
@@ -64,7 +65,6 @@ std::string next_of(const std::vector<TestJob*>& jobs, std::chrono::milliseconds
   for (TestJob* job : jobs) job->try_to_begin();
   ended.clear();
   let_begin(jobs);
-  std::this_thread::sleep_for(length);
   std::string name;
   for (const TestJob* job : jobs) {
     if (!job->running.empty()) name += job->name;
@@ -121,38 +121,37 @@ TEST(Admission, OwnersGetEqualPartsOfTheWorkers) {
 }
 
 TEST(Admission, OwnersTakeTurnsAtOneWorkerByTheTimeTheyHad) {
-  Admission admission({.workers = 1});
+  VirtualClock clock;
+  Admission admission({.workers = 1, .now = clock.now()});
   TestJob slow(admission, "a", "j1", 100);
   TestJob quick(admission, "b", "j2", 100);
   std::map<std::string, int> tasks;
-  std::map<std::string, double> had_s;
-  EXPECT_EQ(next_of({&slow, &quick}), "j1");
-  std::string last = "j1";
   for (int i = 0; i < 40; ++i) {
-    // A busy machine sleeps longer: the time that counts is the one that passed.
-    const auto start = std::chrono::steady_clock::now();
-    std::this_thread::sleep_for(last == "j1" ? 40ms : 10ms);
-    ++tasks[last];
-    had_s[last] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    last = next_of({&slow, &quick});
+    const std::string next = next_of({&slow, &quick});
+    ++tasks[next];
+    clock.advance(next == "j1" ? 40s : 10s);
   }
-  EXPECT_NEAR(had_s["j1"] / had_s["j2"], 1, 0.5);
-  EXPECT_GT(tasks["j2"], 2 * tasks["j1"]);
+  EXPECT_EQ(tasks["j1"], 8);
+  EXPECT_EQ(tasks["j2"], 32);
 }
 
 TEST(Admission, WhoComesBackGetsNothingForTheTimeAway) {
-  Admission admission({.workers = 1});
+  VirtualClock clock;
+  Admission admission({.workers = 1, .now = clock.now()});
   TestJob old(admission, "a", "j1", 1000);
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(old.try_to_begin());
-    std::this_thread::sleep_for(5ms);
+    clock.advance(5s);
     old.running.clear();
   }
   TestJob fresh(admission, "b", "j2", 1000);
   std::map<std::string, int> tasks;
-  for (int i = 0; i < 20; ++i) ++tasks[next_of({&old, &fresh}, 2ms)];
-  EXPECT_GE(tasks["j1"], 6);
-  EXPECT_GE(tasks["j2"], 6);
+  for (int i = 0; i < 20; ++i) {
+    ++tasks[next_of({&old, &fresh})];
+    clock.advance(2s);
+  }
+  EXPECT_EQ(tasks["j1"], 10);
+  EXPECT_EQ(tasks["j2"], 10);
 }
 
 TEST(Admission, SmallJobsOfAnOwnerEndEarlyAndTheOldestIsNotForgotten) {
@@ -199,23 +198,46 @@ TEST(Admission, TasksWaitWhileTheMachineHasNoMemory) {
 }
 
 TEST(Admission, MemoryThatABegunTaskHasNotTakenYetIsPromised) {
-  Admission admission({.workers = 4, .memory_mib = 0, .available_mib = [] { return 1500; }});
+  VirtualClock clock;
+  Admission admission(
+      {.workers = 4, .memory_mib = 0, .available_mib = [] { return 1500; }, .now = clock.now()});
   TestJob job(admission, "a", "j1", 4, 0, 700);
   EXPECT_TRUE(job.try_to_begin());
+  clock.advance(10s - 1ms);
+  EXPECT_FALSE(job.try_to_begin());
+  clock.advance(1ms);
+  EXPECT_TRUE(job.try_to_begin()) << "what it has taken is no longer available";
   EXPECT_FALSE(job.try_to_begin());
   job.running.clear();
   EXPECT_TRUE(job.try_to_begin());
 }
 
+TEST(Admission, SmallerTasksGoAheadOfOneThatWaitsForMemoryForAMinute) {
+  VirtualClock clock;
+  Admission admission({.workers = 4, .memory_mib = 1000, .now = clock.now()});
+  TestJob large(admission, "a", "j1", 2, 0, 700);
+  EXPECT_TRUE(large.try_to_begin());
+  EXPECT_FALSE(large.try_to_begin());
+  TestJob small(admission, "a", "j2", 9, -5, 100);
+  clock.advance(60s - 1ms);
+  EXPECT_FALSE(large.try_to_begin());
+  EXPECT_TRUE(small.try_to_begin());
+  clock.advance(1ms);
+  EXPECT_FALSE(large.try_to_begin());
+  EXPECT_FALSE(small.try_to_begin());
+}
+
 TEST(Admission, AJobThatIsAheadButDoesNotAskHoldsBackNobody) {
-  Admission admission({.workers = 1});
+  VirtualClock clock;
+  Admission admission({.workers = 1, .now = clock.now()});
   TestJob busy(admission, "a", "j1", 10, 50);
   TestJob other(admission, "a", "j2", 10);
   EXPECT_TRUE(other.try_to_begin());
   EXPECT_FALSE(busy.try_to_begin());
   other.running.clear();
-  EXPECT_FALSE(other.try_to_begin()) << "the other has asked just now";
-  std::this_thread::sleep_for(1100ms);
+  clock.advance(1s);
+  EXPECT_FALSE(other.try_to_begin()) << "the other has asked within a second";
+  clock.advance(1ms);
   EXPECT_TRUE(other.try_to_begin());
 }
 

@@ -1,12 +1,12 @@
 // An executor that pretends: it publishes what tasks would publish, in this process.
 #pragma once
 
-#include <chrono>
+#include <atomic>
 #include <functional>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "base/files.h"
@@ -35,6 +35,7 @@ class FakeExecutor : public Executor {
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
                               const OnProgress& on_progress, std::stop_token stop,
                               const Share& /*share*/) override {
+    const std::stop_callback note(stop, [this] { was_stopped_ = true; });
     std::vector<TaskResult> results(tasks.size());
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       if (is_other(tasks[i].kind)) {
@@ -52,6 +53,9 @@ class FakeExecutor : public Executor {
     }
     return results;
   }
+
+  /// Whether a stop was requested while it was at work.
+  bool was_stopped() const { return was_stopped_; }
 
   std::vector<std::string> done() const {
     const std::lock_guard lock(mutex_);
@@ -79,6 +83,7 @@ class FakeExecutor : public Executor {
     staging.commit();
   }
 
+  std::atomic<bool> was_stopped_ = false;
   mutable std::mutex mutex_;
   std::vector<std::string> done_;
 };

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
+#include <fstream>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/resources.h"
 #include "jobs/queue/confined_task.h"
+#include "tests/base/wait_until.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -30,8 +32,18 @@ class ForkServerTest : public testing::Test {
     return task(request, work.path());
   }
 
-  std::shared_ptr<ForkServer> server =
-      std::make_shared<ForkServer>(std::vector<std::string>{THRONG_FORK_SERVER});
+  /// Processes whose children have begun to wait in a folder.
+  static std::vector<pid_t> servers_of(const TemporaryFolder& work) {
+    std::ifstream file(work.path() / "begun");
+    std::vector<pid_t> servers;
+    for (std::string line; std::getline(file, line) && !file.eof();) {
+      servers.push_back(std::stoi(line));
+    }
+    return servers;
+  }
+
+  std::shared_ptr<ForkServer> server = std::make_shared<ForkServer>(
+      std::vector<std::string>{program_path().parent_path() / "fork_server_program"});
   ConfinedTask task = confined_task_by(server);
 };
 
@@ -65,12 +77,20 @@ TEST_F(ForkServerTest, AChildThatDiesCostsItsRequestAlone) {
 }
 
 TEST_F(ForkServerTest, AServerThatIsGoneIsStartedAgain) {
-  const auto server_pid = ask({{"do", "answer"}, {"n", 1}})["server"].get<pid_t>();
-  const std::jthread killer([server_pid] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    ::kill(server_pid, SIGKILL);
+  const auto first = ask({{"do", "answer"}, {"n", 1}})["server"].get<pid_t>();
+  const TemporaryFolder work;
+  const std::jthread killer([&] {
+    for (std::size_t i = 1; i <= 2; ++i) {
+      EXPECT_TRUE(wait_until([&] { return servers_of(work).size() == i; }));
+      ::kill(servers_of(work).back(), SIGKILL);
+    }
   });
-  EXPECT_THROW(ask({{"do", "sleep"}}), EnvironmentError);
+  // A second server takes the request over; a third one does not.
+  EXPECT_THROW(task({{"do", "wait"}}, work.path()), EnvironmentError);
+  const std::vector<pid_t> servers = servers_of(work);
+  ASSERT_EQ(servers.size(), 2U);
+  EXPECT_EQ(servers[0], first);
+  EXPECT_NE(servers[1], first);
   EXPECT_EQ(ask({{"do", "answer"}, {"n", 2}})["n"], 2);
 }
 
@@ -87,12 +107,13 @@ TEST_F(ForkServerTest, ManyThreadsAskAtOnce) {
 }
 
 TEST_F(ForkServerTest, StoppingEndsWhatIsUnderWay) {
-  std::future<void> slow = std::async(std::launch::async, [&] { ask({{"do", "sleep"}}); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  const auto begun = std::chrono::steady_clock::now();
+  const TemporaryFolder work;
+  std::future<void> slow = std::async(std::launch::async, [&] {
+    task({{"do", "wait"}}, work.path());
+  });
+  EXPECT_TRUE(wait_until([&] { return servers_of(work).size() == 1; }));
   server->stop();
   EXPECT_THROW(slow.get(), EnvironmentError);
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
   EXPECT_THROW(ask({{"do", "answer"}}), EnvironmentError);
 }
 

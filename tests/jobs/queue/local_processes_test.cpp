@@ -9,12 +9,17 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <thread>
 
+#include "tests/base/virtual_clock.h"
+#include "tests/base/wait_until.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -36,14 +41,16 @@ class LocalProcessesTest : public testing::Test {
     options.command = {"/bin/sh", "-c", "job=$2 task=$4; " + script, "worker"};
     options.workers = workers;
     options.grace_s = 0.3;
-    options.rest_s = 0.01;
+    options.rest_s = rest_s;
     options.lease_s = lease_s;
+    options.now = now;
     options.max_task_s = max_task_s;
     LocalProcesses processes(options);
     return processes.run(
         JobFolder(folder.path()), list,
         [&](const Task& task, const TaskProgress& progress) {
           reported[task.run].push_back(progress.done);
+          if (on_progress) on_progress(progress);
         },
         std::move(stop));
   }
@@ -55,10 +62,24 @@ class LocalProcessesTest : public testing::Test {
     return lines;
   }
 
+  std::string last_line(const std::string& name) const {
+    std::ifstream file(folder.path() / name);
+    std::string last;
+    for (std::string line; std::getline(file, line);) last = line;
+    return last;
+  }
+
+  bool has_lines(const std::string& name, int count) const {
+    return wait_until([&] { return count_lines(name) >= count; });
+  }
+
   TemporaryFolder folder;
   std::map<int, std::vector<double>> reported;
+  std::function<void(const TaskProgress&)> on_progress;
+  SteadyNow now = &steady_now;
   double lease_s = 60;
   double max_task_s = 0;
+  double rest_s = 0.01;
 };
 
 TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
@@ -106,16 +127,19 @@ TEST_F(LocalProcessesTest, ATaskWaitsAsLongAsTheMachineHasNoRoomForItsWorker) {
   options.rest_s = 0.05;
   LocalProcesses processes(options);
   auto lowered = std::make_unique<Lowered>(RLIMIT_NOFILE, 0);  // no further file can be opened
-  std::jthread helper([&] {
-    std::this_thread::sleep_for(600ms);
-    lowered.reset();
-  });
   Share share;
   share.on_wait = [&](const std::string& reason) { reasons.push_back(reason); };
+  // It is asked for before each try.
+  int tries = 0;
+  share.memory_mib = [&](const Task&) {
+    if (++tries == 5) lowered.reset();
+    return 0;
+  };
   const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
   const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {}, share);
   EXPECT_EQ(results[0].outcome, Outcome::succeeded) << results[0].message;
   EXPECT_EQ(results[0].attempts, 1) << "only what was begun counts";
+  EXPECT_EQ(tries, 5);
   EXPECT_EQ(count_lines("ran"), 1);
   ASSERT_EQ(reasons.size(), 2U);
   EXPECT_THAT(reasons[0], HasSubstr("Too many open files"));
@@ -161,12 +185,10 @@ TEST_F(LocalProcessesTest, InputErrorsAreNotRetried) {
 }
 
 TEST_F(LocalProcessesTest, AWrongJobEndsAllTasks) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto results = run("[ $task = run001/trace ] && exit 2; exec sleep 60", 3);
+  const auto results = run("[ $task = run001/trace ] && exit 2; exec sleep 600", 3);
   EXPECT_EQ(results[0].outcome, Outcome::cancelled);
   EXPECT_EQ(results[1].outcome, Outcome::input_error);
   EXPECT_EQ(results[2].outcome, Outcome::cancelled);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, 20s);
 }
 
 TEST_F(LocalProcessesTest, ATaskThatFailsForGoodEndsThoseOfItsRunOnly) {
@@ -176,7 +198,7 @@ TEST_F(LocalProcessesTest, ATaskThatFailsForGoodEndsThoseOfItsRunOnly) {
                                    {Task::Kind::render, 0, 2}};
   LocalProcessesOptions options;
   options.command = {"/bin/sh", "-c",
-                     "case $4 in run000/shard0000) exit 3;; run000/shard0001) exec sleep 60;; "
+                     "case $4 in run000/shard0000) exit 3;; run000/shard0001) exec sleep 600;; "
                      "esac; sleep 0.3",
                      "worker"};
   options.workers = 2;
@@ -193,16 +215,36 @@ TEST_F(LocalProcessesTest, ATaskThatFailsForGoodEndsThoseOfItsRunOnly) {
 }
 
 TEST_F(LocalProcessesTest, AWorkerThatIsSilentTooLongIsReplaced) {
-  lease_s = 0.3;
+  VirtualClock clock;
+  now = clock.now();
+  rest_s = 0;
+  int tries_within_lease = 0;
+  const std::jthread time([&] {
+    if (!has_lines("tries", 1)) return;
+    clock.advance(60s);
+    const int asked = clock.asked();
+    wait_until([&] { return clock.asked() > asked + 20; });  // some rounds
+    tries_within_lease = count_lines("tries");
+    clock.advance(1ms);
+  });
   const auto results =
-      run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 2 ] || exec sleep 60");
+      run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 2 ] || exec sleep 600");
+  EXPECT_EQ(tries_within_lease, 1);
   EXPECT_EQ(results[0].outcome, Outcome::succeeded);
   EXPECT_EQ(results[0].attempts, 2);
 }
 
 TEST_F(LocalProcessesTest, SignsOfLifeKeepAWorker) {
-  lease_s = 0.5;
-  const auto results = run("for i in 1 2 3 4 5 6 7 8; do echo '{}'; sleep 0.1; done");
+  VirtualClock clock;
+  now = clock.now();
+  on_progress = [&](const TaskProgress& progress) {
+    clock.advance(59s);
+    write_file_atomically(folder.path() / std::to_string(std::lround(progress.done)), "");
+  };
+  const auto results =
+      run("for i in 1 2 3 4 5 6 7 8; do echo '{\"done\":'$i',\"total\":8}'; "
+          "while [ ! -e $job/$i ]; do sleep 0.01; done; done");
+  EXPECT_EQ(reported[0].size(), 8U);
   EXPECT_EQ(results[0].outcome, Outcome::succeeded);
   EXPECT_EQ(results[0].attempts, 1);
 }
@@ -228,24 +270,37 @@ TEST_F(LocalProcessesTest, OutOfMemoryIsNamedAsSuch) {
 }
 
 TEST_F(LocalProcessesTest, ATaskRestsBeforeItIsTriedAgain) {
-  LocalProcessesOptions options;
-  options.command = {"/bin/sh", "-c", "exit 3", "worker"};
-  options.rest_s = 0.1;
-  LocalProcesses processes(options);
-  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
-  const auto start = std::chrono::steady_clock::now();
-  processes.run(JobFolder(folder.path()), tasks, {}, {});
-  EXPECT_GE(std::chrono::steady_clock::now() - start, 500ms) << "0.1 s and 0.4 s";
+  VirtualClock clock;
+  now = clock.now();
+  rest_s = 10;
+  std::vector<int> tries;  // before the end of each rest
+  const std::jthread time([&] {
+    for (const auto rest : {10s, 40s}) {
+      if (!has_lines("tries", static_cast<int>(tries.size()) + 1)) return;
+      // It rests once its process has been collected.
+      const std::string pid = last_line("tries");
+      if (!wait_until([&] { return !std::filesystem::exists("/proc/" + pid); })) return;
+      for (const auto part : {SteadyTime::duration(rest - 1ms), SteadyTime::duration(1ms)}) {
+        const int asked = clock.asked();
+        wait_until([&] { return clock.asked() > asked + 20; });
+        if (part == 1ms) tries.push_back(count_lines("tries"));
+        clock.advance(part);
+      }
+    }
+  });
+  const auto results = run("echo $$ >> $job/tries; exit 3");
+  EXPECT_THAT(tries, ElementsAre(1, 2));
+  EXPECT_EQ(results[0].attempts, 3);
 }
 
 TEST_F(LocalProcessesTest, CancelEndsTheWholeTreeEvenIfItIgnoresSigterm) {
   std::stop_source stop;
   const std::jthread canceller([&] {
-    while (count_lines("children") < 2) std::this_thread::sleep_for(5ms);
+    EXPECT_TRUE(has_lines("children", 4));
     stop.request_stop();
   });
   const auto results =
-      run("trap '' TERM; (trap '' TERM; echo $$ >> $job/children; sleep 60) & echo $! >> "
+      run("trap '' TERM; (trap '' TERM; echo $$ >> $job/children; sleep 600) & echo $! >> "
           "$job/children; "
           "wait",
           2, 2, stop.get_token());
@@ -262,8 +317,7 @@ TEST_F(LocalProcessesTest, CancelEndsTheWholeTreeEvenIfItIgnoresSigterm) {
       status >> id >> name >> state;
       return state == "gone" || state == "Z";
     };
-    for (int i = 0; i < 200 && !gone(); ++i) std::this_thread::sleep_for(10ms);
-    EXPECT_TRUE(gone()) << pid;
+    EXPECT_TRUE(wait_until(gone)) << pid;
   }
 }
 
@@ -289,35 +343,36 @@ TEST_F(LocalProcessesTest, WorkersKnowTheirSupervisorAndShareTheCores) {
 }
 
 TEST_F(LocalProcessesTest, AHigherPriorityGoesAheadAtTheBordersOfTasks) {
+  VirtualClock clock;
   LocalProcessesOptions options;
-  options.command = {"/bin/sh", "-c", "echo $2 $4 >> $0; sleep 0.1",
+  options.command = {"/bin/sh", "-c", "echo $2 $4 >> $0; while [ ! -e $0.go ]; do sleep 0.01; done",
                      (folder.path() / "order").string()};
   options.workers = 1;
+  options.now = clock.now();  // a claim on a worker grows old only with time
   LocalProcesses processes(options);
-  const auto tasks_of = [](int count) {
+  const auto run_job = [&](const std::string& name, int count, int priority) {
     std::vector<Task> tasks;
     for (int i = 0; i < count; ++i) tasks.push_back({Task::Kind::simulate, i});
-    return tasks;
-  };
-  const auto run_job = [&](const std::string& name, int count, int priority) {
-    const auto tasks = tasks_of(count);
     Share share{.owner = name, .job = name};
-    share.priority = [priority] { return priority; };
+    int asked = 0;
+    share.priority = [&] {
+      // When the higher one asks again, it has been refused once, and waits.
+      if (priority > 0 && ++asked == 2) write_file_atomically(folder.path() / "order.go", "");
+      return priority;
+    };
     processes.run(JobFolder(folder.path() / name), tasks, {}, {}, share);
   };
   {
     const std::jthread low([&] { run_job("low", 12, 0); });
-    while (count_lines("order") < 2) std::this_thread::sleep_for(5ms);
+    ASSERT_TRUE(has_lines("order", 1));
     run_job("high", 4, 10);
-    EXPECT_LT(count_lines("order"), 12) << "the other has not ended";
   }
   std::ifstream file(folder.path() / "order");
   std::string order;
   for (std::string line; std::getline(file, line);) {
     order += line.find("/high ") != std::string::npos ? 'h' : 'l';
   }
-  EXPECT_EQ(order.size(), 16U);
-  EXPECT_THAT(order, HasSubstr("hhhh"));
+  EXPECT_EQ(order, "lhhhhlllllllllll");
 }
 
 TEST_F(LocalProcessesTest, CallsShareTheWorkers) {
@@ -345,6 +400,7 @@ TEST_F(LocalProcessesTest, CallsShareTheWorkers) {
 TEST_F(LocalProcessesTest, AProgramThatIsNotThereIsTheMachinesFault) {
   LocalProcessesOptions options;
   options.command = {"/nonexistent/throng"};
+  options.rest_s = 0.01;
   LocalProcesses processes(options);
   const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
   const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {});

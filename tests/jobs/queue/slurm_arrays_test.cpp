@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -13,6 +14,8 @@
 #include "base/error.h"
 #include "jobs/queue/attempts.h"
 #include "jobs/queue/executors.h"
+#include "tests/base/virtual_clock.h"
+#include "tests/base/wait_until.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -24,7 +27,7 @@ using testing::HasSubstr;
 // Keeps a line per task in $FAKE/queue/JOB_INDEX, in squeue's format.
 constexpr const char* kSbatch = R"sh(#!/bin/sh
 [ -e $FAKE/away ] && { echo "sbatch: error: Unable to contact slurm controller" >&2; exit 1; }
-[ -e $FAKE/refusal ] && { cat $FAKE/refusal >&2; exit 1; }
+[ -e $FAKE/refusal ] && { echo "$*" >> $FAKE/refused; cat $FAKE/refusal >&2; exit 1; }
 for word in "$@"; do case $word in
   --test-only) exit 0;;
   --job-name=*) name=${word#*=};;
@@ -41,11 +44,16 @@ i=0; while [ $i -le $last ]; do
   setsid $FAKE/bin/node "$script" "$line" $FAKE/queue/${job}_$i > /dev/null 2>&1 &
   i=$((i + 1))
 done
-sleep 0.1  # until all have left the process group, which ends with this process
+# Until all have left the process group, which ends with this process.
+i=0; while [ $i -le $last ]; do
+  while [ ! -e $FAKE/started/${job}_$i ]; do sleep 0.01; done
+  i=$((i + 1))
+done
 echo $job
 )sh";
 // A task on its node, from its begin to its end.
 constexpr const char* kNode = R"sh(#!/bin/sh
+: > $FAKE/started/${3##*/}
 sh -c "$1"; code=$?
 if [ -e $FAKE/end ]; then read state raw < $FAKE/end; rm $FAKE/end
 elif [ $code = 0 ]; then state=COMPLETED raw=0
@@ -54,7 +62,7 @@ else state=FAILED raw=$((code * 256)); fi
 [ -e $3 ] && printf "$2" $state $raw > $3
 )sh";
 constexpr const char* kSqueue = R"sh(#!/bin/sh
-[ -e $FAKE/away ] && { echo "slurm_load_jobs error: Unable to contact slurm controller" >&2; exit 1; }
+[ -e $FAKE/away ] && { echo x >> $FAKE/looks; echo "slurm_load_jobs error: Unable to contact slurm controller" >&2; exit 1; }
 cat $FAKE/queue/* 2>/dev/null; exit 0
 )sh";
 constexpr const char* kScancel = "#!/bin/sh\necho \"$*\" >> $FAKE/cancelled\n";
@@ -74,7 +82,8 @@ begun() { echo x >> $job/begun; wc -l < $job/begun; }
 class SlurmArraysTest : public testing::Test {
  protected:
   SlurmArraysTest() {
-    for (const char* name : {"bin", "queue", "jobs"}) fs::create_directories(fake.path() / name);
+    for (const char* name : {"bin", "queue", "jobs", "started"})
+      fs::create_directories(fake.path() / name);
     install("sbatch", kSbatch);
     install("node", kNode);
     install("squeue", kSqueue);
@@ -116,6 +125,22 @@ class SlurmArraysTest : public testing::Test {
     auto results = arrays.run(JobFolder(folder.path()), list, on_progress, stop, share);
     nodes = arrays.nodes_of(JobFolder(folder.path()));
     return results;
+  }
+
+  bool has_lines(const fs::path& file, std::ptrdiff_t count) const {
+    return wait_until([&] {
+      const std::string text = text_of(file);
+      return std::count(text.begin(), text.end(), '\n') >= count;
+    });
+  }
+
+  /// Whether Slurm's number of the folder's only array gets known.
+  bool has_noted_number() const {
+    return wait_until([&] {
+      const JobFolder job(folder.path());
+      const auto arrays = read_attempts(job);
+      return arrays.size() == 1 && !noted_array_job(job, arrays[0].name).empty();
+    });
   }
 
   std::string text_of(const fs::path& file) const {
@@ -193,7 +218,7 @@ TEST_F(SlurmArraysTest, ATaskWithoutMemoryGetsMoreTheNextTime) {
 TEST_F(SlurmArraysTest, WhileTheControllerIsAwayNothingFails) {
   write_file_atomically(fake.path() / "away", "");
   std::jthread comes_back([this] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    EXPECT_TRUE(has_lines(fake.path() / "looks", 3));
     fs::remove(fake.path() / "away");
   });
   EXPECT_EQ(run("end 0")[0].outcome, Outcome::succeeded);
@@ -205,7 +230,7 @@ TEST_F(SlurmArraysTest, WhileTheControllerIsAwayNothingFails) {
 TEST_F(SlurmArraysTest, ARefusalIsSaidAndTriedAgain) {
   write_file_atomically(fake.path() / "refusal", "sbatch: error: Invalid account\n");
   std::jthread allows([this] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_TRUE(has_lines(fake.path() / "refused", 3));
     fs::remove(fake.path() / "refusal");
   });
   const TaskResult result = run("end 0")[0];
@@ -223,13 +248,11 @@ TEST_F(SlurmArraysTest, ALostAnswerOfSbatchRunsNothingTwice) {
 }
 
 TEST_F(SlurmArraysTest, CancelTakesTheRightToPublishAway) {
+  install("scancel", kScancel + std::string("rm -f $FAKE/queue/*\n"));
   std::stop_source stop;
   std::jthread stops([&] {
-    while (!fs::exists(folder.path() / "begun")) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    for (const auto& entry : fs::directory_iterator(fake.path() / "queue")) fs::remove(entry);
+    EXPECT_TRUE(has_lines(folder.path() / "begun", 2));
+    EXPECT_TRUE(has_noted_number());
     stop.request_stop();
   });
   const auto results = run("begun; while [ -e $own ]; do sleep 0.05; done", 2, stop.get_token());
@@ -249,10 +272,8 @@ TEST_F(SlurmArraysTest, TasksThatRunAreTakenUpAgain) {
       SlurmArrays first(options);
       std::stop_source stop;
       std::jthread stops([&] {
-        while (text_of(folder.path() / "begun").size() < 4) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        EXPECT_TRUE(has_lines(folder.path() / "begun", 2));
+        EXPECT_TRUE(has_noted_number());
         first.leave_tasks();
         stop.request_stop();
       });
@@ -302,11 +323,30 @@ TEST_F(SlurmArraysTest, AnArrayThatNeverReachedSlurmIsSubmittedAgain) {
 }
 
 TEST_F(SlurmArraysTest, ASilentWorkerIsReplaced) {
-  SlurmOptions options = options_for("[ $(begun) = 1 ] && exec sleep 2; end 0");
-  options.lease_s = 0.3;
+  // The first one says nothing until it has lost its right to publish.
+  SlurmOptions options =
+      options_for("[ $(begun) = 1 ] && { while [ -e $own ]; do sleep 0.05; done; exit 1; }; end 0");
+  VirtualClock clock;
+  options.now = clock.now();
+  options.rest_s = 0;
   SlurmArrays arrays(options);
+  const JobFolder job(folder.path());
+  std::size_t begun_within_lease = 0;
+  const std::jthread time([&] {
+    EXPECT_TRUE(has_lines(folder.path() / "begun", 1));
+    EXPECT_TRUE(wait_until([&] {
+      const auto known = arrays.nodes_of(job);
+      return !known.empty() && known[0].running == 1;
+    }));
+    clock.advance(std::chrono::seconds(120));
+    const int asked = clock.asked();
+    EXPECT_TRUE(wait_until([&] { return clock.asked() >= asked + 5; }));  // some looks
+    begun_within_lease = text_of(folder.path() / "begun").size();
+    clock.advance(std::chrono::milliseconds(1));
+  });
   const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
-  const auto results = arrays.run(JobFolder(folder.path()), tasks, {}, {});
+  const auto results = arrays.run(job, tasks, {}, {});
+  EXPECT_EQ(begun_within_lease, 2U) << "one line";
   EXPECT_EQ(results[0].outcome, Outcome::succeeded) << results[0].message;
   EXPECT_EQ(results[0].attempts, 2);
 }
