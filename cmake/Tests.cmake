@@ -7,6 +7,9 @@
 #   waits       it starts servers, browsers or workers and waits for them. scripts/run_ctest.py repeats it once, alone,
 #               if it fails (docs/contributing.md); no other test is ever repeated.
 #
+# A test takes a slot of `ctest -j`, and two if it keeps the machine busy by itself (computing, BUSY): so two of those run
+# at a time, or four that wait.
+#
 # No test reads build/people, whose size depends on what ran last: THRONG_PEOPLE names a library of the test's own build.
 set(THRONG_FEW_PEOPLE "${PROJECT_BINARY_DIR}/few_people")    # 6 characters: each worker loads all of a library
 set(THRONG_MANY_PEOPLE "${PROJECT_BINARY_DIR}/many_people")  # 24, for tests of the characters themselves
@@ -56,16 +59,19 @@ function(throng_test name)
     add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
     set_tests_properties(${name}.${shard} PROPERTIES LABELS "${labels}" TIMEOUT 900
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index};THRONG_PEOPLE=${THRONG_MANY_PEOPLE}")
+    if(ARG_COMPUTES)
+      set_tests_properties(${name}.${shard} PROPERTIES PROCESSORS 2)
+    endif()
     if(ARG_PEOPLE)
       set_tests_properties(${name}.${shard} PROPERTIES FIXTURES_REQUIRED many_people)
     endif()
   endforeach()
 endfunction()
 
-# throng_script_test(NAME COMMAND word... LABELS label... TIMEOUT_S n FIXTURES name... MANY_PEOPLE): a test that runs the
-# whole program, with 6 characters, or 24 with MANY_PEOPLE.
+# throng_script_test(NAME COMMAND word... LABELS label... TIMEOUT_S n FIXTURES name... MANY_PEOPLE BUSY): a test that runs the
+# whole program, with 6 characters, or 24 with MANY_PEOPLE. BUSY: with several processes that compute.
 function(throng_script_test name)
-  cmake_parse_arguments(ARG "MANY_PEOPLE" "TIMEOUT_S" "COMMAND;LABELS;FIXTURES" ${ARGN})
+  cmake_parse_arguments(ARG "MANY_PEOPLE;BUSY" "TIMEOUT_S" "COMMAND;LABELS;FIXTURES" ${ARGN})
   add_test(NAME ${name} COMMAND ${ARG_COMMAND})
   set(size few)
   set(people "${THRONG_FEW_PEOPLE}")
@@ -74,6 +80,11 @@ function(throng_script_test name)
     set(people "${THRONG_MANY_PEOPLE}")
   endif()
   list(APPEND ARG_FIXTURES ${size}_people)
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT_S}
+  if(ARG_BUSY)
+    set(slots 2)
+  else()
+    set(slots 1)
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT_S} PROCESSORS ${slots}
     ENVIRONMENT "THRONG_PEOPLE=${people}" FIXTURES_REQUIRED "${ARG_FIXTURES}")
 endfunction()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test. Every step runs, whatever failed before; a table
 # at the end names each step with its times, each failed test and the slowest ones.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, includes
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, soak, includes
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$root"
@@ -9,8 +9,8 @@ steps=("$@")
 [ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz)
 for step in "${steps[@]}"; do
   case "$step" in
-    format | release | tidy | asan | tsan | fuzz | long | includes) ;;
-    *) echo "unknown step $step; steps: format release tidy asan tsan fuzz long includes" >&2; exit 2 ;;
+    format | release | tidy | asan | tsan | fuzz | long | soak | includes) ;;
+    *) echo "unknown step $step; steps: format release tidy asan tsan fuzz long soak includes" >&2; exit 2 ;;
   esac
 done
 mkdir -p build/tmp
@@ -73,8 +73,7 @@ benchmarks() {
   jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
     sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
 }
-# The tests of the program wait much.
-release_tests() { run_ctest release release --repeat-waits -j3 -LE '^sanitized$'; }
+release_tests() { run_ctest release release --repeat-waits -j4 -LE '^sanitized$'; }
 run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
 
 # Not among the default steps: every test program of a module with both builds, and tests of which the default steps take
@@ -96,18 +95,40 @@ long_computing_with_asan() {
   asan_ctest long-asan -j3 -L '^computing$'
 }
 
+# Not among the default steps: tests that wait, ten times each (or $THRONG_SOAK times), beside two busy loops. None may fail.
+step_soak() {
+  say "tests that wait, beside two busy loops"
+  build release throng_computing_tests
+  build asan throng_sanitized_tests
+  local loops=()
+  for _ in 1 2; do
+    (while :; do :; done) &
+    loops+=($!)
+  done
+  trap 'kill "${loops[@]}"' EXIT
+  run_parts soak_release soak_asan
+}
+soak_release() { run_ctest soak-release release -j4 -L '^waits$' -LE '^sanitized$' --repeat "until-fail:${THRONG_SOAK:-10}"; }
+soak_asan() { asan_ctest soak-asan -j4 -L '^waits$' -LE '^slow$' --repeat "until-fail:${THRONG_SOAK:-10}"; }
+
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
-# of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. An unchanged tree
-# is not checked twice.
+# of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. What has passed once
+# is not checked again, in any checkout of this user: the same bytes, list of modules and version of clang-tidy.
 step_tidy() {
   say "clang-tidy"
-  local state stamp=build/tidy.stamp
-  state="$(sources | xargs cat .clang-tidy | sha256sum)"
-  [ "$(cat "$stamp" 2>/dev/null)" = "$state" ] && return
   cmake -S . --preset asan >build/configure-asan.log
+  local stamps="${XDG_CACHE_HOME:-$HOME/.cache}/throng/tidy" state modules
+  modules="$(cut -d/ -f1 build/asan/modules.txt | sort -u | paste -sd'|')"
+  state="$({ sources | sort | xargs sha256sum; sha256sum .clang-tidy scripts/join_sources.py; echo "$modules"; clang-tidy --version; } | sha256sum | cut -d' ' -f1)"
+  if [ -e "$stamps/$state" ]; then
+    echo "passed before, on $(date -r "$stamps/$state" '+%F %R')"
+    return
+  fi
   python3 scripts/join_sources.py 4 build/asan build/tidy |
-    xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --extra-arg=-Wno-everything 2>build/tidy.err || return 1
-  echo "$state" >"$stamp"
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --header-filter="^$root/($modules)/" --extra-arg=-Wno-everything \
+      2>build/tidy.err || return 1
+  mkdir -p "$stamps"
+  touch "$stamps/$state"
 }
 
 asan_ctest() {
