@@ -63,9 +63,10 @@ PY
 printf '{"scenario": "town", "capture": {"rate_hz": 10, "from_s": 0, "to_s": 0.1}}' > "$work/job.json"
 timed() {
   TIMEFORMAT="%R %U"
-  local seconds
-  seconds=$({ time "${@:2}" > "$work/out.txt" 2>&1; } 2>&1) || { cat "$work/out.txt"; exit 1; }
-  printf '%-10s %9.2f %9.2f   %s\n' "$1" $seconds "$(tail -1 "$work/out.txt" | cut -c1-90)"
+  local times wall_s cpu_s
+  times=$({ time "${@:2}" > "$work/out.txt" 2>&1; } 2>&1) || { cat "$work/out.txt"; exit 1; }
+  read -r wall_s cpu_s <<<"$times"
+  printf '%-10s %9.2f %9.2f   %s\n' "$1" "$wall_s" "$cpu_s" "$(tail -1 "$work/out.txt" | cut -c1-90)"
 }
 printf '%-10s %9s %9s\n' step 'wall, s' 'CPU, s'
 timed import "$throng" scenario import "$work/town.osm" -o "$work/places" --people "${2:-1000}"

@@ -11,6 +11,7 @@ case "${1:-}" in
   --keep) keep=1 ;;
   *) echo "unknown argument $1; usage: scripts/demo.sh [--keep]" >&2; exit 2 ;;
 esac
+# shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
@@ -54,7 +55,7 @@ done
 
 say "downloading the archive"
 curl -fsS -o "$out/archive.tar" "$url/v1/jobs/$job/archive"
-ls -l "$out/archive.tar" | awk '{print $5 " bytes"}'
+echo "$(stat -c %s "$out/archive.tar") bytes"
 mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Steps that the other scripts share. Source it; every function is quick when its work is done.
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"

@@ -3,6 +3,7 @@
 # at the end names each step with its times, each failed test and the slowest ones.
 # usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, soak, includes
 set -euo pipefail
+# shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$root"
 steps=("$@")
@@ -46,7 +47,7 @@ run_parts() {
 
 step_format() {
   say "checking the format, the language and the types"
-  run_parts cpp_format json_readers shell_syntax language generated_types python_types
+  run_parts cpp_format json_readers shell language generated_types python_types
 }
 cpp_format() { sources | xargs clang-format --dry-run --Werror; }
 # Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
@@ -56,7 +57,7 @@ json_readers() {
     return 1
   fi
 }
-shell_syntax() { bash -n scripts/*.sh .ci/run; }
+shell() { git ls-files --cached --others --exclude-standard -- '*.sh' .ci/run | xargs shellcheck; }
 language() { /usr/bin/python3 scripts/check_language.py; }
 generated_types() { /usr/bin/python3 python/generate_types.py --check; }
 python_types() { mypy --strict --cache-dir build/mypy python/throng python/generate_types.py; }
@@ -171,7 +172,7 @@ step_includes() {
 
 install_packages
 fetch_assets
-keep_going=1
+export keep_going=1  # build() of lib.sh
 rm -rf build/checks
 mkdir -p build/checks
 
