@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "jobs/queue/file_fence.h"
+#include "tests/jobs/queue/perform_in_child.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -50,29 +51,21 @@ TEST(ConfinedTask, FailuresAreToldApart) {
   EXPECT_NE(error_of<EnvironmentError>("exit 0"), "");  // without an answer
 }
 
-/// The child's side in a process of its own, as limits cannot be taken back.
-json performed(const std::function<json(const json&)>& perform, int expected_code) {
-  const TemporaryFolder work;
-  write_file_atomically(work.path() / "request.json", R"({"n": 2})");
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(run_confined_task(work.path(), perform));
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), expected_code);
-  const auto answer = work.path() / "answer.json";
-  return std::filesystem::exists(answer) ? json::parse(read_file(answer)) : json();
-}
-
 TEST(ConfinedTask, TheChildAnswersOrSaysWhatIsWrong) {
-  EXPECT_EQ(performed([](const json& request) { return json{{"m", request["n"]}}; }, 0)["m"], 2);
+  EXPECT_EQ(performed_in_child(
+                [](const json& request) {
+                  return json{{"m", request["n"]}};
+                },
+                0)["m"],
+            2);
   const auto wrong = [](const json&) -> json { throw InputError(Problem{"", "/n", "2", "3"}); };
-  EXPECT_EQ(performed(wrong, 2)[0]["where"], "/n");
-  EXPECT_EQ(performed([](const json&) -> json { throw EnvironmentError("disk"); }, 3), json());
+  EXPECT_EQ(performed_in_child(wrong, 2)[0]["where"], "/n");
+  EXPECT_EQ(performed_in_child([](const json&) -> json { throw EnvironmentError("disk"); }, 3),
+            json());
 }
 
 TEST(ConfinedTask, TheChildReachesNoNetwork) {
-  const json answer = performed(
+  const json answer = performed_in_child(
       [](const json&) {
         return json{{"socket", ::socket(AF_INET, SOCK_STREAM, 0)}};
       },
@@ -90,7 +83,7 @@ TEST(ConfinedTask, TheChildWritesNowhereElse) {
   int status = 0;
   ::waitpid(child, &status, 0);
   if (WEXITSTATUS(status) != 0) GTEST_SKIP() << "no Landlock";
-  const json answer = performed(
+  const json answer = performed_in_child(
       [&](const json&) {
         std::ofstream stream(file);
         stream << "after";
@@ -101,15 +94,6 @@ TEST(ConfinedTask, TheChildWritesNowhereElse) {
   EXPECT_EQ(answer["wrote"], false);
   EXPECT_EQ(read_file(file), "before");
 }
-
-#if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
-TEST(ConfinedTask, TheChildHasAMemoryLimit) {
-  const auto greedy = [](const json&) {
-    return json{{"size", std::string(std::size_t{5} << 30U, 'x').size()}};
-  };
-  EXPECT_THAT(performed(greedy, 2)[0]["found"].get<std::string>(), HasSubstr("4 GiB"));
-}
-#endif
 
 }  // namespace
 }  // namespace throng::jobs

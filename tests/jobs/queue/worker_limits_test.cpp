@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -12,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 
 namespace throng::jobs {
@@ -88,29 +86,6 @@ bool is_protected_from_others() {
 
 TEST(WorkerLimits, OthersOfTheSameUserReadNeitherMemoryNorEnvironment) {
   EXPECT_EXIT(leave(is_protected_from_others()), testing::ExitedWithCode(0), "");
-}
-
-TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
-#if defined(THRONG_SANITIZE_ADDRESS) || defined(THRONG_SANITIZE_THREAD)
-  GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
-#endif
-  EXPECT_EXIT(
-      {
-        ::setenv(kMemoryVariable, "3000", 1);
-        ::setenv(kDataVariable, "2000", 1);
-        limit_this_process();
-        rlimit limit{};
-        ::getrlimit(RLIMIT_AS, &limit);
-        rlimit data{};
-        ::getrlimit(RLIMIT_DATA, &data);
-        int score = 0;
-        std::ifstream("/proc/self/oom_score_adj") >> score;
-        rlimit core{};
-        ::getrlimit(RLIMIT_CORE, &core);
-        leave(::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0) == 0 && limit.rlim_cur == 3000ULL << 20U &&
-              data.rlim_cur == 2000ULL << 20U && core.rlim_cur == 0 && score == 500);
-      },
-      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
