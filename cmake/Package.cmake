@@ -21,19 +21,7 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "synthetic crowd datasets
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_DEBIAN_PROGRAM_DESCRIPTION}")
 include(CPack)
 
-# Manual page and completion, printed by the program.
 if(TARGET throng)
-  set(generated "${PROJECT_BINARY_DIR}/package")
-  file(MAKE_DIRECTORY "${generated}")
-  foreach(page IN ITEMS "manual>throng.1" "completion>throng.bash")
-    string(REPLACE ">" ";" words "${page}")
-    list(GET words 0 command)
-    list(GET words 1 file)
-    install(CODE "execute_process(COMMAND \"$<TARGET_FILE:throng>\" ${command} OUTPUT_FILE \"${generated}/${file}\" COMMAND_ERROR_IS_FATAL ANY)"
-      COMPONENT program)
-  endforeach()
-  install(FILES "${generated}/throng.1" DESTINATION share/man/man1 COMPONENT program)
-  install(FILES "${generated}/throng.bash" DESTINATION share/bash-completion/completions RENAME throng COMPONENT program)
   install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
     DESTINATION share/doc/throng COMPONENT program)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/throng RENAME copyright COMPONENT program)

@@ -53,6 +53,29 @@ class Package(unittest.TestCase):
         done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    @unittest.skipUnless(os.getuid() == 0, "only root may mount a layer over the sources and be another user")
+    def test_packaging_and_installing_write_only_below_their_prefix(self):
+        """Another user may write into the prefix and list what was installed; a layer over the sources shows the rest."""
+        os.chmod(self.folder, 0o777)
+        for name in ("written", "work"):
+            (self.folder / name).mkdir()
+        script = """set -e
+            mount -t overlay overlay -o "lowerdir=$1,upperdir=$2/written,workdir=$2/work" "$1"
+            rm -f "$3"/install_manifest*.txt
+            chown nobody "$3"  # cmake writes install_manifest*.txt there
+            cd "$2"
+            base="$2"
+            nobody() { setpriv --reuid nobody --regid nogroup --clear-groups env HOME="$base" "$@"; }
+            nobody cpack --config "$3/CPackConfig.cmake" -B "$2/package"
+            for component in program library; do
+              nobody cmake --install "$3" --prefix "$2/$component" --component $component
+            done"""
+        run("unshare", "--mount", "bash", "-c", script, "bash", ROOT, self.folder, BUILD)
+        self.assertEqual(len(list((self.folder / "package").glob("*.deb"))), 1)
+        self.assertTrue((self.folder / "program/bin/throng").is_file() and (self.folder / "library/include/throng").is_dir())
+        written = {path.name for path in (self.folder / "written").rglob("*") if not path.is_dir()}
+        self.assertEqual(written, {"install_manifest_program.txt", "install_manifest_library.txt"})
+
     def test_install_and_uninstall(self):
         prefix = self.folder / "usr"
         build = self.folder / "build"
@@ -64,7 +87,7 @@ class Package(unittest.TestCase):
         models = ROOT / "tests/imports/data/models"
         run(prefix / "bin/throng", "scenario", "import", world, "-o", self.folder / "mine", "--models", models, env=clean)
         self.assertTrue((self.folder / "mine/yard.json").is_file())
-        for file in ("man/man1/throng.1", "bash-completion/completions/throng", "doc/throng/copyright", "doc/throng/NOTICE"):
+        for file in ("throng/schemas/scenario.schema.json", "man/man1/throng.1", "bash-completion/completions/throng", "doc/throng/copyright", "doc/throng/NOTICE"):
             self.assertTrue((prefix / "share" / file).is_file(), file)
         installed = [str(file) for file in prefix.rglob("*") if file.is_file()]
         (build / "install_manifest_program.txt").write_text("\n".join(installed))
