@@ -23,9 +23,20 @@ def picture(kind, seed, folder):
     job = {
         "scenario": {"generate": {"kind": kind, "seed": seed}},
         "seed": seed,
-        "drones": [{"id": "view", "start": start, "guidance": {"policy": "hover"},
-                    "camera": {"width": WIDTH, "height": HEIGHT, "hfov_deg": 74, "pitch_deg": pitch_deg,
-                               "yaw_deg": yaw_deg}}],
+        "drones": [
+            {
+                "id": "view",
+                "start": start,
+                "guidance": {"policy": "hover"},
+                "camera": {
+                    "width": WIDTH,
+                    "height": HEIGHT,
+                    "hfov_deg": 74,
+                    "pitch_deg": pitch_deg,
+                    "yaw_deg": yaw_deg,
+                },
+            }
+        ],
         "capture": {"rate_hz": 1, "from_s": 10, "to_s": 10},
         "outputs": {"annotations": ["coco"]},
     }

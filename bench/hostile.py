@@ -50,12 +50,18 @@ class Throng:
     def __init__(self, program, folder):
         self.folder = pathlib.Path(folder)
         data = str(self.folder / "data")
-        self.key = subprocess.run([program, "keys", "create", "me", "--data", data, "--scope", "admin"], check=True,
-                                  capture_output=True, text=True).stdout.split()[-1]
+        self.key = subprocess.run(
+            [program, "keys", "create", "me", "--data", data, "--scope", "admin"],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout.split()[-1]
         port_file = self.folder / "port"
         self.process = subprocess.Popen(
             [program, "serve", "--data", data, "--port", "0", "--port-file", str(port_file), "--workers", "1"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         wait_until(lambda: port_file.exists() and port_file.read_text().strip())
         self.port = int(port_file.read_text())
 
@@ -76,8 +82,9 @@ class Nginx:
     def __init__(self, folder, throng_port):
         folder = pathlib.Path(folder)
         tls = folder / "tls"
-        subprocess.run([ROOT / "docker" / "make_certificate.sh", tls, "localhost"], check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [ROOT / "docker" / "make_certificate.sh", tls, "localhost"], check=True, stdout=subprocess.DEVNULL
+        )
         self.context = ssl.create_default_context(cafile=tls / "tls.crt")
         # It cannot be asked to choose its ports: another program may take one before it does.
         for attempts_left in (2, 1, 0):
@@ -93,12 +100,15 @@ class Nginx:
     def start(self, folder, tls, throng_port):
         self.port, plain_port = free_ports(2)
         text = (ROOT / "docker" / "nginx.conf").read_text()
-        for before, after in (("listen 8080;", f"listen 127.0.0.1:{plain_port};"),
-                              ("listen 8443 ssl", f"listen 127.0.0.1:{self.port} ssl"),
-                              ("server throng:8080;", f"server 127.0.0.1:{throng_port};"),
-                              ("/etc/throng-tls", str(tls)), ("/tmp/nginx", str(folder / "nginx")),
-                              ("access_log /dev/stdout", f"access_log {folder}/access.log"),
-                              ("error_log stderr", f"error_log {folder}/error.log")):
+        for before, after in (
+            ("listen 8080;", f"listen 127.0.0.1:{plain_port};"),
+            ("listen 8443 ssl", f"listen 127.0.0.1:{self.port} ssl"),
+            ("server throng:8080;", f"server 127.0.0.1:{throng_port};"),
+            ("/etc/throng-tls", str(tls)),
+            ("/tmp/nginx", str(folder / "nginx")),
+            ("access_log /dev/stdout", f"access_log {folder}/access.log"),
+            ("error_log stderr", f"error_log {folder}/error.log"),
+        ):
             if before not in text:
                 raise RuntimeError(f"docker/nginx.conf has no {before}")
             text = text.replace(before, after)
@@ -106,8 +116,9 @@ class Nginx:
         conf.write_text(text)
         # As root its workers would be nobody, who may not enter this folder.
         settings = "daemon off;" + (" user root;" if os.geteuid() == 0 else "")
-        self.process = subprocess.Popen([nginx_program(), "-c", conf, "-p", folder, "-g", settings],
-                                        stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen(
+            [nginx_program(), "-c", conf, "-p", folder, "-g", settings], stderr=subprocess.DEVNULL
+        )
 
     def answers(self):
         if self.process.poll() is not None:
@@ -131,6 +142,7 @@ def nginx_program():
 @dataclasses.dataclass
 class Front:
     """Address that clients connect to: the bare port, or nginx's."""
+
     port: int
     key: str
     context: ssl.SSLContext = None
@@ -138,8 +150,12 @@ class Front:
     def request(self, path, body=None, method=None, headers=None, timeout=60):
         scheme = "https" if self.context else "http"
         name = "localhost" if self.context else "127.0.0.1"
-        request = urllib.request.Request(f"{scheme}://{name}:{self.port}{path}", data=body, method=method,
-                                         headers={"Authorization": f"Bearer {self.key}", **(headers or {})})
+        request = urllib.request.Request(
+            f"{scheme}://{name}:{self.port}{path}",
+            data=body,
+            method=method,
+            headers={"Authorization": f"Bearer {self.key}", **(headers or {})},
+        )
         with urllib.request.urlopen(request, timeout=timeout, context=self.context) as answer:
             return answer.read()
 
@@ -171,6 +187,7 @@ class Front:
 
 class Hostile(threading.Thread):
     """One client that is rude in one way, again and again, from an address of its own."""
+
     KINDS = ("garbage", "half_open", "slow_headers", "slow_body", "endless_headers", "endless_body")
 
     def __init__(self, number, front, stop):
@@ -216,8 +233,10 @@ class Hostile(threading.Thread):
         self.send_for_ever(client, b"x", 0.5)
 
     def slow_body(self, client):
-        client.sendall(b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
-                       b"Content-Length: 1000000\r\n\r\n")
+        client.sendall(
+            b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+            b"Content-Length: 1000000\r\n\r\n"
+        )
         self.send_for_ever(client, b" ", 0.5)
 
     def endless_headers(self, client):
@@ -225,8 +244,10 @@ class Hostile(threading.Thread):
         self.send_for_ever(client, b"X: " + b"y" * 4000 + b"\r\n", 0.005)
 
     def endless_body(self, client):
-        client.sendall(b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
-                       b"Transfer-Encoding: chunked\r\n\r\n")
+        client.sendall(
+            b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+            b"Transfer-Encoding: chunked\r\n\r\n"
+        )
         self.send_for_ever(client, b"10000\r\n" + b"z" * 0x10000 + b"\r\n", 0.01)
 
 
@@ -269,8 +290,14 @@ def attack(throng, front, clients, seconds):
     recovered = (time.monotonic() - began) * 1000
     for client in crowd:
         client.join(20)
-    return Figures(waits, refused, (before, most, throng.resident_mb()), result.get("hash", ""),
-                   sum(client.connections for client in crowd), recovered)
+    return Figures(
+        waits,
+        refused,
+        (before, most, throng.resident_mb()),
+        result.get("hash", ""),
+        sum(client.connections for client in crowd),
+        recovered,
+    )
 
 
 def main():
@@ -290,10 +317,12 @@ def main():
             found = attack(throng, front, options.clients, options.seconds)
             waits = sorted(found.waits_ms)
             before, most, after = found.memory_mb
-            print(f"{name}: {options.clients} hostile clients, {found.connections} connections; honest GET: "
-                  f"{len(waits)} answered, {found.refused} not, median {waits[len(waits) // 2]:.0f} ms, "
-                  f"worst {waits[-1]:.0f} ms; memory {before:.0f} MB, at most {most:.0f}, after {after:.0f}; "
-                  f"job {'as undisturbed' if found.job_hash == undisturbed else 'DIFFERS'}")
+            print(
+                f"{name}: {options.clients} hostile clients, {found.connections} connections; honest GET: "
+                f"{len(waits)} answered, {found.refused} not, median {waits[len(waits) // 2]:.0f} ms, "
+                f"worst {waits[-1]:.0f} ms; memory {before:.0f} MB, at most {most:.0f}, after {after:.0f}; "
+                f"job {'as undisturbed' if found.job_hash == undisturbed else 'DIFFERS'}"
+            )
         if nginx:
             nginx.stop()
         throng.stop()

@@ -56,8 +56,11 @@ def main():
     given = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         port = pathlib.Path(folder) / "port"
-        server = subprocess.Popen([given.throng, "serve", "--data", folder + "/data", "--port", "0", "--port-file", port],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            [given.throng, "serve", "--data", folder + "/data", "--port", "0", "--port-file", port],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         try:
             while not port.exists() or not port.read_text().strip():
                 time.sleep(0.05)
@@ -68,8 +71,11 @@ def main():
 
 
 def measure(client, given):
-    job = {"scenario": given.scenario, "crowd": {"agents": given.people},
-           "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"pitch_deg": -45}}]}
+    job = {
+        "scenario": given.scenario,
+        "crowd": {"agents": given.people},
+        "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"pitch_deg": -45}}],
+    }
     begun = time.monotonic()
     flight = client.live(job)
     pilot = Pilot(flight)
@@ -110,10 +116,14 @@ def measure(client, given):
     flight.remove()
     ms = [1000 * s for s in sorted(shown)]
     print(f"{given.people} people, {given.scenario}")
-    print(f"first image after {first - begun:.1f} s, {images / seconds:.1f} images/s of {statistics.mean(sizes) / 1024:.0f} KiB, "
-          f"{steps / seconds:.1f} states/s, real-time factor {statistics.mean(factors[len(factors) // 2:]):.2f}")
-    print(f"command to image: median {statistics.median(ms):.0f} ms, 95 % {ms[int(0.95 * len(ms))]:.0f} ms ({len(ms)} commands, "
-          f"POST median {1000 * statistics.median(pilot.rates):.1f} ms)")
+    print(
+        f"first image after {first - begun:.1f} s, {images / seconds:.1f} images/s of {statistics.mean(sizes) / 1024:.0f} KiB, "
+        f"{steps / seconds:.1f} states/s, real-time factor {statistics.mean(factors[len(factors) // 2:]):.2f}"
+    )
+    print(
+        f"command to image: median {statistics.median(ms):.0f} ms, 95 % {ms[int(0.95 * len(ms))]:.0f} ms ({len(ms)} commands, "
+        f"POST median {1000 * statistics.median(pilot.rates):.1f} ms)"
+    )
     if turned:
         print(f"until the drone turns: median {1000 * statistics.median(turned):.0f} ms ({len(turned)} turns)")
 

@@ -25,8 +25,11 @@ import time
 import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-JOB = {"scenario": "city_square/nearest_exit", "outputs": {"annotations": ["coco"]},
-       "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 640, "height": 360, "pitch_deg": -60}}]}
+JOB = {
+    "scenario": "city_square/nearest_exit",
+    "outputs": {"annotations": ["coco"]},
+    "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 640, "height": 360, "pitch_deg": -60}}],
+}
 GIB = 1 << 30
 
 
@@ -43,8 +46,12 @@ class Server:
         environment = dict(os.environ)
         if faults:
             environment["THRONG_FAULTS"] = faults
-        self.process = subprocess.Popen([throng, "serve", "--data", self.data, "--port", str(self.port)],
-                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment)
+        self.process = subprocess.Popen(
+            [throng, "serve", "--data", self.data, "--port", str(self.port)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+        )
         self.process.stdout.readline()
         self.local = threading.local()
 
@@ -87,8 +94,9 @@ class Server:
 def wrk(url, seconds=10, connections=64):
     if not shutil.which("wrk"):
         return "wrk is not there"
-    out = subprocess.run(["wrk", "-t2", f"-c{connections}", f"-d{seconds}s", "--latency", url], capture_output=True,
-                         text=True).stdout
+    out = subprocess.run(
+        ["wrk", "-t2", f"-c{connections}", f"-d{seconds}s", "--latency", url], capture_output=True, text=True
+    ).stdout
     rate = re.search(r"Requests/sec:\s*([\d.]+)", out)
     p99 = re.search(r"99%\s*([\d.]+\w+)", out)
     bad = re.search(r"Non-2xx.*", out)
@@ -101,7 +109,8 @@ class Nginx:
     def __init__(self, folder, text, root):
         self.port = free_port()
         self.folder = pathlib.Path(folder)
-        (self.folder / "nginx.conf").write_text(f"""
+        (self.folder / "nginx.conf").write_text(
+            f"""
 worker_processes 2; error_log {folder}/error.log; pid {folder}/nginx.pid;
 events {{ worker_connections 1024; }}
 http {{ access_log off; sendfile on; tcp_nopush on; keepalive_requests 1000000;
@@ -109,9 +118,11 @@ http {{ access_log off; sendfile on; tcp_nopush on; keepalive_requests 1000000;
   scgi_temp_path {folder}/s;
   server {{ listen 127.0.0.1:{self.port}; root {root};
     location = /status {{ default_type application/json; return 200 '{text}'; }} }} }}
-""")
-        self.process = subprocess.Popen(["nginx", "-c", self.folder / "nginx.conf", "-g", "daemon off;"],
-                                        stderr=subprocess.DEVNULL)
+"""
+        )
+        self.process = subprocess.Popen(
+            ["nginx", "-c", self.folder / "nginx.conf", "-g", "daemon off;"], stderr=subprocess.DEVNULL
+        )
         time.sleep(0.5)
 
     def stop(self):
@@ -130,8 +141,7 @@ app.listen(+process.argv[2], '127.0.0.1');
 
     def __init__(self, folder, text, root):
         self.port = free_port()
-        subprocess.run(["npm", "install", "--silent", "--prefix", folder, "express@4"], check=True,
-                       capture_output=True)
+        subprocess.run(["npm", "install", "--silent", "--prefix", folder, "express@4"], check=True, capture_output=True)
         (pathlib.Path(folder) / "server.js").write_text(self.SCRIPT)
         self.process = subprocess.Popen(["node", "server.js", str(self.port), text, str(root)], cwd=folder)
         time.sleep(1.5)
@@ -231,8 +241,11 @@ def part_archive(arguments, folder):
     def speed(url):
         rates = []
         for _ in range(5):
-            out = subprocess.run(["curl", "-s", "-o", "/dev/null", "-w", "%{speed_download} %{size_download}", url],
-                                 capture_output=True, text=True).stdout.split()
+            out = subprocess.run(
+                ["curl", "-s", "-o", "/dev/null", "-w", "%{speed_download} %{size_download}", url],
+                capture_output=True,
+                text=True,
+            ).stdout.split()
             assert int(out[1]) >= GIB, out
             rates.append(float(out[0]) / 1e6)
         return f"{sorted(rates)[2]:6.0f} MB/s (of 5: {min(rates):.0f} to {max(rates):.0f})"
@@ -287,9 +300,11 @@ def part_streams(arguments, folder):
             server.ask("DELETE", f"/v1/jobs/{json.loads(body)['id']}")
         time.sleep(0.05)
     stopping.set()
-    print(f"64 event streams for {seconds / 60:.0f} min beside {asked} requests and a job at work: {len(ended)} broke off, "
-          f"{min(events)} to {max(events)} events each, slowest pair of requests {1000 * worst:.0f} ms, memory "
-          f"{before:.0f} -> {server.memory_mib():.0f} MiB")
+    print(
+        f"64 event streams for {seconds / 60:.0f} min beside {asked} requests and a job at work: {len(ended)} broke off, "
+        f"{min(events)} to {max(events)} events each, slowest pair of requests {1000 * worst:.0f} ms, memory "
+        f"{before:.0f} -> {server.memory_mib():.0f} MiB"
+    )
     server.ask("POST", f"/v1/jobs/{job}/cancel")
     server.stop()
 

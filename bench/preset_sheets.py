@@ -25,8 +25,11 @@ def excerpt(job):
     """The preset's first runs, at one time in the middle of its capture."""
     start_s, end_s = job["capture"]["from_s"], job["capture"]["to_s"]
     time_s = (start_s + end_s) / 2
-    return {**job, "runs": min(job["runs"], MAX_RUNS),
-            "capture": {"rate_hz": 1, "from_s": time_s, "to_s": time_s + 0.5}}
+    return {
+        **job,
+        "runs": min(job["runs"], MAX_RUNS),
+        "capture": {"rate_hz": 1, "from_s": time_s, "to_s": time_s + 0.5},
+    }
 
 
 def sheet(images):

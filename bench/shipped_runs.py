@@ -41,8 +41,12 @@ def crowd_of(scenario, agents):
 
 def remaining_of(scenario, seed, options, folder):
     """metrics.json of one run."""
-    job = {"scenario": scenario, "seed": seed, "crowd": crowd_of(scenario, options.agents),
-           "capture": {"rate_hz": 1, "from_s": 0, "to_s": options.duration}}
+    job = {
+        "scenario": scenario,
+        "seed": seed,
+        "crowd": crowd_of(scenario, options.agents),
+        "capture": {"rate_hz": 1, "from_s": 0, "to_s": options.duration},
+    }
     job_file, trace = folder / "job.json", folder / "run.h5"
     job_file.write_text(json.dumps(job))
     subprocess.run([THRONG, "simulate", job_file, "-o", trace], check=True, capture_output=True, cwd=ROOT)

@@ -33,8 +33,10 @@ def main():
         if not rows:
             sys.exit(f"tone.py: found no images/**/*.jpg in {dataset}, expected the folder of a dataset")
         mean, deviation, low, high, contrast = np.mean(rows, axis=0)
-        print(f"{dataset}: {len(rows)} images, L {mean:.1f}, standard deviation {deviation:.1f}, 1 % {low:.1f}, "
-              f"99 % {high:.1f}, contrast of blocks {contrast:.1f}")
+        print(
+            f"{dataset}: {len(rows)} images, L {mean:.1f}, standard deviation {deviation:.1f}, 1 % {low:.1f}, "
+            f"99 % {high:.1f}, contrast of blocks {contrast:.1f}"
+        )
 
 
 if __name__ == "__main__":

@@ -33,8 +33,12 @@ def parse(flags, file):
 def main():
     build = sys.argv[1]
     apart = {entry["file"] for entry in with_own_standard(build)}
-    files = sys.argv[2:] or subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True,
-                                           cwd=ROOT).stdout.split()
+    files = (
+        sys.argv[2:]
+        or subprocess.run(
+            ["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT
+        ).stdout.split()
+    )
     files = [file for file in files if (ROOT / file).exists() and str(ROOT / file) not in apart]
     flags = [*macros_and_folders(build), f"-I{ROOT}/tests/fuzz"]
     with tempfile.TemporaryDirectory() as folder:

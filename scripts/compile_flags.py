@@ -28,6 +28,7 @@ def macros_and_folders(build):
 
 def with_own_standard(build):
     """The files that are compiled for another version of C++ than the rest, as entries of compile_commands.json."""
+
     def standard(entry):
         return [word for word in shlex.split(entry["command"]) if word.startswith("-std=")][-1:]
 

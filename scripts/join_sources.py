@@ -51,7 +51,7 @@ class Source:
             while depth and end < len(text):
                 depth += {"{": 1, "}": -1}.get(text[end], 0)
                 end += 1
-            parts.append(text[match.end():end])
+            parts.append(text[match.end() : end])
         return "\n".join(parts)
 
     def clashes(self, other):
@@ -92,9 +92,13 @@ def main():
     listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
     alone = with_own_standard(build)
     apart = {entry["file"] for entry in alone}
-    sources = [Source(path) for path in listed.split()
-               if not path.startswith(("tests/", "bench/", "examples/")) and (ROOT / path).exists()
-               and str(ROOT / path) not in apart]
+    sources = [
+        Source(path)
+        for path in listed.split()
+        if not path.startswith(("tests/", "bench/", "examples/"))
+        and (ROOT / path).exists()
+        and str(ROOT / path) not in apart
+    ]
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("joined_*.cpp"):
         old.unlink()
@@ -105,8 +109,13 @@ def main():
     for number, unit in enumerate(joined(with_cli11, 1) + joined(without, count)):
         file = folder / f"joined_{number}.cpp"
         file.write_text("".join(included(ROOT / source.path) for source in unit))
-        entries.append({"directory": str(folder), "file": str(file),
-                        "arguments": ["clang++", *flags, "-c", str(file), "-o", str(file.with_suffix(".o"))]})
+        entries.append(
+            {
+                "directory": str(folder),
+                "file": str(file),
+                "arguments": ["clang++", *flags, "-c", str(file), "-o", str(file.with_suffix(".o"))],
+            }
+        )
     (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1))
     print("\n".join(entry["file"] for entry in entries))
 

@@ -10,9 +10,16 @@ import math
 from pathlib import Path
 
 MATERIALS = {
-    "concrete": (0.36, 0.35, 0.33), "wall": (0.44, 0.43, 0.41), "seat": (0.05, 0.13, 0.42),
-    "seat_light": (0.80, 0.80, 0.78), "steel": (0.62, 0.64, 0.66), "white": (0.86, 0.86, 0.86),
-    "roof": (0.78, 0.79, 0.80), "dark": (0.05, 0.06, 0.07), "lamp": (0.93, 0.93, 0.86), "red": (0.55, 0.06, 0.05),
+    "concrete": (0.36, 0.35, 0.33),
+    "wall": (0.44, 0.43, 0.41),
+    "seat": (0.05, 0.13, 0.42),
+    "seat_light": (0.80, 0.80, 0.78),
+    "steel": (0.62, 0.64, 0.66),
+    "white": (0.86, 0.86, 0.86),
+    "roof": (0.78, 0.79, 0.80),
+    "dark": (0.05, 0.06, 0.07),
+    "lamp": (0.93, 0.93, 0.86),
+    "red": (0.55, 0.06, 0.05),
 }
 SOUTH_BLOCKS = [(-88, -58), (-50, -22), (-14, 14), (22, 50), (58, 88)]  # m, between the passages
 
@@ -30,8 +37,19 @@ class Mesh:
 
     def box(self, material, low, high, place=lambda p: p):
         (x0, y0, z0), (x1, y1, z1) = low, high
-        at = [place(p) for p in [(x0, y0, z0), (x1, y0, z0), (x1, y1, z0), (x0, y1, z0),
-                                 (x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)]]
+        at = [
+            place(p)
+            for p in [
+                (x0, y0, z0),
+                (x1, y0, z0),
+                (x1, y1, z0),
+                (x0, y1, z0),
+                (x0, y0, z1),
+                (x1, y0, z1),
+                (x1, y1, z1),
+                (x0, y1, z1),
+            ]
+        ]
         for side in [(4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]:
             self.face(material, *(at[i] for i in side))
 
@@ -71,8 +89,12 @@ def stand(mesh, place, length_m, rows, front_m=1.0, rise_m=0.36, depth_m=0.9, li
     mesh.box("wall", (0, depth - 0.02, 0), (length_m, depth + 0.25, height + 0.9), place)
     for along in (0, length_m - 0.2):  # what closes a stand to its sides, up to the rows
         for row in range(rows):
-            mesh.box("wall", (along, row * depth_m, 0), (along + 0.2, (row + 1) * depth_m, front_m + row * rise_m + 0.9),
-                     place)
+            mesh.box(
+                "wall",
+                (along, row * depth_m, 0),
+                (along + 0.2, (row + 1) * depth_m, front_m + row * rise_m + 0.9),
+                place,
+            )
 
 
 def goal(mesh, x, outward):
@@ -99,9 +121,12 @@ def floodlight(mesh, x, y):
 
 
 LETTERS = {  # 5 columns by 7 rows, the top row first
-    "T": "11111 00100 00100 00100 00100 00100 00100", "H": "10001 10001 10001 11111 10001 10001 10001",
-    "R": "11110 10001 10001 11110 10100 10010 10001", "O": "01110 10001 10001 10001 10001 10001 01110",
-    "N": "10001 11001 10101 10101 10011 10001 10001", "G": "01110 10001 10000 10111 10001 10001 01110",
+    "T": "11111 00100 00100 00100 00100 00100 00100",
+    "H": "10001 10001 10001 11111 10001 10001 10001",
+    "R": "11110 10001 10001 11110 10100 10010 10001",
+    "O": "01110 10001 10001 10001 10001 10001 01110",
+    "N": "10001 11001 10101 10101 10011 10001 10001",
+    "G": "01110 10001 10000 10111 10001 10001 01110",
 }
 
 
@@ -123,10 +148,14 @@ def main():
     mesh = Mesh()
     for west, east in SOUTH_BLOCKS:  # faces north; rows go up to the south
         length = east - west
-        stand(mesh, lambda p, east=east: (east - p[0], 33 - p[1], p[2]), length, 14,
-              light=lambda along, row, length=length: min(along, length - along) < 2.2 or row in (0, 13))
-    stand(mesh, lambda p: (-56 + p[0], 116 + p[1], p[2]), 112, 24,
-          light=writing("THRONG", 112, 5, 2.4, False))
+        stand(
+            mesh,
+            lambda p, east=east: (east - p[0], 33 - p[1], p[2]),
+            length,
+            14,
+            light=lambda along, row, length=length: min(along, length - along) < 2.2 or row in (0, 13),
+        )
+    stand(mesh, lambda p: (-56 + p[0], 116 + p[1], p[2]), 112, 24, light=writing("THRONG", 112, 5, 2.4, False))
     stand(mesh, lambda p: (-60 - p[1], 42 + p[0], p[2]), 68, 18, light=lambda along, row: row in (5, 6, 11, 12))
     stand(mesh, lambda p: (60 + p[1], 110 - p[0], p[2]), 68, 18, light=lambda along, row: row in (5, 6, 11, 12))
     mesh.box("roof", (-57, 122, 16.6), (57, 140, 17.1))

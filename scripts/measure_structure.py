@@ -23,13 +23,17 @@ import check_language
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 APART = {"tests", "bench", "examples"}
 SKIPPED = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'')
-FUNCTION = re.compile(r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
-                      r"(?::\s*[\w:]+[({].*)?\{\s*$")
+FUNCTION = re.compile(
+    r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
+    r"(?::\s*[\w:]+[({].*)?\{\s*$"
+)
 
 
 def public_headers(root):
     """Paths of the headers in the PUBLIC lists of all modules."""
-    listed = subprocess.run(["git", "ls-files", "*CMakeLists.txt"], check=True, capture_output=True, text=True, cwd=root)
+    listed = subprocess.run(
+        ["git", "ls-files", "*CMakeLists.txt"], check=True, capture_output=True, text=True, cwd=root
+    )
     headers = set()
     for path in listed.stdout.split():
         declaration = re.search(r"throng_module\((\S+)\s+PUBLIC\s+([^)A-Z]*)", (root / path).read_text())
@@ -56,7 +60,9 @@ def function_lengths(text):
     level of classes and namespaces."""
     lengths, stack = [], []
     for number, line in enumerate(SKIPPED.sub("", text).split("\n")):
-        opens_function = bool(FUNCTION.search(line)) and not re.match(r"\s*(if|for|while|switch|else|catch|do|return)\b", line)
+        opens_function = bool(FUNCTION.search(line)) and not re.match(
+            r"\s*(if|for|while|switch|else|catch|do|return)\b", line
+        )
         for place, letter in enumerate(line):
             if letter == "{":
                 inside = any(kind for kind, _ in stack)
@@ -100,7 +106,18 @@ def quantile(values, share):
     return ordered[min(len(ordered) - 1, int(share * len(ordered)))] if ordered else 0
 
 
-HEAD = ["module", ".cpp, lines", ".h, lines", "public", "folders (largest)", "cycles", "functions", "median/p90/max", "words", "tests"]
+HEAD = [
+    "module",
+    ".cpp, lines",
+    ".h, lines",
+    "public",
+    "folders (largest)",
+    "cycles",
+    "functions",
+    "median/p90/max",
+    "words",
+    "tests",
+]
 
 
 def measure(root):
@@ -122,10 +139,17 @@ def measure(root):
             edges.setdefault(name, set()).update(targets - {name})
         lengths = [length for path in sources for length in function_lengths(own[path])]
         everything += lengths
-        counts = [len(sources), sum(lines[p] for p in sources), len(headers), sum(lines[p] for p in headers),
-                  sum(path in public for path in headers), cycle_edges(edges), len(lengths),
-                  sum(language_findings(path, text) for path, text in own.items()),
-                  sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/"))]
+        counts = [
+            len(sources),
+            sum(lines[p] for p in sources),
+            len(headers),
+            sum(lines[p] for p in headers),
+            sum(path in public for path in headers),
+            cycle_edges(edges),
+            len(lengths),
+            sum(language_findings(path, text) for path, text in own.items()),
+            sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/")),
+        ]
         sums = [a + b for a, b in zip(sums, counts)]
         folders = collections.Counter(path.rsplit("/", 1)[0] for path in own)
         table[module] = row_of(counts, lengths, f"{len(folders)} ({max(folders.values())})")
@@ -136,8 +160,17 @@ def measure(root):
 def row_of(counts, lengths, folders):
     sources, source_lines, headers, header_lines, public, cycles, functions, words, tests = counts
     quantiles = f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)}"
-    return [f"{sources}, {source_lines}", f"{headers}, {header_lines}", str(public), folders, str(cycles), str(functions),
-            quantiles, str(words), f"{tests / (source_lines + header_lines):.2f}"]
+    return [
+        f"{sources}, {source_lines}",
+        f"{headers}, {header_lines}",
+        str(public),
+        folders,
+        str(cycles),
+        str(functions),
+        quantiles,
+        str(words),
+        f"{tests / (source_lines + header_lines):.2f}",
+    ]
 
 
 def main():

@@ -34,7 +34,9 @@ def main():
     print()
     of = {outcome: [t for t in tests if t["outcome"] == outcome] for outcome in ("passed", "failed", "flaky")}
     for test in of["flaky"]:
-        print(f"FLAKY:  {test['step']}: {test['name']} (first output: {folder}/flaky/{test['step']}.{test['name']}.log)")
+        print(
+            f"FLAKY:  {test['step']}: {test['name']} (first output: {folder}/flaky/{test['step']}.{test['name']}.log)"
+        )
     for test in of["failed"]:
         print(f"FAILED: {test['step']}: {test['name']}")
     for step in steps:

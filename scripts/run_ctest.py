@@ -36,7 +36,9 @@ def run(preset, junit, arguments):
 
 def labels_of_tests(preset):
     """Labels of every test of a preset, by name."""
-    text = subprocess.run(["ctest", "--preset", preset, "--show-only=json-v1"], cwd=ROOT, capture_output=True, text=True).stdout
+    text = subprocess.run(
+        ["ctest", "--preset", preset, "--show-only=json-v1"], cwd=ROOT, capture_output=True, text=True
+    ).stdout
     found = {}
     for test in json.loads(text[text.index("{") :])["tests"]:
         labels = [p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"]

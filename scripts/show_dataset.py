@@ -33,21 +33,31 @@ def main(folder):
         heads += image["density_count"]
         total += density_sum(density)
     if heads:
-        print(f"density              maps sum to {total:.2f}, heads in view {heads:.0f}"
-              f" ({100 * abs(total - heads) / heads:.4f} % apart)")
+        print(
+            f"density              maps sum to {total:.2f}, heads in view {heads:.0f}"
+            f" ({100 * abs(total - heads) / heads:.4f} % apart)"
+        )
 
     for file in sorted((folder / "metrics").glob("run*.json")):
         metrics = json.loads(file.read_text())
         escaped = metrics["people"] - metrics["not_escaped"] - metrics["casualties"]
-        print(f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"
-              f" mean {metrics['mean_escape_time_censored_s']:.1f} s (who is still inside counts to the end)")
+        print(
+            f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"
+            f" mean {metrics['mean_escape_time_censored_s']:.1f} s (who is still inside counts to the end)"
+        )
         times = metrics["escape_time_percentiles"]
-        print("  escape curve       " + ", ".join(
-            f"{key[1:-2]} % at {times[key]:.1f} s" if times[key] is not None else f"{key[1:-2]} % not reached"
-            for key in sorted(times, key=lambda key: int(key[1:-2]))))
+        print(
+            "  escape curve       "
+            + ", ".join(
+                f"{key[1:-2]} % at {times[key]:.1f} s" if times[key] is not None else f"{key[1:-2]} % not reached"
+                for key in sorted(times, key=lambda key: int(key[1:-2]))
+            )
+        )
         for exit_ in metrics["exits"]:
-            print(f"  {exit_['id']:<18} {exit_['crossings']['out']:>3} out, {exit_['crossings']['in']:>3} in, mean clogging index"
-                  f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s")
+            print(
+                f"  {exit_['id']:<18} {exit_['crossings']['out']:>3} out, {exit_['crossings']['in']:>3} in, mean clogging index"
+                f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s"
+            )
 
     print("annotated previews")
     previews = sorted((folder / "previews").rglob("*.jpg"))

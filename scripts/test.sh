@@ -47,7 +47,7 @@ run_parts() {
 
 step_format() {
   say "checking the format, the language and the types"
-  run_parts cpp_format json_readers shell language generated_types python_types
+  run_parts cpp_format json_readers python_format shell language generated_types python_types
 }
 cpp_format() { sources | xargs clang-format --dry-run --Werror; }
 # Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
@@ -56,6 +56,11 @@ json_readers() {
     echo "base/json_text.h parses JSON; nothing else may" >&2
     return 1
   fi
+}
+# Files that generate_types.py writes have its format.
+python_format() {
+  black --check --quiet -l 120 --extend-exclude '/python/throng/(job|api_types)\.py$' python tests bench scripts examples ||
+    { echo "Python files are not formatted: run black -l 120 on them" >&2; return 1; }
 }
 shell() { git ls-files --cached --others --exclude-standard -- '*.sh' .ci/run | xargs shellcheck; }
 language() { /usr/bin/python3 scripts/check_language.py; }

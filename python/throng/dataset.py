@@ -152,9 +152,7 @@ class Dataset(Sequence[Frame]):
         storage = self._sources[0].storage
         return read_csv(storage.read(name), storage.where(name), texts)
 
-    def field(
-        self, run: str, frame: int, cell_m: float | None = None
-    ) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
+    def field(self, run: str, frame: int, cell_m: float | None = None) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
         """(4, rows, columns): people per m2, velocity in x and y, people per m2 by Voronoi cells; and the grid.
 
         cell_m: one of the sizes in outputs.fields.cells_m.
@@ -354,9 +352,7 @@ class Dataset(Sequence[Frame]):
         categories = {c["id"]: c for source in self._sources for c in source.labels.categories}
         return {
             "info": {"description": self.name, "version": "1"},
-            "licenses": [
-                {"id": 1, "name": "CC0-1.0", "url": "https://creativecommons.org/publicdomain/zero/1.0/"}
-            ],
+            "licenses": [{"id": 1, "name": "CC0-1.0", "url": "https://creativecommons.org/publicdomain/zero/1.0/"}],
             "categories": list(categories.values()),
             "images": images,
             "annotations": annotations,

@@ -103,7 +103,9 @@ def bundle(folder, throng):
         "people": {"groups": [{"doing": "stroll", "box": [-8, -8, 8, 8], "count": 10}]},
     }
     write_json(folder / "plaza.place.json", blueprint)
-    subprocess.run([throng, "scenario", "make", "plaza.place.json", "-o", "my_place"], cwd=folder, check=True, capture_output=True)
+    subprocess.run(
+        [throng, "scenario", "make", "plaza.place.json", "-o", "my_place"], cwd=folder, check=True, capture_output=True
+    )
     with zipfile.ZipFile(folder / "my_place.zip", "w") as archive:
         for file in (folder / "my_place").iterdir():
             archive.write(file, f"my_place/{file.name}")
@@ -115,7 +117,17 @@ def rotation(tilt, turn):
     return numpy.array([[c, 0, d], [0, 1, 0], [-d, 0, c]]) @ numpy.array([[1, 0, 0], [0, a, -b], [0, b, a]])
 
 
-VIEWS = [(0.5, 0.1), (-0.5, 0.4), (0.1, -0.6), (0.6, 0.6), (-0.3, -0.5), (-0.6, -0.2), (0.4, 0.5), (-0.1, 0.7), (0.2, 0.3)]
+VIEWS = [
+    (0.5, 0.1),
+    (-0.5, 0.4),
+    (0.1, -0.6),
+    (0.6, 0.6),
+    (-0.3, -0.5),
+    (-0.6, -0.2),
+    (0.4, 0.5),
+    (-0.1, 0.7),
+    (0.2, 0.3),
+]
 
 
 def boards(folder, throng):
@@ -125,14 +137,18 @@ def boards(folder, throng):
     texture = numpy.pad(numpy.kron(squares, numpy.ones((side, side))), side, constant_values=255)
     image = Image.fromarray(texture.astype(numpy.uint8))
     camera = numpy.array([[800, 0, 319.5], [0, 800, 239.5], [0, 0, 1]])
-    to_board = numpy.array([[square / side, 0, -5 * square - square], [0, square / side, -3.5 * square - square], [0, 0, 1]])
+    to_board = numpy.array(
+        [[square / side, 0, -5 * square - square], [0, square / side, -3.5 * square - square], [0, 0, 1]]
+    )
     (folder / "boards").mkdir()
     for view, (tilt, turn) in enumerate(VIEWS):
         turned = rotation(tilt, turn)
         plane = camera @ numpy.column_stack([turned[:, 0], turned[:, 1], [0.01 * view - 0.03, 0.01, 0.45]]) @ to_board
         back = numpy.linalg.inv(plane)
         back /= back[2, 2]
-        seen = image.transform((640, 480), Image.Transform.PERSPECTIVE, back.flatten()[:8], Image.Resampling.BICUBIC, fillcolor=200)
+        seen = image.transform(
+            (640, 480), Image.Transform.PERSPECTIVE, back.flatten()[:8], Image.Resampling.BICUBIC, fillcolor=200
+        )
         seen.save(folder / "boards" / f"{view}.jpg", quality=95)
     for name, view in (("a", 0), ("b", 1), ("c", 2)):
         shutil.copy(folder / "boards" / f"{view}.jpg", folder / f"{name}.jpg")

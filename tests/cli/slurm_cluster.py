@@ -50,8 +50,12 @@ class Cluster:
     def __init__(self, base, cpus=1, memory_mib=64000, node_timeout_s=120):
         self.base = pathlib.Path(base)
         self.conf = self.base / "slurm.conf"
-        self.environment = dict(os.environ, SLURM_CONF=str(self.conf), THRONG_TEST_CLUSTER=str(self.base),
-                                PATH=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
+        self.environment = dict(
+            os.environ,
+            SLURM_CONF=str(self.conf),
+            THRONG_TEST_CLUSTER=str(self.base),
+            PATH=os.environ.get("PATH", "") + ":/usr/sbin:/sbin",
+        )
         self.daemons = {}
         for folder in ("state", "munge", "log", *(f"spool-{node}" for node in NODES)):
             (self.base / folder).mkdir(parents=True)
@@ -65,22 +69,40 @@ class Cluster:
             "ClusterName=throngtest",
             # Without asking anybody for the name of this host.
             "SlurmctldHost=localhost(127.0.0.1)",
-            f"SlurmctldPort={ports[0]}", f"SlurmUser={user}", f"SlurmdUser={user}",
+            f"SlurmctldPort={ports[0]}",
+            f"SlurmUser={user}",
+            f"SlurmdUser={user}",
             f"AuthType=auth/munge\nAuthInfo=socket={self.base}/munge/socket,cred_expire=5",
-            f"StateSaveLocation={self.base}/state", f"SlurmdSpoolDir={self.base}/spool-%n",
-            f"SlurmctldPidFile={self.base}/slurmctld.pid", f"SlurmdPidFile={self.base}/%n.pid",
-            f"SlurmctldLogFile={self.base}/log/slurmctld.log", f"SlurmdLogFile={self.base}/log/%n.log",
-            "ProctrackType=proctrack/linuxproc", "TaskPlugin=task/none", "JobAcctGatherType=jobacct_gather/none",
-            "MpiDefault=none", "SwitchType=switch/none", "SelectType=select/cons_tres",
-            "SelectTypeParameters=CR_Core_Memory", "SlurmdParameters=config_overrides", "MailProg=/bin/true",
+            f"StateSaveLocation={self.base}/state",
+            f"SlurmdSpoolDir={self.base}/spool-%n",
+            f"SlurmctldPidFile={self.base}/slurmctld.pid",
+            f"SlurmdPidFile={self.base}/%n.pid",
+            f"SlurmctldLogFile={self.base}/log/slurmctld.log",
+            f"SlurmdLogFile={self.base}/log/%n.log",
+            "ProctrackType=proctrack/linuxproc",
+            "TaskPlugin=task/none",
+            "JobAcctGatherType=jobacct_gather/none",
+            "MpiDefault=none",
+            "SwitchType=switch/none",
+            "SelectType=select/cons_tres",
+            "SelectTypeParameters=CR_Core_Memory",
+            "SlurmdParameters=config_overrides",
+            "MailProg=/bin/true",
             "SchedulerParameters=batch_sched_delay=0,sched_interval=1,sched_min_interval=0,bf_interval=1",
-            f"SlurmdTimeout={node_timeout_s}", "SlurmctldTimeout=60", f"MessageTimeout={min(60, node_timeout_s)}",
-            f"BatchStartTimeout={max(60, node_timeout_s)}", "KillWait=2",
-            "ReturnToService=2", "CommunicationParameters=NoCtldInAddrAny", "TCPTimeout=5",
+            f"SlurmdTimeout={node_timeout_s}",
+            "SlurmctldTimeout=60",
+            f"MessageTimeout={min(60, node_timeout_s)}",
+            f"BatchStartTimeout={max(60, node_timeout_s)}",
+            "KillWait=2",
+            "ReturnToService=2",
+            "CommunicationParameters=NoCtldInAddrAny",
+            "TCPTimeout=5",
         ]
         for node, port in zip(NODES, ports[1:]):
-            lines.append(f"NodeName={node} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs={cpus} "
-                         f"RealMemory={memory_mib} State=UNKNOWN")
+            lines.append(
+                f"NodeName={node} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs={cpus} "
+                f"RealMemory={memory_mib} State=UNKNOWN"
+            )
         lines.append(f"PartitionName=main Nodes={','.join(NODES)} Default=YES MaxTime=INFINITE State=UP")
         self.conf.write_text("\n".join(lines) + "\n")
         (self.base / "cgroup.conf").write_text("")
@@ -88,9 +110,17 @@ class Cluster:
     def __enter__(self):
         try:
             munge = self.base / "munge"
-            self._start("munged", "munged", "--foreground", "--force", f"--socket={munge}/socket",
-                        f"--key-file={munge}/key", f"--pid-file={munge}/pid", f"--log-file={munge}/log",
-                        f"--seed-file={munge}/seed")
+            self._start(
+                "munged",
+                "munged",
+                "--foreground",
+                "--force",
+                f"--socket={munge}/socket",
+                f"--key-file={munge}/key",
+                f"--pid-file={munge}/pid",
+                f"--log-file={munge}/log",
+                f"--seed-file={munge}/seed",
+            )
             wait_until(lambda: (munge / "socket").exists(), what="munged")
             self.start_controller()
             for node in NODES:
@@ -107,9 +137,15 @@ class Cluster:
     def _start(self, name, *command):
         log = open(self.base / "log" / f"{name}.out", "ab")
         with log:
-            self.daemons[name] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                                  env=self.environment, start_new_session=True,
-                                                  preexec_fn=prepare_daemon)
+            self.daemons[name] = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                env=self.environment,
+                start_new_session=True,
+                preexec_fn=prepare_daemon,
+            )
 
     def start_controller(self):
         self._start("slurmctld", "slurmctld", "-D", "-f", str(self.conf))
@@ -143,8 +179,14 @@ class Cluster:
 
     def jobs(self):
         """[(array job, index, state, node)] of all tasks that Slurm remembers."""
-        answer = self.run("squeue", "--me", "--array", "--states=all", "--noheader",
-                          "--Format=ArrayJobID:|,ArrayTaskID:|,State:|,NodeList:|")
+        answer = self.run(
+            "squeue",
+            "--me",
+            "--array",
+            "--states=all",
+            "--noheader",
+            "--Format=ArrayJobID:|,ArrayTaskID:|,State:|,NodeList:|",
+        )
         return [tuple(line.split("|")[:4]) for line in answer.stdout.splitlines()]
 
     def node_states(self):
@@ -152,8 +194,10 @@ class Cluster:
 
     def wait_for_nodes(self):
         """Until the controller knows all nodes, and none is down."""
+
         def is_good(state):
             return state in ("idle", "mixed", "allocated", "completing")
+
         wait_until(lambda: list(map(is_good, self.node_states())) == [True] * len(NODES), what="good nodes")
 
     def _processes(self):

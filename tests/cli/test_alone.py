@@ -23,8 +23,13 @@ YARD = {
         {"id": "ne", "box": [15, 2, 15.5, 11], "height_m": 3},
         {"id": "se", "box": [15, -11, 15.5, -2], "height_m": 3},
     ],
-    "people": {"pre_movement_s": {"uniform": [1, 3]}, "groups": [{"doing": "wait", "box": [-10, -8, 8, 8], "count": 12}]},
-    "disasters": [{"kind": "fire", "position": [-14, 10], "start_s": 1, "radius_m": 0.4, "max_radius_m": 0.4, "noticed_m": 100}],
+    "people": {
+        "pre_movement_s": {"uniform": [1, 3]},
+        "groups": [{"doing": "wait", "box": [-10, -8, 8, 8], "count": 12}],
+    },
+    "disasters": [
+        {"kind": "fire", "position": [-14, 10], "start_s": 1, "radius_m": 0.4, "max_radius_m": 0.4, "noticed_m": 100}
+    ],
 }
 JOB = {
     "$schema": "schemas/job.schema.json",
@@ -44,7 +49,11 @@ class Alone(unittest.TestCase):
 
     def throng(self, *words, scenarios="mine", code=0):
         done = subprocess.run(
-            [THRONG, *words], capture_output=True, text=True, cwd=self.folder, timeout=300,
+            [THRONG, *words],
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+            timeout=300,
             env={**os.environ, "THRONG_SCENARIOS": str(self.folder / scenarios)},
         )
         self.assertEqual(done.returncode, code, done.stderr)
@@ -64,7 +73,9 @@ class Alone(unittest.TestCase):
         self.throng("report", "run.h5", "-o", "report.html", scenarios="gone")
         self.assertIn("<html", (self.folder / "report.html").read_text())
         self.throng("render", "job.json", "--trace", "run.h5", "-o", "out", scenarios="gone")
-        images = list((self.folder / "out" / "dataset").rglob("*.jpg")) + list((self.folder / "out" / "dataset").rglob("*.png"))
+        images = list((self.folder / "out" / "dataset").rglob("*.jpg")) + list(
+            (self.folder / "out" / "dataset").rglob("*.png")
+        )
         self.assertTrue(images)
         self.throng("report", "out", "-o", "again.html", scenarios="gone")
 

@@ -21,6 +21,7 @@ def throng(*arguments, **options):
 def points_table():
     """Five views of a flat grid through a camera of f = 800 px, without a lens's distortion."""
     import math
+
     lines = ["image,i,X,Y,Z,u,v"]
     for view, (tilt, turn) in enumerate([(0.5, 0.1), (-0.5, 0.4), (0.1, -0.6), (0.6, 0.6), (-0.3, -0.5)]):
         a, b = math.cos(tilt), math.sin(tilt)
@@ -61,8 +62,7 @@ class Calibrate(unittest.TestCase):
 
     def test_points_give_a_camera_and_all_files(self):
         files = [self.base / name for name in ("cv.yaml", "ros.yaml", "residuals.svg")]
-        camera, said = self.calibrate("--lens", "pinhole", "--opencv", files[0], "--ros", files[1],
-                                      "--plot", files[2])
+        camera, said = self.calibrate("--lens", "pinhole", "--opencv", files[0], "--ros", files[1], "--plot", files[2])
         self.assertAlmostEqual(camera["fx"], 800, places=4)
         self.assertAlmostEqual(camera["cx"], 321, places=4)
         self.assertAlmostEqual(camera["cy"], 238, places=4)
@@ -86,8 +86,18 @@ class Calibrate(unittest.TestCase):
         seen.write_text("\n".join(lines) + "\n")
         for command in ("pose", "bundle"):
             out = self.base / f"{command}.json"
-            done = throng("calibrate", command, "--camera", self.base / "camera.json", "--gcp", gcp,
-                          "--observations", seen, "-o", out)
+            done = throng(
+                "calibrate",
+                command,
+                "--camera",
+                self.base / "camera.json",
+                "--gcp",
+                gcp,
+                "--observations",
+                seen,
+                "-o",
+                out,
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             views = {view["image"]: view for view in json.loads(out.read_text())["views"]}
             self.assertEqual(sorted(views), sorted(centres))
@@ -137,10 +147,13 @@ class Calibrate(unittest.TestCase):
             self.assertTrue(check["holds"], check)
 
     def job(self, calibration):
-        return {"scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "quality": "draft",
-                "drones": [{"id": "d1", "start": [0, 0, 30],
-                            "camera": {"calibration": calibration, "pitch_deg": -80}}],
-                "capture": {"rate_hz": 1, "from_s": 0, "to_s": 1}}
+        return {
+            "scenario": "city_square/nearest_exit",
+            "crowd": {"agents": 20},
+            "quality": "draft",
+            "drones": [{"id": "d1", "start": [0, 0, 30], "camera": {"calibration": calibration, "pitch_deg": -80}}],
+            "capture": {"rate_hz": 1, "from_s": 0, "to_s": 1},
+        }
 
     def test_datasets_have_the_calibrated_camera(self):
         camera, _ = self.calibrate("--lens", "brown5")
@@ -164,8 +177,11 @@ class Calibrate(unittest.TestCase):
 
     def serve(self):
         port = self.base / "port"
-        server = subprocess.Popen([THRONG, "serve", "--data", self.base / "data", "--port", "0", "--port-file", port],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            [THRONG, "serve", "--data", self.base / "data", "--port", "0", "--port-file", port],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
         wait_until(lambda: port.exists() and port.read_text().strip())
@@ -176,9 +192,11 @@ class Calibrate(unittest.TestCase):
         url = f"http://127.0.0.1:{port}"
         boundary = "board"
         request = json.dumps({"name": "wide", "points": "points.csv", "size": "640x480", "lens": "brown2"})
-        body = (f"--{boundary}\r\nContent-Disposition: form-data; name=\"request\"\r\n\r\n{request}\r\n"
-                f"--{boundary}\r\nContent-Disposition: form-data; name=\"file\"; filename=\"points.csv\"\r\n\r\n"
-                f"{points_table()}\r\n--{boundary}--\r\n")
+        body = (
+            f'--{boundary}\r\nContent-Disposition: form-data; name="request"\r\n\r\n{request}\r\n'
+            f'--{boundary}\r\nContent-Disposition: form-data; name="file"; filename="points.csv"\r\n\r\n'
+            f"{points_table()}\r\n--{boundary}--\r\n"
+        )
         client = http.client.HTTPConnection("127.0.0.1", port)
         client.request("POST", "/v1/calibrations", body, {"Content-Type": f"multipart/form-data; boundary={boundary}"})
         answer = client.getresponse()
@@ -193,8 +211,12 @@ class Calibrate(unittest.TestCase):
         state = asked()
         self.assertEqual(state["state"], "succeeded", state)
         self.assertAlmostEqual(state["camera"]["fx"], 800, places=3)
-        for result, word in (("camera", "rms_px"), ("opencv", "camera_matrix"), ("ros", "camera_name: wide"),
-                             ("residuals", "<svg")):
+        for result, word in (
+            ("camera", "rms_px"),
+            ("opencv", "camera_matrix"),
+            ("ros", "camera_name: wide"),
+            ("residuals", "<svg"),
+        ):
             with urllib.request.urlopen(url + state["links"][result]) as shown:
                 self.assertIn(word, shown.read().decode())
         # A dataset job takes it by its id, and holds the camera itself.

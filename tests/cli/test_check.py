@@ -72,7 +72,9 @@ class Check(unittest.TestCase):
         self.assertGreater(answer["estimate"]["memory_mib"], 500)
         more = self.answer(runs=4, capture={"rate_hz": 2, "from_s": 1, "to_s": 5}, crowd={"agents": 20})
         self.assertAlmostEqual(more["estimate"]["cpu_s"] / answer["estimate"]["cpu_s"], 2, delta=0.1)
-        self.assertGreater(self.answer(quality="high")["estimate"]["cpu_s"], self.answer(quality="draft")["estimate"]["cpu_s"])
+        self.assertGreater(
+            self.answer(quality="high")["estimate"]["cpu_s"], self.answer(quality="draft")["estimate"]["cpu_s"]
+        )
 
     def test_the_estimates_are_those_of_a_run(self):
         job = {**SQUARE, "drones": [{"id": "d1", "camera": {"width": 640, "height": 360}}]}
@@ -116,7 +118,9 @@ class Check(unittest.TestCase):
     def test_smoke_needs_a_hazard(self):
         everyday = {"scenario": "city_square/everyday", "environment": {"smoke": 0.5}}
         self.assertIn("/environment/smoke", self.warned(**everyday))
-        self.assertNotIn("/environment/smoke", self.warned(scenario="city_square/emergency", environment={"smoke": 0.5}))
+        self.assertNotIn(
+            "/environment/smoke", self.warned(scenario="city_square/emergency", environment={"smoke": 0.5})
+        )
 
     def test_cameras_that_see_nobody(self):
         up = [{"id": "d1", "start": [0, 0, 30], "camera": {"pitch_deg": 30}}]

@@ -47,8 +47,19 @@ class Client(unittest.TestCase):
         port_file = self.base / "port"
         port_file.unlink(missing_ok=True)
         self.server = subprocess.Popen(
-            [THRONG, "serve", "--data", str(self.base / "data"), "--port", str(self.port), "--port-file", str(port_file)],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            [
+                THRONG,
+                "serve",
+                "--data",
+                str(self.base / "data"),
+                "--port",
+                str(self.port),
+                "--port-file",
+                str(port_file),
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         wait_until(lambda: port_file.exists() and port_file.read_text().strip())
         self.port = int(port_file.read_text())
         self.environment["THRONG_URL"] = f"http://127.0.0.1:{self.port}"
@@ -58,8 +69,9 @@ class Client(unittest.TestCase):
         self.server.wait(300)
 
     def throng(self, *arguments, code=0):
-        done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300,
-                              env=self.environment)
+        done = subprocess.run(
+            [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, env=self.environment
+        )
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout if code == 0 else done.stderr
 
@@ -111,7 +123,9 @@ class Client(unittest.TestCase):
         study = {
             "name": "killed",
             "runs": 20,
-            "cases": [{"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "duration_s": 20}],
+            "cases": [
+                {"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "duration_s": 20}
+            ],
             "policies": [{"id": "none"}, {"id": "same"}],
         }
         file = self.base / "study.json"
@@ -132,7 +146,9 @@ class Client(unittest.TestCase):
         self.throng("studies", "fetch", id_, "-o", self.base / "fetched")
         self.throng("study", file, "-o", self.base / "here")
         for name in ("summary.json", "summary.csv", "summary.md", "values.json", "report.html"):
-            self.assertEqual((self.base / "fetched" / name).read_bytes(), (self.base / "here" / name).read_bytes(), name)
+            self.assertEqual(
+                (self.base / "fetched" / name).read_bytes(), (self.base / "here" / name).read_bytes(), name
+            )
         self.throng("studies", "cancel", id_)  # it has ended: nothing is left to cancel
         self.assertRegex(self.throng("studies", "list"), rf"{id_} +succeeded")
         self.throng("studies", "retry", id_, code=2)

@@ -27,7 +27,9 @@ THRONG = sys.argv.pop(1)
 CRASHES = int(os.environ.get("THRONG_CRASHES", "1"))
 
 # One shard per run, long enough to be hit; with $THRONG_LONG two (of 30 and of 6 frames).
-CAPTURE = {"rate_hz": 5, "from_s": 1, "to_s": 8} if os.environ.get("THRONG_LONG") else {"rate_hz": 1, "from_s": 1, "to_s": 2}
+CAPTURE = (
+    {"rate_hz": 5, "from_s": 1, "to_s": 8} if os.environ.get("THRONG_LONG") else {"rate_hz": 1, "from_s": 1, "to_s": 2}
+)
 JOB = {
     "name": "crash",
     "scenario": "city_square/nearest_exit",
@@ -63,10 +65,12 @@ def children_of(pid):
 
 def workers_of(pid):
     """The server's children but for the process that forks its checks, which stays."""
+
     def is_fork_server(child):
         with contextlib.suppress(OSError):
             return b"confined" in pathlib.Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")
         return False
+
     return [(child, state) for child, state in children_of(pid) if not is_fork_server(child)]
 
 
@@ -93,9 +97,14 @@ class Server:
             environment["THRONG_FAULTS"] = faults
         self.process = subprocess.Popen(
             [THRONG, "serve", "--data", str(self.data), "--port", "0", "--port-file", str(port_file), *self.options],
-            stdout=subprocess.DEVNULL, stderr=self.log, env=environment)
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip() or self.process.poll() is not None,
-                   what="the port")
+            stdout=subprocess.DEVNULL,
+            stderr=self.log,
+            env=environment,
+        )
+        wait_until(
+            lambda: port_file.exists() and port_file.read_text().strip() or self.process.poll() is not None,
+            what="the port",
+        )
         self.url = f"http://127.0.0.1:{int(port_file.read_text())}" if port_file.exists() else None
 
     def kill(self):
@@ -120,8 +129,9 @@ class Server:
 
     def request(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.url + path, data=data, method=method,
-                                         headers={"Content-Type": "application/json"})
+        request = urllib.request.Request(
+            self.url + path, data=data, method=method, headers={"Content-Type": "application/json"}
+        )
         try:
             with urllib.request.urlopen(request, timeout=300) as answer:
                 return json.loads(answer.read() or b"null")
@@ -193,9 +203,12 @@ class Crash(unittest.TestCase):
             hits += self.server.state(job) in ("queued", "running")
             self.server.kill()
             self.server.start()
-            self.assertEqual(len(self.server.request("GET", "/v1/jobs?state=running&state=queued")["jobs"])
-                             + len(self.server.request("GET", "/v1/jobs?state=succeeded")["jobs"]),
-                             len(self.server.request("GET", "/v1/jobs")["jobs"]), "a job is lost or has failed")
+            self.assertEqual(
+                len(self.server.request("GET", "/v1/jobs?state=running&state=queued")["jobs"])
+                + len(self.server.request("GET", "/v1/jobs?state=succeeded")["jobs"]),
+                len(self.server.request("GET", "/v1/jobs")["jobs"]),
+                "a job is lost or has failed",
+            )
         self.expect_undisturbed(job)
         print(f"server killed {CRASHES} times, {hits} of them at work: no job lost, bytes as undisturbed")
 
@@ -252,8 +265,12 @@ class Crash(unittest.TestCase):
                     self.server = Server(self.base)
 
     def test_the_server_dies_when_a_job_is_cancelled_or_retried_or_fails(self):
-        for event, faults, path in (("cancelled", "slow:*:30", "cancel"), ("failed", "fail:*", None),
-                                    ("retried", "fail:*", "retry"), ("resumed", "slow:*:30", None)):
+        for event, faults, path in (
+            ("cancelled", "slow:*:30", "cancel"),
+            ("failed", "fail:*", None),
+            ("retried", "fail:*", "retry"),
+            ("resumed", "slow:*:30", None),
+        ):
             for moment in ("before", "after"):
                 with self.subTest(event=event, moment=moment):
                     shutil.rmtree(self.server.data, ignore_errors=True)
@@ -291,8 +308,9 @@ class Crash(unittest.TestCase):
         self.assertEqual([run["run"] for run in manifest["runs"]], ["run000"])
         self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0000"}])
         # Everything present is complete.
-        checked = subprocess.run([THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")],
-                                 capture_output=True, text=True)
+        checked = subprocess.run(
+            [THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")], capture_output=True, text=True
+        )
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
         self.server.kill()
         self.server.start()
@@ -383,8 +401,9 @@ class Crash(unittest.TestCase):
         wait_until(lambda: self.server.state(job) == "running")
         streams = []
         for _ in range(20):
-            request = urllib.request.Request(f"{self.server.url}/v1/jobs/{job}/events",
-                                             headers={"Accept": "text/event-stream"})
+            request = urllib.request.Request(
+                f"{self.server.url}/v1/jobs/{job}/events", headers={"Accept": "text/event-stream"}
+            )
             streams.append(urllib.request.urlopen(request, timeout=300))
         begun = time.monotonic()
         self.server.process.terminate()
@@ -400,9 +419,24 @@ class Crash(unittest.TestCase):
         self.server.stop()
         port_file = self.base / "port1"
         first = subprocess.Popen(
-            ["unshare", "--fork", "--pid", "--kill-child", "--mount-proc", THRONG, "serve", "--data",
-             str(self.server.data), "--port", "0", "--port-file", str(port_file)], stderr=subprocess.PIPE,
-            stdout=subprocess.DEVNULL)
+            [
+                "unshare",
+                "--fork",
+                "--pid",
+                "--kill-child",
+                "--mount-proc",
+                THRONG,
+                "serve",
+                "--data",
+                str(self.server.data),
+                "--port",
+                "0",
+                "--port-file",
+                str(port_file),
+            ],
+            stderr=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+        )
         self.server.process = first
         self.server.log = first.stderr
         ready = wait_until(lambda: port_file.exists() or first.poll() is not None)

@@ -34,18 +34,20 @@ BEHAVIOR = """<BFSM>
 
 
 def crowd(*arguments, **options):
-    return subprocess.run([THRONG, "crowd", *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+    return subprocess.run(
+        [THRONG, "crowd", *map(str, arguments)], capture_output=True, text=True, timeout=300, **options
+    )
 
 
 def read_scb(path):
     """The frames of a version 2.1 file, each a list of (x, y, orientation, state)."""
     data = pathlib.Path(path).read_bytes()
     assert data[:4] == b"2.1\0", data[:4]
-    count, = struct.unpack_from("<i", data, 4)
+    (count,) = struct.unpack_from("<i", data, 4)
     header = 12 + 4 * count
     frame = 16 * count
     assert (len(data) - header) % frame == 0
-    return [list(struct.iter_unpack("<4f", data[at:at + frame])) for at in range(header, len(data), frame)]
+    return [list(struct.iter_unpack("<4f", data[at : at + frame])) for at in range(header, len(data), frame)]
 
 
 def read_rows(path):
@@ -66,8 +68,7 @@ class Crowd(unittest.TestCase):
         (self.base / "scene.xml").write_text(SCENE.format(n=n, common=common))
         (self.base / "behavior.xml").write_text(BEHAVIOR)
         self.project = self.base / "project.xml"
-        self.project.write_text(
-            f'<Project scene="scene.xml" behavior="behavior.xml" model="orca" view="" {project}/>')
+        self.project.write_text(f'<Project scene="scene.xml" behavior="behavior.xml" model="orca" view="" {project}/>')
 
     def names(self):
         return sorted(p.name for p in self.base.iterdir())
@@ -94,7 +95,9 @@ class Crowd(unittest.TestCase):
         self.write(n=2, project='duration="1" timeStep="0.5" output="ours.scb" scbVersion="2.2"')
         self.assertEqual(crowd(self.project, "-q").stdout, "")
         self.assertEqual((self.base / "ours.scb").stat().st_size, 12 + 4 * 4 + 3 * 4 * 32)
-        done = crowd(self.project, "-d", "2", "-t", "0.25", "--sub-steps", "1", "-o", self.base / "b", "--scb-version", "2.1")
+        done = crowd(
+            self.project, "-d", "2", "-t", "0.25", "--sub-steps", "1", "-o", self.base / "b", "--scb-version", "2.1"
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len(read_scb(self.base / "b.scb")), 9)
         other = self.base / "other.xml"
@@ -156,8 +159,22 @@ class Crowd(unittest.TestCase):
     def test_ends_cleanly_when_it_is_interrupted(self):
         self.write(n=60, project='timeStep="0.001" duration="100000"')
         before = self.names()
-        process = subprocess.Popen([THRONG, "crowd", self.project, "-o", self.base / "o.scb", "--series", self.base / "s.csv",
-                                    "--positions", self.base / "p.csv"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [
+                THRONG,
+                "crowd",
+                self.project,
+                "-o",
+                self.base / "o.scb",
+                "--series",
+                self.base / "s.csv",
+                "--positions",
+                self.base / "p.csv",
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         deadline = time.monotonic() + 300
         while len(self.names()) < len(before) + 3 and time.monotonic() < deadline:
             time.sleep(0.01)
@@ -169,8 +186,23 @@ class Crowd(unittest.TestCase):
         self.assertEqual(self.names(), before)
 
     def test_takes_menge_s_command_lines(self):
-        done = crowd("-p", self.project, "--view", "view.xml", "-u", "images", "--verbose", "--subSteps", "1", "-d", "1",
-                     "--scbVersion", "2.2", "-o", self.base / "o")
+        done = crowd(
+            "-p",
+            self.project,
+            "--view",
+            "view.xml",
+            "-u",
+            "images",
+            "--verbose",
+            "--subSteps",
+            "1",
+            "-d",
+            "1",
+            "--scbVersion",
+            "2.2",
+            "-o",
+            self.base / "o",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.base / "o.scb").exists())
 
@@ -186,14 +218,17 @@ class Crowd(unittest.TestCase):
     def test_lists_what_the_files_may_say(self):
         kinds = {kind["kind"]: kind for kind in json.loads(crowd("--list", "--json").stdout)}
         conditions = {entry["name"]: entry for entry in kinds["Conditions"]["entries"]}
-        distance, = [a for a in conditions["goal_reached"]["attributes"] if a["name"] == "distance"]
+        (distance,) = [a for a in conditions["goal_reached"]["attributes"] if a["name"] == "distance"]
         self.assertEqual(distance["default"], "0")
         self.assertIn("goal_reached", crowd("--list").stdout)
 
     def test_the_documented_list_is_the_program_s(self):
         written = (ROOT / "docs" / "crowd_vocabulary.md").read_text()
-        self.assertEqual(crowd("--list", "--markdown").stdout, written,
-                         "run: throng crowd --list --markdown > docs/crowd_vocabulary.md")
+        self.assertEqual(
+            crowd("--list", "--markdown").stdout,
+            written,
+            "run: throng crowd --list --markdown > docs/crowd_vocabulary.md",
+        )
 
     @unittest.skipUnless(EXAMPLES.exists(), "Menge's examples are not here")
     def test_runs_menge_s_examples_unchanged(self):

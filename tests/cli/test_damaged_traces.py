@@ -136,8 +136,10 @@ class DamagedTraces(unittest.TestCase):
     def test_a_job_makes_its_own_trace_again(self):
         """The trace of a run that was interrupted is damaged, also in ways at which the library crashes."""
         job = self.folder / "small.job.json"
-        small = {"drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120}}],
-                 "outputs": {"annotations": ["coco"]}}
+        small = {
+            "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120}}],
+            "outputs": {"annotations": ["coco"]},
+        }
         job.write_text(json.dumps({**JOB, "capture": {"rate_hz": 1, "from_s": 0, "to_s": 2}, **small}))
         output = self.folder / "run"
         done = throng("run", job, "-o", output)

@@ -32,11 +32,17 @@ NOT_RUN = {
     ("docs/api.md", "docker/make_certificate.sh"): "needs Docker",
     ("docs/blueprint.md", ""): "all blocks are run by tests/cli/test_places.py",
     ("docs/calibration.md", "throng calibrate selftest"): "26 s of CPU time; run by tests/cli/test_calibrate.py",
-    ("docs/evacuation.md", "throng study doors.json -o doors\n"): "24 s of CPU time: the same as the study before it, with two cases",
+    (
+        "docs/evacuation.md",
+        "throng study doors.json -o doors\n",
+    ): "24 s of CPU time: the same as the study before it, with two cases",
     ("docs/imports.md", ""): "all blocks are run by tests/cli/test_imports.py, the last one without images",
     ("docs/library.md", "cmake --preset"): "builds the program: many minutes; tests/cli/test_package.py installs it",
     ("docs/people.md", "throng people build"): "48 s of CPU time for 96 people; run by scripts/setup.sh",
-    ("docs/python.md", "pip install"): "pip needs the network; the rest of the page is run by tests/python/test_docs.py",
+    (
+        "docs/python.md",
+        "pip install",
+    ): "pip needs the network; the rest of the page is run by tests/python/test_docs.py",
     ("docs/training.md", ""): "minutes of CPU time, needs torch; tests/python/test_examples.py runs the programs",
     ("docs/studio.md", "node web/studio"): "never ends (--watch), needs the packages of web/",
 }
@@ -105,7 +111,9 @@ class Page:
         if "service" in needs:
             server = self.start_service()
         script = self.folder / "block.sh"
-        script.write_text(f"set -eo pipefail\n{self.exports}{block}".replace("127.0.0.1:8080", f"127.0.0.1:{self.port}"))
+        script.write_text(
+            f"set -eo pipefail\n{self.exports}{block}".replace("127.0.0.1:8080", f"127.0.0.1:{self.port}")
+        )
         self.exports += "".join(line + "\n" for line in block.splitlines() if line.startswith("export "))
         try:
             done = subprocess.run(
@@ -115,7 +123,9 @@ class Page:
             if server:
                 server.terminate()
                 server.wait(300)
-        return None if done.returncode == 0 else f"exit code {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}"
+        return (
+            None if done.returncode == 0 else f"exit code {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}"
+        )
 
     def start_service(self):
         shutil.rmtree(self.folder / "data", ignore_errors=True)
@@ -138,7 +148,9 @@ class DocBlocks(unittest.TestCase):
     maxDiff = None
 
     def test_every_block_has_a_language(self):
-        found = {name_of(page): {language for language, _ in BLOCK.findall(page.read_text())} - LANGUAGES for page in PAGES}
+        found = {
+            name_of(page): {language for language, _ in BLOCK.findall(page.read_text())} - LANGUAGES for page in PAGES
+        }
         self.assertEqual({page: languages for page, languages in found.items() if languages}, {})
 
     def test_tables_name_blocks_that_exist(self):
@@ -150,7 +162,9 @@ class DocBlocks(unittest.TestCase):
         self.assertEqual((set(NOT_RUN) | set(NEEDS)) - used, set())
 
     def test_most_blocks_run(self):
-        blocks = [(page, block) for page in PAGES for language, block in BLOCK.findall(page.read_text()) if language == "sh"]
+        blocks = [
+            (page, block) for page in PAGES for language, block in BLOCK.findall(page.read_text()) if language == "sh"
+        ]
         run = [block for page, block in blocks if entry(NOT_RUN, page, block)[1] is None]
         self.assertGreater(len(run), 0.55 * len(blocks))
 
@@ -186,7 +200,9 @@ class RunBlocks(unittest.TestCase):
 
 def runs_blocks(page):
     """Whether any block of the page is run."""
-    return any(language == "sh" and not entry(NOT_RUN, page, block)[1] for language, block in BLOCK.findall(page.read_text()))
+    return any(
+        language == "sh" and not entry(NOT_RUN, page, block)[1] for language, block in BLOCK.findall(page.read_text())
+    )
 
 
 for each_page in filter(runs_blocks, PAGES):

@@ -61,7 +61,19 @@ class Docs(unittest.TestCase):
 
     def test_every_variable_is_in_the_table(self):
         table = (ROOT / "docs" / "troubleshooting.md").read_text()
-        folders = ["base", "cli", "crowd", "jobs", "render", "server", "sim", "skinning", "world", "python/throng", "scripts"]
+        folders = [
+            "base",
+            "cli",
+            "crowd",
+            "jobs",
+            "render",
+            "server",
+            "sim",
+            "skinning",
+            "world",
+            "python/throng",
+            "scripts",
+        ]
         used = set()
         for folder in folders:
             for file in (ROOT / folder).rglob("*"):

@@ -35,8 +35,9 @@ def resident_mib(pid):
 
 
 def dry_run(url, job):
-    request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(job).encode(),
-                                     {"Content-Type": "application/json"})
+    request = urllib.request.Request(
+        f"{url}/v1/jobs?dry_run", json.dumps(job).encode(), {"Content-Type": "application/json"}
+    )
     with urllib.request.urlopen(request, timeout=300) as answer:
         return json.load(answer)
 
@@ -44,8 +45,12 @@ def dry_run(url, job):
 def main():
     throng = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
-        server = subprocess.Popen([throng, "serve", "--data", os.path.join(folder, "data"), "--port", "0"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        server = subprocess.Popen(
+            [throng, "serve", "--data", os.path.join(folder, "data"), "--port", "0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
         try:
             url = re.search(r"http://\S+", server.stdout.readline())[0]
             dry_run(url, {**JOB, "crowd": {}})  # schemas are read, the process that forks checks runs
@@ -62,9 +67,11 @@ def main():
             server.terminate()
             server.wait()
     each = statistics.median(costs)
-    print(f"dry run of {JOB['scenario']} with {JOB['crowd']['agents']} people: the server's process used "
-          f"{1000 * each:.1f} ms of CPU (median of {REPETITIONS}; {1000 * costs[0]:.1f} ms for the first, at most "
-          f"{1000 * max(costs):.1f} ms), {memory:.1f} MiB before and {grown:+.1f} MiB after them")
+    print(
+        f"dry run of {JOB['scenario']} with {JOB['crowd']['agents']} people: the server's process used "
+        f"{1000 * each:.1f} ms of CPU (median of {REPETITIONS}; {1000 * costs[0]:.1f} ms for the first, at most "
+        f"{1000 * max(costs):.1f} ms), {memory:.1f} MiB before and {grown:+.1f} MiB after them"
+    )
     assert each < MAX_CPU_S, f"{1000 * each:.1f} ms of CPU for each dry run"
     assert grown < MAX_MIB, f"{grown:.1f} MiB stay"
 

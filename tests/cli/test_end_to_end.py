@@ -25,16 +25,29 @@ JOB = {
     "scenario": "city_square/nearest_exit",
     "seed": 3,
     "runs": 2,
-    "drones": [{
-        "id": "d1", "start": [-24, -6, 20],
-        "guidance": {"policy": "waypoints", "waypoints": [[-24, 0, 20], [-20, 4, 22]], "speed_mps": 2},
-        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
-    }],
+    "drones": [
+        {
+            "id": "d1",
+            "start": [-24, -6, 20],
+            "guidance": {"policy": "waypoints", "waypoints": [[-24, 0, 20], [-20, 4, 22]], "speed_mps": 2},
+            "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
+        }
+    ],
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 5},
     "outputs": {
         "annotations": ["coco", "keypoints", "density", "exits", "depth", "instances", "flow"],
-        "formats": ["coco", "coco-keypoints", "coco-panoptic", "yolo-detect", "yolo-segment", "yolo-pose",
-                    "mot", "mots", "visdrone-det", "visdrone-mot"],
+        "formats": [
+            "coco",
+            "coco-keypoints",
+            "coco-panoptic",
+            "yolo-detect",
+            "yolo-segment",
+            "yolo-pose",
+            "mot",
+            "mots",
+            "visdrone-det",
+            "visdrone-mot",
+        ],
         "splits": {"val_runs": [1]},
         "filters": {"min_visibility": 0.1},
     },
@@ -118,8 +131,18 @@ class EndToEnd(unittest.TestCase):
 
     def test_an_export_later_is_that_of_the_job(self):
         out = self.base / "exported"
-        done = throng("export", self.dataset, "-o", out, "--formats", "mot,yolo-pose,coco-panoptic",
-                      "--split", "val=run001", "--min-visibility", "0.1")
+        done = throng(
+            "export",
+            self.dataset,
+            "-o",
+            out,
+            "--formats",
+            "mot,yolo-pose,coco-panoptic",
+            "--split",
+            "val=run001",
+            "--min-visibility",
+            "0.1",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("mot", "yolo-pose", "coco-panoptic"):
             mine, theirs = files_of(out / name), files_of(self.dataset / "formats" / name)
@@ -137,7 +160,9 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same_dataset(again / "dataset")
         for run in ("run000", "run001"):
-            self.assertTrue(filecmp.cmp(self.first / "work" / run / "trace.h5", again / "work" / run / "trace.h5", shallow=False))
+            self.assertTrue(
+                filecmp.cmp(self.first / "work" / run / "trace.h5", again / "work" / run / "trace.h5", shallow=False)
+            )
 
     def test_another_seed_gives_other_pictures(self):
         job = dict(JOB, seed=4, runs=1, outputs={})
@@ -152,8 +177,13 @@ class EndToEnd(unittest.TestCase):
         records = {}
         for name, sensor in (("default", {}), ("given", {"metering": "light", "iso": 0})):
             job = json.loads(json.dumps(JOB))
-            job.update(runs=1, capture={"rate_hz": 1, "from_s": 1, "to_s": 1}, outputs={},
-                       environment={"time_of_day": "23:00"}, crowd={"agents": 20})
+            job.update(
+                runs=1,
+                capture={"rate_hz": 1, "from_s": 1, "to_s": 1},
+                outputs={},
+                environment={"time_of_day": "23:00"},
+                crowd={"agents": 20},
+            )
             job["drones"][0]["camera"]["sensor"] = sensor
             path = self.base / f"night_{name}.json"
             path.write_text(json.dumps(job))
@@ -173,10 +203,18 @@ class EndToEnd(unittest.TestCase):
         rendered = self.base / "rendered"
         done = throng("render", self.job, "--trace", trace, "-o", rendered)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue(filecmp.cmp(self.dataset / "images/run001/d1/000006.jpg",
-                                    rendered / "dataset/images/run000/d1/000006.jpg", shallow=False))
+        self.assertTrue(
+            filecmp.cmp(
+                self.dataset / "images/run001/d1/000006.jpg",
+                rendered / "dataset/images/run000/d1/000006.jpg",
+                shallow=False,
+            )
+        )
         check_dataset(rendered / "dataset")
-        seeds = [json.loads((d / "manifest.json").read_text())["runs"][-1]["seed"] for d in (self.dataset, rendered / "dataset")]
+        seeds = [
+            json.loads((d / "manifest.json").read_text())["runs"][-1]["seed"]
+            for d in (self.dataset, rendered / "dataset")
+        ]
         self.assertEqual(*seeds, "the manifest names the seed of the trace that was drawn")
 
     def test_bad_jobs_name_file_pointer_found_and_expected(self):
@@ -187,7 +225,9 @@ class EndToEnd(unittest.TestCase):
         self.bad_job(lambda j: j["outputs"].update(formats=["mot", "docx"]), "/outputs/formats/1", "yolo-detect")
         self.bad_job(lambda j: j["outputs"]["splits"].update(test_runs=[2]), "/outputs/splits/test_runs/0", "0 to 1")
         self.bad_job(lambda j: j["drones"][0].update(airframe="brick"), "/drones/0/airframe", "f450")
-        self.bad_job(lambda j: j["drones"][0]["guidance"].update(waypoints=[[25, 0, 3]]), "/drones/0/guidance/waypoints/0")
+        self.bad_job(
+            lambda j: j["drones"][0]["guidance"].update(waypoints=[[25, 0, 3]]), "/drones/0/guidance/waypoints/0"
+        )
 
     def test_unwritable_output_is_the_environments_fault(self):
         blocker = self.base / "file"
@@ -199,8 +239,12 @@ class EndToEnd(unittest.TestCase):
     def test_an_interrupt_cancels_and_a_second_run_resumes(self):
         out = self.base / "cancelled"
         # It cannot end before it is interrupted: one of its runs rests.
-        process = subprocess.Popen([THRONG, "run", str(self.job), "-o", str(out)], stderr=subprocess.PIPE, text=True,
-                                   env=dict(os.environ, THRONG_FAULTS="slow:run001/trace:3600"))
+        process = subprocess.Popen(
+            [THRONG, "run", str(self.job), "-o", str(out)],
+            stderr=subprocess.PIPE,
+            text=True,
+            env=dict(os.environ, THRONG_FAULTS="slow:run001/trace:3600"),
+        )
         wait_until((out / "work/run000/trace.h5").exists)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=300)
@@ -246,7 +290,9 @@ class Server:
         pathlib.Path(data).mkdir(exist_ok=True)
         self.process = subprocess.Popen(
             [THRONG, "serve", "--data", str(data), "--port", "0", "--port-file", str(port_file)],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         wait_until(lambda: port_file.exists() and port_file.read_text().strip())
         self.url = f"http://127.0.0.1:{port_file.read_text().strip()}"
 
@@ -258,7 +304,9 @@ class Server:
         return json.loads(self.get_bytes(path))
 
     def post(self, path, body):
-        request = urllib.request.Request(self.url + path, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        request = urllib.request.Request(
+            self.url + path, json.dumps(body).encode(), {"Content-Type": "application/json"}
+        )
         with urllib.request.urlopen(request, timeout=300) as answer:
             self.location = answer.headers["Location"]
             return json.load(answer)

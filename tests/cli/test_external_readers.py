@@ -26,13 +26,32 @@ JOB = {
     "scenario": "city_square/nearest_exit",
     "seed": 5,
     "runs": 2,
-    "drones": [{
-        "id": "d1", "start": [-24, -6, 14],
-        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
-    }],
+    "drones": [
+        {
+            "id": "d1",
+            "start": [-24, -6, 14],
+            "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
+        }
+    ],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
-    "outputs": {"annotations": ["coco", "keypoints", "skeletons", "amodal", "heads", "difficulty", "density", "depth", "instances", "flow", "fields",
-                                "sensors", "semantic", "trajectories"]},
+    "outputs": {
+        "annotations": [
+            "coco",
+            "keypoints",
+            "skeletons",
+            "amodal",
+            "heads",
+            "difficulty",
+            "density",
+            "depth",
+            "instances",
+            "flow",
+            "fields",
+            "sensors",
+            "semantic",
+            "trajectories",
+        ]
+    },
 }
 
 
@@ -71,6 +90,7 @@ def mask_of(segmentation):
 
 def install_stand_in_for_pycocotools():
     """The part of pycocotools.coco.COCO that torchvision needs, from the format's description."""
+
     class COCO:
         def __init__(self, path):
             content = json.loads(pathlib.Path(path).read_text())
@@ -130,6 +150,7 @@ class ExternalReaders(unittest.TestCase):
     @needs("h5py")
     def test_h5py_reads_densities(self):
         import h5py
+
         for image in self.coco["images"]:
             split = "train" if image["run"] == "run000" else "val"
             for kind in ("shanghaitech", "shanghaitech-adaptive", "shanghaitech-perspective"):
@@ -144,6 +165,7 @@ class ExternalReaders(unittest.TestCase):
     @needs("scipy")
     def test_scipy_reads_points(self):
         import scipy.io
+
         for image in self.coco["images"]:
             split = "train" if image["run"] == "run000" else "val"
             path = self.out / f"shanghaitech/{split}_data/ground_truth/GT_IMG_{self.stem(image)}.mat"
@@ -154,6 +176,7 @@ class ExternalReaders(unittest.TestCase):
     def test_opencv_reads_exr_flow_and_calibration(self):
         os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"
         import cv2
+
         image = self.coco["images"][1]
         depth = cv2.imread(str(self.out / f"depth-exr/run000-d1/{self.stem(image)}.exr"), cv2.IMREAD_UNCHANGED)
         place = image["file_name"].split("/", 1)[1].replace(".jpg", ".png")
@@ -194,6 +217,7 @@ class ExternalReaders(unittest.TestCase):
         if not importlib.util.find_spec("pycocotools"):  # Debian 12 has none
             install_stand_in_for_pycocotools()
         from torchvision.datasets import CocoDetection
+
         data = CocoDetection(self.out / "coco/train", self.out / "coco/annotations/instances_train.json")
         self.assertEqual(len(data), 4)
         for picture, target in data:
@@ -202,8 +226,9 @@ class ExternalReaders(unittest.TestCase):
                 mask = numpy.asarray(data.coco.annToMask(annotation))
                 self.assertEqual(int(mask.sum()), annotation["area"])
                 rows, columns = numpy.nonzero(mask)
-                self.assertEqual([columns.min(), rows.min(), numpy.ptp(columns) + 1, numpy.ptp(rows) + 1],
-                                 annotation["bbox"])
+                self.assertEqual(
+                    [columns.min(), rows.min(), numpy.ptp(columns) + 1, numpy.ptp(rows) + 1], annotation["bbox"]
+                )
         self.assertGreater(len(target), 10)
 
     @needs("torchvision")
@@ -228,8 +253,10 @@ class ExternalReaders(unittest.TestCase):
     def test_numpy_reads_trajectories(self):
         values = numpy.load(self.dataset / "trajectories/run000.npy")
         tracks = json.loads((self.dataset / "trajectories/run000.json").read_text())["track_ids"]
-        expected = {(tracks[person], frame): values[frame, person, :2]
-                    for frame, person in zip(*numpy.nonzero(~numpy.isnan(values[..., 0])))}
+        expected = {
+            (tracks[person], frame): values[frame, person, :2]
+            for frame, person in zip(*numpy.nonzero(~numpy.isnan(values[..., 0])))
+        }
         text = numpy.loadtxt(self.out / "jupedsim/train/run000.txt")
         self.assertEqual({(int(row[0]), int(row[1])) for row in text}, set(expected))
         for row in text:
@@ -241,8 +268,11 @@ class ExternalReaders(unittest.TestCase):
 
     def head_people(self, image):
         """People whose heads are in the image, in the records' order."""
-        return [person for person in self.people(image) if person["head"] and
-                0 <= person["head"][0] < image["width"] and 0 <= person["head"][1] < image["height"]]
+        return [
+            person
+            for person in self.people(image)
+            if person["head"] and 0 <= person["head"][0] < image["width"] and 0 <= person["head"][1] < image["height"]
+        ]
 
     def share_of_head(self, person):
         """The visible share of the person's pixels in the box of the head, from the masks."""
@@ -250,7 +280,7 @@ class ExternalReaders(unittest.TestCase):
         shares = []
         for key in ("segmentation", "amodal_segmentation"):
             mask = mask_of(person[key])
-            rows, columns = numpy.mgrid[:mask.shape[0], :mask.shape[1]] + 0.5
+            rows, columns = numpy.mgrid[: mask.shape[0], : mask.shape[1]] + 0.5
             inside = (columns >= x) & (columns < x + width) & (rows >= y) & (rows < y + height)
             shares.append(int((mask.astype(bool) & inside).sum()))
         return shares[0] / shares[1] if shares[1] else person["visibility"]
@@ -272,11 +302,15 @@ class ExternalReaders(unittest.TestCase):
             name = f"openpose/{split}/json/{self.stem(image)}_keypoints.json"
             people = json.loads((self.out / name).read_text())["people"]
             feet = json.loads((self.out / f"coco-wholebody/annotations/coco_wholebody_{split}_v1.0.json").read_text())
-            feet = {record["track_id"]: record["foot_kpts"] for record in feet["annotations"] if record["image_id"] == image["id"]}
+            feet = {
+                record["track_id"]: record["foot_kpts"]
+                for record in feet["annotations"]
+                if record["image_id"] == image["id"]
+            }
             self.assertEqual(len(people), len(rows) // 22)
             for number, person in enumerate(people):
                 joints = numpy.array(person["pose_keypoints_2d"]).reshape(25, 3)
-                mine = rows[22 * number:22 * number + 22]
+                mine = rows[22 * number : 22 * number + 22]
                 for body_25, jta in ((2, 4), (3, 5), (4, 6), (9, 16), (10, 17), (14, 21)):
                     if joints[body_25, 2] > 0:
                         numpy.testing.assert_allclose(joints[body_25, :2], mine[jta, 3:5], atol=0.006)
@@ -287,8 +321,10 @@ class ExternalReaders(unittest.TestCase):
     def test_nwpu_as_its_authors_read_it(self):
         # Wang et al., 2020: lists of name, luminance and scene level; jsons/ with points and boxes of corners.
         root, number = self.out / "nwpu", 0
-        lists = {split: [line.split() for line in (root / f"{split}.txt").read_text().splitlines()]
-                 for split in ("train", "val")}
+        lists = {
+            split: [line.split() for line in (root / f"{split}.txt").read_text().splitlines()]
+            for split in ("train", "val")
+        }
         self.assertEqual(sum(map(len, lists.values())), len(self.coco["images"]))
         for image in self.coco["images"]:
             number += 1
@@ -307,6 +343,7 @@ class ExternalReaders(unittest.TestCase):
             self.assertEqual(int(row[2]), numpy.searchsorted([0, 100, 500, 5000], len(people)))
             if importlib.util.find_spec("scipy"):
                 import scipy.io
+
                 mat = scipy.io.loadmat(root / f"mats/{name}.mat")
                 numpy.testing.assert_allclose(mat["annPoints"], numpy.array(record["points"]).reshape(-1, 2))
                 numpy.testing.assert_allclose(mat["annBoxes"], numpy.array(record["boxes"]).reshape(-1, 4))
@@ -344,8 +381,9 @@ class ExternalReaders(unittest.TestCase):
             for sequence in (root / f"{split}.txt").read_text().splitlines():
                 for frame, path in enumerate(sorted((root / "images" / sequence).glob("*.jpg"))):
                     image = images[f"images/{run}/d1/{frame:06}.jpg"]
-                    self.assertAlmostEqual(float(str(path).split("__")[-1][:-4]),
-                                           image["flight"]["true"]["height_m"], delta=0.006)
+                    self.assertAlmostEqual(
+                        float(str(path).split("__")[-1][:-4]), image["flight"]["true"]["height_m"], delta=0.006
+                    )
                     label = str(path).replace("images", "labels").replace(".jpg", ".txt")
                     points = numpy.loadtxt(label, dtype=numpy.float32).reshape(-1, 2)
                     expected = numpy.array([person["head"] for person in self.head_people(image)]).reshape(-1, 2)
@@ -384,6 +422,7 @@ class ExternalReaders(unittest.TestCase):
     @needs("rosbag")
     def test_rosbag_replays_the_runs(self):
         import rosbag
+
         for run, split in (("run000", "train"), ("run001", "val")):
             images = [image for image in self.coco["images"] if image["run"] == run]
             topics = {}
@@ -393,9 +432,18 @@ class ExternalReaders(unittest.TestCase):
             with rosbag.Bag(self.out / f"rosbag-lz4/{split}/{run}.bag") as bag:
                 self.assertEqual(bag.get_compression_info().compression, "lz4")
                 self.assertEqual(bag.get_message_count(), sum(map(len, topics.values())))
-            self.assertEqual(set(topics), {"/tf", "/d1/odometry", "/d1/imu", "/d1/camera/camera_info",
-                                           "/d1/camera/image_color/compressed", "/d1/ground_truth/boxes",
-                                           "/d1/ground_truth/annotations"})
+            self.assertEqual(
+                set(topics),
+                {
+                    "/tf",
+                    "/d1/odometry",
+                    "/d1/imu",
+                    "/d1/camera/camera_info",
+                    "/d1/camera/image_color/compressed",
+                    "/d1/ground_truth/boxes",
+                    "/d1/ground_truth/annotations",
+                },
+            )
             for topic in set(topics) - {"/d1/imu"}:
                 self.assertEqual(len(topics[topic]), len(images), topic)
             imu = [message.header.stamp.to_sec() for message in topics["/d1/imu"]]
@@ -427,14 +475,17 @@ class ExternalReaders(unittest.TestCase):
     def check_transforms(self, transforms, image, odometry):
         """From the camera to the world, step by step: as the image's record says."""
         pose = numpy.eye(4)
-        for transform, frames in zip(transforms, (("world", "d1/base_link"),
-                                                  ("d1/base_link", "d1/camera_optical_frame"))):
+        for transform, frames in zip(
+            transforms, (("world", "d1/base_link"), ("d1/base_link", "d1/camera_optical_frame"))
+        ):
             self.assertEqual((transform.header.frame_id, transform.child_frame_id), frames)
             q, step = transform.transform.rotation, numpy.eye(4)
             w, x, y, z = q.w, q.x, q.y, q.z
-            step[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+            step[:3, :3] = [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
             shift = transform.transform.translation
             step[:3, 3] = [shift.x, shift.y, shift.z]
             pose = pose @ step
@@ -493,8 +544,11 @@ SEVERAL_CAMERAS_JOB = {
     "crowd": {"agents": 150},
     "drones": [
         {"id": "d1", "start": [0, -14, 14], "camera": two_camera(0)},
-        {"id": "d2", "start": [0, 10, 14],
-         "camera": two_camera(-90, model="brown_conrady", distortion={"k1": -0.2, "k2": 0.05})},
+        {
+            "id": "d2",
+            "start": [0, 10, 14],
+            "camera": two_camera(-90, model="brown_conrady", distortion={"k1": -0.2, "k2": 0.05}),
+        },
     ],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 8},
     "outputs": {"annotations": ["coco"], "splits": {"train": 0.5, "test": 0.5}, "formats": ["market1501", "wildtrack"]},
@@ -540,14 +594,17 @@ class SeveralCameras(unittest.TestCase):
                 whole = numpy.array(image.convert("RGB")).astype(float)
             with Image.open(self.formats / "market1501" / row["file"]) as image:
                 crop = numpy.array(image.convert("RGB")).astype(float)
-            self.assertLess(numpy.abs(whole[y:y + height, x:x + width] - crop).mean(), 5)
+            self.assertLess(numpy.abs(whole[y : y + height, x : x + width] - crop).mean(), 5)
 
     def test_mean_colors_find_people_in_the_other_camera(self):
         """The simplest features are far better than chance, as they are with real people."""
+
         def feature(pixels):
             height, width = pixels.shape[:2]
-            body = pixels[:, width // 4:max(width - width // 4, width // 4 + 1)]
-            return numpy.concatenate([body[height // 6:height // 2].mean((0, 1)), body[height // 2:-height // 12].mean((0, 1))])
+            body = pixels[:, width // 4 : max(width - width // 4, width // 4 + 1)]
+            return numpy.concatenate(
+                [body[height // 6 : height // 2].mean((0, 1)), body[height // 2 : -height // 12].mean((0, 1))]
+            )
 
         gallery = [(number, camera, feature(pixels)) for number, camera, pixels in self.crops("bounding_box_test")]
         trained = {number for number, _, _ in self.crops("bounding_box_train")}

@@ -77,7 +77,11 @@ class Front(unittest.TestCase):
 
     def delay_of_commands(self, client):
         """Seconds until a command is in force in a state that arrives (median), and the flight, which goes on."""
-        job = {"scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "drones": [{"id": "d1", "start": [0, 0, 20]}]}
+        job = {
+            "scenario": "city_square/nearest_exit",
+            "crowd": {"agents": 20},
+            "drones": [{"id": "d1", "start": [0, 0, 20]}],
+        }
         flight = client.live(job)
         self.addCleanup(flight.remove)
         sent, delays, images, sequence = {}, [], 0, 0
@@ -117,9 +121,13 @@ class Front(unittest.TestCase):
         front = self.through_nginx()
         body = b"x" * (50 << 20)
         kept = []
-        with front.context.wrap_socket(socket.create_connection(("127.0.0.1", front.port)), server_hostname="localhost") as client:
-            client.sendall(b"POST /v1/scenarios?name=x HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/zip\r\n"
-                           b"Content-Length: %d\r\n\r\n" % len(body))
+        with front.context.wrap_socket(
+            socket.create_connection(("127.0.0.1", front.port)), server_hostname="localhost"
+        ) as client:
+            client.sendall(
+                b"POST /v1/scenarios?name=x HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/zip\r\n"
+                b"Content-Length: %d\r\n\r\n" % len(body)
+            )
             for start in range(0, 8 << 20, 1 << 20):
                 try:
                     client.sendall(body[start : start + (1 << 20)])
@@ -128,8 +136,12 @@ class Front(unittest.TestCase):
                 kept += [path for path in pathlib.Path(self.folder).glob("nginx-bodies/**/*") if path.is_file()]
             self.assertIn(b" 401 ", client.recv(4096).split(b"\r\n")[0])
         self.assertEqual(kept, [])
-        reader = subprocess.run([THRONG, "keys", "create", "reader", "--data", f"{self.folder}/data", "--scope", "read"],
-                                check=True, capture_output=True, text=True).stdout.split()[-1]
+        reader = subprocess.run(
+            [THRONG, "keys", "create", "reader", "--data", f"{self.folder}/data", "--scope", "read"],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout.split()[-1]
         for key, status in (("", 401), ("throng_wrong", 401), (reader, 403)):
             headers = {"Content-Type": "application/zip", "Authorization": f"Bearer {key}"}
             self.assertEqual(self.refusal(front, "/v1/scenarios?name=x", body=body[: 1 << 20], headers=headers), status)

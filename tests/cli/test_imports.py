@@ -55,16 +55,44 @@ class Imports(unittest.TestCase):
             for frame in range(160):
                 rows.append(f"p{person},{frame},{100 * frame / 16 - 600 + 30 * person},{100 + 5 * math.sin(frame)}")
         (self.folder / "walk.csv").write_text("\n".join(rows))
-        job = {"scenario": "yard", "capture": {"to_s": 159 / 16},
-               "crowd": {"recorded": {"file": "walk.csv", "frame_rate_hz": 16, "unit": "cm",
-                                      "columns": {"person": "who", "frame": "t", "x": "east", "y": "north"}}}}
+        job = {
+            "scenario": "yard",
+            "capture": {"to_s": 159 / 16},
+            "crowd": {
+                "recorded": {
+                    "file": "walk.csv",
+                    "frame_rate_hz": 16,
+                    "unit": "cm",
+                    "columns": {"person": "who", "frame": "t", "x": "east", "y": "north"},
+                }
+            },
+        }
         (self.folder / "job.json").write_text(json.dumps(job))
         mine = self.folder / "mine"
         throng("simulate", "job.json", "-o", "trace.h5", cwd=self.folder, scenarios=mine)
         run = json.loads(throng("metrics", "trace.h5", cwd=self.folder, scenarios=mine).stdout)
-        own = json.loads(throng("metrics", "--trajectory", "walk.csv", "--scenario", "mine/yard.json", "--frame-rate",
-                                "16", "--unit-m", "0.01", "--person-column", "who", "--frame-column", "t",
-                                "--x-column", "east", "--y-column", "north", cwd=self.folder).stdout)
+        own = json.loads(
+            throng(
+                "metrics",
+                "--trajectory",
+                "walk.csv",
+                "--scenario",
+                "mine/yard.json",
+                "--frame-rate",
+                "16",
+                "--unit-m",
+                "0.01",
+                "--person-column",
+                "who",
+                "--frame-column",
+                "t",
+                "--x-column",
+                "east",
+                "--y-column",
+                "north",
+                cwd=self.folder,
+            ).stdout
+        )
         self.assertEqual(run["people"], 4)
         for part in ("exits", "escape_curve", "exposure", "journeys"):
             self.assertEqual(run[part], own[part], part)
@@ -73,8 +101,17 @@ class Imports(unittest.TestCase):
         (self.folder / "w.txt").write_text("no world")
         throng("scenario", "import", "w.txt", "-o", "mine", cwd=self.folder, code=2)
         throng("scenario", "import", "none.osm", "-o", "mine", cwd=self.folder, code=2)
-        throng("scenario", "import", "tests/imports/data/yard.sdf", "-o", "mine", "--exit", "1,2,3", cwd=self.folder,
-               code=2)
+        throng(
+            "scenario",
+            "import",
+            "tests/imports/data/yard.sdf",
+            "-o",
+            "mine",
+            "--exit",
+            "1,2,3",
+            cwd=self.folder,
+            code=2,
+        )
         self.assertFalse((self.folder / "mine").exists())
 
 

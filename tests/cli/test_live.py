@@ -24,10 +24,19 @@ JOB = {
     "runs": 3,
     "quality": "draft",
     "drones": [
-        {"id": "d1", "start": [-24.3, -6.7, 20.1], "camera": {"width": 160, "height": 120, "pitch_deg": -60},
-         "moves_goal": [99, 0], "guidance": {"policy": "balance"}},
-        {"id": "d2", "start": [5, 5, 15], "camera": {"width": 160, "height": 120, "pitch_deg": {"uniform": [-70, -50]}},
-         "guidance": {"policy": "waypoints", "waypoints": [[10, 5, 15]]}},
+        {
+            "id": "d1",
+            "start": [-24.3, -6.7, 20.1],
+            "camera": {"width": 160, "height": 120, "pitch_deg": -60},
+            "moves_goal": [99, 0],
+            "guidance": {"policy": "balance"},
+        },
+        {
+            "id": "d2",
+            "start": [5, 5, 15],
+            "camera": {"width": 160, "height": 120, "pitch_deg": {"uniform": [-70, -50]}},
+            "guidance": {"policy": "waypoints", "waypoints": [[10, 5, 15]]},
+        },
     ],
     "randomize": {"drones.1.guidance.speed_mps": {"uniform": [1, 4]}, "drones.1.start.0": {"uniform": [3, 6]}},
     "environment": {"wind": {"speed_mps": 3}},
@@ -54,9 +63,21 @@ class WithServer(unittest.TestCase):
         self.log = open(self.base / "log", "w")
         self.addCleanup(self.log.close)
         self.server = subprocess.Popen(
-            [THRONG, "serve", "--data", str(self.base / "data"), "--port", "0", "--port-file", str(port_file),
-             "--live-timeout", str(self.live_timeout_s)],
-            stdout=subprocess.DEVNULL, stderr=self.log)
+            [
+                THRONG,
+                "serve",
+                "--data",
+                str(self.base / "data"),
+                "--port",
+                "0",
+                "--port-file",
+                str(port_file),
+                "--live-timeout",
+                str(self.live_timeout_s),
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=self.log,
+        )
         self.addCleanup(self.stop)
         wait_until(lambda: port_file.exists() and port_file.read_text().strip())
         self.url = f"http://127.0.0.1:{int(port_file.read_text())}"
@@ -102,13 +123,21 @@ class Live(WithServer):
                 return received
             sequence += 1
             t = message.time_s
-            flight.command({
-                "sequence": sequence, "view": f"d{1 + view}",
-                "drones": [
-                    {"id": "d1", "velocity_mps": [5, 1.3, -0.7 if t < 3 else 0.4], "yaw_rate_deg_s": 11.1,
-                     "beacon": t > 2},
-                    {"id": "d2", "velocity_mps": [0, -2, 0], "return_home": t > 4},
-                ]})
+            flight.command(
+                {
+                    "sequence": sequence,
+                    "view": f"d{1 + view}",
+                    "drones": [
+                        {
+                            "id": "d1",
+                            "velocity_mps": [5, 1.3, -0.7 if t < 3 else 0.4],
+                            "yaw_rate_deg_s": 11.1,
+                            "beacon": t > 2,
+                        },
+                        {"id": "d2", "velocity_mps": [0, -2, 0], "return_home": t > 4},
+                    ],
+                }
+            )
             view = 1 - view if t > 3 else view
         self.fail("the stream ended")
 
@@ -230,25 +259,36 @@ class Live(WithServer):
             return [(m.pointer, m.found, m.expected) for m in caught.exception.errors]
 
         self.assertEqual(mistakes(lambda: self.client.live({**JOB, "runs": 0}))[0][0], "/job/runs")
-        self.assertIn("/job/drones/0/start",
-                      [m[0] for m in mistakes(lambda: self.client.live(
-                          {**JOB, "drones": [{**JOB["drones"][0], "start": [-24, -6, 0.01]}]}))])
+        self.assertIn(
+            "/job/drones/0/start",
+            [
+                m[0]
+                for m in mistakes(
+                    lambda: self.client.live({**JOB, "drones": [{**JOB["drones"][0], "start": [-24, -6, 0.01]}]})
+                )
+            ],
+        )
         self.assertEqual(mistakes(lambda: self.client.live({**JOB, "drones": []}))[0][0], "/job/drones")
         flight = self.live()
         found = mistakes(lambda: flight.command({"drones": [{"id": "d3", "velocity_mps": [1, 2]}], "fakt": 1}))
         self.assertEqual([m[0] for m in found], ["/fakt", "/drones/0/velocity_mps", "/drones/0/id"], found)
         self.assertIn("d1", found[-1][2])
         self.assertEqual(mistakes(lambda: flight.command({"factor": 99}))[0][:2], ("/factor", "99"))
-        self.assertEqual(mistakes(lambda: flight.command({"drones": [{"id": "d1", "beacon": 1}]}))[0][0],
-                         "/drones/0/beacon")
+        self.assertEqual(
+            mistakes(lambda: flight.command({"drones": [{"id": "d1", "beacon": 1}]}))[0][0], "/drones/0/beacon"
+        )
         flight.remove()
         with self.assertRaises(throng.NotFoundError):
             flight.command({})
 
     def test_other_keys_and_limits(self):
         def key(name, scope):
-            return subprocess.run([THRONG, "keys", "create", name, "--data", self.base / "data", "--scope", scope],
-                                  check=True, capture_output=True, text=True).stdout.strip()
+            return subprocess.run(
+                [THRONG, "keys", "create", name, "--data", self.base / "data", "--scope", scope],
+                check=True,
+                capture_output=True,
+                text=True,
+            ).stdout.strip()
 
         alice = throng.Client(self.url, key("alice", "submit"), patience_s=0)
         bob = throng.Client(self.url, key("bob", "submit"), patience_s=0)
@@ -281,8 +321,12 @@ class Live(WithServer):
             flight.stop()
         other = self.live()
         self.fly(other, 0.5)
-        pids = [int(p) for p in subprocess.run(["pgrep", "-P", str(self.server.pid), "-f", "live"], capture_output=True,
-                                               text=True).stdout.split()]
+        pids = [
+            int(p)
+            for p in subprocess.run(
+                ["pgrep", "-P", str(self.server.pid), "-f", "live"], capture_output=True, text=True
+            ).stdout.split()
+        ]
         self.server.kill()
         self.server.wait(300)
         wait_until(lambda: not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids))

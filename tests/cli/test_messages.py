@@ -86,7 +86,10 @@ class Messages(unittest.TestCase):
 
     def test_a_misspelled_scenario_of_a_command_is_answered_with_the_nearest_one(self):
         self.refused(
-            'unknown scenario "city_sqare/everyday"; did you mean "city_square/everyday"?', "scenario", "check", "city_sqare/everyday"
+            'unknown scenario "city_sqare/everyday"; did you mean "city_square/everyday"?',
+            "scenario",
+            "check",
+            "city_sqare/everyday",
         )
         self.refused("--workers: found -1, expected a number of at least 0", "run", "x", "-o", "y", "--workers", "-1")
         self.refused("found no suffix", "scenario", "plan", "city_square/everyday", "-o", self.folder / "plan")
@@ -111,14 +114,26 @@ class Messages(unittest.TestCase):
         def drone(**fields):
             return [{"id": "d1", **fields}]
 
-        self.run_job('/outputs/formats/0: unknown format "yolo-detct"; did you mean "yolo-detect"?', outputs={"formats": ["yolo-detct"]})
+        self.run_job(
+            '/outputs/formats/0: unknown format "yolo-detct"; did you mean "yolo-detect"?',
+            outputs={"formats": ["yolo-detct"]},
+        )
         self.run_job('/outputs/formats/0: unknown format "xyz"; expected one of: coco,', outputs={"formats": ["xyz"]})
-        self.run_job('/outputs/formats/0: unknown format "yolo"; did you mean "yolo-pose"?', outputs={"formats": ["yolo"]})
-        self.run_job('/outputs/annotations/1: unknown value "densty"; did you mean "density"?', outputs={"annotations": ["coco", "densty"]})
+        self.run_job(
+            '/outputs/formats/0: unknown format "yolo"; did you mean "yolo-pose"?', outputs={"formats": ["yolo"]}
+        )
+        self.run_job(
+            '/outputs/annotations/1: unknown value "densty"; did you mean "density"?',
+            outputs={"annotations": ["coco", "densty"]},
+        )
         self.run_job('unknown airframe "f45"; did you mean "f450"?', drones=drone(airframe="f45"))
         self.run_job('unknown scenario "city_square/nearest_exti"; did you mean', scenario="city_square/nearest_exti")
-        self.run_job('unknown path "crowd.agent"; did you mean "crowd.agents"?', randomize={"crowd.agent": {"uniform": [1, 2]}})
-        self.run_job('unknown path "crowd"; did you mean "crowd.agents"?', randomize={"crowd": {"agents": {"uniform": [1, 2]}}})
+        self.run_job(
+            'unknown path "crowd.agent"; did you mean "crowd.agents"?', randomize={"crowd.agent": {"uniform": [1, 2]}}
+        )
+        self.run_job(
+            'unknown path "crowd"; did you mean "crowd.agents"?', randomize={"crowd": {"agents": {"uniform": [1, 2]}}}
+        )
 
     def test_limits_are_named(self):
         self.run_job("/capture/to_s: found 5, expected at least from_s, which is 10", capture={"from_s": 10, "to_s": 5})
@@ -127,7 +142,9 @@ class Messages(unittest.TestCase):
     def test_another_kind_of_file_is_recognized(self):
         place = self.folder / "yard.place.json"
         place.write_text('{"name": "Yard", "people": {}}')
-        self.refused("found a blueprint, expected a job; a blueprint is for `throng scenario make`", "run", place, "-o", "x")
+        self.refused(
+            "found a blueprint, expected a job; a blueprint is for `throng scenario make`", "run", place, "-o", "x"
+        )
         self.refused("found a blueprint, expected a scenario", "scenario", "check", place)
         self.refused("found a job, expected a study; a job is for `throng run`", "study", self.job(), "-o", "x")
         self.refused("found a job, expected a blueprint", "scenario", "make", self.job())
@@ -152,7 +169,9 @@ class Messages(unittest.TestCase):
         other = self.folder / "link.h5"
         other.symlink_to(job)
         for output in (job, other):
-            self.refused(f"--output: found {output}, which is an input, expected another file", "simulate", job, "-o", output)
+            self.refused(
+                f"--output: found {output}, which is an input, expected another file", "simulate", job, "-o", output
+            )
         self.refused("which is an input", "scenario", "plan", job, "-o", job)
         self.refused("which is an input", "report", job, "-o", job)
         self.refused("--csv: found", "metrics", job, "--csv", job)
@@ -168,7 +187,9 @@ class Messages(unittest.TestCase):
 
     def test_counts_agree_with_their_nouns(self):
         done = throng("scenario", "check", "city_square/nearest_exit")
-        self.assertRegex(done.stdout, r"\b(1 error|0 errors|\d\d* errors), (1 warning|[02-9]\d* warnings|\d\d+ warnings)\n$")
+        self.assertRegex(
+            done.stdout, r"\b(1 error|0 errors|\d\d* errors), (1 warning|[02-9]\d* warnings|\d\d+ warnings)\n$"
+        )
 
     def test_a_job_that_is_not_there_is_answered_with_the_nearest_one(self):
         port_file = self.folder / "port"
@@ -183,7 +204,9 @@ class Messages(unittest.TestCase):
             time.sleep(0.05)
         url = f"http://127.0.0.1:{port_file.read_text().strip()}"
         for command in ("watch", "cancel", "retry", "remove", "logs", "fetch"):
-            self.refused(f'unknown job "nope" on {url}; expected an id that `throng jobs` lists', command, "nope", THRONG_URL=url)
+            self.refused(
+                f'unknown job "nope" on {url}; expected an id that `throng jobs` lists', command, "nope", THRONG_URL=url
+            )
         done = throng("submit", self.job(capture={"to_s": 1}), THRONG_URL=url)
         job = done.stdout.strip()
         self.refused(f'unknown job "{job[:-1]}" on {url}; did you mean "{job}"?', "watch", job[:-1], THRONG_URL=url)

@@ -28,9 +28,12 @@ SCENE = """<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_
 <AgentGroup><ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
 <Generator type="rect_grid" anchor_x="-8" anchor_y="-4" offset_x="0.9" offset_y="1" count_x="8" count_y="9"
  displace_dist="u" displace_min="0" displace_max="0.1"/></AgentGroup>
-<ObstacleSet type="explicit" class="1">{}</ObstacleSet></Experiment>""".format("".join(
-    '<Obstacle closed="1">' + "".join(f'<Vertex p_x="{x}" p_y="{y}"/>' for x, y in building) + "</Obstacle>"
-    for building in BUILDINGS))
+<ObstacleSet type="explicit" class="1">{}</ObstacleSet></Experiment>""".format(
+    "".join(
+        '<Obstacle closed="1">' + "".join(f'<Vertex p_x="{x}" p_y="{y}"/>' for x, y in building) + "</Obstacle>"
+        for building in BUILDINGS
+    )
+)
 BEHAVIOR = """<BFSM><GoalSet id="0"><Goal id="0" type="AABB" min_x="12" min_y="-1" max_x="14" max_y="1"/></GoalSet>
 <State name="Walk" final="0"><GoalSelector type="nearest" goal_set="0"/><VelComponent type="auto"/></State>
 <State name="Out" final="1"/><Transition from="Walk" to="Out"><Condition type="goal_reached"/></Transition></BFSM>"""
@@ -55,15 +58,38 @@ class Metrics(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         import h5py
+
         cls.folder = tempfile.TemporaryDirectory()
         base = cls.base = pathlib.Path(cls.folder.name)
         (base / "scene.xml").write_text(SCENE)
         (base / "behavior.xml").write_text(BEHAVIOR)
         (base / "place.json").write_text(json.dumps(PLACE))
-        throng("crowd", "-s", base / "scene.xml", "-b", base / "behavior.xml", "-m", "orca", "-r", "5", "-d", "90", "-q",
-               "-o", base / "run.h5")
-        throng("metrics", base / "run.h5", "--scenario", base / "place.json", "-o", base / "run.json",
-               "--csv", base / "exits.csv")
+        throng(
+            "crowd",
+            "-s",
+            base / "scene.xml",
+            "-b",
+            base / "behavior.xml",
+            "-m",
+            "orca",
+            "-r",
+            "5",
+            "-d",
+            "90",
+            "-q",
+            "-o",
+            base / "run.h5",
+        )
+        throng(
+            "metrics",
+            base / "run.h5",
+            "--scenario",
+            base / "place.json",
+            "-o",
+            base / "run.json",
+            "--csv",
+            base / "exits.csv",
+        )
         cls.figures = json.loads((base / "run.json").read_text())
         with open(base / "exits.csv", newline="") as file:
             cls.rows = list(csv.DictReader(file))
@@ -98,12 +124,12 @@ class Metrics(unittest.TestCase):
         numpy.testing.assert_allclose(self.column("specific_flow"), (crossed - earlier) / 4 / WIDTH, atol=6e-4)
 
     def test_density_and_clogging_index(self):
-        area = math.pi * self.zone_radius ** 2 / 2
+        area = math.pi * self.zone_radius**2 / 2
         count = self.in_zone.sum(axis=1)
         density = count / area
         numpy.testing.assert_array_equal(self.column("in_zone"), count)
         numpy.testing.assert_allclose(self.column("density"), density, atol=2e-4)
-        eta = density * 2 * math.sqrt(3) * self.radius ** 2
+        eta = density * 2 * math.sqrt(3) * self.radius**2
         numpy.testing.assert_allclose(self.column("normalised_density"), eta, atol=2e-4)
         to_door = -self.place / numpy.linalg.norm(self.place, axis=2, keepdims=True)
         ahead = (self.velocity * to_door).sum(axis=2)
@@ -113,7 +139,9 @@ class Metrics(unittest.TestCase):
         numpy.testing.assert_allclose(self.column("approach_speed"), approach, atol=2e-4)
         demand = count >= math.ceil(WIDTH / (2 * self.radius)) + 1
         flow = self.column("flow")
-        lack = numpy.clip(1 - flow / (1.3 * WIDTH), 0, 1) + numpy.clip(1 - approach / numpy.maximum(0.6 * desired, 1e-9), 0, 1)
+        lack = numpy.clip(1 - flow / (1.3 * WIDTH), 0, 1) + numpy.clip(
+            1 - approach / numpy.maximum(0.6 * desired, 1e-9), 0, 1
+        )
         index = demand * numpy.minimum(1, eta / 0.6) * 0.5 * lack
         numpy.testing.assert_allclose(self.column("clogging_index"), index, atol=2e-3)
         self.assertGreater(index.max(), 0.2, "there is something to compare")
@@ -127,8 +155,9 @@ class Metrics(unittest.TestCase):
         measured = self.column("voronoi_density")
         compared = 0
         for step in range(30, len(self.time), 60):
-            near = self.place[step][(numpy.linalg.norm(self.place[step], axis=1) < self.zone_radius + 6)
-                                    & (self.place[step][:, 0] < 4)]
+            near = self.place[step][
+                (numpy.linalg.norm(self.place[step], axis=1) < self.zone_radius + 6) & (self.place[step][:, 0] < 4)
+            ]
             if len(near) == 0:
                 continue
             distance = numpy.stack([(x - px) ** 2 + (y - py) ** 2 for px, py in near])
@@ -138,7 +167,7 @@ class Metrics(unittest.TestCase):
             for i in range(len(near)):
                 mine = owned & (owner == i)
                 people += (mine & zone).sum() / max(mine.sum(), 1)
-            expected = people / (math.pi * self.zone_radius ** 2 / 2)
+            expected = people / (math.pi * self.zone_radius**2 / 2)
             self.assertAlmostEqual(measured[step], expected, delta=0.03 * expected + 0.01, msg=f"step {step}")
             compared += 1
         self.assertGreater(compared, 3)
@@ -179,7 +208,7 @@ class Metrics(unittest.TestCase):
         weight = numpy.where(squared <= 4, numpy.exp(-squared), 0)
         total = numpy.maximum(weight.sum(axis=1), 1e-300)
         mean = weight @ self.velocity[step] / total[:, None]
-        variance = weight @ (self.velocity[step] ** 2).sum(axis=1) / total - (mean ** 2).sum(axis=1)
+        variance = weight @ (self.velocity[step] ** 2).sum(axis=1) / total - (mean**2).sum(axis=1)
         return total / (math.pi * (1 - math.exp(-4))) * numpy.maximum(0, variance)
 
     def test_pressure(self):
@@ -202,7 +231,7 @@ class Metrics(unittest.TestCase):
         for person in range(x.shape[1]):
             beyond = numpy.flatnonzero(x[:, person] >= 0.2)
             if len(beyond):
-                last = numpy.flatnonzero(x[:beyond[0], person] < 0)[-1]
+                last = numpy.flatnonzero(x[: beyond[0], person] < 0)[-1]
                 share = x[last, person] / (x[last, person] - x[last + 1, person])
                 out.append(self.time[last] + share * (self.time[last + 1] - self.time[last]))
         gaps = numpy.diff(numpy.sort(out))
@@ -223,7 +252,7 @@ class Metrics(unittest.TestCase):
             share = ((at[..., 0] < 0) & (numpy.hypot(at[..., 0], at[..., 1]) < self.zone_radius)).mean(axis=1)
             person_s += share.sum() * 0.1
             walked += (share * numpy.linalg.norm(way, axis=1)).sum()
-        region = demand.sum() * 0.1 * math.pi * self.zone_radius ** 2 / 2
+        region = demand.sum() * 0.1 * math.pi * self.zone_radius**2 / 2
         edie = self.figures["exits"][0]["edie"]
         self.assertAlmostEqual(edie["density_per_m2"] / (person_s / region), 1, delta=2e-3)
         self.assertAlmostEqual(edie["flow_per_ms"] / (walked / region), 1, delta=2e-3)
@@ -262,8 +291,9 @@ class Metrics(unittest.TestCase):
         with sqlite3.connect(self.base / "run.sqlite") as database:
             metadata = dict(database.execute("SELECT key, value FROM metadata"))
             self.assertEqual(metadata, {"version": "2", "fps": "10"})
-            self.assert_places(list(database.execute(
-                "SELECT id, frame, pos_x, pos_y FROM trajectory_data ORDER BY id, frame")))
+            self.assert_places(
+                list(database.execute("SELECT id, frame, pos_x, pos_y FROM trajectory_data ORDER BY id, frame"))
+            )
 
     def test_scb_of_menge(self):
         throng("metrics", self.base / "run.h5", "--to", self.base / "run.scb")
@@ -312,12 +342,23 @@ class RecordedBottleneck(unittest.TestCase):
         base = pathlib.Path(cls.folder.name)
         (base / "walk.txt").write_bytes(gzip.decompress(RECORDING.read_bytes()))
         cls.place = {
-            "name": "bottleneck", "ground": {"min": [-9, -9], "max": [9, 9], "material": "concrete"},
+            "name": "bottleneck",
+            "ground": {"min": [-9, -9], "max": [9, 9], "material": "concrete"},
             "inside": {"min": [-5, 0], "max": [5, 8]},
-            "exits": [{"id": "opening", "from": [-0.25, 0], "to": [0.25, 0], "outward": [0, -1]}]}
+            "exits": [{"id": "opening", "from": [-0.25, 0], "to": [0.25, 0], "outward": [0, -1]}],
+        }
         (base / "place.json").write_text(json.dumps(cls.place))
-        cls.figures = json.loads(throng("metrics", "--trajectory", base / "walk.txt", "--scenario",
-                                        base / "place.json", "--csv", base / "exits.csv"))
+        cls.figures = json.loads(
+            throng(
+                "metrics",
+                "--trajectory",
+                base / "walk.txt",
+                "--scenario",
+                base / "place.json",
+                "--csv",
+                base / "exits.csv",
+            )
+        )
         cls.rows = list(csv.DictReader((base / "exits.csv").read_text().splitlines()))
         cls.base = base
 
@@ -355,9 +396,13 @@ class RecordedBottleneck(unittest.TestCase):
     def test_such_a_place_is_not_simulated(self):
         job = {"scenario": "place", "capture": {"to_s": 2}, "drones": [{"id": "d", "start": [0, 0, 20]}]}
         (self.base / "job.json").write_text(json.dumps(job))
-        done = subprocess.run([THRONG, "simulate", str(self.base / "job.json"), "-o", str(self.base / "run.h5")],
-                              capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "THRONG_SCENARIOS": str(self.base)})
+        done = subprocess.run(
+            [THRONG, "simulate", str(self.base / "job.json"), "-o", str(self.base / "run.h5")],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env={**os.environ, "THRONG_SCENARIOS": str(self.base)},
+        )
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("place for recorded people", done.stderr)
 

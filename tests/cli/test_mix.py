@@ -16,16 +16,28 @@ import throng  # noqa: E402
 
 THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
 JOB = {
-    "scenario": ["city_square/nearest_exit", {"id": "campus/everyday", "agents": 700}, {"generate": {"kind": "plaza", "size_m": 40}}],
+    "scenario": [
+        "city_square/nearest_exit",
+        {"id": "campus/everyday", "agents": 700},
+        {"generate": {"kind": "plaza", "size_m": 40}},
+    ],
     "runs": 5,
     "quality": "draft",
     "crowd": {"agents": 40},
-    "drones": [{"id": "view", "aim": {}, "camera": {"width": 160, "height": 120, "pitch_deg": {"uniform": [-80, -30]}}}],
+    "drones": [
+        {"id": "view", "aim": {}, "camera": {"width": 160, "height": 120, "pitch_deg": {"uniform": [-80, -30]}}}
+    ],
     "randomize": {"drones.0.aim.height_m": {"uniform": [9, 14]}},
     "capture": {"from_s": 0, "to_s": 0.5, "rate_hz": 2},
     "outputs": {"previews": 0, "splits": {"train": 0.5, "val": 0.5, "test_scenarios": ["campus/everyday"]}},
 }
-PLACES = ["city_square/nearest_exit", "campus/everyday", "generated/plaza", "city_square/nearest_exit", "campus/everyday"]
+PLACES = [
+    "city_square/nearest_exit",
+    "campus/everyday",
+    "generated/plaza",
+    "city_square/nearest_exit",
+    "campus/everyday",
+]
 
 
 class Mix(unittest.TestCase):
@@ -104,7 +116,9 @@ class Mix(unittest.TestCase):
     def test_the_service_makes_the_same_bytes(self):
         server = subprocess.Popen(
             [THRONG, "serve", "--data", "data", "--port", "0", "--port-file", "port"],
-            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            cwd=self.folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
         )
         try:
             port = self.folder / "port"

@@ -36,7 +36,9 @@ class Package(unittest.TestCase):
         script.write_text(run(THRONG, "completion", "bash"))
         quoted = " ".join(f"'{word}'" for word in ("throng", *words))
         return run(
-            "bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _throng; echo ${{COMPREPLY[@]}}"
+            "bash",
+            "-c",
+            f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _throng; echo ${{COMPREPLY[@]}}",
         ).split()
 
     def test_completion(self):
@@ -72,7 +74,9 @@ class Package(unittest.TestCase):
             done"""
         run("unshare", "--mount", "bash", "-c", script, "bash", ROOT, self.folder, BUILD)
         self.assertEqual(len(list((self.folder / "package").glob("*.deb"))), 1)
-        self.assertTrue((self.folder / "program/bin/throng").is_file() and (self.folder / "library/include/throng").is_dir())
+        self.assertTrue(
+            (self.folder / "program/bin/throng").is_file() and (self.folder / "library/include/throng").is_dir()
+        )
         written = {path.name for path in (self.folder / "written").rglob("*") if not path.is_dir()}
         self.assertEqual(written, {"install_manifest_program.txt", "install_manifest_library.txt"})
 
@@ -85,9 +89,25 @@ class Package(unittest.TestCase):
         self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
         world = ROOT / "tests/imports/data/yard.sdf"  # imported by a program beside the installed one
         models = ROOT / "tests/imports/data/models"
-        run(prefix / "bin/throng", "scenario", "import", world, "-o", self.folder / "mine", "--models", models, env=clean)
+        run(
+            prefix / "bin/throng",
+            "scenario",
+            "import",
+            world,
+            "-o",
+            self.folder / "mine",
+            "--models",
+            models,
+            env=clean,
+        )
         self.assertTrue((self.folder / "mine/yard.json").is_file())
-        for file in ("throng/schemas/scenario.schema.json", "man/man1/throng.1", "bash-completion/completions/throng", "doc/throng/copyright", "doc/throng/NOTICE"):
+        for file in (
+            "throng/schemas/scenario.schema.json",
+            "man/man1/throng.1",
+            "bash-completion/completions/throng",
+            "doc/throng/copyright",
+            "doc/throng/NOTICE",
+        ):
             self.assertTrue((prefix / "share" / file).is_file(), file)
         installed = [str(file) for file in prefix.rglob("*") if file.is_file()]
         (build / "install_manifest_program.txt").write_text("\n".join(installed))
@@ -100,10 +120,22 @@ class Package(unittest.TestCase):
         [package] = self.folder.glob("*.deb")
         self.assertRegex(package.name, r"^throng_[\d.]+_[a-z0-9]+\.deb$")
         depends = run("dpkg-deb", "-f", package, "Depends")
-        for name in ("libc6", "libcholmod3", "libsdformat12-12", "libhdf5-103-1", "libgl1-mesa-dri", "fonts-dejavu-core"):
+        for name in (
+            "libc6",
+            "libcholmod3",
+            "libsdformat12-12",
+            "libhdf5-103-1",
+            "libgl1-mesa-dri",
+            "fonts-dejavu-core",
+        ):
             self.assertIn(name, depends)
         files = run("dpkg-deb", "-c", package)
-        for file in ("usr/bin/throng", "usr/libexec/throng/throng-import", "usr/share/throng/scenarios/city_square/nearest_exit.json", "usr/share/man/man1/throng.1"):
+        for file in (
+            "usr/bin/throng",
+            "usr/libexec/throng/throng-import",
+            "usr/share/throng/scenarios/city_square/nearest_exit.json",
+            "usr/share/man/man1/throng.1",
+        ):
             self.assertIn(file, files)
         self.assertNotIn("/include/", files)
 

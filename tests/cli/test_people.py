@@ -23,8 +23,14 @@ def people(*arguments):
 
 
 # Joint positions of a person of 1.8 m (x to their left, y up, z forward), and the parent of each.
-LIMBS = {"UpLeg": ("Hips", 0.1, 0.93), "Leg": ("UpLeg", 0.1, 0.5), "Foot": ("Leg", 0.1, 0.09),
-         "Arm": ("Spine", 0.2, 1.45), "ForeArm": ("Arm", 0.23, 1.17), "Hand": ("ForeArm", 0.24, 0.92)}
+LIMBS = {
+    "UpLeg": ("Hips", 0.1, 0.93),
+    "Leg": ("UpLeg", 0.1, 0.5),
+    "Foot": ("Leg", 0.1, 0.09),
+    "Arm": ("Spine", 0.2, 1.45),
+    "ForeArm": ("Arm", 0.23, 1.17),
+    "Hand": ("ForeArm", 0.24, 0.92),
+}
 BONES = {"Hips": (None, 0, 0.95), "Spine": ("Hips", 0, 1.1), "Head": ("Spine", 0, 1.6)}
 for side, sign in (("Left", 1), ("Right", -1)):
     for name, (parent, x, y) in LIMBS.items():
@@ -39,9 +45,13 @@ def box_man(rename=lambda name: name):
     for number, (name, (parent, x, y)) in enumerate(BONES.items()):
         _, px, py = BONES[parent] if parent else (None, 0, 0)
         children = [i for i, other in enumerate(names) if BONES[other][0] == name]
-        nodes.append({"name": rename(name), "translation": [x - px, y - py, 0], **({"children": children} if children else {})})
+        nodes.append(
+            {"name": rename(name), "translation": [x - px, y - py, 0], **({"children": children} if children else {})}
+        )
         inverse += [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -x, -y, 0, 1]
-        low, high = {"Foot": (0, y), "Head": (y, 1.8)}.get(name.replace("Left", "").replace("Right", ""), (y - 0.2, y + 0.05))
+        low, high = {"Foot": (0, y), "Head": (y, 1.8)}.get(
+            name.replace("Left", "").replace("Right", ""), (y - 0.2, y + 0.05)
+        )
         indices += [8 * number + i for i in BOX]
         for corner in range(8):
             half = 0.05 if corner & 1 else -0.05
@@ -49,9 +59,13 @@ def box_man(rename=lambda name: name):
             points += [x + half, high if corner & 2 else low, ahead]
             joints += [number, 0, 0, 0]
     vertices = len(points) // 3
-    columns = [(points, "f", "VEC3", 5126, vertices), (joints, "B", "VEC4", 5121, vertices),
-               ([1, 0, 0, 0] * vertices, "f", "VEC4", 5126, vertices), (indices, "I", "SCALAR", 5125, len(indices)),
-               (inverse, "f", "MAT4", 5126, len(names))]
+    columns = [
+        (points, "f", "VEC3", 5126, vertices),
+        (joints, "B", "VEC4", 5121, vertices),
+        ([1, 0, 0, 0] * vertices, "f", "VEC4", 5126, vertices),
+        (indices, "I", "SCALAR", 5125, len(indices)),
+        (inverse, "f", "MAT4", 5126, len(names)),
+    ]
     data, views, accessors = b"", [], []
     for values, kind, shape, component, count in columns:
         packed = struct.pack(f"<{len(values)}{kind}", *values)
@@ -61,11 +75,19 @@ def box_man(rename=lambda name: name):
     accessors[0].update(min=[min(points[i::3]) for i in range(3)], max=[max(points[i::3]) for i in range(3)])
     primitive = {"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "indices": 3}
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
-    return json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, len(nodes)]}],
-        "nodes": nodes + [{"name": "Body", "mesh": 0, "skin": 0}], "meshes": [{"primitives": [primitive]}],
-        "skins": [{"joints": list(range(len(names))), "inverseBindMatrices": 4}],
-        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(data), "uri": uri}]})
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0, len(nodes)]}],
+            "nodes": nodes + [{"name": "Body", "mesh": 0, "skin": 0}],
+            "meshes": [{"primitives": [primitive]}],
+            "skins": [{"joints": list(range(len(names))), "inverseBindMatrices": 4}],
+            "accessors": accessors,
+            "bufferViews": views,
+            "buffers": [{"byteLength": len(data), "uri": uri}],
+        }
+    )
 
 
 class WithFolder(unittest.TestCase):
@@ -108,8 +130,10 @@ class Import(WithFolder):
             (self.describe("a"), r"/bones/left_thigh.*Gamba"),
             (self.describe("b", height_m=300), r"/height_m: found 300, expected 0\.5 to 2\.5"),
             (self.describe("c", model="nobody.glb"), r"nobody\.glb: found no such file"),
-            (self.describe("d", bones={"left_thigh": "Gamba"}, clips={"walk": {"speed_mps": 1.3}}),
-             r"/clips/walk/name.*has none"),
+            (
+                self.describe("d", bones={"left_thigh": "Gamba"}, clips={"walk": {"speed_mps": 1.3}}),
+                r"/clips/walk/name.*has none",
+            ),
         ]
         before = self.names()
         for file, said in cases:
@@ -169,7 +193,9 @@ class Sheet(WithFolder):
     def test_stops_when_asked(self):
         process = subprocess.Popen(
             [THRONG, "people", "sheet", PEOPLE, "--width", "8000", "-o", self.base / "s.png"],
-            stderr=subprocess.PIPE, text=True)
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         process.stderr.readline()  # it has begun
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=300)

@@ -53,8 +53,11 @@ def test_check_says_what_is_wrong(folder):
 
 def test_a_plan_shows_the_ways_of_a_jobs_drones(folder):
     guidance = {"policy": "waypoints", "waypoints": [[-16, 10, 20], [-16, 4, 20], [-12, 4, 20]], "speed_mps": 4}
-    job = {"scenario": "bridge/everyday", "capture": {"to_s": 10},
-           "drones": [{"id": "scout", "start": [-20, 10, 20], "guidance": guidance}]}
+    job = {
+        "scenario": "bridge/everyday",
+        "capture": {"to_s": 10},
+        "drones": [{"id": "scout", "start": [-20, 10, 20], "guidance": guidance}],
+    }
     (folder / "plan_job.json").write_text(json.dumps(job))
 
     def path_segments(*arguments):

@@ -70,7 +70,11 @@ class Disk:
                 shutil.copyfile(self.copies / ident, place)
             else:
                 status = now.stat() if now else None
-                state = [str(status.st_size), f"{status.st_mtime_ns // 10**9}.{status.st_mtime_ns % 10**9:09}"] if now else []
+                state = (
+                    [str(status.st_size), f"{status.st_mtime_ns // 10**9}.{status.st_mtime_ns % 10**9:09}"]
+                    if now
+                    else []
+                )
                 if state and files.get(ident) == state:
                     shutil.copyfile(now, place)
                 else:
@@ -124,8 +128,9 @@ class PowerLoss(unittest.TestCase):
         self.assertEqual([path for path in lost if f"jobs/{job}/dataset" in path], [])
         self.assertEqual(after.state(job), "succeeded")
         self.assertEqual(after.hash_of(job), before)
-        checked = subprocess.run([crash.THRONG, "validate", after.data / "jobs" / job / "dataset"],
-                                 capture_output=True, text=True)
+        checked = subprocess.run(
+            [crash.THRONG, "validate", after.data / "jobs" / job / "dataset"], capture_output=True, text=True
+        )
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
 
     def test_a_job_goes_on_where_it_was(self):
@@ -152,8 +157,12 @@ class PowerLoss(unittest.TestCase):
             for path in sorted((HERE.parents[1] / "scenarios" / "city_square").rglob("*")):
                 if path.is_file():
                     archive.write(path, path.relative_to(HERE.parents[1] / "scenarios" / "city_square"))
-        request = urllib.request.Request(self.server.url + "/v1/scenarios?name=mine", data=bundle.getvalue(),
-                                         method="POST", headers={"Content-Type": "application/zip"})
+        request = urllib.request.Request(
+            self.server.url + "/v1/scenarios?name=mine",
+            data=bundle.getvalue(),
+            method="POST",
+            headers={"Content-Type": "application/zip"},
+        )
         with urllib.request.urlopen(request, timeout=300) as answer:
             self.assertEqual(answer.status, 201)
         hook = self.server.request("POST", "/v1/webhooks", {"url": "https://example.org/hook"})
@@ -172,8 +181,12 @@ class PowerLoss(unittest.TestCase):
         scenarios = json.dumps(after.request("GET", "/v1/scenarios"))
         self.assertIn("mine/", scenarios)
         job = dict(crash.JOB, scenario="mine/nearest_exit")
-        request = urllib.request.Request(after.url + "/v1/jobs?dry_run", data=json.dumps(job).encode(), method="POST",
-                                         headers={"Content-Type": "application/json"})
+        request = urllib.request.Request(
+            after.url + "/v1/jobs?dry_run",
+            data=json.dumps(job).encode(),
+            method="POST",
+            headers={"Content-Type": "application/json"},
+        )
         with urllib.request.urlopen(request, timeout=300) as answer:
             self.assertTrue(json.load(answer)["valid"])
 

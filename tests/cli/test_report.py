@@ -24,6 +24,7 @@ def throng(*arguments):
 
 class Balance(html.parser.HTMLParser):
     """Complains of elements that are not closed in order."""
+
     ALONE = {"meta", "input", "br"}
 
     def __init__(self):
@@ -47,8 +48,20 @@ class Report(unittest.TestCase):
         (base / "runs").mkdir()
         scenario = pathlib.Path(__file__).parents[2] / "scenarios/city_square"
         for seed in (1, 2):
-            throng("crowd", "-s", scenario / "square_scene.xml", "-b", scenario / "nearest_exit_behavior.xml",
-                   "-r", seed, "-d", 60, "-q", "-o", base / f"runs/run{seed}.h5")
+            throng(
+                "crowd",
+                "-s",
+                scenario / "square_scene.xml",
+                "-b",
+                scenario / "nearest_exit_behavior.xml",
+                "-r",
+                seed,
+                "-d",
+                60,
+                "-q",
+                "-o",
+                base / f"runs/run{seed}.h5",
+            )
         throng("report", base / "runs", "--scenario", "city_square/nearest_exit", "-o", base / "report.html")
         cls.text = (base / "report.html").read_text()
 
@@ -62,12 +75,12 @@ class Report(unittest.TestCase):
         self.assertEqual(parser.open, [])
         self.assertEqual(self.text.count("<div data-chart="), 1 + 2 * CHARTS_OF_A_RUN)
         # Elements that could fetch: the page's own markup, which its policy also confines.
-        markup = self.text[:self.text.index("<script")]
+        markup = self.text[: self.text.index("<script")]
         self.assertNotRegex(markup, r"https?:|<(link|img|iframe)\b|url\(|@import")
         self.assertIn("default-src 'none'", markup)
 
     def test_tables_need_no_script(self):
-        markup = self.text[:self.text.index("<script")]
+        markup = self.text[: self.text.index("<script")]
         self.assertEqual(markup.count("<table>"), 4)
         metrics = throng("metrics", self.base / "runs/run2.h5", "--scenario", "city_square/nearest_exit")
         people = json.loads(metrics)["people"]
@@ -77,9 +90,16 @@ class Report(unittest.TestCase):
 
     def chromium(self, *arguments):
         self.assertIsNotNone(CHROMIUM, "Chromium is missing (Debian package chromium; scripts/setup.sh installs it)")
-        options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                   f"--user-data-dir={self.base / 'profile'}", "--enable-logging=stderr", "--window-size=1000,3200",
-                   "--virtual-time-budget=10000"]
+        options = [
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            f"--user-data-dir={self.base / 'profile'}",
+            "--enable-logging=stderr",
+            "--window-size=1000,3200",
+            "--virtual-time-budget=10000",
+        ]
         done = subprocess.run([CHROMIUM, *options, *map(str, arguments)], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([line for line in done.stderr.splitlines() if ":CONSOLE" in line], [])
@@ -91,7 +111,7 @@ class Report(unittest.TestCase):
         self.chromium(f"--screenshot={picture}", page)
         self.assertGreater(picture.stat().st_size, 100_000, "an empty page is smaller")
         dom = self.chromium("--dump-dom", page)
-        shown = dom[:dom.index('<section id="of_run1">')]
+        shown = dom[: dom.index('<section id="of_run1">')]
         # Charts of a run come with its choice.
         self.assertEqual(len(re.findall(r"_echarts_instance_=", shown)), MAPS_OF_A_RUN)
         self.assertEqual(len(re.findall(r"_echarts_instance_=", dom)), MAPS_OF_A_RUN)
@@ -109,7 +129,7 @@ class Report(unittest.TestCase):
         chosen = self.text.replace('id="run0" checked', 'id="run0"').replace('id="run1"', 'id="run1" checked')
         (self.base / "chosen.html").write_text(chosen)
         dom = self.chromium("--dump-dom", f"file://{self.base / 'chosen.html'}")
-        section = dom[dom.index('<section id="of_run1">'):dom.index("<script")]
+        section = dom[dom.index('<section id="of_run1">') : dom.index("<script")]
         self.assertEqual(len(re.findall(r"_echarts_instance_=", section)), MAPS_OF_A_RUN)
         self.assertEqual(len(re.findall(r'<svg class="chart"', section)), 1)
 

@@ -18,8 +18,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 THRONG = sys.argv[1]
 PEOPLE, DURATION_S = (250, 300) if os.environ.get("THRONG_LONG") else (60, 150)
 # The blueprint's, city_square/nearest_exit and its three cases, and the same with walls around obstacles.
-PAPERS_OWN = ("huang2016/crowded_exit_blocked", "huang2016/nearest_exit", "huang2016/second_nearest",
-              "huang2016/side_exit_blocked")
+PAPERS_OWN = (
+    "huang2016/crowded_exit_blocked",
+    "huang2016/nearest_exit",
+    "huang2016/second_nearest",
+    "huang2016/side_exit_blocked",
+)
 
 
 def shipped():
@@ -34,8 +38,12 @@ def shipped():
 
 def metrics_of(scenario, folder, drones=None):
     """metrics.json of one run."""
-    job = {"scenario": scenario, "seed": 90210, "crowd": {"agents": PEOPLE},
-           "capture": {"rate_hz": 1, "from_s": 0, "to_s": DURATION_S}}
+    job = {
+        "scenario": scenario,
+        "seed": 90210,
+        "crowd": {"agents": PEOPLE},
+        "capture": {"rate_hz": 1, "from_s": 0, "to_s": DURATION_S},
+    }
     if drones:
         job["drones"] = drones
     job_file, trace = pathlib.Path(folder) / "job.json", pathlib.Path(folder) / "run.h5"
@@ -61,7 +69,9 @@ class Shipped(unittest.TestCase):
                         self.assertLessEqual(remaining["waiting"], 5, remaining)
 
     def test_a_lit_beacon_is_asked_for_and_named(self):
-        drones = [{"id": "d1", "start": [0, -10, 25], "moves_goal": [99, 0], "guidance": {"policy": "hover", "beacon": True}}]
+        drones = [
+            {"id": "d1", "start": [0, -10, 25], "moves_goal": [99, 0], "guidance": {"policy": "hover", "beacon": True}}
+        ]
         with tempfile.TemporaryDirectory() as folder:
             remaining = metrics_of("city_square/nearest_exit", folder, drones)["remaining"]
         self.assertGreater(remaining["guided"], 10)

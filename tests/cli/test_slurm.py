@@ -53,9 +53,25 @@ class Server:
         port = self.base / "port"
         port.unlink(missing_ok=True)
         self.process = subprocess.Popen(
-            [THRONG, "serve", "--data", str(self.base / "shared"), "--database", str(self.base / "local"), "--executor",
-             "slurm", *POLL, "--port", "0", "--port-file", str(port)],
-            stdout=subprocess.DEVNULL, stderr=self.log, env=dict(self.environment, THRONG_FAULTS=faults))
+            [
+                THRONG,
+                "serve",
+                "--data",
+                str(self.base / "shared"),
+                "--database",
+                str(self.base / "local"),
+                "--executor",
+                "slurm",
+                *POLL,
+                "--port",
+                "0",
+                "--port-file",
+                str(port),
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=self.log,
+            env=dict(self.environment, THRONG_FAULTS=faults),
+        )
         wait_until(lambda: port.exists() or self.process.poll() is not None, what="the port")
         self.url = f"http://127.0.0.1:{int(port.read_text())}"
 
@@ -71,8 +87,9 @@ class Server:
 
     def request(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.url + path, data=data, method=method,
-                                         headers={"Content-Type": "application/json"})
+        request = urllib.request.Request(
+            self.url + path, data=data, method=method, headers={"Content-Type": "application/json"}
+        )
         with urllib.request.urlopen(request, timeout=300) as answer:
             text = answer.read()
         return json.loads(text or b"null") if path.startswith("/v1") else text.decode()
@@ -122,6 +139,7 @@ class Slurm(unittest.TestCase):
 
     def worker_of(self, task, node=None):
         """The process that works on a task, and its node."""
+
         def found():
             for name in [node] if node else ["node1", "node2"]:
                 for pid in self.cluster.processes_of(name):
@@ -132,25 +150,43 @@ class Slurm(unittest.TestCase):
                         folder = pathlib.Path(words[words.index(b"--job") + 1].decode())
                         array = folder / "attempts" / words[words.index(b"--array") + 1].decode()
                         environment = pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-                        index = next(int(entry.split(b"=")[1]) for entry in environment
-                                     if entry.startswith(b"SLURM_ARRAY_TASK_ID="))
+                        index = next(
+                            int(entry.split(b"=")[1])
+                            for entry in environment
+                            if entry.startswith(b"SLURM_ARRAY_TASK_ID=")
+                        )
                         tasks = json.loads((array / "array.json").read_text())["tasks"]
                         if tasks[index]["task"] == task and (array / str(index) / "messages").exists():
                             return pid, name
             return None
+
         return wait_until(found, 40, f"a worker of {task}")
 
     def test_run_on_two_nodes(self):
         self.start_cluster()
         out = self.base / "out"
-        refused = self.cluster.run(THRONG, "run", str(self.job_file), "-o", str(out), "--executor", "slurm",
-                                   "--slurm-partition", "nope")
+        refused = self.cluster.run(
+            THRONG, "run", str(self.job_file), "-o", str(out), "--executor", "slurm", "--slurm-partition", "nope"
+        )
         self.assertEqual(refused.returncode, 2, refused.stderr)
         self.assertIn("nvalid partition", refused.stderr)
         begun = time.monotonic()
         # Each task rests so long that the other node gets the next one.
-        run = self.cluster.run("env", "THRONG_FAULTS=slow:*:3", THRONG, "run", str(self.job_file), "-o", str(out),
-                               "--executor", "slurm", *POLL, "--slurm-time", "30", "--slurm-option=--comment=a test")
+        run = self.cluster.run(
+            "env",
+            "THRONG_FAULTS=slow:*:3",
+            THRONG,
+            "run",
+            str(self.job_file),
+            "-o",
+            str(out),
+            "--executor",
+            "slurm",
+            *POLL,
+            "--slurm-time",
+            "30",
+            "--slurm-option=--comment=a test",
+        )
         self.assertEqual(run.returncode, 0, run.stderr)
         print(f"throng run: {time.monotonic() - begun:.1f} s on two nodes", file=sys.stderr)
         self.expect_same_files(out / "dataset")
@@ -220,8 +256,9 @@ class Slurm(unittest.TestCase):
         nodes = {work["node"]: work for work in end["progress"]["nodes"]}
         self.assertEqual(set(nodes), {"node1", "node2"})
         self.assertGreaterEqual(sum(work["failed"] for work in nodes.values()), 2)
-        self.assertIn(f'throng_node_attempts_total{{node="{other}",outcome="succeeded"}}',
-                      server.request("GET", "/metrics"))
+        self.assertIn(
+            f'throng_node_attempts_total{{node="{other}",outcome="succeeded"}}', server.request("GET", "/metrics")
+        )
         self.assertFalse((self.base / "shared" / "jobs.sqlite").exists(), "the database is local")
 
     def test_cancel_ends_tasks(self):

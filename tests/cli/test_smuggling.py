@@ -90,13 +90,22 @@ class Attacks:
         cls.throng = hostile.Throng(THRONG, cls.folder.name)
         cls.addClassCleanup(cls.throng.stop)
         data = str(pathlib.Path(cls.folder.name) / "data")
-        cls.reader = subprocess.run([THRONG, "keys", "create", "reader", "--data", data, "--scope", "read"], check=True,
-                                    capture_output=True, text=True).stdout.split()[-1]
+        cls.reader = subprocess.run(
+            [THRONG, "keys", "create", "reader", "--data", data, "--scope", "read"],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout.split()[-1]
         cls.front = cls.entrance()
 
     def setUp(self):
-        self.job = json.loads(self.ask("/v1/jobs", json.dumps(dict(hostile.JOB, name="victim")).encode(),
-                                       headers={"Content-Type": "application/json"}))["id"]
+        self.job = json.loads(
+            self.ask(
+                "/v1/jobs",
+                json.dumps(dict(hostile.JOB, name="victim")).encode(),
+                headers={"Content-Type": "application/json"},
+            )
+        )["id"]
         self.ask(f"/v1/jobs/{self.job}/cancel", method="POST")
 
     def ask(self, path, *more, **named):
@@ -137,37 +146,61 @@ class Attacks:
     def test_unclear_framing(self):
         inner = self.victims_request()
         start = b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\n"
-        for fields in (b"Content-Length: 0\r\nContent-Length: %d\r\n", b"Content-Length: 0, %d\r\n",
-                       b"Content-Length: +%d\r\n", b"Content-Length: 0x%x\r\n", b"Content-Length:\x0b%d\r\n",
-                       b"Content-Length: %d\r\nTransfer-Encoding: chunked\r\n",
-                       b"Transfer-Encoding: chunked\r\nContent-Length: %d\r\n",
-                       b"Transfer-Encoding: xchunked\r\nContent-Length: %d\r\n",
-                       b"Transfer-Encoding:\x0bchunked\r\nContent-Length: %d\r\n",
-                       b"Transfer-Encoding: identity\r\nContent-Length: %d\r\n",
-                       b"X: y\r\n Transfer-Encoding: chunked\r\nContent-Length : %d\r\n",
-                       b"Content-Length: %d\r\nX: \0\r\n"):
+        for fields in (
+            b"Content-Length: 0\r\nContent-Length: %d\r\n",
+            b"Content-Length: 0, %d\r\n",
+            b"Content-Length: +%d\r\n",
+            b"Content-Length: 0x%x\r\n",
+            b"Content-Length:\x0b%d\r\n",
+            b"Content-Length: %d\r\nTransfer-Encoding: chunked\r\n",
+            b"Transfer-Encoding: chunked\r\nContent-Length: %d\r\n",
+            b"Transfer-Encoding: xchunked\r\nContent-Length: %d\r\n",
+            b"Transfer-Encoding:\x0bchunked\r\nContent-Length: %d\r\n",
+            b"Transfer-Encoding: identity\r\nContent-Length: %d\r\n",
+            b"X: y\r\n Transfer-Encoding: chunked\r\nContent-Length : %d\r\n",
+            b"Content-Length: %d\r\nX: \0\r\n",
+        ):
             head = start + fields % len(inner) + b"\r\n"
             self.assert_refused(head, b"0\r\n\r\n" + inner, (400, 401, 411, 415, 501))
 
     def test_chunked_oddities(self):
         inner = self.victims_request()
-        start = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\n"
-                 b"Transfer-Encoding: chunked\r\n\r\n")
-        for body in (b"0\r\nContent-Length: 5\r\n\r\n", b"0;x=\"\r\n\r\n\"\r\n\r\n", b"0 \r\n\r\n", b"0x0\r\n\r\n",
-                     b"1\n\n0\n\n", b"ffffffffffffffff1\r\n", b"-1\r\n", b"3\r\nabcd\r\n0\r\n\r\n", b"\r\n\r\n"):
+        start = (
+            b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\n"
+            b"Transfer-Encoding: chunked\r\n\r\n"
+        )
+        for body in (
+            b"0\r\nContent-Length: 5\r\n\r\n",
+            b'0;x="\r\n\r\n"\r\n\r\n',
+            b"0 \r\n\r\n",
+            b"0x0\r\n\r\n",
+            b"1\n\n0\n\n",
+            b"ffffffffffffffff1\r\n",
+            b"-1\r\n",
+            b"3\r\nabcd\r\n0\r\n\r\n",
+            b"\r\n\r\n",
+        ):
             with self.subTest(body=body):
                 exchange(self.front, start + body + inner, patience_s=NONE_S)
                 self.assert_unharmed(body)
 
     def test_malformed_heads(self):
         inner = self.victims_request() + b"y\r\n\r\n"
-        for head in (b"GET /v1/version\r\n\r\n", b"GET /v1/version HTTP/0.9\r\n\r\n", b"GET /v1/version HTTP/3.0\r\n\r\n",
-                     b"GET /v1/version HTTP/1.1\n" + HOST.replace(b"\r", b"") + b"\n", b"\0", b"\x16\x03\x01\x02\0",
-                     b"GET /v1/version HTTP/1.1\r\n\r\n", b"GET /v1/version HTTP/1.1\r\n" + HOST + HOST + b"\r\n",
-                     b"GET /v1/version HTTP/1.1\r\nHost: a b\r\n\r\n", b"GET /v1/%zz HTTP/1.1\r\n" + HOST + b"\r\n",
-                     b"GET /v1/version HTTP/1.1\r\n" + HOST + b"X: " + b"y" * 70_000 + b"\r\n\r\n",
-                     b"GET /" + b"y" * 70_000 + b" HTTP/1.1\r\n" + HOST + b"\r\n",
-                     b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"):
+        for head in (
+            b"GET /v1/version\r\n\r\n",
+            b"GET /v1/version HTTP/0.9\r\n\r\n",
+            b"GET /v1/version HTTP/3.0\r\n\r\n",
+            b"GET /v1/version HTTP/1.1\n" + HOST.replace(b"\r", b"") + b"\n",
+            b"\0",
+            b"\x16\x03\x01\x02\0",
+            b"GET /v1/version HTTP/1.1\r\n\r\n",
+            b"GET /v1/version HTTP/1.1\r\n" + HOST + HOST + b"\r\n",
+            b"GET /v1/version HTTP/1.1\r\nHost: a b\r\n\r\n",
+            b"GET /v1/%zz HTTP/1.1\r\n" + HOST + b"\r\n",
+            b"GET /v1/version HTTP/1.1\r\n" + HOST + b"X: " + b"y" * 70_000 + b"\r\n\r\n",
+            b"GET /" + b"y" * 70_000 + b" HTTP/1.1\r\n" + HOST + b"\r\n",
+            b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n",
+        ):
             with self.subTest(head=head[:100]):
                 answers = exchange(self.front, head + inner, patience_s=NONE_S)
                 # nginx itself takes lines that end with LF, and what follows is a request of the same client.
@@ -177,9 +210,19 @@ class Attacks:
 
     def test_refused_bodies_are_no_requests(self):
         inner = self.victims_request() + b"y\r\nAuthorization: Bearer " + self.reader.encode() + b"\r\n\r\n"
-        for line in (b"POST /v1/jobs", b"POST /v1/nothing", b"PUT /v1/jobs", b"DELETE /v1/version", b"PATCH /v1/jobs/a"):
-            for more in (b"", b"Authorization: Bearer " + self.reader.encode() + b"\r\n", b"Content-Encoding: br\r\n",
-                         b"Expect: 100-continue\r\n"):
+        for line in (
+            b"POST /v1/jobs",
+            b"POST /v1/nothing",
+            b"PUT /v1/jobs",
+            b"DELETE /v1/version",
+            b"PATCH /v1/jobs/a",
+        ):
+            for more in (
+                b"",
+                b"Authorization: Bearer " + self.reader.encode() + b"\r\n",
+                b"Content-Encoding: br\r\n",
+                b"Expect: 100-continue\r\n",
+            ):
                 head = line + b" HTTP/1.1\r\n" + HOST + b"Content-Length: %d\r\n" % len(inner) + more + b"\r\n"
                 with self.subTest(head=head):
                     answers = [s for s in statuses(exchange(self.front, head + inner)) if s != 100]
@@ -195,8 +238,10 @@ class Attacks:
             self.assert_refused(head, inner)
 
     def test_upgrades_are_not_followed(self):
-        for fields in (b"Connection: Upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\nHTTP2-Settings: AAMAAABkAARAAAAAAAIAAAAA\r\n",
-                       b"Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"):
+        for fields in (
+            b"Connection: Upgrade, HTTP2-Settings\r\nUpgrade: h2c\r\nHTTP2-Settings: AAMAAABkAARAAAAAAAIAAAAA\r\n",
+            b"Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n",
+        ):
             answers = exchange(self.front, b"GET /v1/version HTTP/1.1\r\n" + HOST + fields + b"\r\n")
             self.assertEqual(statuses(answers)[:1], [200], answers[:300])
             self.assert_unharmed(fields)
@@ -204,29 +249,56 @@ class Attacks:
     def test_nothing_is_inflated(self):
         before = self.throng.resident_mb()
         bomb = gzip.compress(gzip.compress(b"\0" * 200_000_000))
-        for coding in (b"br", b"gzip", b"deflate", b"GZIP", b"identity, gzip", b"gzip\r\nContent-Encoding: identity",
-                       b"identity\r\nContent-Encoding: gzip"):
+        for coding in (
+            b"br",
+            b"gzip",
+            b"deflate",
+            b"GZIP",
+            b"identity, gzip",
+            b"gzip\r\nContent-Encoding: identity",
+            b"identity\r\nContent-Encoding: gzip",
+        ):
             for key in (b"", self.throng.key.encode()):
-                head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\nContent-Encoding: "
-                        + coding + b"\r\nAuthorization: Bearer " + key + b"\r\nContent-Length: %d\r\n\r\n" % len(bomb))
+                head = (
+                    b"POST /v1/jobs HTTP/1.1\r\n"
+                    + HOST
+                    + b"Content-Type: application/json\r\nContent-Encoding: "
+                    + coding
+                    + b"\r\nAuthorization: Bearer "
+                    + key
+                    + b"\r\nContent-Length: %d\r\n\r\n" % len(bomb)
+                )
                 answers = exchange(self.front, head + bomb)
                 # nginx may refuse a stranger before it looks at all fields.
                 self.assertIn(statuses(answers), ([415],) if key else ([415], [401]), head)
         # A part of a form may contain any headers: they are ignored (RFC 7578, 4.8).
-        part = (b"--B\r\nContent-Disposition: form-data; name=\"job\"\r\nContent-Encoding: gzip\r\n\r\n" + bomb + b"\r\n--B--\r\n")
-        head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: multipart/form-data; boundary=B\r\nConnection: close\r\n"
-                b"Authorization: Bearer " + self.throng.key.encode() + b"\r\nContent-Length: %d\r\n\r\n" % len(part))
+        part = (
+            b'--B\r\nContent-Disposition: form-data; name="job"\r\nContent-Encoding: gzip\r\n\r\n'
+            + bomb
+            + b"\r\n--B--\r\n"
+        )
+        head = (
+            b"POST /v1/jobs HTTP/1.1\r\n"
+            + HOST
+            + b"Content-Type: multipart/form-data; boundary=B\r\nConnection: close\r\n"
+            b"Authorization: Bearer " + self.throng.key.encode() + b"\r\nContent-Length: %d\r\n\r\n" % len(part)
+        )
         self.assertEqual(statuses(exchange(self.front, head + part)), [400])
         self.assertLess(self.throng.resident_mb() - before, 100)
 
     def test_nested_json_ends_nothing(self):
         deep = b"[" * 150_000 + b"]" * 150_000
-        for method, path, form in (("POST", "/v1/jobs", b'{"scenario": "x", "randomize": %s}'), ("POST", "/v1/jobs", b"%s"),
-                                   ("POST", "/v1/calibrations", b'{"files": %s}'), ("POST", "/v1/calibrations", b'{"a": %s}'),
-                                   ("PATCH", f"/v1/jobs/{self.job}", b'{"labels": %s}'),
-                                   ("PATCH", f"/v1/jobs/{self.job}", b'{"priority": %s}'),
-                                   ("POST", f"/v1/jobs/{self.job}/clone", b'{"x": %s}'),
-                                   ("POST", "/v1/webhooks", b'{"url": %s}'), ("POST", "/v1/webhooks", b'{"events": %s}')):
+        for method, path, form in (
+            ("POST", "/v1/jobs", b'{"scenario": "x", "randomize": %s}'),
+            ("POST", "/v1/jobs", b"%s"),
+            ("POST", "/v1/calibrations", b'{"files": %s}'),
+            ("POST", "/v1/calibrations", b'{"a": %s}'),
+            ("PATCH", f"/v1/jobs/{self.job}", b'{"labels": %s}'),
+            ("PATCH", f"/v1/jobs/{self.job}", b'{"priority": %s}'),
+            ("POST", f"/v1/jobs/{self.job}/clone", b'{"x": %s}'),
+            ("POST", "/v1/webhooks", b'{"url": %s}'),
+            ("POST", "/v1/webhooks", b'{"events": %s}'),
+        ):
             with self.assertRaises(urllib.error.HTTPError) as raised:
                 self.ask(path, form % deep, method, {"Content-Type": "application/json"})
             self.assertEqual(raised.exception.code, 400, path)
@@ -235,15 +307,24 @@ class Attacks:
 
     def test_nested_json_in_archives_ends_nothing(self):
         deep = "[" * 150_000 + "]" * 150_000
-        for name, text in (("deep.json", deep), ("deep.json", '{"crowd": %s}' % deep), ("deep.json", '{"base": %s}' % deep)):
+        for name, text in (
+            ("deep.json", deep),
+            ("deep.json", '{"crowd": %s}' % deep),
+            ("deep.json", '{"base": %s}' % deep),
+        ):
             archive = io.BytesIO()
             with zipfile.ZipFile(archive, "w") as bundle:
                 bundle.writestr(name, text)
-            form = (b'--B\r\nContent-Disposition: form-data; name="job"\r\n\r\n{"scenario": "bundle/deep", "crowd": {"agents": 3}}'
-                    b'\r\n--B\r\nContent-Disposition: form-data; name="scenario"; filename="a.zip"\r\n\r\n'
-                    + archive.getvalue() + b"\r\n--B--\r\n")
-            for path, body, kind in (("/v1/scenarios?name=deep", archive.getvalue(), "application/zip"),
-                                     ("/v1/jobs", form, "multipart/form-data; boundary=B")):
+            form = (
+                b'--B\r\nContent-Disposition: form-data; name="job"\r\n\r\n{"scenario": "bundle/deep", "crowd": {"agents": 3}}'
+                b'\r\n--B\r\nContent-Disposition: form-data; name="scenario"; filename="a.zip"\r\n\r\n'
+                + archive.getvalue()
+                + b"\r\n--B--\r\n"
+            )
+            for path, body, kind in (
+                ("/v1/scenarios?name=deep", archive.getvalue(), "application/zip"),
+                ("/v1/jobs", form, "multipart/form-data; boundary=B"),
+            ):
                 with self.assertRaises(urllib.error.HTTPError) as raised:
                     self.ask(path, body, "POST", {"Content-Type": kind})
                 self.assertEqual(raised.exception.code, 400, path)
@@ -254,16 +335,25 @@ class Attacks:
         inner = self.victims_request() + b"y\r\nAuthorization: Bearer " + self.throng.key.encode() + b"\r\n\r\n"
         key = b"Authorization: Bearer " + self.throng.key.encode() + b"\r\n"
         part = b'Content-Disposition: form-data; name="job"\r\n'
-        for kind, body in ((b"multipart/form-data", inner), (b"multipart/form-data; boundary=", inner),
-                           (b"multipart/form-data; boundary=\"", inner),
-                           (b"multipart/form-data; boundary=" + b"x" * 4000, inner),
-                           (b"multipart/form-data; boundary=(.*)*", b"--(.*)*\r\n" + part + b"\r\n" + inner),
-                           (b"multipart/form-data; boundary=B", b"--B\r\nX: " + b"y" * 9000 + b"\r\n\r\n" + inner),
-                           (b"multipart/form-data; boundary=B", b"--B\r\n" + part + b"\r\nx\r\n--B--\r\n" + inner),
-                           (b"application/x-www-form-urlencoded", b"a=" + b"b" * 20_000 + inner),
-                           (b"application/x-www-form-urlencoded", b"%" * 3000 + inner)):
-            head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + key + b"Content-Type: " + kind
-                    + b"\r\nContent-Length: %d\r\n\r\n" % len(body))
+        for kind, body in (
+            (b"multipart/form-data", inner),
+            (b"multipart/form-data; boundary=", inner),
+            (b'multipart/form-data; boundary="', inner),
+            (b"multipart/form-data; boundary=" + b"x" * 4000, inner),
+            (b"multipart/form-data; boundary=(.*)*", b"--(.*)*\r\n" + part + b"\r\n" + inner),
+            (b"multipart/form-data; boundary=B", b"--B\r\nX: " + b"y" * 9000 + b"\r\n\r\n" + inner),
+            (b"multipart/form-data; boundary=B", b"--B\r\n" + part + b"\r\nx\r\n--B--\r\n" + inner),
+            (b"application/x-www-form-urlencoded", b"a=" + b"b" * 20_000 + inner),
+            (b"application/x-www-form-urlencoded", b"%" * 3000 + inner),
+        ):
+            head = (
+                b"POST /v1/jobs HTTP/1.1\r\n"
+                + HOST
+                + key
+                + b"Content-Type: "
+                + kind
+                + b"\r\nContent-Length: %d\r\n\r\n" % len(body)
+            )
             with self.subTest(kind=kind[:60]):
                 answers = exchange(self.front, head + body)
                 self.assertEqual(len(statuses(answers)), 1, answers[:400])
@@ -288,7 +378,9 @@ class Attacks:
     def test_escaped_line_ends_stay_escaped(self):
         """The library decodes percent escapes in header fields."""
         inner = b"x%0d%0aAuthorization: Bearer " + self.throng.key.encode()
-        answers = exchange(self.front, b"GET /v1/jobs HTTP/1.1\r\n" + HOST + b"X: " + inner + b"\r\nConnection: close\r\n\r\n")
+        answers = exchange(
+            self.front, b"GET /v1/jobs HTTP/1.1\r\n" + HOST + b"X: " + inner + b"\r\nConnection: close\r\n\r\n"
+        )
         self.assertEqual(statuses(answers), [401])
         for length in (b"%30", b"0%0d%0aX: y"):
             head = b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Length: " + length + b"\r\n\r\n"
@@ -296,11 +388,23 @@ class Attacks:
 
     def test_other_spellings_of_the_path(self):
         """Scopes are those of the route that answers, however its path is written."""
-        for path in ("/v1/%77ebhooks", "/v1//webhooks", "/v1/./webhooks", "/v1/jobs/../webhooks", "/v1/webhooks/",
-                     "/V1/webhooks", "/v1/webhooks;x", "/v1/webhooks%3f", "/v1/webhooks%20", "/v1/jobs/..%2fwebhooks"):
+        for path in (
+            "/v1/%77ebhooks",
+            "/v1//webhooks",
+            "/v1/./webhooks",
+            "/v1/jobs/../webhooks",
+            "/v1/webhooks/",
+            "/V1/webhooks",
+            "/v1/webhooks;x",
+            "/v1/webhooks%3f",
+            "/v1/webhooks%20",
+            "/v1/jobs/..%2fwebhooks",
+        ):
             for method, body in (("GET", b""), ("POST", b'{"url": "http://a"}')):
-                head = (f"{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: Bearer {self.reader}\r\n"
-                        f"Content-Type: application/json\r\n").encode()
+                head = (
+                    f"{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: Bearer {self.reader}\r\n"
+                    f"Content-Type: application/json\r\n"
+                ).encode()
                 head += b"Content-Length: %d\r\n" % len(body) if body else b""
                 answers = exchange(self.front, head + b"\r\n" + body)
                 self.assertEqual(len(statuses(answers)), 1)
@@ -308,9 +412,15 @@ class Attacks:
 
     def curl(self, *arguments, data=None):
         scheme = "https" if self.front.context else "http"
-        words = [f"{scheme}://localhost:{self.front.port}{word}" if word.startswith("/v1") else word for word in arguments]
-        return subprocess.run(["curl", "-sk", "--max-time", "300", "-H", f"Authorization: Bearer {self.throng.key}", *words],
-                              input=data, capture_output=True, check=False).stdout
+        words = [
+            f"{scheme}://localhost:{self.front.port}{word}" if word.startswith("/v1") else word for word in arguments
+        ]
+        return subprocess.run(
+            ["curl", "-sk", "--max-time", "300", "-H", f"Authorization: Bearer {self.throng.key}", *words],
+            input=data,
+            capture_output=True,
+            check=False,
+        ).stdout
 
     def test_curl_keeps_its_connection(self):
         written = "\n%{num_connects} %{http_code}\n"
@@ -324,8 +434,18 @@ class Attacks:
 
     def test_curl_waits_for_continue(self):
         body = json.dumps(hostile.JOB).encode()
-        out = self.curl("-i", "-H", "Expect: 100-continue", "-H", "Content-Type: application/json", "--data-binary", "@-",
-                        "--http1.1", "/v1/jobs?dry_run", data=body)
+        out = self.curl(
+            "-i",
+            "-H",
+            "Expect: 100-continue",
+            "-H",
+            "Content-Type: application/json",
+            "--data-binary",
+            "@-",
+            "--http1.1",
+            "/v1/jobs?dry_run",
+            data=body,
+        )
         self.assertIn(b"100 Continue", out)
         self.assertIn(b"200", out.split(b"\r\n\r\n")[1])
 
@@ -345,8 +465,12 @@ class Attacks:
             found = []
             for i in range(3):
                 body = json.dumps(dict(hostile.JOB, name=f"job {number} {i}"))
-                connection.request("POST", "/v1/jobs?dry_run", body, {"Content-Type": "application/json",
-                                                                      "Authorization": f"Bearer {self.throng.key}"})
+                connection.request(
+                    "POST",
+                    "/v1/jobs?dry_run",
+                    body,
+                    {"Content-Type": "application/json", "Authorization": f"Bearer {self.throng.key}"},
+                )
                 answer = connection.getresponse()
                 found.append(json.loads(answer.read()).get("job", {}).get("name") == f"job {number} {i}")
             connection.close()
@@ -368,8 +492,19 @@ class BarePort(Attacks, unittest.TestCase):
         return hostile.Front(cls.throng.port, cls.throng.key)
 
     def test_chunked_uploads_are_told_to_say_their_length(self):
-        code = self.curl("-H", "Content-Type: application/json", "-H", "Transfer-Encoding: chunked", "-d", "{}", "-o",
-                         "/dev/null", "-w", "%{http_code}", "/v1/jobs")
+        code = self.curl(
+            "-H",
+            "Content-Type: application/json",
+            "-H",
+            "Transfer-Encoding: chunked",
+            "-d",
+            "{}",
+            "-o",
+            "/dev/null",
+            "-w",
+            "%{http_code}",
+            "/v1/jobs",
+        )
         self.assertEqual(code, b"411")
 
     def test_slow_heads_are_cut_off(self):
@@ -409,8 +544,10 @@ class ThroughNginx(Attacks, unittest.TestCase):
 
     def test_a_get_with_a_body_never_reaches_throng(self):
         log = pathlib.Path(self.folder.name) / "access.log"
-        self.assertEqual(self.curl("-X", "GET", "-d", "x", "--http1.1", "-w", "%{http_code}", "-o", "/dev/null",
-                                   "/v1/version"), b"400")
+        self.assertEqual(
+            self.curl("-X", "GET", "-d", "x", "--http1.1", "-w", "%{http_code}", "-o", "/dev/null", "/v1/version"),
+            b"400",
+        )
         end_s = time.monotonic() + 300
         while '"GET /v1/version" 400' not in log.read_text():  # nginx logs after it has answered
             self.assertLess(time.monotonic(), end_s, log.read_text()[-2000:])
@@ -418,16 +555,36 @@ class ThroughNginx(Attacks, unittest.TestCase):
 
     def test_chunked_uploads_arrive(self):
         body = json.dumps(hostile.JOB).encode()
-        code = self.curl("-H", "Content-Type: application/json", "-H", "Transfer-Encoding: chunked", "--data-binary", "@-",
-                         "--http1.1", "-o", "/dev/null", "-w", "%{http_code}", "/v1/jobs?dry_run", data=body)
+        code = self.curl(
+            "-H",
+            "Content-Type: application/json",
+            "-H",
+            "Transfer-Encoding: chunked",
+            "--data-binary",
+            "@-",
+            "--http1.1",
+            "-o",
+            "/dev/null",
+            "-w",
+            "%{http_code}",
+            "/v1/jobs?dry_run",
+            data=body,
+        )
         self.assertEqual(code, b"200")
 
     def test_other_connections_of_the_upstream_are_shared(self):
         """Precondition of the attacks: two users' requests on one connection to throng."""
         for _ in range(20):
             self.ask("/v1/version")
-        ends = subprocess.run(["ss", "-tn", "state", "established", f"( dport = :{self.throng.port} )"],
-                              capture_output=True, text=True).stdout if shutil.which("ss") else ""
+        ends = (
+            subprocess.run(
+                ["ss", "-tn", "state", "established", f"( dport = :{self.throng.port} )"],
+                capture_output=True,
+                text=True,
+            ).stdout
+            if shutil.which("ss")
+            else ""
+        )
         self.assertLess(len(ends.splitlines()), 20)
 
 

@@ -55,9 +55,18 @@ class Rules(unittest.TestCase):
                     (root / path).parent.mkdir(parents=True, exist_ok=True)
                     (root / path).write_text(text.replace("{folder}", str(FOLDER)))
             done = subprocess.run(
-                [CMAKE, "-S", root, "-B", root / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
-                 "-DCMAKE_CXX_COMPILER_FORCED=ON"],
-                capture_output=True, text=True, timeout=120,
+                [
+                    CMAKE,
+                    "-S",
+                    root,
+                    "-B",
+                    root / "build",
+                    f"-DCMAKE_CXX_COMPILER={COMPILER}",
+                    "-DCMAKE_CXX_COMPILER_FORCED=ON",
+                ],
+                capture_output=True,
+                text=True,
+                timeout=120,
             )
         return done.returncode, re.sub(r"\s+", " ", done.stderr)
 
@@ -67,8 +76,9 @@ class Rules(unittest.TestCase):
         for message in messages:
             self.assertIn(message, text)
         # Only what is wrong is reported.
-        self.assertEqual(len(re.findall(r"(?:\.cpp:\d+|\.h:\d+|CMakeLists\.txt|throng_allow_private): ", text)),
-                         len(messages), text)
+        self.assertEqual(
+            len(re.findall(r"(?:\.cpp:\d+|\.h:\d+|CMakeLists\.txt|throng_allow_private): ", text)), len(messages), text
+        )
 
     def accepted(self, changes=None):
         code, text = self.configure(changes)
@@ -151,8 +161,13 @@ class Rules(unittest.TestCase):
         self.accepted({"walls/CMakeLists.txt": text, "tests/house/bricks_test.cpp": '#include "walls/brick.h"\n'})
 
     def test_tests_and_benchmarks_of_other_modules(self):
-        for file in ("tests/house/brick_test.cpp", "tests/fuzz/fuzz_brick.cpp", "bench/house.cpp", "examples/brick.cpp",
-                     "tests/walls/spec/brick_test.cpp"):
+        for file in (
+            "tests/house/brick_test.cpp",
+            "tests/fuzz/fuzz_brick.cpp",
+            "bench/house.cpp",
+            "examples/brick.cpp",
+            "tests/walls/spec/brick_test.cpp",
+        ):
             self.refused(
                 {file: '#include "walls/brick.h"\n'},
                 f"{file}:1: includes walls/brick.h, but this is a private header of module 'walls'",
@@ -182,8 +197,9 @@ class Rules(unittest.TestCase):
         )
 
     def test_build_of_some_modules(self):
-        text = PROJECT["CMakeLists.txt"].replace("foreach(module IN LISTS THRONG_ALL_MODULES)",
-                                                 "foreach(module IN ITEMS walls/spec walls)")
+        text = PROJECT["CMakeLists.txt"].replace(
+            "foreach(module IN LISTS THRONG_ALL_MODULES)", "foreach(module IN ITEMS walls/spec walls)"
+        )
         self.accepted({"CMakeLists.txt": text})
         self.refused(
             {"CMakeLists.txt": text, "walls/wall.h": '#pragma once\n#include "walls/brick.h"\n'},

@@ -100,12 +100,20 @@ class ReportChecks(unittest.TestCase):
 
     def test_every_failure_is_named(self):
         step = {"wall_s": 61, "cpu_s": 100, "failed_parts": ""}
-        steps = [{**step, "step": "format", "status": 1, "failed_parts": "language"}, {**step, "step": "release", "status": 0}]
+        steps = [
+            {**step, "step": "format", "status": 1, "failed_parts": "language"},
+            {**step, "step": "release", "status": 0},
+        ]
         tests = [{"step": "release", "name": f"t{i}", "wall_s": i, "outcome": "passed"} for i in range(30)]
         tests[3]["outcome"], tests[4]["outcome"] = "failed", "flaky"
         status, text = self.report(steps, tests)
         self.assertEqual(status, 1)
-        for line in ("FAILED: step format (language)", "FAILED: release: t3", "FLAKY:  release: t4", "29 passed, 1 failed"):
+        for line in (
+            "FAILED: step format (language)",
+            "FAILED: release: t3",
+            "FLAKY:  release: t4",
+            "29 passed, 1 failed",
+        ):
             self.assertIn(line, text)
         self.assertIn("1:01", text)
         self.assertEqual(sum("  release  t" in line for line in text.splitlines()), 20)

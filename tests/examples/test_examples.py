@@ -27,7 +27,9 @@ class Examples(unittest.TestCase):
         for width in (0.8, 1.6):
             done = run(width)
             self.assertEqual(done.returncode, 0, done.stderr)
-            out, people, time_s, flow = numbers(r"(\d+) of (\d+) people out after ([\d.]+) s, ([\d.]+) per second", done.stdout)
+            out, people, time_s, flow = numbers(
+                r"(\d+) of (\d+) people out after ([\d.]+) s, ([\d.]+) per second", done.stdout
+            )
             self.assertEqual((out, people), (60, 60))
             self.assertAlmostEqual(flow, out / time_s, places=1)
             flows[width] = flow
@@ -44,15 +46,21 @@ class Examples(unittest.TestCase):
             self.assertIn("<!-- Beyond the crossing. -->", (folder / "behavior.xml").read_text())
             program = os.environ.get("THRONG_PROGRAM")
             if program and Path(program).exists():  # the files are ones that the program runs
-                subprocess.run([program, "crowd", "-s", folder / "scene.xml", "-b", folder / "behavior.xml", "-d", "5"],
-                               check=True, capture_output=True, timeout=250)
+                subprocess.run(
+                    [program, "crowd", "-s", folder / "scene.xml", "-b", folder / "behavior.xml", "-d", "5"],
+                    check=True,
+                    capture_output=True,
+                    timeout=250,
+                )
 
     def study(self):
         done = run(3)
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [tuple(map(float, row)) for row in re.findall(r"one door ([\d.]+) s, two doors ([\d.]+) s", done.stdout)]
         self.assertEqual(len(rows), 3)
-        saved, _, pairs = numbers(r"saves ([-\d.]+) s on average \(standard error ([\d.]+) s, (\d+) pairs\)", done.stdout)
+        saved, _, pairs = numbers(
+            r"saves ([-\d.]+) s on average \(standard error ([\d.]+) s, (\d+) pairs\)", done.stdout
+        )
         self.assertEqual(pairs, 3)
         self.assertAlmostEqual(saved, sum(one - two for one, two in rows) / 3, delta=0.11)
         self.assertGreater(saved, 0)

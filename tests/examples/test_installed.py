@@ -25,8 +25,16 @@ class Installed(unittest.TestCase):
             prefix = folder / "prefix"
             run(CMAKE, "--install", BUILD, "--prefix", prefix, "--component", "library")
             headers = {str(path.relative_to(prefix / "include/throng")) for path in prefix.rglob("*.h")}
-            self.assertLessEqual({"crowd/simulation.h", "crowd/description/builder.h", "crowd/menge_files/write.h",
-                                  "world/scenario.h", "base/error.h"}, headers)
+            self.assertLessEqual(
+                {
+                    "crowd/simulation.h",
+                    "crowd/description/builder.h",
+                    "crowd/menge_files/write.h",
+                    "world/scenario.h",
+                    "base/error.h",
+                },
+                headers,
+            )
             # Private headers are not installed, and the installed ones need no others.
             self.assertNotIn("crowd/behavior/machine.h", headers)
             self.assertNotIn("crowd/menge_files/utf8.h", headers)
@@ -34,15 +42,30 @@ class Installed(unittest.TestCase):
             every.write_text("".join(f'#include "{header}"\n' for header in sorted(headers)))
             libraries = run("pkg-config", "--cflags", "eigen3", "hdf5").split()
             # The package's targets define the version.
-            run(COMPILER, "-std=c++20", "-fsyntax-only", '-DTHRONG_VERSION="0"', *libraries, "-I",
-                prefix / "include/throng", every)
+            run(
+                COMPILER,
+                "-std=c++20",
+                "-fsyntax-only",
+                '-DTHRONG_VERSION="0"',
+                *libraries,
+                "-I",
+                prefix / "include/throng",
+                every,
+            )
             # Nothing of the installed package says where it was built.
             for file in prefix.rglob("*.cmake"):
                 self.assertNotIn(str(Path(BUILD).resolve()), file.read_text(), file)
                 self.assertNotIn(str(Path(EXAMPLES).resolve().parent), file.read_text(), file)
             # Of the examples only one: the others need nothing else.
-            run(CMAKE, "-S", EXAMPLES, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}",
-                f"-DCMAKE_CXX_COMPILER={COMPILER}")
+            run(
+                CMAKE,
+                "-S",
+                EXAMPLES,
+                "-B",
+                folder / "build",
+                f"-DCMAKE_PREFIX_PATH={prefix}",
+                f"-DCMAKE_CXX_COMPILER={COMPILER}",
+            )
             run(CMAKE, "--build", folder / "build", "--target", "example_room_and_door")
             self.assertIn("60 of 60 people out", run(folder / "build/example_room_and_door"))
 

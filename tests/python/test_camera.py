@@ -219,7 +219,9 @@ class Labels(unittest.TestCase):
             pixels = np.stack((columns, rows), axis=-1).astype(float)
             points = before.camera.unproject(pixels, before.depth()[person]) + motion[person]
             off = np.linalg.norm(after.camera.project(points) - pixels - flow[person], axis=-1)
-            self.assertLess(np.nanquantile(off, 0.95), 0.5 if camera == "d1" else 1.5)  # a lens shows depth beside edges
+            self.assertLess(
+                np.nanquantile(off, 0.95), 0.5 if camera == "d1" else 1.5
+            )  # a lens shows depth beside edges
             self.assertTrue((motion[before.instances() == 0xFF0000] == 0).all())
             self.assertTrue(np.isnan(motion[before.instances() == 0]).all())
 

@@ -111,8 +111,17 @@ class WithService(unittest.TestCase):
         port_file = cls.base / "port"
         port_file.unlink(missing_ok=True)
         cls.server = subprocess.Popen(
-            [common.THRONG, "serve", "--data", cls.base / "data", "--port", str(cls.port), "--port-file", port_file,
-             "--webhook-private"],
+            [
+                common.THRONG,
+                "serve",
+                "--data",
+                cls.base / "data",
+                "--port",
+                str(cls.port),
+                "--port-file",
+                port_file,
+                "--webhook-private",
+            ],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
@@ -371,7 +380,9 @@ class WithService(unittest.TestCase):
         study = {
             "name": "two",
             "runs": 5,
-            "cases": [{"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 10}, "duration_s": 20}],
+            "cases": [
+                {"id": "square", "scenario": "city_square/nearest_exit", "crowd": {"agents": 10}, "duration_s": 20}
+            ],
             "policies": [{"id": "none"}, {"id": "also_none"}],
         }
         self.assertEqual(self.client.check_study(study)["simulations"], 10)

@@ -370,7 +370,9 @@ class Damage(unittest.TestCase):
         content = files()
         del content["density/run000/d1/000000.npz"]
         content["density/run000/d1/000000.npy"] = old.getvalue()
-        content[LABELS] = content[LABELS].replace(b'"frame": 0', b'"frame": 0, "density_file": "density/run000/d1/000000.npy"')
+        content[LABELS] = content[LABELS].replace(
+            b'"frame": 0', b'"frame": 0, "density_file": "density/run000/d1/000000.npy"'
+        )
         frame = Dataset(self.write(content))[0]
         self.assertEqual(float(frame.density().sum()), 12)
 

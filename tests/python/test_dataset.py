@@ -127,7 +127,9 @@ class Reading(unittest.TestCase):
         for run in ("run000", "run001"):
             table = dataset.actions(run)
             rows = {}
-            for track, action, other, begin, end in zip(*(table[c] for c in ("track_id", "action", "other", "from_s", "to_s"))):
+            for track, action, other, begin, end in zip(
+                *(table[c] for c in ("track_id", "action", "other", "from_s", "to_s"))
+            ):
                 rows.setdefault((int(track), action, other), []).append((begin, end))
             for frame in dataset.filter(runs=[run]):
                 for track, names, others in zip(
@@ -139,7 +141,9 @@ class Reading(unittest.TestCase):
                     wanted += [(int(track), "together", str(other)) for other in others]
                     for key in wanted:
                         stretches = rows.get(key, [])
-                        self.assertTrue(any(a - 0.25 <= frame.time_s <= b + 0.25 for a, b in stretches), (key, frame.time_s))
+                        self.assertTrue(
+                            any(a - 0.25 <= frame.time_s <= b + 0.25 for a, b in stretches), (key, frame.time_s)
+                        )
         self.assertIn("walk", motions)
         self.assertIn("carry", motions)
 
@@ -220,7 +224,9 @@ class Reading(unittest.TestCase):
                 with self.subTest(name, frame=stem):
                     with Image.open(self.path / frame.file_name) as picture:
                         np.testing.assert_array_equal(frame.image(), np.array(picture.convert("RGB")))
-                    np.testing.assert_array_equal(frame.density(), np.load(self.path / f"density/{stem}.npz")["density"])
+                    np.testing.assert_array_equal(
+                        frame.density(), np.load(self.path / f"density/{stem}.npz")["density"]
+                    )
                     self.assertAlmostEqual(float(frame.density().sum()), frame.record["density_count"], places=3)
                     with Image.open(self.path / f"depth/{stem}.png") as picture:
                         centimeters = np.array(picture).astype(float)

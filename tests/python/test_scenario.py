@@ -176,7 +176,9 @@ class Simulated(unittest.TestCase):
         self.assertGreater(len(hexagon.simulate(to_s=60, job={"crowd": {"compliance": 0.5}}).evacuation()[0]), 10)
 
     def test_speeds_and_times(self):
-        place = Scenario("slow", ROOM, in_groups=0, pre_movement_s={"uniform": [5, 6]}, evacuation_speed_mps="unchanged")
+        place = Scenario(
+            "slow", ROOM, in_groups=0, pre_movement_s={"uniform": [5, 6]}, evacuation_speed_mps="unchanged"
+        )
         place.exit("door", (20, 4), (20, 6)).group(count=20, doing="wait", speed_mps={"normal": [0.8, 0.1]})
         place.queue([(5, 2), (8, 2)], count=3, speed_mps={"uniform": [1.4, 1.6]})
         place.disaster("fire", (1, 9), start_s=2, radius_m=0.3, max_radius_m=0.3, noticed_m=100)

@@ -5,7 +5,25 @@ usage: python3 tests/cli/damages THRONG DATASET [NAME...]    prints a table; DAT
 runs, two cameras and five frames; damages of formats/ need `mot`, `yolo-detect`, `kitti`, `voc` and `table` there.
 
 All damages by the module that holds them; names on the command line have blanks for underscores."""
-from . import cameras, counts, difficulty, exits, exports, fields, hazards, heads, identities, images, lenses, motion, pixels, poses, shapes, trajectories, vehicles
+from . import (
+    cameras,
+    counts,
+    difficulty,
+    exits,
+    exports,
+    fields,
+    hazards,
+    heads,
+    identities,
+    images,
+    lenses,
+    motion,
+    pixels,
+    poses,
+    shapes,
+    trajectories,
+    vehicles,
+)
 
 TABLE = {
     motion: """

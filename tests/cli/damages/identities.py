@@ -63,7 +63,9 @@ def first_garment(d):
 
 @damage
 def garment_called_another_color(d):
-    garment = next(g for t in d.coco["tracks"] if "attributes" in t for g in t["attributes"]["clothes"] if "colour" in g)
+    garment = next(
+        g for t in d.coco["tracks"] if "attributes" in t for g in t["attributes"]["clothes"] if "colour" in g
+    )
     garment["colour_name"] = "pink" if garment["colour_name"] != "pink" else "blue"
     d.save_coco()
 

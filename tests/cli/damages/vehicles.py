@@ -9,9 +9,7 @@ CATEGORIES = (3, 4)
 
 
 def vehicles(d, image=None):
-    found = [
-        a for a in d.coco["annotations"] if a["category_id"] in CATEGORIES and image in (None, a["image_id"])
-    ]
+    found = [a for a in d.coco["annotations"] if a["category_id"] in CATEGORIES and image in (None, a["image_id"])]
     assert found, "no vehicles"
     return found
 
