@@ -19,7 +19,11 @@ function browserMs() {
     try {
       const text = readFileSync(`/proc/${name}/stat`, "utf8");
       const fields = text.slice(text.lastIndexOf(")") + 2).split(" ");
-      processes.set(Number(name), { parent: Number(fields[1]), isBrowser: text.includes("(chrom"), ms: 10 * (Number(fields[11]) + Number(fields[12])) });
+      processes.set(Number(name), {
+        parent: Number(fields[1]),
+        isBrowser: text.includes("(chrom"),
+        ms: 10 * (Number(fields[11]) + Number(fields[12])),
+      });
     } catch {
       // It has ended.
     }
@@ -35,10 +39,20 @@ const browser = await launch(packages);
 try {
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
   page.setDefaultTimeout(120_000); // thousands of people keep a page without a graphics card busy
-  const job = { scenario, crowd: { agents: Number(people) }, environment: { smoke: 1 }, drones: [{ id: "d1", start: [-24, -6, 20], camera: { pitch_deg: -45 } }] };
+  const job = {
+    scenario,
+    crowd: { agents: Number(people) },
+    environment: { smoke: 1 },
+    drones: [{ id: "d1", start: [-24, -6, 20], camera: { pitch_deg: -45 } }],
+  };
   await page.goto(`${service.address}/new`);
-  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(job)) });
-  await page.getByText(/images? in/).first().waitFor({ timeout: 120_000 });
+  await page
+    .getByLabel("Open a file")
+    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(job)) });
+  await page
+    .getByText(/images? in/)
+    .first()
+    .waitFor({ timeout: 120_000 });
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await page.getByRole("button", { name: "Fly", exact: true }).click();
   await page.getByText("recording").waitFor({ timeout: 240_000 });
@@ -51,13 +65,19 @@ try {
         new Promise((resolve) => {
           const begun = performance.now();
           let count = 0;
-          const tick = (now) => (now - begun < 1000 * seconds ? (++count, requestAnimationFrame(tick)) : resolve(count / seconds));
+          const tick = (now) => {
+            if (now - begun >= 1000 * seconds) return resolve(count / seconds);
+            ++count;
+            requestAnimationFrame(tick);
+          };
           requestAnimationFrame(tick);
         }),
       kSeconds,
     );
     if (image && view === "3-D") await page.screenshot({ path: image });
-    console.log(`${people} people, ${view}: ${frames.toFixed(1)} frames/s, ${((browserMs() - before) / Math.max(1, frames * kSeconds)).toFixed(0)} ms of CPU each`);
+    console.log(
+      `${people} people, ${view}: ${frames.toFixed(1)} frames/s, ${((browserMs() - before) / Math.max(1, frames * kSeconds)).toFixed(0)} ms of CPU each`,
+    );
   }
 } finally {
   await browser.close();

@@ -10,7 +10,15 @@ const kRuns = 10;
 const kThere = 200; ///< images of the first camera that are files, too
 const kAttempts = 3;
 const service = new TestService(program);
-const job = { name: "large", scenario: "city_square/emergency", crowd: { agents: 20 }, quality: "draft", drones: [{ id: "d1", camera: { width: 1280, height: 720 } }], capture: { from_s: 1, to_s: 2, rate_hz: 1 }, outputs: { annotations: [] } };
+const job = {
+  name: "large",
+  scenario: "city_square/emergency",
+  crowd: { agents: 20 },
+  quality: "draft",
+  drones: [{ id: "d1", camera: { width: 1280, height: 720 } }],
+  capture: { from_s: 1, to_s: 2, rate_hz: 1 },
+  outputs: { annotations: [] },
+};
 
 /** The dataset's manifest with many more images. */
 function enlarge(id) {
@@ -57,12 +65,17 @@ try {
       // Not waitForFunction(): the page's policy allows no eval().
       const areShown = () =>
         page.evaluate(() => {
-          const shown = [...document.querySelectorAll("main .thumbnail canvas")].filter((canvas) => canvas.getBoundingClientRect().top < innerHeight);
-          const isDrawn = (canvas) => canvas.width > 1 && canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data[3] === 255;
+          const shown = [...document.querySelectorAll("main .thumbnail canvas")].filter(
+            (canvas) => canvas.getBoundingClientRect().top < innerHeight,
+          );
+          const isDrawn = (canvas) =>
+            canvas.width > 1 && canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data[3] === 255;
           return shown.length > 3 && shown.every(isDrawn);
         });
       while (!(await areShown())) await page.waitForTimeout(10);
-      console.log(`${wanted} images, ${visit}: listed after ${listed.toFixed(0)} ms, thumbnails after ${(performance.now() - begun).toFixed(0)} ms`);
+      console.log(
+        `${wanted} images, ${visit}: listed after ${listed.toFixed(0)} ms, thumbnails after ${(performance.now() - begun).toFixed(0)} ms`,
+      );
       await page.close();
     }
     await halt();

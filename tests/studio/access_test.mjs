@@ -100,7 +100,10 @@ test("an administrator makes keys and revokes them", async () => {
   const admin = service.createKey("admin");
   await go("/keys");
   await page.getByRole("heading", { name: "Key needed" }).or(page.getByText("Sign in with a key")).first().waitFor();
-  await page.evaluate((key) => fetch("/v1/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key }) }), admin);
+  await page.evaluate(
+    (key) => fetch("/v1/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key }) }),
+    admin,
+  );
   await page.reload();
   await page.getByLabel("Name of its owner").fill("camera team");
   await page.getByLabel("Scope").selectOption("read");
@@ -115,7 +118,13 @@ test("an administrator makes keys and revokes them", async () => {
   assert.equal(await statusOf(key), 200);
   await check(page, "keys");
   const { keys } = await service.json("/v1/keys", { headers: { Authorization: `Bearer ${admin}` } });
-  assert.deepEqual(keys.map(({ name, scope, max_jobs }) => [name, scope, max_jobs]), [["test", "admin", null], ["camera team", "read", 3]]);
+  assert.deepEqual(
+    keys.map(({ name, scope, max_jobs }) => [name, scope, max_jobs]),
+    [
+      ["test", "admin", null],
+      ["camera team", "read", 3],
+    ],
+  );
   await page.reload();
   await page.getByRole("button", { name: "Revoke camera team" }).click();
   assert.ok(!(await page.content()).includes(key), "a key is shown once");
@@ -129,7 +138,11 @@ test("an administrator makes keys and revokes them", async () => {
 
 test("others are told that they may not", async () => {
   const key = service.createKey("submit");
-  await page.evaluate((value) => fetch("/v1/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key: value }) }), key);
+  await page.evaluate(
+    (value) =>
+      fetch("/v1/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key: value }) }),
+    key,
+  );
   await page.reload();
   await page.getByText("Keys and webhooks are for administrators").waitFor();
   assert.equal(await page.getByRole("tab").count(), 0);

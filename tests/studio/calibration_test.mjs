@@ -25,7 +25,9 @@ let page;
 before(async () => {
   // With few views its own limits may not hold; the images are there all the same.
   spawnSync(program, ["calibrate", "selftest", "--views", "10", "--images", boards], { stdio: "ignore" });
-  files = readdirSync(boards).sort().map((name) => path.join(boards, name));
+  files = readdirSync(boards)
+    .sort()
+    .map((name) => path.join(boards, name));
   assert.equal(files.length, 10);
   await service.start();
   browser = await launch(packages);
@@ -98,11 +100,17 @@ test("the camera, its accuracy and the corners in each image are shown", async (
   assert.ok(camera.warnings.some((text) => text.includes("--prior")));
   assert.ok(!(await warnings.allInnerTexts()).join().includes("--"));
   await warnings.filter({ hasText: "(“About known”: cx = 640 ± 20)" }).waitFor();
-  assert.ok(camera.warnings.some((text) => text.startsWith("9 views")), "fewer than 10 views were used");
+  assert.ok(
+    camera.warnings.some((text) => text.startsWith("9 views")),
+    "fewer than 10 views were used",
+  );
   assert.equal(await page.locator(".cell-covered").count(), Math.round(48 * camera.coverage));
   const figure = page.locator("#view-view01-png");
   assert.equal(await figure.locator(".board-point, .board-outlier").count(), kCorners);
-  const drawn = await figure.locator("circle").nth(1).evaluate((circle) => [circle.cx.baseVal.value, circle.cy.baseVal.value]);
+  const drawn = await figure
+    .locator("circle")
+    .nth(1)
+    .evaluate((circle) => [circle.cx.baseVal.value, circle.cy.baseVal.value]);
   const { pixel } = found.views.find((view) => view.image === "view01.png").points[1];
   assert.ok(Math.hypot(drawn[0] - pixel[0] - 0.5, drawn[1] - pixel[1] - 0.5) < 1e-3);
   await page.locator("#view-view09-2-png").getByText("left out: found ").waitFor();
@@ -115,7 +123,10 @@ test("the camera, its accuracy and the corners in each image are shown", async (
 test("the camera goes into a job", async () => {
   const id = new URL(page.url()).pathname.split("/").at(-1);
   await page.getByRole("link", { name: "Use in a job" }).click();
-  await page.getByText(/\d+ images? in|images/).first().waitFor();
+  await page
+    .getByText(/\d+ images? in|images/)
+    .first()
+    .waitFor();
   await page.waitForFunction(() => location.pathname === "/new" && !location.search.includes("calibration"));
   const draft = JSON.parse(await page.evaluate(() => sessionStorage.getItem("throng.draft")));
   assert.ok(draft.drones.length > 0);
@@ -124,7 +135,11 @@ test("the camera goes into a job", async () => {
     assert.equal(drone.camera.width, undefined, "the calibration says the size");
   }
   assert.equal(await page.getByLabel("Calibration", { exact: true }).first().inputValue(), id);
-  await page.getByRole("region", { name: "Check and submit" }).getByText(/\d+ images/).first().waitFor({ timeout: kLongMs });
+  await page
+    .getByRole("region", { name: "Check and submit" })
+    .getByText(/\d+ images/)
+    .first()
+    .waitFor({ timeout: kLongMs });
   assert.ok(await page.getByRole("button", { name: "Submit" }).isEnabled());
 });
 
@@ -159,14 +174,26 @@ test("parameters that are known go with the images", async () => {
   await page.waitForURL(/\/calibrations\/[a-z0-9]+$/);
   await page.getByText("succeeded").waitFor({ timeout: kLongMs });
   const { camera, request } = await service.json(`/v1/calibrations/${new URL(page.url()).pathname.split("/").at(-1)}`);
-  assert.deepEqual([request.fix, request.prior, request.tie], [{ k3: null, cy: 359.5 }, { cx: { mean: 640, sd: 5 } }, { fx: { to: "fy" } }]);
+  assert.deepEqual(
+    [request.fix, request.prior, request.tie],
+    [{ k3: null, cy: 359.5 }, { cx: { mean: 640, sd: 5 } }, { fx: { to: "fy" } }],
+  );
   assert.equal(camera.fx, camera.fy);
   assert.equal(camera.cy, 359.5);
   await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
 });
 
 test("control points give the poses of a camera", async () => {
-  const points = [[-12, -8, 0], [10, -9, 2], [14, 6, 0], [-9, 7, 3], [2, 1, 0], [-4, -3, 1], [7, 3, 0], [0, 9, 2]];
+  const points = [
+    [-12, -8, 0],
+    [10, -9, 2],
+    [14, 6, 0],
+    [-9, 7, 3],
+    [2, 1, 0],
+    [-4, -3, 1],
+    [7, 3, 0],
+    [0, 9, 2],
+  ];
   const center = [-20, -15, 25];
   // Looking at the origin: right, down and ahead.
   const ahead = center.map((value) => -value / Math.hypot(...center));
@@ -178,21 +205,64 @@ test("control points give the poses of a camera", async () => {
     const [x, y, z] = axes.map((axis) => axis.reduce((sum, value, index) => sum + value * (point[index] - center[index]), 0));
     return [(900 * x) / z + 639.5, (900 * y) / z + 359.5];
   });
-  const table = (name, header, rows) => ({ name, mimeType: "text/csv", buffer: Buffer.from(`${header}\n${rows.map((row) => row.join()).join("\n")}\n`) });
+  const table = (name, header, rows) => ({
+    name,
+    mimeType: "text/csv",
+    buffer: Buffer.from(`${header}\n${rows.map((row) => row.join()).join("\n")}\n`),
+  });
   await go("/calibrations?form=poses");
   const form = page.getByRole("form", { name: "New poses" });
   const inputs = form.locator('input[type="file"]');
-  await inputs.nth(0).setInputFiles(table("gcp.csv", "point,X,Y,Z", points.map((point, index) => [`p${index}`, ...point])));
-  await inputs.nth(1).setInputFiles(table("seen.csv", "image,point,u", pixels.map(([u, v], index) => ["a.jpg", `p${index}`, u])));
-  await inputs.nth(2).setInputFiles({ name: "camera.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })) });
+  await inputs.nth(0).setInputFiles(
+    table(
+      "gcp.csv",
+      "point,X,Y,Z",
+      points.map((point, index) => [`p${index}`, ...point]),
+    ),
+  );
+  await inputs.nth(1).setInputFiles(
+    table(
+      "seen.csv",
+      "image,point,u",
+      pixels.map(([u, _v], index) => ["a.jpg", `p${index}`, u]),
+    ),
+  );
+  await inputs.nth(2).setInputFiles({
+    name: "camera.json",
+    mimeType: "application/json",
+    buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })),
+  });
   await page.getByRole("button", { name: "Estimate poses" }).click();
-  await page.getByRole("alert").or(page.getByText("failed", { exact: true })).first().waitFor({ timeout: kLongMs });
-  await page.getByText(/column/).first().waitFor();
+  await page
+    .getByRole("alert")
+    .or(page.getByText("failed", { exact: true }))
+    .first()
+    .waitFor({ timeout: kLongMs });
+  await page
+    .getByText(/column/)
+    .first()
+    .waitFor();
   await service.remove(new URL(page.url()).pathname.replace("/calibrations", "/v1/calibrations"));
   await go("/calibrations?form=poses");
-  await inputs.nth(0).setInputFiles(table("gcp.csv", "point,X,Y,Z", points.map((point, index) => [`p${index}`, ...point])));
-  await inputs.nth(1).setInputFiles(table("seen.csv", "image,point,u,v", pixels.map((pixel, index) => ["a.jpg", `p${index}`, ...pixel])));
-  await inputs.nth(2).setInputFiles({ name: "camera.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })) });
+  await inputs.nth(0).setInputFiles(
+    table(
+      "gcp.csv",
+      "point,X,Y,Z",
+      points.map((point, index) => [`p${index}`, ...point]),
+    ),
+  );
+  await inputs.nth(1).setInputFiles(
+    table(
+      "seen.csv",
+      "image,point,u,v",
+      pixels.map((pixel, index) => ["a.jpg", `p${index}`, ...pixel]),
+    ),
+  );
+  await inputs.nth(2).setInputFiles({
+    name: "camera.json",
+    mimeType: "application/json",
+    buffer: Buffer.from(JSON.stringify({ width: 1280, height: 720, lens: "pinhole", fx: 900, fy: 900, cx: 639.5, cy: 359.5 })),
+  });
   await check(page, "control points");
   await page.getByRole("button", { name: "Estimate poses" }).click();
   await page.waitForURL(/\/calibrations\/[a-z0-9]+$/);

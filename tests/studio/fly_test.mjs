@@ -45,7 +45,11 @@ after(async () => {
 });
 
 const go = (address) => page.goto(service.address + address);
-const figure = (name) => page.locator(".figures div", { has: page.locator("dt", { hasText: new RegExp(`^${name}$`) }) }).locator("dd").innerText();
+const figure = (name) =>
+  page
+    .locator(".figures div", { has: page.locator("dt", { hasText: new RegExp(`^${name}$`) }) })
+    .locator("dd")
+    .innerText();
 const number = async (name) => Number.parseFloat(await figure(name));
 const until = (condition, what) => eventually(what, condition);
 /** Colors that the canvas of a view holds. */
@@ -59,14 +63,19 @@ const colorsOf = (label) =>
     return new Set(Array.from({ length: data.length / 4 }, (_, i) => `${data[4 * i]},${data[4 * i + 1]},${data[4 * i + 2]}`)).size;
   });
 const sticks = (axes, buttons = []) =>
-  page.evaluate(([values, pressed]) => {
-    const list = Array.from({ length: 17 }, (_, index) => ({ pressed: pressed.includes(index), value: 0 }));
-    window.pad = { connected: true, mapping: "standard", id: "test", axes: values, buttons: list };
-  }, [axes, buttons]);
+  page.evaluate(
+    ([values, pressed]) => {
+      const list = Array.from({ length: 17 }, (_, index) => ({ pressed: pressed.includes(index), value: 0 }));
+      window.pad = { connected: true, mapping: "standard", id: "test", axes: values, buttons: list };
+    },
+    [axes, buttons],
+  );
 
 async function start() {
   await go("/new");
-  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
+  await page
+    .getByLabel("Open a file")
+    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
   await page.getByText("2 images").waitFor();
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await page.getByRole("heading", { name: "Live flight" }).waitFor();
@@ -77,7 +86,9 @@ async function start() {
 
 test("a mistake in the job is shown before the flight", async () => {
   await go("/new");
-  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ ...kJob, runs: 0 })) });
+  await page
+    .getByLabel("Open a file")
+    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify({ ...kJob, runs: 0 })) });
   await page.getByText("1 error").waitFor();
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await check(page, "the start of a flight");
@@ -130,8 +141,14 @@ test("pages of other sites neither see nor steer a flight", async () => {
     [`${self}/stop`, { method: "POST", mode: "no-cors" }],
     [self, { method: "DELETE" }],
   ]);
-  assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
-  assert.deepEqual((await service.json("/v1/live")).flights.map(({ id }) => id), [flights[0].id]);
+  assert.ok(
+    outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)),
+    outcomes.join(),
+  );
+  assert.deepEqual(
+    (await service.json("/v1/live")).flights.map(({ id }) => id),
+    [flights[0].id],
+  );
   const time = await figure("Time");
   await until(async () => (await figure("Time")) !== time, "the flight goes on");
   assert.equal(await page.getByText("The flight is over").count(), 0);
@@ -165,8 +182,14 @@ test("the flight becomes a job that repeats it", async () => {
   await page.getByRole("heading", { name: "Flight recorded" }).waitFor();
   await check(page, "a recorded flight");
   const hash = await page.locator("code").innerText();
-  const log = decodeURIComponent((await page.getByRole("link", { name: "Pilot log of d2" }).getAttribute("href")).split(",").slice(1).join(","));
-  const rows = log.trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
+  const log = decodeURIComponent(
+    (await page.getByRole("link", { name: "Pilot log of d2" }).getAttribute("href")).split(",").slice(1).join(","),
+  );
+  const rows = log
+    .trim()
+    .split("\n")
+    .slice(1)
+    .map((line) => line.split(",").map(Number));
   assert.ok(rows.length > 30);
   assert.ok(Math.max(...rows.map((row) => row[3])) > rows[0][3] + 2, "the log has the climb");
   await page.getByRole("button", { name: "Make a dataset of this flight" }).click();
@@ -191,5 +214,8 @@ test("a lost connection and a flight that is gone say so", async () => {
 });
 
 test("nothing else was complained of", () => {
-  assert.deepEqual(complaints.filter((text) => !/ERR_(CONNECTION|INCOMPLETE|EMPTY)|network error|WebGL|GPU stall/i.test(text)), []);
+  assert.deepEqual(
+    complaints.filter((text) => !/ERR_(CONNECTION|INCOMPLETE|EMPTY)|network error|WebGL|GPU stall/i.test(text)),
+    [],
+  );
 });

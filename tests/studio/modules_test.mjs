@@ -68,7 +68,12 @@ function annotationFile({ runs, cameras, frames, people, skippedRuns = [], seed 
         images.push({ id, file_name: file, width: 64, height: 36, run: name, camera_id: camera, frame, pad: "x".repeat(next(3000)) });
         const visible = next(people + 1);
         for (let agent = 0; agent < visible; ++agent) {
-          annotations.push({ id: id * 100000 + agent * 3 + 1, image_id: id, track_id: run * 1000000 + agent * 3 + 1, pad: "y".repeat(next(900)) });
+          annotations.push({
+            id: id * 100000 + agent * 3 + 1,
+            image_id: id,
+            track_id: run * 1000000 + agent * 3 + 1,
+            pad: "y".repeat(next(900)),
+          });
         }
       });
     }
@@ -127,7 +132,10 @@ for (const layout of kLayouts) {
       assert.deepEqual(name, coco.imageOf(record.file_name));
       const { image, annotations } = await dataset.labelsOf(name);
       assert.equal(image.file_name, name.path);
-      assert.deepEqual(annotations, file.annotations.filter((entry) => entry.image_id === image.id));
+      assert.deepEqual(
+        annotations,
+        file.annotations.filter((entry) => entry.image_id === image.id),
+      );
     }
     for (const track of file.tracks) assert.deepEqual(await dataset.trackOf(track.id), track);
     assert.equal(await dataset.trackOf(2), null);
@@ -140,7 +148,10 @@ test("one image of a large file needs a small part of it", async () => {
   const dataset = await coco.Dataset.open("job");
   const name = coco.imageOf("images/run002/d2/000123.jpg");
   const { image, annotations } = await dataset.labelsOf(name);
-  assert.deepEqual(annotations, file.annotations.filter((entry) => entry.image_id === image.id));
+  assert.deepEqual(
+    annotations,
+    file.annotations.filter((entry) => entry.image_id === image.id),
+  );
   assert.ok(file.text.length > 50e6);
   console.log(`# ${sent.bytes} of ${file.text.length} bytes`);
   assert.ok(sent.bytes < 8e6, `${sent.bytes} of ${file.text.length} bytes`);
@@ -191,7 +202,10 @@ test("masks are read as they are written", () => {
       runs.push(run);
       left -= run;
     }
-    for (const mask of [{ size, counts: encoded(runs) }, { size, counts: runs }]) {
+    for (const mask of [
+      { size, counts: encoded(runs) },
+      { size, counts: runs },
+    ]) {
       const pixels = new Set();
       rle.forEachRun(mask, (x, y, length) => {
         for (let i = 0; i < length; ++i) pixels.add((y + i) * size[1] + x);
@@ -213,7 +227,12 @@ test("values of the form are set and removed", () => {
 test("a copied job keeps what differs from the defaults", () => {
   const part = { type: "object", default: {}, properties: { width: { default: 1280 }, height: { default: 720 } } };
   const description = {
-    properties: { scenario: {}, runs: { default: 1 }, camera: part, drones: { items: { required: ["id"], properties: { id: { default: "x" }, camera: part } } } },
+    properties: {
+      scenario: {},
+      runs: { default: 1 },
+      camera: part,
+      drones: { items: { required: ["id"], properties: { id: { default: "x" }, camera: part } } },
+    },
     required: ["scenario"],
   };
   const job = { scenario: "a", runs: 1, camera: { width: 1280, height: 720 }, drones: [{ id: "x", camera: { width: 640, height: 720 } }] };
@@ -223,7 +242,12 @@ test("a copied job keeps what differs from the defaults", () => {
 test("footprints are those of a pinhole camera", () => {
   // Straight down from 10 m with a square image of 90 degrees: 20 m × 20 m; the top of the image is ahead.
   const down = footprint({ x: 1, y: 2, height: 10, yawDeg: 0, pitchDeg: -90, hfovDeg: 90, aspect: 1 });
-  const expected = [[11, 12], [11, -8], [-9, -8], [-9, 12]];
+  const expected = [
+    [11, 12],
+    [11, -8],
+    [-9, -8],
+    [-9, 12],
+  ];
   down.forEach(([x, y], index) => assert.ok(Math.hypot(x - expected[index][0], y - expected[index][1]) < 1e-9));
   // Along the heading the edges of the image are at the pitch plus and minus half the vertical angle.
   const ahead = footprint({ x: 0, y: 0, height: 10, yawDeg: 90, pitchDeg: -45, hfovDeg: 60, aspect: 2 });
@@ -238,12 +262,31 @@ test("footprints are those of a pinhole camera", () => {
 });
 
 test("states of exits last until the next frame", () => {
-  const rows = [[0, "a", "idle"], [0, "b", "closed"], [2, "a", "flowing"], [2, "b", "closed"], [4, "a", "flowing"], [4, "b", "idle"]];
+  const rows = [
+    [0, "a", "idle"],
+    [0, "b", "closed"],
+    [2, "a", "flowing"],
+    [2, "b", "closed"],
+    [4, "a", "flowing"],
+    [4, "b", "idle"],
+  ];
   const csv = `frame,time_s,exit,queue,state\n${rows.map(([time, exit, state]) => `0,${time},${exit},3,${state}`).join("\n")}\n`;
   const histories = exits.historiesOf(csv, 6);
   assert.deepEqual(histories, [
-    { id: "a", spans: [{ from_s: 0, to_s: 2, state: "idle" }, { from_s: 2, to_s: 6, state: "flowing" }] },
-    { id: "b", spans: [{ from_s: 0, to_s: 4, state: "closed" }, { from_s: 4, to_s: 6, state: "idle" }] },
+    {
+      id: "a",
+      spans: [
+        { from_s: 0, to_s: 2, state: "idle" },
+        { from_s: 2, to_s: 6, state: "flowing" },
+      ],
+    },
+    {
+      id: "b",
+      spans: [
+        { from_s: 0, to_s: 4, state: "closed" },
+        { from_s: 4, to_s: 6, state: "idle" },
+      ],
+    },
   ]);
   assert.equal(exits.stateAt(histories[1], 3.9), "closed");
   assert.equal(exits.stateAt(histories[1], 6), "idle");
@@ -252,9 +295,23 @@ test("states of exits last until the next frame", () => {
 
 test("intervals are those of Student's distribution", () => {
   // Tables of the two-sided 95 % quantile.
-  const table = { 1: 12.7062, 2: 4.30265, 3: 3.18245, 4: 2.77645, 9: 2.26216, 10: 2.22814, 29: 2.04523, 30: 2.04227, 99: 1.98422, 999: 1.96234 };
+  const table = {
+    1: 12.7062,
+    2: 4.30265,
+    3: 3.18245,
+    4: 2.77645,
+    9: 2.26216,
+    10: 2.22814,
+    29: 2.04523,
+    30: 2.04227,
+    99: 1.98422,
+    999: 1.96234,
+  };
   for (const [degrees, expected] of Object.entries(table)) {
-    assert.ok(Math.abs(statistics.studentQuantile(Number(degrees)) - expected) < 1e-4 * expected, `${degrees}: ${statistics.studentQuantile(Number(degrees))}`);
+    assert.ok(
+      Math.abs(statistics.studentQuantile(Number(degrees)) - expected) < 1e-4 * expected,
+      `${degrees}: ${statistics.studentQuantile(Number(degrees))}`,
+    );
   }
   const { count, mean, margin } = statistics.summaryOf([4, 7, 13, 16]);
   assert.deepEqual([count, mean], [4, 10]);
@@ -265,7 +322,11 @@ test("intervals are those of Student's distribution", () => {
 test("bands keep the last value of runs that end earlier", () => {
   assert.equal(statistics.quantileOf([5, 1, 3, 2], 0.5), 2.5);
   assert.equal(statistics.quantileOf([7], 0.25), 7);
-  const band = statistics.bandOf([[0, 1], [0, 0, 0.5], [0, 0.5, 0.5]]);
+  const band = statistics.bandOf([
+    [0, 1],
+    [0, 0, 0.5],
+    [0, 0.5, 0.5],
+  ]);
   assert.deepEqual(band.median, [0, 0.5, 0.5]);
   assert.deepEqual(band.low, [0, 0.25, 0.5]);
   assert.deepEqual(band.high, [0, 0.75, 0.75]);
@@ -274,15 +335,30 @@ test("bands keep the last value of runs that end earlier", () => {
 
 test("jobs differ in the smallest parts that differ", () => {
   const a = { name: "a", seed: 1, drones: [{ id: "d1", start: [1, 2, 3] }], outputs: { annotations: ["coco"] }, same: { x: [1] } };
-  const b = { name: "b", seed: 1, drones: [{ id: "d1", start: [1, 2, 4] }], outputs: { annotations: ["coco", "exits"], previews: 2 }, same: { x: [1] } };
+  const b = {
+    name: "b",
+    seed: 1,
+    drones: [{ id: "d1", start: [1, 2, 4] }],
+    outputs: { annotations: ["coco", "exits"], previews: 2 },
+    same: { x: [1] },
+  };
   assert.deepEqual(differences([a, b]), [
-    { pointer: "/drones/0/start", values: [[1, 2, 3], [1, 2, 4]] },
+    {
+      pointer: "/drones/0/start",
+      values: [
+        [1, 2, 3],
+        [1, 2, 4],
+      ],
+    },
     { pointer: "/outputs/annotations", values: [["coco"], ["coco", "exits"]] },
     { pointer: "/outputs/previews", values: [undefined, 2] },
   ]);
   assert.deepEqual(differences([a, { ...a, name: "c" }]), []);
   // Lists of different length are one value.
-  assert.deepEqual(differences([{ drones: [{ id: "x" }] }, { drones: [{ id: "x" }, { id: "y" }] }]).map((entry) => entry.pointer), ["/drones"]);
+  assert.deepEqual(
+    differences([{ drones: [{ id: "x" }] }, { drones: [{ id: "x" }, { id: "y" }] }]).map((entry) => entry.pointer),
+    ["/drones"],
+  );
   assert.deepEqual(differences([{ seed: 1 }, { seed: 1 }, { seed: 3 }]), [{ pointer: "/seed", values: [1, 1, 3] }]);
 });
 
@@ -292,7 +368,16 @@ test("events of a run come in order, each with its kind", () => {
     alarm_s: 8,
     by_person: { agent: [4, 17], hurt_s: [null, 13] },
     drones: [drone, { ...drone, id: "d2", falling_s: null, collisions: {} }],
-    exits: [{ id: "gate", clogs: [{ from_s: 9, until_s: 11, ended: true }, { from_s: 30, until_s: 40, ended: false }] }, { id: "door", clogs: [] }],
+    exits: [
+      {
+        id: "gate",
+        clogs: [
+          { from_s: 9, until_s: 11, ended: true },
+          { from_s: 30, until_s: 40, ended: false },
+        ],
+      },
+      { id: "door", clogs: [] },
+    ],
   };
   assert.deepEqual(
     events.eventsOf(metrics).map(({ time_s, kind, text }) => [time_s, kind, text]),
@@ -309,7 +394,8 @@ test("events of a run come in order, each with its kind", () => {
   assert.equal(events.collisionText({ alarm_s: null }), null);
 });
 
-const kArea = (points) => points.reduce((sum, [x, y], i) => sum + (x * points[(i + 1) % points.length][1] - points[(i + 1) % points.length][0] * y) / 2, 0);
+const kArea = (points) =>
+  points.reduce((sum, [x, y], i) => sum + (x * points[(i + 1) % points.length][1] - points[(i + 1) % points.length][0] * y) / 2, 0);
 
 test("elements of a blueprint are added, moved and reshaped; outlines stay counter-clockwise", () => {
   const { added, elementAt, elementsOf, moved, removed, withCorner, withNewCorner, withoutCorner } = elements;
@@ -322,7 +408,13 @@ test("elements of a blueprint are added, moved and reshaped; outlines stay count
   assert.deepEqual(drawn.document.buildings[6].box, [1, 2, 5, 5]);
   assert.equal(first.buildings.length, 6, "the first place is as it was");
   // A wall's outline has its length and thickness, whatever its direction.
-  for (const end of [[10, 0], [0, 10], [-10, 0], [0, -10], [6, 8]]) {
+  for (const end of [
+    [10, 0],
+    [0, 10],
+    [-10, 0],
+    [0, -10],
+    [6, 8],
+  ]) {
     const wall = added(first, kind("building"), [0, 0], end, true).document.buildings[6];
     assert.ok(Math.abs(kArea(wall.footprint) - 4) < 0.02, String(end));
   }
@@ -333,7 +425,13 @@ test("elements of a blueprint are added, moved and reshaped; outlines stay count
   assert.deepEqual(withCorner(drawn.document, building, 0, [7, 9]).buildings[6].box, [5, 5, 7, 9], "pulled over the opposite corner");
   assert.equal(withCorner(drawn.document, building, 0, [5, 0]), drawn.document, "no box without a width");
   const split = withNewCorner(drawn.document, building, 0);
-  assert.deepEqual(split.buildings[6].footprint, [[1, 2], [3, 2], [5, 2], [5, 5], [1, 5]]);
+  assert.deepEqual(split.buildings[6].footprint, [
+    [1, 2],
+    [3, 2],
+    [5, 2],
+    [5, 5],
+    [1, 5],
+  ]);
   const pentagon = at(split, "/buildings/6");
   const turned = withCorner(split, pentagon, 1, [3, 20]);
   assert.ok(kArea(turned.buildings[6].footprint) > 0);
@@ -346,9 +444,25 @@ test("elements of a blueprint are added, moved and reshaped; outlines stay count
 });
 
 test("a calibration's cells, digits and residuals", () => {
-  const view = (points) => ({ width: 80, height: 60, views: [{ image: "a", points: points.map(([u, v, used = true]) => ({ pixel: [u, v], residual_px: null, used })) }] });
-  const cells = camera.coveredCells(view([[-0.5, -0.5], [9.4, 0], [9.5, 0], [79.4, 59.4], [40, 30, false], [-3, 0]]));
-  assert.deepEqual(cells.flatMap((is, index) => (is ? [index] : [])), [0, 1, 47]);
+  const view = (points) => ({
+    width: 80,
+    height: 60,
+    views: [{ image: "a", points: points.map(([u, v, used = true]) => ({ pixel: [u, v], residual_px: null, used })) }],
+  });
+  const cells = camera.coveredCells(
+    view([
+      [-0.5, -0.5],
+      [9.4, 0],
+      [9.5, 0],
+      [79.4, 59.4],
+      [40, 30, false],
+      [-3, 0],
+    ]),
+  );
+  assert.deepEqual(
+    cells.flatMap((is, index) => (is ? [index] : [])),
+    [0, 1, 47],
+  );
   assert.deepEqual(camera.valueText({ name: "fx", value: 900.123456, deviation: 0.0234 }), ["900.123", "± 0.023"]);
   assert.deepEqual(camera.valueText({ name: "fx", value: 900.123456, deviation: 23.4 }), ["900", "± 23"]);
   assert.deepEqual(camera.valueText({ name: "k3", value: 0, deviation: null }), ["0", "open"]);
@@ -372,7 +486,12 @@ test("a running mean is the mean of the first values, with the interval of Stude
 });
 
 test("names that would cover another one are left out, but for the selected element's", () => {
-  const document = { buildings: [{ id: "left", box: [0, 0, 1, 1] }, { id: "right", box: [2, 0, 3, 1] }] };
+  const document = {
+    buildings: [
+      { id: "left", box: [0, 0, 1, 1] },
+      { id: "right", box: [2, 0, 3, 1] },
+    ],
+  };
   const list = elements.elementsOf(document);
   const shown = (selected, unit) => [...names.placedNames(list, selected, unit).values()].map((name) => name.text).sort();
   assert.deepEqual(shown(null, 0.1), ["left", "right"]);
@@ -382,7 +501,11 @@ test("names that would cover another one are left out, but for the selected elem
 
 test("an address names jobs and single runs to compare", () => {
   const choices = subjects.choicesOf(new URLSearchParams("job=ja1&job=ja1:2&job=ja1&job=../x&job=jb:99999&job=jb:0"));
-  assert.deepEqual(choices, [{ id: "ja1", run: null }, { id: "ja1", run: 2 }, { id: "jb", run: 0 }]);
+  assert.deepEqual(choices, [
+    { id: "ja1", run: null },
+    { id: "ja1", run: 2 },
+    { id: "jb", run: 0 },
+  ]);
   assert.equal(subjects.addressOf(choices, 1.25), "/compare?job=ja1&job=ja1:2&job=jb:0&t=1.3");
 });
 
@@ -404,7 +527,10 @@ test("messages of a live flight are read however they arrive", async () => {
   state.writeUInt32LE(9, 20);
   [1, 2, 30, Math.SQRT1_2, 0, 0, Math.SQRT1_2, 4].forEach((value, index) => state.writeFloatLE(value, 24 + 4 * index));
   state.writeUInt32LE(1 | 4, 24 + 32);
-  [[3, -4, 15708, 2, 1], [5, 6, -1, 0, 5]].forEach(([x, y, yaw, kind, flags], index) => {
+  [
+    [3, -4, 15708, 2, 1],
+    [5, 6, -1, 0, 5],
+  ].forEach(([x, y, yaw, kind, flags], index) => {
     const at = 60 + 12 * index;
     state.writeFloatLE(x, at);
     state.writeFloatLE(y, at + 4);
@@ -417,7 +543,13 @@ test("messages of a live flight are read however they arrive", async () => {
   image.writeUInt32LE(8, 8);
   image.writeUInt32LE(1, 12);
   image.write("jpg", 16);
-  const bytes = Buffer.concat([framed("H", Buffer.from('{"people":2}')), framed("A", Buffer.alloc(0)), framed("S", state), framed("P", image), framed("E", Buffer.from('{"message":"it is over"}'))]);
+  const bytes = Buffer.concat([
+    framed("H", Buffer.from('{"people":2}')),
+    framed("A", Buffer.alloc(0)),
+    framed("S", state),
+    framed("P", image),
+    framed("E", Buffer.from('{"message":"it is over"}')),
+  ]);
   for (const part of [1, 17, bytes.length]) {
     const body = new ReadableStream({
       start(controller) {
@@ -427,7 +559,10 @@ test("messages of a live flight are read however they arrive", async () => {
     });
     const messages = [];
     for await (const message of messagesOf(body)) messages.push(message);
-    assert.deepEqual(messages.map(({ type }) => type), ["hello", "world", "image", "end"]);
+    assert.deepEqual(
+      messages.map(({ type }) => type),
+      ["hello", "world", "image", "end"],
+    );
     const { value } = messages[1];
     assert.deepEqual([value.timeS, value.factor, value.sequence, value.isPaused], [12.5, 0.5, 9, true]);
     assert.deepEqual(value.drones[0].position, [1, 2, 30]);
@@ -452,7 +587,16 @@ test("an axis has round ticks around its values, with zero only where it is aske
 
 test("people of a flight walk as far as they have gone, and lie where they have fallen", async () => {
   const { Walkers } = await importStudio(packages, "live/walkers.ts");
-  const worldOf = (timeS, x, flags) => ({ timeS, people: { x: Float32Array.from(x), y: new Float32Array(3), yaw: Float32Array.from([3.1, 0, 0]), state: new Uint8Array(3), flags: Uint8Array.from(flags) } });
+  const worldOf = (timeS, x, flags) => ({
+    timeS,
+    people: {
+      x: Float32Array.from(x),
+      y: new Float32Array(3),
+      yaw: Float32Array.from([3.1, 0, 0]),
+      state: new Uint8Array(3),
+      flags: Uint8Array.from(flags),
+    },
+  });
   const walkers = new Walkers({ people: 3, roles: [0, 0, 2] });
   const [before, now] = [worldOf(0, [0, 5, 0], [1, 1, 1]), worldOf(0.1, [0.14, 5, 0], [1, 1 | 4, 1])];
   now.people.yaw[0] = -3.1;
@@ -467,7 +611,16 @@ test("people of a flight walk as far as they have gone, and lie where they have 
   close(aTo.getW(1) - aFrom.getW(1), 0);
   close(aLook.getW(1), -1);
   // Of thousands only those next to the drone have legs.
-  const many = { timeS: 0, people: { x: Float32Array.from({ length: 2000 }, (_, i) => i / 100), y: new Float32Array(2000), yaw: new Float32Array(2000), state: new Uint8Array(2000), flags: new Uint8Array(2000).fill(1) } };
+  const many = {
+    timeS: 0,
+    people: {
+      x: Float32Array.from({ length: 2000 }, (_, i) => i / 100),
+      y: new Float32Array(2000),
+      yaw: new Float32Array(2000),
+      state: new Uint8Array(2000),
+      flags: new Uint8Array(2000).fill(1),
+    },
+  };
   const crowd = new Walkers({ people: 2000, roles: Array(2000).fill(0) });
   for (let step = 0; step < 20; ++step) crowd.step(many, many, 0, 0);
   const counts = crowd.group.children.map((mesh) => mesh.geometry.instanceCount);
@@ -479,10 +632,16 @@ test("people of a flight walk as far as they have gone, and lie where they have 
 test("smoke rises where dangers are, as far as they reach", async () => {
   const { Smoke, reachOf } = await importStudio(packages, "live/smoke.ts");
   const fire = { kind: "fire", position: [3, 4], start_s: 10, radius_m: 1, growth_mps: 0.5, max_radius_m: 4 };
-  assert.deepEqual([9, 10, 12, 100].map((time) => reachOf(fire, time)), [0, 1, 2, 4]);
+  assert.deepEqual(
+    [9, 10, 12, 100].map((time) => reachOf(fire, time)),
+    [0, 1, 2, 4],
+  );
   const smoke = new Smoke({ smoke: 0.5, dangers: [fire, { ...fire, kind: "gas" }] });
   smoke.frame(9);
-  assert.deepEqual(smoke.group.children.map((mesh) => mesh.visible), [false, false]);
+  assert.deepEqual(
+    smoke.group.children.map((mesh) => mesh.visible),
+    [false, false],
+  );
   smoke.frame(12);
   const [flaming, gas] = smoke.group.children;
   assert.ok(flaming.visible && flaming.material.uniforms.uReach.value === 2 && flaming.material.uniforms.uStrength.value === 0.5);
@@ -493,10 +652,22 @@ test("smoke rises where dangers are, as far as they reach", async () => {
 test("places of a run are read from their bytes", async () => {
   const { placesOf, unseenAt } = await importStudio(packages, "run/trajectories.ts");
   const bytes = new DataView(new ArrayBuffer(24 + 8 + 3 + 3 * 6));
-  [[0, 1], [4, 1], [8, 3]].forEach(([at, value]) => bytes.setUint32(at, value, true));
-  [[12, -10], [16, 5], [20, 0.5]].forEach(([at, value]) => bytes.setFloat32(at, value, true));
+  [
+    [0, 1],
+    [4, 1],
+    [8, 3],
+  ].forEach(([at, value]) => bytes.setUint32(at, value, true));
+  [
+    [12, -10],
+    [16, 5],
+    [20, 0.5],
+  ].forEach(([at, value]) => bytes.setFloat32(at, value, true));
   [0, 1, 3].forEach((role, agent) => bytes.setUint8(32 + agent, role));
-  [[4, 2], [1, 1], [65535, 65535]].forEach(([x, y], agent) => [x, y].forEach((value, axis) => bytes.setUint16(35 + 6 * agent + 2 * axis, value, true)));
+  [
+    [4, 2],
+    [1, 1],
+    [65535, 65535],
+  ].forEach(([x, y], agent) => [x, y].forEach((value, axis) => bytes.setUint16(35 + 6 * agent + 2 * axis, value, true)));
   const places = placesOf(bytes.buffer);
   assert.deepEqual(unseenAt(places, 0, 2, new Set()), [[-8, 6]], "neither hazards nor absent people");
   assert.deepEqual(unseenAt(places, 0, 2, new Set([2000001])), []);
@@ -508,7 +679,10 @@ test("a copy of a case has an id of its own, and crowds and drones are as in a j
   const { withJobParts, withoutFields } = await importStudio(packages, "study/study_schema.ts");
   assert.equal(freeId("case_1", ["case_1", "case_2"]), "case_3");
   assert.deepEqual(withCopy([{ id: "a" }, { id: "b", runs: 1 }], 1), [{ id: "a" }, { id: "b", runs: 1 }, { id: "b_2", runs: 1 }]);
-  const study = { properties: { cases: { items: { properties: { crowd: { $ref: "#/definitions/crowd" } } } } }, definitions: { crowd: { description: "As in a job." } } };
+  const study = {
+    properties: { cases: { items: { properties: { crowd: { $ref: "#/definitions/crowd" } } } } },
+    definitions: { crowd: { description: "As in a job." } },
+  };
   const crowd = { title: "Crowd", properties: { agents: {}, model: {} } };
   const merged = withJobParts(study, { properties: { crowd } });
   assert.deepEqual(merged.properties.cases.items.properties.crowd, crowd);

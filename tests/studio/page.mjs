@@ -12,7 +12,8 @@ export async function openPage(browser, complaints) {
   const page = await context.newPage();
   page.setDefaultTimeout(kWaitMs);
   page.on("console", (message) => {
-    if (message.type() === "error" && !/Failed to load resource: .* (400|401|403|404|409)/.test(message.text())) complaints.push(message.text());
+    if (message.type() === "error" && !/Failed to load resource: .* (400|401|403|404|409)/.test(message.text()))
+      complaints.push(message.text());
   });
   page.on("pageerror", (error) => complaints.push(error.message));
   return page;

@@ -27,17 +27,24 @@ after(async () => {
 });
 
 const place = () => page.evaluate(() => JSON.parse(sessionStorage.getItem("throng.place")));
-const tool = (name) => page.getByRole("toolbar").getByRole("button", { name: new RegExp(`^${name} `) }).click();
+const tool = (name) =>
+  page
+    .getByRole("toolbar")
+    .getByRole("button", { name: new RegExp(`^${name} `) })
+    .click();
 const element = (pointer) => page.locator(`[data-pointer="${pointer}"]`);
 const checked = (text) => page.locator('#findings + [data-pending="false"]', { hasText: text }).waitFor({ timeout: kLongMs });
 
 /** Pixels of a place in the plan, m. */
 const pixelOf = (x, y) =>
-  page.locator(".plan-editor").evaluate((svg, [px, py]) => {
-    svg.scrollIntoView({ block: "nearest" });
-    const point = new DOMPoint(px, -py).matrixTransform(svg.getScreenCTM());
-    return [point.x, point.y];
-  }, [x, y]);
+  page.locator(".plan-editor").evaluate(
+    (svg, [px, py]) => {
+      svg.scrollIntoView({ block: "nearest" });
+      const point = new DOMPoint(px, -py).matrixTransform(svg.getScreenCTM());
+      return [point.x, point.y];
+    },
+    [x, y],
+  );
 
 async function drag(from, to) {
   await page.mouse.move(...(await pixelOf(...from)));
@@ -64,7 +71,12 @@ test("elements are drawn on the grid", async () => {
   await tool("Wall");
   await drag([8, -4], [8, 4]);
   const wall = (await place()).buildings.at(-1);
-  assert.deepEqual(wall.footprint, [[8, -4], [8, 4], [7.6, 4], [7.6, -4]]);
+  assert.deepEqual(wall.footprint, [
+    [8, -4],
+    [8, 4],
+    [7.6, 4],
+    [7.6, -4],
+  ]);
   await tool("Hazard");
   await page.mouse.click(...(await pixelOf(14, 5)));
   assert.deepEqual((await place()).disasters, [{ kind: "fire", start_s: 5, position: [14, 5] }]);
@@ -82,7 +94,13 @@ test("elements are moved by pointer and keyboard, reshaped, and taken back", asy
   await drag([4.5, 0], [6, 1]); // a corner of the box: it stays one
   assert.deepEqual((await place()).buildings[6].box, [-1.5, -5, 6, 1]);
   await page.getByRole("button", { name: "Add a corner after corner 3" }).click();
-  assert.deepEqual((await place()).buildings[6].footprint, [[-1.5, -5], [6, -5], [6, 1], [2.25, 1], [-1.5, 1]]);
+  assert.deepEqual((await place()).buildings[6].footprint, [
+    [-1.5, -5],
+    [6, -5],
+    [6, 1],
+    [2.25, 1],
+    [-1.5, 1],
+  ]);
   await page.getByRole("button", { name: /^Corner 4 / }).focus();
   await page.keyboard.press("ArrowUp");
   assert.deepEqual((await place()).buildings[6].footprint[3], [2.25, 1.5]);
@@ -164,11 +182,16 @@ test("an image is laid below the plan and scaled by two points", async () => {
   const bytes = await page.screenshot({ clip: { x: 0, y: 0, width: 400, height: 200 } });
   await page.getByLabel("Choose an image").setInputFiles({ name: "map.png", mimeType: "image/png", buffer: bytes });
   await page.locator(".plan-editor image").waitFor();
-  const sizeOf = () => page.locator(".plan-editor image").evaluate((image) => ["x", "y", "width", "height"].map((key) => Number(image.getAttribute(key))));
+  const sizeOf = () =>
+    page.locator(".plan-editor image").evaluate((image) => ["x", "y", "width", "height"].map((key) => Number(image.getAttribute(key))));
   const [x, y, width, height] = await sizeOf();
   assert.deepEqual([width, height], [80, 40]);
   await page.getByRole("button", { name: "Set the scale by two points" }).click();
-  for (const point of [[-10, 0], [10, 0]]) await page.mouse.click(...(await pixelOf(...point)));
+  for (const point of [
+    [-10, 0],
+    [10, 0],
+  ])
+    await page.mouse.click(...(await pixelOf(...point)));
   await page.getByLabel("Distance").fill("30");
   await page.getByRole("button", { name: "Apply" }).click();
   const after = await sizeOf();
@@ -186,7 +209,10 @@ test("the place is uploaded and becomes a job's", async () => {
   await page.getByRole("status").getByText("test_yard/place").waitFor({ timeout: kLongMs });
   const scenario = await service.json("/v1/scenarios/test_yard/place");
   assert.deepEqual(scenario.ground_m, [-40, -30, 40, 30]);
-  assert.deepEqual(scenario.drones.map((drone) => drone.id), ["d1", "d2"]);
+  assert.deepEqual(
+    scenario.drones.map((drone) => drone.id),
+    ["d1", "d2"],
+  );
   assert.deepEqual(await service.json("/v1/scenarios/test_yard/place?format=blueprint"), await place());
   await element("/drones/1").focus();
   await page.keyboard.press("ArrowUp");
@@ -197,7 +223,11 @@ test("the place is uploaded and becomes a job's", async () => {
   await page.getByRole("status").getByText("test_yard/place").waitFor({ timeout: kLongMs });
   assert.deepEqual((await service.json("/v1/scenarios/test_yard/place")).drones[1].start_m, [-14, 5.5, 25]);
   await page.getByRole("link", { name: "Make a job" }).click();
-  await page.getByRole("region", { name: "Check and submit" }).getByText(/\d+ images/).first().waitFor({ timeout: kLongMs });
+  await page
+    .getByRole("region", { name: "Check and submit" })
+    .getByText(/\d+ images/)
+    .first()
+    .waitFor({ timeout: kLongMs });
   assert.equal(JSON.parse(await page.evaluate(() => sessionStorage.getItem("throng.draft"))).scenario, "test_yard/place");
 });
 

@@ -37,7 +37,8 @@ after(async () => {
 
 const go = (address) => page.goto(service.address + address);
 const lost = () => page.getByRole("status").filter({ hasText: "The service cannot be reached" });
-const post = (job) => service.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(job) });
+const post = (job) =>
+  service.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(job) });
 async function restart() {
   await service.start();
   await lost().waitFor({ state: "hidden" });
@@ -59,7 +60,9 @@ test("a list says that the connection is lost, and is live again", async () => {
 
 test("the form of a job keeps what is typed while the service is away", async () => {
   await go("/new");
-  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
+  await page
+    .getByLabel("Open a file")
+    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob)) });
   await page.getByText("2 images").waitFor();
   await service.halt();
   await page.getByLabel("Name", { exact: true }).fill("typed meanwhile");
@@ -103,7 +106,10 @@ test("a place is kept, and checked by itself when the service is back", async ()
 test("images of a calibration stay chosen", async () => {
   await go("/calibrations");
   const image = await page.screenshot();
-  await page.locator('input[type="file"]').setInputFiles([{ name: "a.png", mimeType: "image/png", buffer: image }, { name: "b.png", mimeType: "image/png", buffer: image }]);
+  await page.locator('input[type="file"]').setInputFiles([
+    { name: "a.png", mimeType: "image/png", buffer: image },
+    { name: "b.png", mimeType: "image/png", buffer: image },
+  ]);
   await page.getByLabel("Name", { exact: true }).fill("kept");
   await service.halt();
   await page.getByRole("button", { name: "Calibrate" }).click();
@@ -122,7 +128,10 @@ test("removed jobs are named on each of their screens", async () => {
   await service.remove(`/v1/jobs/${id}`);
   for (const address of ["", "/images", "/images?filters=all", "/images?image=images/run000/d1/000000.jpg", "/runs/0", "/downloads"]) {
     await go(`/jobs/${id}${address}`);
-    await page.getByText(new RegExp(`There is no job ${id}`, "i")).first().waitFor();
+    await page
+      .getByText(new RegExp(`There is no job ${id}`, "i"))
+      .first()
+      .waitFor();
   }
   const { id: queued } = await post({ ...kJob, name: "watched", runs: 5, crowd: { agents: 150 } });
   await go(`/jobs/${queued}`);
@@ -138,7 +147,10 @@ test("a session that ended with the service is asked for above the form, which s
   await page.getByLabel("Key", { exact: true }).fill(key);
   await page.getByRole("button", { name: "Use this key" }).click();
   await page.getByLabel("Name", { exact: true }).fill("typed with a key");
-  await page.getByText(/\d images/).first().waitFor();
+  await page
+    .getByText(/\d images/)
+    .first()
+    .waitFor();
   await service.halt();
   await page.getByLabel("Name", { exact: true }).fill("typed before the key");
   await service.start();
@@ -147,8 +159,15 @@ test("a session that ended with the service is asked for above the form, which s
   await page.getByRole("button", { name: "Use this key" }).click();
   await page.getByRole("heading", { name: "Key needed" }).waitFor({ state: "hidden" });
   assert.equal(await page.getByLabel("Name", { exact: true }).inputValue(), "typed before the key");
-  await page.getByText(/\d images/).first().waitFor();
+  await page
+    .getByText(/\d images/)
+    .first()
+    .waitFor();
   assert.ok(await page.getByRole("button", { name: "Submit" }).isEnabled());
 });
 
-test("nothing but refused connections and a service that stops was on the console", () => assert.deepEqual(complaints.filter((text) => !/net::ERR_|status of 503/.test(text)), []));
+test("nothing but refused connections and a service that stops was on the console", () =>
+  assert.deepEqual(
+    complaints.filter((text) => !/net::ERR_|status of 503/.test(text)),
+    [],
+  ));

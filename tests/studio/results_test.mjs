@@ -19,7 +19,12 @@ const kJob = {
     { id: "d2", camera: { width: 320, height: 180 } },
   ],
   capture: { from_s: 2, to_s: 10, rate_hz: 0.25 },
-  outputs: { annotations: ["coco", "keypoints", "exits", "density", "depth", "trajectories"], formats: ["mot"], splits: { train: 0.5, val: 0.5 }, previews: 0 },
+  outputs: {
+    annotations: ["coco", "keypoints", "exits", "density", "depth", "trajectories"],
+    formats: ["mot"],
+    splits: { train: 0.5, val: 0.5 },
+    previews: 0,
+  },
 };
 const kImage = "images/run000/d2/000001.jpg";
 
@@ -113,8 +118,12 @@ test("3-D boxes are projected as the dataset's keypoints are", async () => {
       });
       const corners = cornersOf(person.box_3d, person.heading).map(project);
       const [left, top, width, height] = person.bbox;
-      assert.ok(Math.min(...corners.map((corner) => corner[0])) < left + 1 && Math.max(...corners.map((corner) => corner[0])) > left + width - 1);
-      assert.ok(Math.min(...corners.map((corner) => corner[1])) < top + 1 && Math.max(...corners.map((corner) => corner[1])) > top + height - 1);
+      assert.ok(
+        Math.min(...corners.map((corner) => corner[0])) < left + 1 && Math.max(...corners.map((corner) => corner[0])) > left + width - 1,
+      );
+      assert.ok(
+        Math.min(...corners.map((corner) => corner[1])) < top + 1 && Math.max(...corners.map((corner) => corner[1])) > top + height - 1,
+      );
     }
     assert.ok(count > 50, `${count} keypoints`);
   }
@@ -130,7 +139,13 @@ test("3-D boxes are drawn", async () => {
   await page.keyboard.press("3");
   const canvas = page.locator(`canvas.overlay[data-drawn="${image.id} boxes3d"]`);
   await canvas.waitFor();
-  const painted = await canvas.evaluate((element) => element.getContext("2d").getImageData(0, 0, element.width, element.height).data.filter((value, index) => index % 4 === 3 && value > 0).length);
+  const painted = await canvas.evaluate(
+    (element) =>
+      element
+        .getContext("2d")
+        .getImageData(0, 0, element.width, element.height)
+        .data.filter((value, index) => index % 4 === 3 && value > 0).length,
+  );
   assert.ok(painted > 500, `${painted} pixels`);
   await page.keyboard.press("3");
 });
@@ -186,7 +201,10 @@ test("a person is followed over frames and cameras", async () => {
   const follow = page.getByRole("region", { name: "Followed person" });
   await follow.getByText(String(chosen.track_id), { exact: true }).waitFor();
   const seen = peopleOf("images/run000/d2/000000.jpg").people.find((entry) => entry.track_id === chosen.track_id);
-  await follow.locator("li", { has: page.getByRole("button", { name: "d2" }) }).getByText(`${Math.round(100 * seen.visibility)} % visible`).waitFor();
+  await follow
+    .locator("li", { has: page.getByRole("button", { name: "d2" }) })
+    .getByText(`${Math.round(100 * seen.visibility)} % visible`)
+    .waitFor();
   await follow.getByRole("button", { name: "d2" }).click();
   await page.getByText("run000 · d2 · 000000").waitFor();
   await follow.getByRole("button", { name: "Seen next" }).click();
@@ -207,9 +225,16 @@ test("images are filtered by histograms of their labels", async () => {
   await group("State of a person").waitFor();
   // The oracle counts the annotations as JSON.
   const peopleIn = (image) => coco.annotations.filter((entry) => entry.image_id === image.id && entry.category_id === 1);
-  const imagesWith = (...conditions) => coco.images.filter((image) => peopleIn(image).some((entry) => conditions.every((holds) => holds(entry))));
-  const heights = [0, 8, 16, 32, 64, 128].map((from) => ({ label: `${from} to ${from ? 2 * from : 8} px`, holds: ({ bbox }) => bbox[3] >= from && bbox[3] < (from ? 2 * from : 8) }));
-  const parts = [0, 20, 40, 60, 80].map((from) => ({ label: `${from} to ${from + 20} %`, holds: ({ visibility }) => visibility >= from / 100 && (from === 80 || visibility < (from + 20) / 100) }));
+  const imagesWith = (...conditions) =>
+    coco.images.filter((image) => peopleIn(image).some((entry) => conditions.every((holds) => holds(entry))));
+  const heights = [0, 8, 16, 32, 64, 128].map((from) => ({
+    label: `${from} to ${from ? 2 * from : 8} px`,
+    holds: ({ bbox }) => bbox[3] >= from && bbox[3] < (from ? 2 * from : 8),
+  }));
+  const parts = [0, 20, 40, 60, 80].map((from) => ({
+    label: `${from} to ${from + 20} %`,
+    holds: ({ visibility }) => visibility >= from / 100 && (from === 80 || visibility < (from + 20) / 100),
+  }));
   // How many images show somebody of some height and visible part depends on the people, so the bars do, too: both together
   // leave some of the images, as near to half of them as can be.
   const pairs = heights.flatMap((height) => parts.map((part) => ({ height, part, both: imagesWith(height.holds, part.holds) })));
@@ -222,16 +247,25 @@ test("images are filtered by histograms of their labels", async () => {
   await bar("Height of a person", height.label, tall).focus();
   await page.keyboard.press("Enter");
   await bar("Visible part of a person", part.label, both).click();
-  await filters.getByRole("status").getByText(`${countOf(both)} of ${coco.images.length}`).waitFor();
+  await filters
+    .getByRole("status")
+    .getByText(`${countOf(both)} of ${coco.images.length}`)
+    .waitFor();
   assert.equal(await page.locator("a.thumbnail").count(), both.length);
   const light = coco.images.filter((image) => image.environment.sun_elevation_deg >= 15 && both.includes(image));
   if (light.length > 0) await bar("Light", "day", light).waitFor();
   await page.reload();
-  await filters.getByRole("status").getByText(`${countOf(both)} of ${coco.images.length}`).waitFor();
+  await filters
+    .getByRole("status")
+    .getByText(`${countOf(both)} of ${coco.images.length}`)
+    .waitFor();
   const d1 = both.filter((image) => image.camera_id === "d1");
   if (d1.length > 0) {
     await bar("Camera", "d1", d1).click();
-    await filters.getByRole("status").getByText(`${countOf(d1)} of`).waitFor();
+    await filters
+      .getByRole("status")
+      .getByText(`${countOf(d1)} of`)
+      .waitFor();
   }
   await page.locator('canvas.image[data-drawn="yes"]').first().waitFor();
   await check(page, "filters");
@@ -275,7 +309,13 @@ test("events of a run lead to their time", async () => {
 
 test("the plan shows everybody, seen by a camera or not", async () => {
   await go(`/jobs/${job}/runs/0?frame=1`);
-  const seen = new Set(["d1", "d2"].flatMap((camera) => peopleOf(`images/run000/${camera}/000001.jpg`).people.filter((entry) => entry.category_id === 1).map((entry) => entry.track_id)));
+  const seen = new Set(
+    ["d1", "d2"].flatMap((camera) =>
+      peopleOf(`images/run000/${camera}/000001.jpg`)
+        .people.filter((entry) => entry.category_id === 1)
+        .map((entry) => entry.track_id),
+    ),
+  );
   const { track_ids } = await service.json(`/v1/jobs/${job}/files/trajectories/run000.json`);
   const npy = Buffer.from(await (await fetch(`${service.address}/v1/jobs/${job}/files/trajectories/run000.npy`)).arrayBuffer());
   const start = 10 + npy.readUInt16LE(8);
@@ -287,7 +327,15 @@ test("the plan shows everybody, seen by a camera or not", async () => {
   await page.getByText(new RegExp(`White: ${unseen} (person|people) that no camera sees`)).waitFor();
   const dots = page.locator("canvas.unseen");
   assert.equal(await dots.getAttribute("data-count"), String(unseen));
-  assert.ok(await dots.evaluate((canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value > 0)), "they are drawn");
+  assert.ok(
+    await dots.evaluate((canvas) =>
+      canvas
+        .getContext("2d")
+        .getImageData(0, 0, canvas.width, canvas.height)
+        .data.some((value) => value > 0),
+    ),
+    "they are drawn",
+  );
   await check(page, "everybody on the plan");
 });
 

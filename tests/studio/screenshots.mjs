@@ -17,7 +17,10 @@ const kJobs = [
 ].map((job) => ({
   scenario: "city_square/emergency",
   runs: 2,
-  drones: [{ id: "d1", camera }, { id: "d2", camera }],
+  drones: [
+    { id: "d1", camera },
+    { id: "d2", camera },
+  ],
   capture: { from_s: 5, to_s: 45, rate_hz: 0.25 },
   outputs: { annotations: ["coco", "keypoints", "exits", "depth"], formats: ["mot"], previews: 2 },
   ...job,
@@ -51,7 +54,11 @@ async function studied() {
     cases: whole.cases.slice(-2).map((one) => ({ ...one, duration_s: 300 })),
     policies: whole.policies.slice(0, 4),
   };
-  const { id } = await service.json("/v1/studies", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(study) });
+  const { id } = await service.json("/v1/studies", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(study),
+  });
   for (;;) {
     const { state, error } = await service.json(`/v1/studies/${id}`);
     if (state === "succeeded") return id;
@@ -64,10 +71,17 @@ async function studied() {
 async function begunFlight() {
   const job = {
     scenario: "city_square/emergency",
-    drones: [{ id: "d1", start: [20, 18, 12], camera: { pitch_deg: -30 }, moves_goal: [99, 0] }, { id: "d2", start: [-10, 6, 22], camera: { pitch_deg: -60 } }],
+    drones: [
+      { id: "d1", start: [20, 18, 12], camera: { pitch_deg: -30 }, moves_goal: [99, 0] },
+      { id: "d2", start: [-10, 6, 22], camera: { pitch_deg: -60 } },
+    ],
     capture: { from_s: 1, to_s: 2 },
   };
-  const { id } = await service.json("/v1/live", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ job }) });
+  const { id } = await service.json("/v1/live", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ job }),
+  });
   return id;
 }
 
@@ -96,19 +110,37 @@ try {
   const flight = isWanted(["fly"]) ? await begunFlight() : "";
   const kScreens = [
     { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=2`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
-    { name: "image", address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`, height: 800, ready: 'canvas.overlay[data-drawn$=" boxes,masks"]' },
-    { name: "depth", address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`, height: 800, keys: "bmx3", ready: 'canvas.overlay[data-drawn$=" depth,boxes3d"][data-rasters="depth"]' },
+    {
+      name: "image",
+      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`,
+      height: 800,
+      ready: 'canvas.overlay[data-drawn$=" boxes,masks"]',
+    },
+    {
+      name: "depth",
+      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`,
+      height: 800,
+      keys: "bmx3",
+      ready: 'canvas.overlay[data-drawn$=" depth,boxes3d"][data-rasters="depth"]',
+    },
     { name: "downloads", address: `/jobs/${ids[0]}/downloads?include=images,coco`, height: 900, ready: ".parts .size:not(:empty)" },
     { name: "form", address: `/new?clone=${ids[0]}`, height: 900, ready: ".plan-sheet img" },
     { name: "compare", address: `/compare?job=${ids[0]}&job=${ids[1]}&t=13`, height: 980, ready: ".swipe .upper" },
-    { name: "filters", address: `/jobs/${ids[0]}/images?filters=all&state=panicking`, height: 900, ready: 'canvas.image[data-drawn="yes"]' },
+    {
+      name: "filters",
+      address: `/jobs/${ids[0]}/images?filters=all&state=panicking`,
+      height: 900,
+      ready: 'canvas.image[data-drawn="yes"]',
+    },
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
     { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
     { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
     { name: "fly", address: `/fly?flight=${flight}`, height: 940, ready: ".badge.recording", action: flyAbout },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  for (const { name, address, height, ready, keys = "", start = "", pending = "", action = null } of kScreens.filter((screen) => isWanted([screen.name]))) {
+  for (const { name, address, height, ready, keys = "", start = "", pending = "", action = null } of kScreens.filter((screen) =>
+    isWanted([screen.name]),
+  )) {
     await page.setViewportSize({ width: 1280, height });
     await page.goto(service.address + address);
     if (start) await page.getByLabel("Start from").selectOption(start);

@@ -22,7 +22,7 @@ export function packageFile(packages, name) {
 function portOfNobody() {
   const lowest = 10_240;
   const range = "/proc/sys/net/ipv4/ip_local_port_range";
-  const end = existsSync(range) ? Number.parseInt(readFileSync(range, "utf8")) : 32_768;
+  const end = existsSync(range) ? Number.parseInt(readFileSync(range, "utf8"), 10) : 32_768;
   return end > lowest + 1000 ? randomInt(lowest, end) : 0;
 }
 
@@ -48,7 +48,10 @@ export class TestService {
   }
 
   listen(port) {
-    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", String(port), ...this.options], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, ...this.environment } });
+    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", String(port), ...this.options], {
+      stdio: ["ignore", "pipe", "pipe"],
+      env: { ...process.env, ...this.environment },
+    });
     return new Promise((resolve, reject) => {
       let text = "";
       const read = (chunk) => {
@@ -75,7 +78,11 @@ export class TestService {
 
   /** The id of a job that has succeeded. */
   async finished(job) {
-    const { id } = await this.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(job) });
+    const { id } = await this.json("/v1/jobs", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify(job),
+    });
     for (;;) {
       const { state, error } = await this.json(`/v1/jobs/${id}`);
       if (state === "succeeded") return id;
@@ -111,7 +118,9 @@ export const kOtherHost = "other-site.test";
 /** A page of another origin, from which the service is attacked. */
 export class OtherSite {
   start() {
-    this.server = createServer((_, response) => response.setHeader("Content-Type", "text/html").end("<!doctype html><title>other site</title>"));
+    this.server = createServer((_, response) =>
+      response.setHeader("Content-Type", "text/html").end("<!doctype html><title>other site</title>"),
+    );
     return new Promise((resolve) =>
       this.server.listen(0, "127.0.0.1", () => {
         const { port } = this.server.address();
@@ -136,7 +145,15 @@ export async function attacked(browser, address, requests) {
     const page = await (await browser.newContext()).newPage();
     await page.goto(attacker.address);
     const outcomes = await page.evaluate(
-      ({ address, requests }) => Promise.all(requests.map(([path, init]) => fetch(address + path, init).then((response) => `${response.type} ${response.status}`, () => "refused"))),
+      ({ address, requests }) =>
+        Promise.all(
+          requests.map(([path, init]) =>
+            fetch(address + path, init).then(
+              (response) => `${response.type} ${response.status}`,
+              () => "refused",
+            ),
+          ),
+        ),
       { address, requests },
     );
     await page.context().close();
@@ -149,5 +166,8 @@ export async function attacked(browser, address, requests) {
 export function launch(packages) {
   const executablePath = kChromium.find((file) => existsSync(file));
   if (!executablePath) throw new Error("Chromium is missing (Debian package chromium; scripts/setup.sh installs it)");
-  return load(packages, "playwright-core").chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", `--host-resolver-rules=MAP ${kOtherHost} 127.0.0.1`] });
+  return load(packages, "playwright-core").chromium.launch({
+    executablePath,
+    args: ["--no-sandbox", "--disable-gpu", `--host-resolver-rules=MAP ${kOtherHost} 127.0.0.1`],
+  });
 }

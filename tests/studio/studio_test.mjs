@@ -62,7 +62,9 @@ test("the empty home leads to the form", async () => {
 });
 
 test("a mistake is shown at its field and at its line", async () => {
-  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob, null, 2)) });
+  await page
+    .getByLabel("Open a file")
+    .setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob, null, 2)) });
   await page.getByText("4 images").waitFor();
   await type("Runs", "none");
   const field = page.locator("#field-runs");
@@ -130,19 +132,21 @@ test("masks on the canvas are those of the annotations", async () => {
   await page.keyboard.press("b");
   const canvas = page.locator(`canvas.overlay[data-drawn="${image.id} masks"]`);
   await canvas.waitFor();
-  const painted = new Set(await canvas.evaluate((element, { width, height }) => {
-    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
-    const scale = element.width / width;
-    const found = [];
-    for (let y = 0; y < height; ++y) {
-      for (let x = 0; x < width; ++x) {
-        const column = Math.floor((x + 0.5) * scale);
-        const row = Math.floor((y + 0.5) * scale);
-        if (data[4 * (row * element.width + column) + 3] > 0) found.push(y * width + x);
+  const painted = new Set(
+    await canvas.evaluate((element, { width, height }) => {
+      const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+      const scale = element.width / width;
+      const found = [];
+      for (let y = 0; y < height; ++y) {
+        for (let x = 0; x < width; ++x) {
+          const column = Math.floor((x + 0.5) * scale);
+          const row = Math.floor((y + 0.5) * scale);
+          if (data[4 * (row * element.width + column) + 3] > 0) found.push(y * width + x);
+        }
       }
-    }
-    return found;
-  }, image));
+      return found;
+    }, image),
+  );
   const expected = new Set(people.flatMap((entry) => [...pixelsOf(entry.segmentation)]));
   assert.ok(expected.size > 100);
   assert.deepEqual([...painted].sort(), [...expected].sort());
@@ -201,7 +205,11 @@ test("a run is shown over time", async () => {
 
 test("jobs are compared", async () => {
   const changed = { ...kJob, name: "studio test, more people", seed: 5, crowd: { agents: 200 } };
-  const other = await service.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(changed) });
+  const other = await service.json("/v1/jobs", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(changed),
+  });
   await go("/jobs");
   await page.locator("tbody tr", { hasText: changed.name }).getByText("succeeded").waitFor({ timeout: kJobMs });
   await page.getByLabel("Select all jobs of this page").check();
@@ -214,12 +222,18 @@ test("jobs are compared", async () => {
   await row.waitFor();
   const cells = await row.locator("td").allInnerTexts();
   const people = await Promise.all(ids.map(async (id) => (await service.json(`/v1/jobs/${id}/metrics`)).runs[0].people));
-  assert.deepEqual(cells, people.map((count) => count.toFixed(1)));
+  assert.deepEqual(
+    cells,
+    people.map((count) => count.toFixed(1)),
+  );
   const fields = await page.getByRole("region", { name: "Fields in which the jobs differ" }).getByRole("rowheader").allInnerTexts();
   assert.deepEqual(fields.sort(), ["/crowd/agents", "/drones/1/start", "/seed"]);
   await page.getByRole("slider", { name: "Time" }).fill("2");
   await page.getByRole("img", { name: /^Median share of the people who have escaped at 2.0 s/ }).waitFor();
-  await page.getByRole("img", { name: /images\/run000\/d1\/000001.jpg$/ }).nth(1).waitFor();
+  await page
+    .getByRole("img", { name: /images\/run000\/d1\/000001.jpg$/ })
+    .nth(1)
+    .waitFor();
   const edge = page.getByRole("slider", { name: "Edge between the images" });
   await edge.fill("25");
   const upper = page.locator(".swipe .upper");
@@ -233,7 +247,10 @@ test("jobs are compared", async () => {
   assert.deepEqual(new URL(page.url()).searchParams.getAll("job"), [`${ids[0]}:0`, ids[1]]);
   assert.deepEqual(await row.locator("td").allInnerTexts(), cells);
   await page.getByLabel("Add a job or a run").selectOption(`${ids[1]}:0`);
-  await page.getByRole("link", { name: /, run 0$/ }).nth(1).waitFor();
+  await page
+    .getByRole("link", { name: /, run 0$/ })
+    .nth(1)
+    .waitFor();
   await page.locator(".swipe .upper").waitFor();
   await check(page, "runs compared");
   await service.remove(`/v1/jobs/${other.id}`);
@@ -257,7 +274,10 @@ test("jobs are filtered by the address and removed in bulk", async () => {
   await page.getByRole("dialog").getByRole("button", { name: "Delete 1 job" }).click();
   await page.waitForFunction(() => document.querySelectorAll("tbody tr").length === 1);
   const left = await service.json("/v1/jobs");
-  assert.deepEqual(left.jobs.map((entry) => entry.id), [job]);
+  assert.deepEqual(
+    left.jobs.map((entry) => entry.id),
+    [job],
+  );
   assert.notEqual(copy.id, job);
 });
 
@@ -277,31 +297,47 @@ test("pages of other sites can neither change nor read anything", async () => {
     const evil = await context.newPage();
     await evil.goto(attacker.address);
     const body = JSON.stringify({ ...kJob, name: "attack" });
-    const outcomes = await evil.evaluate(async ({ address, body, job }) => {
-      const outcome = (path, init) => fetch(address + path, init).then((response) => `${response.type} ${response.status}`, () => "refused");
-      return [
-        await outcome("/v1/jobs", { method: "POST", mode: "no-cors", body }),
-        await outcome("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body }),
-        await outcome(`/v1/jobs/${job}`, { method: "DELETE" }),
-        await outcome(`/v1/jobs/${job}/clone`, { method: "POST", mode: "no-cors" }),
-        await outcome("/v1/jobs", {}),
-      ];
-    }, { address: service.address, body, job });
+    const outcomes = await evil.evaluate(
+      async ({ address, body, job }) => {
+        const outcome = (path, init) =>
+          fetch(address + path, init).then(
+            (response) => `${response.type} ${response.status}`,
+            () => "refused",
+          );
+        return [
+          await outcome("/v1/jobs", { method: "POST", mode: "no-cors", body }),
+          await outcome("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body }),
+          await outcome(`/v1/jobs/${job}`, { method: "DELETE" }),
+          await outcome(`/v1/jobs/${job}/clone`, { method: "POST", mode: "no-cors" }),
+          await outcome("/v1/jobs", {}),
+        ];
+      },
+      { address: service.address, body, job },
+    );
     // An opaque answer cannot be read; what follows shows that it changed nothing. Answers for same-origin pages only
     // (Cross-Origin-Resource-Policy) are refused.
-    assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
-    await evil.evaluate(({ address, body }) => {
-      const form = document.createElement("form");
-      Object.assign(form, { action: `${address}/v1/jobs`, method: "post", enctype: "text/plain" });
-      const field = document.createElement("input");
-      Object.assign(field, { name: body.slice(0, -1) + ',"x":"', value: '"}' });
-      form.append(field);
-      document.body.append(form);
-      form.submit();
-    }, { address: service.address, body });
+    assert.ok(
+      outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)),
+      outcomes.join(),
+    );
+    await evil.evaluate(
+      ({ address, body }) => {
+        const form = document.createElement("form");
+        Object.assign(form, { action: `${address}/v1/jobs`, method: "post", enctype: "text/plain" });
+        const field = document.createElement("input");
+        Object.assign(field, { name: `${body.slice(0, -1)},"x":"`, value: '"}' });
+        form.append(field);
+        document.body.append(form);
+        form.submit();
+      },
+      { address: service.address, body },
+    );
     await evil.waitForURL(`${service.address}/v1/jobs`);
     assert.match(await evil.locator("body").innerText(), /40[03]|415/);
-    assert.deepEqual((await service.json("/v1/jobs")).jobs.map((entry) => [entry.id, entry.state]), before.jobs.map((entry) => [entry.id, entry.state]));
+    assert.deepEqual(
+      (await service.json("/v1/jobs")).jobs.map((entry) => [entry.id, entry.state]),
+      before.jobs.map((entry) => [entry.id, entry.state]),
+    );
     // The page is not shown in frames of others.
     await evil.goto(attacker.address);
     await evil.evaluate((address) => {
@@ -328,7 +364,11 @@ test("pages of other sites can neither change nor read anything", async () => {
 
 test("a key is asked for, a wrong one is reported, and a right one becomes a cookie", async () => {
   // With keys, jobs without the label are seen by their owner and administrators only.
-  const labeled = await fetch(`${service.address}/v1/jobs/${job}`, { method: "PATCH", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ labels: ["shared"] }) });
+  const labeled = await fetch(`${service.address}/v1/jobs/${job}`, {
+    method: "PATCH",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ labels: ["shared"] }),
+  });
   assert.equal(labeled.status, 200);
   const key = service.createKey("submit");
   await go(`/jobs/${job}`);
@@ -341,16 +381,32 @@ test("a key is asked for, a wrong one is reported, and a right one becomes a coo
   await page.getByRole("button", { name: "Use this key" }).click();
   await page.getByRole("heading", { name: kJob.name }).waitFor();
   const cookies = await page.context().cookies();
-  assert.deepEqual(cookies.map(({ httpOnly, sameSite, expires }) => ({ httpOnly, sameSite, expires })), [{ httpOnly: true, sameSite: "Strict", expires: -1 }]);
+  assert.deepEqual(
+    cookies.map(({ httpOnly, sameSite, expires }) => ({ httpOnly, sameSite, expires })),
+    [{ httpOnly: true, sameSite: "Strict", expires: -1 }],
+  );
   assert.ok(!cookies[0].value.includes(key));
   // Images and downloads need the session too.
   await page.waitForFunction(() => [...document.querySelectorAll("figure img")].filter((image) => image.naturalWidth > 0).length >= 2);
   await page.reload();
   await page.getByRole("heading", { name: kJob.name }).waitFor();
-  const stored = await page.evaluate(() => JSON.stringify([localStorage, sessionStorage, document.cookie, location.href, performance.getEntriesByType("resource").map((entry) => entry.name)]));
+  const stored = await page.evaluate(() =>
+    JSON.stringify([
+      localStorage,
+      sessionStorage,
+      document.cookie,
+      location.href,
+      performance.getEntriesByType("resource").map((entry) => entry.name),
+    ]),
+  );
   assert.ok(!stored.includes(key) && !stored.includes("throng_"));
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name: "Dataset (zip)" }).click()]);
-  assert.equal(readFileSync(await download.path()).subarray(0, 2).toString(), "PK");
+  assert.equal(
+    readFileSync(await download.path())
+      .subarray(0, 2)
+      .toString(),
+    "PK",
+  );
 });
 
 test("a session does not serve pages of another port of this host", async () => {
@@ -359,25 +415,41 @@ test("a session does not serve pages of another port of this host", async () => 
   try {
     const evil = await page.context().newPage();
     await evil.goto(attacker.localAddress);
-    const outcome = await evil.evaluate(async ({ address, job }) => {
-      const post = (path) => fetch(address + path, { method: "POST", mode: "no-cors", credentials: "include" }).then((response) => response.type, () => "refused");
-      const image = new Image();
-      const isShown = new Promise((resolve) => {
-        image.onload = () => resolve(true);
-        image.onerror = () => resolve(false);
-      });
-      image.src = `${address}/v1/jobs/${job}/plan`;
-      const read = await fetch(`${address}/v1/jobs`, { credentials: "include" }).then((response) => response.text(), () => "refused");
-      return [await post(`/v1/jobs/${job}/clone`), await post("/v1/session"), read, await isShown];
-    }, { address: service.address, job });
-    assert.ok(outcome.slice(0, 2).every((type) => ["opaque", "refused"].includes(type)), outcome.join());
+    const outcome = await evil.evaluate(
+      async ({ address, job }) => {
+        const post = (path) =>
+          fetch(address + path, { method: "POST", mode: "no-cors", credentials: "include" }).then(
+            (response) => response.type,
+            () => "refused",
+          );
+        const image = new Image();
+        const isShown = new Promise((resolve) => {
+          image.onload = () => resolve(true);
+          image.onerror = () => resolve(false);
+        });
+        image.src = `${address}/v1/jobs/${job}/plan`;
+        const read = await fetch(`${address}/v1/jobs`, { credentials: "include" }).then(
+          (response) => response.text(),
+          () => "refused",
+        );
+        return [await post(`/v1/jobs/${job}/clone`), await post("/v1/session"), read, await isShown];
+      },
+      { address: service.address, job },
+    );
+    assert.ok(
+      outcome.slice(0, 2).every((type) => ["opaque", "refused"].includes(type)),
+      outcome.join(),
+    );
     assert.deepEqual(outcome.slice(2), ["refused", false]);
     await evil.close();
   } finally {
     attacker.stop();
   }
   const list = await page.evaluate(() => fetch("/v1/jobs").then((response) => response.json()));
-  assert.deepEqual(list.jobs.map((entry) => entry.id), [job]);
+  assert.deepEqual(
+    list.jobs.map((entry) => entry.id),
+    [job],
+  );
   await page.getByRole("button", { name: "Sign out" }).click();
   await page.getByRole("heading", { name: "Key needed" }).waitFor();
   assert.deepEqual(await page.context().cookies(), []);

@@ -46,7 +46,10 @@ after(async () => {
 });
 
 const go = (path) => page.goto(service.address + path);
-const openFile = (study) => page.locator('input[type="file"]').setInputFiles({ name: "study.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(study)) });
+const openFile = (study) =>
+  page
+    .locator('input[type="file"]')
+    .setInputFiles({ name: "study.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(study)) });
 const start = () => page.getByRole("button", { name: "Start the study" });
 const idOf = (url) => new URL(url).pathname.split("/").at(-1);
 
@@ -75,13 +78,19 @@ test("a mistake is shown with its pointer, and mended", async () => {
   await page.getByText("16 simulations").waitFor();
   assert.equal(await scenario.getAttribute("aria-invalid"), "false");
   await openFile({ not: "a study" });
-  await page.getByText(/missing|required/).first().waitFor();
+  await page
+    .getByText(/missing|required/)
+    .first()
+    .waitFor();
   await openFile(kStudy);
   await page.getByText("16 simulations").waitFor();
 });
 
 test("a study is written as fields", async () => {
-  await page.getByRole("group", { name: "Case 2" }).getByRole("button", { name: /^Duplicate case/ }).click();
+  await page
+    .getByRole("group", { name: "Case 2" })
+    .getByRole("button", { name: /^Duplicate case/ })
+    .click();
   await page.getByText("24 simulations").waitFor();
   await page.locator("#field-cases-2-duration_s").fill("45");
   await page.getByLabel("Runs of each").fill("3");
@@ -101,8 +110,18 @@ test("a study is written as fields", async () => {
   await check(page, "a study as fields");
   await page.getByRole("tab", { name: "JSON" }).click();
   const text = await page.evaluate(() => JSON.parse(sessionStorage.getItem("throng.study")));
-  assert.deepEqual(text.cases.map(({ id, duration_s }) => [id, duration_s]), [["case_0", 60], ["case_1", 60], ["case_2", 45]]);
-  assert.deepEqual(text.policies[2], { id: "policy", drones: [{ id: "d1", start: [1, 0, 20], guidance: { policy: "balance", speed_mps: 2 } }] });
+  assert.deepEqual(
+    text.cases.map(({ id, duration_s }) => [id, duration_s]),
+    [
+      ["case_0", 60],
+      ["case_1", 60],
+      ["case_2", 45],
+    ],
+  );
+  assert.deepEqual(text.policies[2], {
+    id: "policy",
+    drones: [{ id: "d1", start: [1, 0, 20], guidance: { policy: "balance", speed_mps: 2 } }],
+  });
   assert.deepEqual([text.runs, text.baseline, text.cases[2].crowd], [3, "one", { agents: 30 }]);
   await page.locator(".json-editor .cm-content").getByText("studio test").first().waitFor();
   await page.getByRole("tab", { name: "Form" }).click();
@@ -126,7 +145,10 @@ test("the grid fills while the study runs, and is that of the service", async ()
   assert.deepEqual(counts, Array(4).fill(`${kRuns} of ${kRuns}`));
   const summary = await service.json(`/v1/studies/${idOf(address)}/files/summary.json`);
   const means = await page.locator(".study-mean").allInnerTexts();
-  assert.deepEqual(means, summary.rows.map((row) => `${row.restricted_means[1].mean_s.toFixed(1)} s`));
+  assert.deepEqual(
+    means,
+    summary.rows.map((row) => `${row.restricted_means[1].mean_s.toFixed(1)} s`),
+  );
 });
 
 test("differences and times are those of the summary", async () => {
@@ -134,10 +156,16 @@ test("differences and times are those of the summary", async () => {
   const signed = (value) => `${value > 0 ? "+" : value < 0 ? "−" : ""}${Math.abs(value).toFixed(1)}`;
   const expected = rows
     .filter((row) => row.policy !== "none")
-    .flatMap((row) => row.restricted_means.map((mean) => `${signed(mean.difference_s)} [${signed(mean.difference_95_s[0])}, ${signed(mean.difference_95_s[1])}]`));
+    .flatMap((row) =>
+      row.restricted_means.map(
+        (mean) => `${signed(mean.difference_s)} [${signed(mean.difference_95_s[0])}, ${signed(mean.difference_95_s[1])}]`,
+      ),
+    );
   assert.deepEqual(await page.locator(".forest-text").allInnerTexts(), expected);
   // A point lies where its difference lies between the ends of the axis.
-  const ticks = await page.locator(".forest-axis span").evaluateAll((spans) => spans.map((span) => [Number(span.textContent.replace("−", "-")), parseFloat(span.style.left)]));
+  const ticks = await page
+    .locator(".forest-axis span")
+    .evaluateAll((spans) => spans.map((span) => [Number(span.textContent.replace("−", "-")), parseFloat(span.style.left)]));
   const [[low, at], [high, end]] = [ticks[0], ticks.at(-1)];
   const places = await page.locator(".forest-point").evaluateAll((points) => points.map((point) => parseFloat(point.style.left)));
   const differences = rows.filter((row) => row.policy !== "none").flatMap((row) => row.restricted_means.map((mean) => mean.difference_s));
@@ -145,7 +173,12 @@ test("differences and times are those of the summary", async () => {
     const place = at + ((value - low) / (high - low)) * (end - at);
     assert.ok(Math.abs(place - places[index]) < 0.01, `${value} s is at ${places[index]} %, not at ${place} %`);
   });
-  const cells = await page.getByRole("region", { name: "Times at which shares of the people were out" }).locator("tbody tr:not(.study-case)").first().locator("td").allInnerTexts();
+  const cells = await page
+    .getByRole("region", { name: "Times at which shares of the people were out" })
+    .locator("tbody tr:not(.study-case)")
+    .first()
+    .locator("td")
+    .allInnerTexts();
   const text = (value) => (value === null ? "never" : value.toFixed(0));
   const spread = (name) => `${text(rows[0].times[name].median)} [${text(rows[0].times[name].low)}–${text(rows[0].times[name].high)}]`;
   assert.deepEqual(cells.slice(0, 4), [String(kRuns), spread("t50_s"), spread("t90_s"), spread("t95_s")]);
@@ -164,9 +197,15 @@ test("pages of other sites neither see nor change studies", async () => {
     [`${self}/cancel`, { method: "POST", mode: "no-cors" }],
     [self, { method: "DELETE" }],
   ]);
-  assert.ok(outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)), outcomes.join());
+  assert.ok(
+    outcomes.every((outcome) => ["opaque 0", "refused"].includes(outcome)),
+    outcomes.join(),
+  );
   const { studies } = await service.json("/v1/studies");
-  assert.deepEqual(studies.map(({ id, state, keep }) => [id, state, keep]), [[idOf(address), "succeeded", false]]);
+  assert.deepEqual(
+    studies.map(({ id, state, keep }) => [id, state, keep]),
+    [[idOf(address), "succeeded", false]],
+  );
 });
 
 test("the running mean ends at the mean of all runs", async () => {
@@ -187,7 +226,10 @@ test("the running mean ends at the mean of all runs", async () => {
 test("a study is cancelled, goes on, is repeated with changes and deleted", async () => {
   await page.getByRole("link", { name: "Change and repeat" }).click();
   await page.getByText("16 simulations").waitFor();
-  await page.getByText(/, about .* judging by/).getByRole("link", { name: "studio test" }).waitFor();
+  await page
+    .getByText(/, about .* judging by/)
+    .getByRole("link", { name: "studio test" })
+    .waitFor();
   await page.getByLabel("Start from").selectOption({ label: `studio test (${idOf(address)})` });
   await openFile({ ...kStudy, name: "longer", runs: 200 });
   await page.getByText("800 simulations").waitFor();
@@ -195,7 +237,9 @@ test("a study is cancelled, goes on, is repeated with changes and deleted", asyn
   await page.waitForURL((url) => /\/studies\/[a-z0-9]+$/.test(url.pathname) && url.href !== address);
   // Progress comes as events: without any other request for the study it goes on.
   await page.getByText("live", { exact: true }).waitFor();
-  await page.route(/\/v1\/studies\/[a-z0-9]+$/, (route) => route.fulfill({ status: 404, contentType: "application/problem+json", body: '{"status": 404, "detail": "hidden by the test"}' }));
+  await page.route(/\/v1\/studies\/[a-z0-9]+$/, (route) =>
+    route.fulfill({ status: 404, contentType: "application/problem+json", body: '{"status": 404, "detail": "hidden by the test"}' }),
+  );
   const count = async () => Number(/([\d,]+) of 800/.exec(await page.locator(".summary p").innerText())?.[1]?.replace(",", "") ?? 0);
   const begun = await count();
   await eventually("the count goes on", async () => (await count()) > begun + 2);

@@ -100,13 +100,18 @@ function page(metafile) {
 function writeSources() {
   const rows = [];
   const bytes = ["  .section .rodata\n"];
-  const names = readdirSync(files).filter((name) => !name.endsWith(".gz")).sort();
+  const names = readdirSync(files)
+    .filter((name) => !name.endsWith(".gz"))
+    .sort();
   names.forEach((name, number) => {
     const file = path.join(files, name);
     const content = readFileSync(file);
     writeFileSync(`${file}.gz`, gzipSync(content, { level: 9 }));
     const etag = createHash("sha256").update(content).digest("hex").slice(0, 16);
-    for (const [kind, source] of [["plain", file], ["gzip", `${file}.gz`]]) {
+    for (const [kind, source] of [
+      ["plain", file],
+      ["gzip", `${file}.gz`],
+    ]) {
       const symbol = `throng_studio_${number}_${kind}`;
       bytes.push(`  .global ${symbol}, ${symbol}_end\n${symbol}:\n  .incbin "${source}"\n${symbol}_end:\n  .byte 0\n`);
     }
@@ -117,8 +122,13 @@ function writeSources() {
   // A change of the bytes alone has to change this file, which the build compares.
   bytes.unshift(`# ${createHash("sha256").update(rows.join("")).digest("hex")}\n`);
   bytes.push('  .section .note.GNU-stack, "", %progbits\n');
-  const symbols = rows.map((_, number) => ["plain", "gzip"].map((kind) =>
-    `extern const char throng_studio_${number}_${kind}[], throng_studio_${number}_${kind}_end[];\n`).join("")).join("");
+  const symbols = rows
+    .map((_, number) =>
+      ["plain", "gzip"]
+        .map((kind) => `extern const char throng_studio_${number}_${kind}[], throng_studio_${number}_${kind}_end[];\n`)
+        .join(""),
+    )
+    .join("");
   const table = `// Written by web/studio/build.mjs.  NOLINTBEGIN
 #include <array>
 

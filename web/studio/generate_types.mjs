@@ -13,7 +13,11 @@ function typeOf(schema, indent) {
   if (schema.$ref) return schema.$ref.split("/").pop();
   if (schema.enum) return schema.enum.map((value) => JSON.stringify(value)).join(" | ");
   if ("const" in schema) return JSON.stringify(schema.const);
-  if (schema.oneOf) return schema.oneOf.map((part) => typeOf(part, indent)).reverse().join(" | ");
+  if (schema.oneOf)
+    return schema.oneOf
+      .map((part) => typeOf(part, indent))
+      .reverse()
+      .join(" | ");
   if (Array.isArray(schema.type)) return schema.type.map((name) => kPlain[name] ?? "unknown").join(" | ");
   if (schema.type === "array") {
     const item = typeOf(schema.items ?? {}, indent);

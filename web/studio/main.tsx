@@ -1,13 +1,13 @@
 // Studio, the web page of the service.
 import { render } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { applyTheme, KeyDialog, Shell } from "./parts/shell";
-import { followLinks, usePlace } from "./parts/router";
 import { Empty } from "./parts/elements";
+import { Lazy } from "./parts/lazy";
+import { followLinks, usePlace } from "./parts/router";
+import { applyTheme, KeyDialog, Shell } from "./parts/shell";
 import { Home } from "./screens/home";
 import { JobScreen } from "./screens/job";
 import { Jobs } from "./screens/jobs";
-import { Lazy } from "./parts/lazy";
 import "./style.css";
 
 interface Screen {

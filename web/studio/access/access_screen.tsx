@@ -26,7 +26,10 @@ export function AccessScreen() {
         <Figures
           list={[
             ["throng", version.value.version],
-            ["this browser may", scope === "admin" ? "change everything" : scope === "submit" ? "queue jobs" : scope === "read" ? "read" : "nothing yet"],
+            [
+              "this browser may",
+              scope === "admin" ? "change everything" : scope === "submit" ? "queue jobs" : scope === "read" ? "read" : "nothing yet",
+            ],
             ["free disk", disk.value ? bytesText(disk.value.free_bytes) : "–"],
           ]}
         />

@@ -149,7 +149,10 @@ export function Keys({ isNeeded }: { isNeeded: boolean }) {
   if (!isNeeded) {
     return (
       <div class="notice">
-        <p>No key has been made yet: everybody on the machine of the service may do everything. The first key is made there; from then on everybody needs one.</p>
+        <p>
+          No key has been made yet: everybody on the machine of the service may do everything. The first key is made there; from then on
+          everybody needs one.
+        </p>
         <CodeBlock text="throng keys create NAME --scope admin --data DIR" label="make the first key" />
       </div>
     );

@@ -7,7 +7,19 @@ import { Confirmation, Empty, ErrorBox, type Question } from "../parts/elements"
 import { agoText } from "../parts/format";
 import { CodeBlock } from "../parts/snippet";
 
-const kEvents: (ServiceEvent["type"] | "partial")[] = ["submitted", "started", "resumed", "stage", "succeeded", "partial", "failed", "cancelled", "retried", "changed", "removed"];
+const kEvents: (ServiceEvent["type"] | "partial")[] = [
+  "submitted",
+  "started",
+  "resumed",
+  "stage",
+  "succeeded",
+  "partial",
+  "failed",
+  "cancelled",
+  "retried",
+  "changed",
+  "removed",
+];
 const kUsual = new Set<string>(["succeeded", "partial", "failed", "cancelled"]);
 
 function NewWebhook({ onMade }: { onMade: (webhook: Webhook) => void }) {
@@ -56,7 +68,9 @@ function NewWebhook({ onMade }: { onMade: (webhook: Webhook) => void }) {
 }
 
 function outcomeOf(delivery: Delivery): string {
-  return delivery.succeeded ? `delivered (${delivery.status}, ${delivery.took_ms} ms)` : (delivery.error ?? `refused with ${delivery.status}`);
+  return delivery.succeeded
+    ? `delivered (${delivery.status}, ${delivery.took_ms} ms)`
+    : (delivery.error ?? `refused with ${delivery.status}`);
 }
 
 function Deliveries({ id, round }: { id: string; round: number }) {
@@ -110,7 +124,11 @@ function WebhookEntry({ webhook, onChange, onRemove, onError }: EntryProps) {
         <button type="button" class="button small" onClick={() => perform(sendJson("POST", `${self}/ping`).then(() => setOpen(true)))}>
           Ping
         </button>
-        <button type="button" class="button small" onClick={() => perform(sendJson("PATCH", self, JSON.stringify({ enabled: !webhook.enabled })))}>
+        <button
+          type="button"
+          class="button small"
+          onClick={() => perform(sendJson("PATCH", self, JSON.stringify({ enabled: !webhook.enabled })))}
+        >
           {webhook.enabled ? "Take out of use" : "Use again"}
         </button>
         <button type="button" class="button small danger-text" onClick={onRemove}>
@@ -136,7 +154,8 @@ export function Webhooks() {
       text: `${webhook.url} gets no more events.`,
       action: "Delete the webhook",
       isDangerous: true,
-      confirm: () => void sendJson<void>("DELETE", `/v1/webhooks/${webhook.id}`).then(list.reload, (reason: unknown) => setError(asApiError(reason))),
+      confirm: () =>
+        void sendJson<void>("DELETE", `/v1/webhooks/${webhook.id}`).then(list.reload, (reason: unknown) => setError(asApiError(reason))),
     });
   const webhooks = list.value?.webhooks ?? [];
   return (

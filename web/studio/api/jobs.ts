@@ -1,6 +1,7 @@
 // Jobs and what can be done with them.
-import { sendJson } from "./client";
+
 import { navigate } from "../parts/router";
+import { sendJson } from "./client";
 import type { Job, Progress } from "./types";
 
 export const kStates: Job["state"][] = ["running", "queued", "succeeded", "partial", "failed", "cancelled"];
@@ -13,8 +14,7 @@ export const cancelJob = (id: string) => sendJson<Job>("POST", `/v1/jobs/${id}/c
 export const retryJob = (id: string) => sendJson<Job>("POST", `/v1/jobs/${id}/retry`);
 export const removeJob = (id: string) => sendJson<void>("DELETE", `/v1/jobs/${id}`);
 export const keepJob = (id: string, keep: boolean) => sendJson<Job>("PATCH", `/v1/jobs/${id}`, JSON.stringify({ keep }));
-export const prioritize = (id: string, priority: number) =>
-  sendJson<Job>("PATCH", `/v1/jobs/${id}`, JSON.stringify({ priority }));
+export const prioritize = (id: string, priority: number) => sendJson<Job>("PATCH", `/v1/jobs/${id}`, JSON.stringify({ priority }));
 
 /** Opens the form with a job's fields. */
 export function editCopy(id: string): void {

@@ -12,7 +12,13 @@ interface BoardFieldsProps {
 }
 
 const kBoards = [
-  { kind: "chessboard", label: "Chessboard", columns: "Inner corners in a row", rows: "Inner corners in a column", square: "Side of a square" },
+  {
+    kind: "chessboard",
+    label: "Chessboard",
+    columns: "Inner corners in a row",
+    rows: "Inner corners in a column",
+    square: "Side of a square",
+  },
   { kind: "charuco", label: "ChArUco board", columns: "Squares in a row", rows: "Squares in a column", square: "Side of a square" },
   { kind: "circles", label: "Asymmetric grid of circles", columns: "Circles in a row", rows: "Rows", square: "Half the distance in a row" },
 ] as const;
@@ -93,7 +99,17 @@ export function BoardFields({ settings, schema, errors, onChange }: BoardFieldsP
         </label>
         <TextField label={board.columns} pointer="/board/columns" {...text("columns")} />
         <TextField label={board.rows} pointer="/board/rows" {...text("rows")} />
-        <TextField label={<>{board.square}{unit}</>} pointer="/board/square" placeholder="1" {...text("square")} />
+        <TextField
+          label={
+            <>
+              {board.square}
+              {unit}
+            </>
+          }
+          pointer="/board/square"
+          placeholder="1"
+          {...text("square")}
+        />
         {settings.kind === "charuco" && (
           <>
             <TextField label={<>Side of a marker{unit}</>} pointer="/board/marker" placeholder="0.75 squares" {...text("marker")} />

@@ -9,9 +9,9 @@ import { navigate } from "../parts/router";
 import { isAtWork, nameOf, removeCalibration } from "./calibrations_screen";
 import { type Camera, type FoundPoints, residualScale } from "./camera";
 import { CoverageFigure, LensTable, ParameterTable, ResidualList } from "./figures";
+import { PoseTable } from "./pose_table";
 import { imagePath } from "./request";
 import { ViewFigure } from "./view_figure";
-import { PoseTable } from "./pose_table";
 import { warningText } from "./warnings";
 
 const kPollMs = 700;
@@ -31,7 +31,11 @@ function Actions({ calibration, onError }: { calibration: Calibration; onError: 
       text: "Its images and results are deleted. Jobs that were made with it keep the camera.",
       action: "Delete the calibration",
       isDangerous: true,
-      confirm: () => void removeCalibration(id).then(() => navigate("/calibrations"), (error: unknown) => onError(asApiError(error))),
+      confirm: () =>
+        void removeCalibration(id).then(
+          () => navigate("/calibrations"),
+          (error: unknown) => onError(asApiError(error)),
+        ),
     });
   return (
     <div class="actions">

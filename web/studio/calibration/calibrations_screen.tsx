@@ -10,7 +10,16 @@ import { navigate, usePlace, withQuery } from "../parts/router";
 import { BoardFields } from "./board_fields";
 import { ImageChoice } from "./image_choice";
 import { PoseForm } from "./pose_form";
-import { type ChosenImage, kMaxBytes, sendCalibration, sentImages, type Settings, settingsOf, storedSettings, storeSettings } from "./request";
+import {
+  type ChosenImage,
+  kMaxBytes,
+  type Settings,
+  sendCalibration,
+  sentImages,
+  settingsOf,
+  storedSettings,
+  storeSettings,
+} from "./request";
 
 const kPollMs = 2000;
 const kMinImages = 2;
@@ -76,7 +85,9 @@ function NewCalibration({ schema }: { schema: Schema }) {
       <BoardFields settings={settings} schema={schema} errors={error?.errors ?? []} onChange={change} />
       {error && error.status !== 401 && <ErrorBox error={error} />}
       <div class="actions end">
-        {images.length > 0 && images.length < kMinImages && <span class="quiet-text">{kMinImages} different views are needed at least.</span>}
+        {images.length > 0 && images.length < kMinImages && (
+          <span class="quiet-text">{kMinImages} different views are needed at least.</span>
+        )}
         <button type="submit" class="button primary" disabled={isBusy || images.length === 0 || isTooLarge}>
           {isBusy ? "Sending …" : "Calibrate"}
         </button>
@@ -116,7 +127,12 @@ function CalibrationTable({ list, onRemove }: TableProps) {
             <td>{imagesText(calibration)}</td>
             <td>{agoText(calibration.created_at)}</td>
             <td>
-              <button type="button" class="button small danger-text" aria-label={`Delete ${nameOf(calibration)}`} onClick={() => onRemove(calibration)}>
+              <button
+                type="button"
+                class="button small danger-text"
+                aria-label={`Delete ${nameOf(calibration)}`}
+                onClick={() => onRemove(calibration)}
+              >
                 Delete
               </button>
             </td>
@@ -153,7 +169,12 @@ export function CalibrationsScreen() {
       <ErrorBox error={error ?? (list.error?.status !== 401 ? list.error : null)} />
       {list.value && (
         <>
-          <Tabs label="New calibration" tabs={kForms} selected={form} onSelect={(id) => navigate(withQuery(query, { form: id === "lens" ? null : id }), { replace: true })} />
+          <Tabs
+            label="New calibration"
+            tabs={kForms}
+            selected={form}
+            onSelect={(id) => navigate(withQuery(query, { form: id === "lens" ? null : id }), { replace: true })}
+          />
           <div id="panel" role="tabpanel" aria-labelledby={`tab-${form}`}>
             {form === "lens" ? (
               <NewCalibration schema={list.value.schema as Schema} />

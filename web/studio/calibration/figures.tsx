@@ -35,7 +35,8 @@ export function CoverageFigure({ found, scale }: { found: FoundPoints; scale: nu
         })}
       </svg>
       <figcaption>
-        {Math.round((100 * covered) / cells.length)} % of the image ({covered} of {cells.length} parts) hold points; the shaded parts hold none.
+        {Math.round((100 * covered) / cells.length)} % of the image ({covered} of {cells.length} parts) hold points; the shaded parts hold
+        none.
         {scale !== null && ` Residuals are drawn ${scale.toLocaleString("en-US")} times as long.`}
       </figcaption>
     </figure>

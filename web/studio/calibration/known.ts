@@ -3,7 +3,11 @@
 type Fixed = Record<string, number | null>;
 type Priors = Record<string, { mean: number; sd: number }>;
 
-const parts = (text: string) => text.split(/[,;]/).map((part) => part.trim()).filter(Boolean);
+const parts = (text: string) =>
+  text
+    .split(/[,;]/)
+    .map((part) => part.trim())
+    .filter(Boolean);
 
 /** A number where the text is one; else the text, so that the service says what is wrong with it. */
 export const numberOr = (text: string) => (text.trim() === "" || Number.isNaN(Number(text)) ? text : Number(text));
@@ -30,7 +34,11 @@ export function priorsOf(text: string): Record<string, unknown> {
 }
 
 export const fixedText = (fixed: unknown) =>
-  Object.entries((fixed ?? {}) as Fixed).map(([name, value]) => (value === null ? name : `${name} = ${value}`)).join(", ");
+  Object.entries((fixed ?? {}) as Fixed)
+    .map(([name, value]) => (value === null ? name : `${name} = ${value}`))
+    .join(", ");
 
 export const priorText = (priors: unknown) =>
-  Object.entries((priors ?? {}) as Priors).map(([name, { mean, sd }]) => `${name} = ${mean} ± ${sd}`).join(", ");
+  Object.entries((priors ?? {}) as Priors)
+    .map(([name, { mean, sd }]) => `${name} = ${mean} ± ${sd}`)
+    .join(", ");

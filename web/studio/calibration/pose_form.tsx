@@ -75,9 +75,20 @@ export function PoseForm({ calibrations, nameOf }: PoseFormProps) {
     <form class="stack" aria-label="New poses" onSubmit={submit}>
       <fieldset class="stack">
         <legend>Control points and camera</legend>
-        <p class="quiet-text">Surveyed points whose pixels are known in images of a camera give where it was and how it was turned: 4 points in an image at least.</p>
+        <p class="quiet-text">
+          Surveyed points whose pixels are known in images of a camera give where it was and how it was turned: 4 points in an image at
+          least.
+        </p>
         {kTables.map(({ key, label, columns, accept }) => (
-          <FileField key={key} id={`file-${key}`} label={label} note={`a table (CSV) with the columns ${columns}`} accept={accept} file={files[key] ?? null} onFile={(file) => set(key, file)} />
+          <FileField
+            key={key}
+            id={`file-${key}`}
+            label={label}
+            note={`a table (CSV) with the columns ${columns}`}
+            accept={accept}
+            file={files[key] ?? null}
+            onFile={(file) => set(key, file)}
+          />
         ))}
         <label class="field">
           <span class="field-name">Camera</span>
@@ -91,7 +102,14 @@ export function PoseForm({ calibrations, nameOf }: PoseFormProps) {
           </select>
         </label>
         {from === "" && (
-          <FileField id="file-camera" label="Camera file" note="a calibration's camera (JSON)" accept=".json,application/json" file={files.camera ?? null} onFile={(file) => set("camera", file)} />
+          <FileField
+            id="file-camera"
+            label="Camera file"
+            note="a calibration's camera (JSON)"
+            accept=".json,application/json"
+            file={files.camera ?? null}
+            onFile={(file) => set("camera", file)}
+          />
         )}
         <div class="fields">
           <label class="field">

@@ -47,7 +47,9 @@ export function PoseTable({ camera }: { camera: Camera }) {
           })}
         </tbody>
       </table>
-      <p class="quiet-text table-note">In the frame of the control points; the heading counts from +X to +Y, the pitch is negative below the level.</p>
+      <p class="quiet-text table-note">
+        In the frame of the control points; the heading counts from +X to +Y, the pitch is negative below the level.
+      </p>
     </div>
   );
 }

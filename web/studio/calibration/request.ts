@@ -107,7 +107,8 @@ export function withFiles(chosen: ChosenImage[], files: File[]): { images: Chose
     const dot = file.name.lastIndexOf(".");
     const stem = dot < 0 ? file.name : file.name.slice(0, dot);
     let name = file.name;
-    for (let number = 2; images.some((image) => image.name === name); ++number) name = `${stem}_${number}${dot < 0 ? "" : file.name.slice(dot)}`;
+    for (let number = 2; images.some((image) => image.name === name); ++number)
+      name = `${stem}_${number}${dot < 0 ? "" : file.name.slice(dot)}`;
     images.push({ name, file, url: URL.createObjectURL(file) });
   }
   return { images, refused };

@@ -45,9 +45,14 @@ export function ViewFigure(props: ViewFigureProps) {
                   {used ? (
                     <circle cx={x} cy={y} r={index === 0 ? 1.7 * radius : radius} stroke-width={radius / 3} />
                   ) : (
-                    <path d={`M ${x - radius} ${y - radius} l ${2 * radius} ${2 * radius} m 0 ${-2 * radius} l ${-2 * radius} ${2 * radius}`} stroke-width={radius / 2} />
+                    <path
+                      d={`M ${x - radius} ${y - radius} l ${2 * radius} ${2 * radius} m 0 ${-2 * radius} l ${-2 * radius} ${2 * radius}`}
+                      stroke-width={radius / 2}
+                    />
                   )}
-                  {du !== null && dv !== null && used && <line x1={x} y1={y} x2={x + scale * du} y2={y + scale * dv} stroke-width={radius / 2} />}
+                  {du !== null && dv !== null && used && (
+                    <line x1={x} y1={y} x2={x + scale * du} y2={y + scale * dv} stroke-width={radius / 2} />
+                  )}
                 </g>
               );
             })}

@@ -17,7 +17,14 @@ export function ExitChart({ histories, ...chart }: ChartProps & { histories: Exi
                   {history.id.length > 10 ? `${history.id.slice(0, 9)}…` : history.id}
                 </text>
                 {history.spans.map((span) => (
-                  <rect key={span.from_s} class={`exit-${span.state}`} x={toX(span.from_s)} y={row * kRowHeight + 3} width={Math.max(1, toX(span.to_s) - toX(span.from_s))} height={kRowHeight - 6}>
+                  <rect
+                    key={span.from_s}
+                    class={`exit-${span.state}`}
+                    x={toX(span.from_s)}
+                    y={row * kRowHeight + 3}
+                    width={Math.max(1, toX(span.to_s) - toX(span.from_s))}
+                    height={kRowHeight - 6}
+                  >
                     <title>
                       {history.id}: {span.state}, {span.from_s} to {span.to_s} s
                     </title>

@@ -26,7 +26,17 @@ function rangeOf(series: MeanSeries[], isDifference: boolean): Scale {
   return scaleOf(values, 5, isDifference);
 }
 
-export function MeanChart({ series, runs, isDifference, label }: { series: MeanSeries[]; runs: number; isDifference: boolean; label: string }) {
+export function MeanChart({
+  series,
+  runs,
+  isDifference,
+  label,
+}: {
+  series: MeanSeries[];
+  runs: number;
+  isDifference: boolean;
+  label: string;
+}) {
   const { element, width } = useWidth();
   const frame = useId(); // a page may have several of these charts
   const scale = rangeOf(series, isDifference);
@@ -44,7 +54,13 @@ export function MeanChart({ series, runs, isDifference, label }: { series: MeanS
           </clipPath>
           {scale.ticks.map((tick) => (
             <g key={tick}>
-              <line class={isDifference && tick === 0 ? "chart-cursor" : "chart-grid"} x1={kLeft} x2={width - kRight} y1={toY(tick)} y2={toY(tick)} />
+              <line
+                class={isDifference && tick === 0 ? "chart-cursor" : "chart-grid"}
+                x1={kLeft}
+                x2={width - kRight}
+                y1={toY(tick)}
+                y2={toY(tick)}
+              />
               <text x={kLeft - 7} y={toY(tick) + 4} text-anchor="end">
                 {isDifference ? signedText(tick, Number.isInteger(tick) ? 0 : 2) : Number(tick.toFixed(1))}
               </text>
@@ -72,7 +88,11 @@ export function MeanChart({ series, runs, isDifference, label }: { series: MeanS
               );
             })}
             {series.map(({ index, means }) => (
-              <polyline key={index} class={`series series-${index}`} points={means.map(({ count, mean }) => `${toX(count)},${toY(mean)}`).join(" ")} />
+              <polyline
+                key={index}
+                class={`series series-${index}`}
+                points={means.map(({ count, mean }) => `${toX(count)},${toY(mean)}`).join(" ")}
+              />
             ))}
           </g>
         </svg>

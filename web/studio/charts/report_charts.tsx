@@ -41,7 +41,14 @@ function Timed({ name, end_s, textOf, children }: TimedProps) {
       {children(time_s, setTime)}
       <label class="report-time">
         <span class="hidden">{name}: time in s</span>
-        <input type="range" min="0" max={end_s} step="1" value={Math.round(time_s)} onInput={(event) => setTime(Number(event.currentTarget.value))} />
+        <input
+          type="range"
+          min="0"
+          max={end_s}
+          step="1"
+          value={Math.round(time_s)}
+          onInput={(event) => setTime(Number(event.currentTarget.value))}
+        />
         <output>
           {Math.round(time_s)} s: {textOf(time_s)}
         </output>
@@ -66,7 +73,8 @@ function EscapeOfRuns({ escape: { runs, median, low, high } }: Figures) {
   const isOne = runs.length === 1;
   const end_s = Math.max(1, median.length - 1);
   const band = isOne ? { median: fractionsOf(median) } : { median: fractionsOf(median), low: fractionsOf(low), high: fractionsOf(high) };
-  const textOf = (time_s: number) => (isOne ? textAt(median, time_s) : `median ${textAt(median, time_s)}, quartiles ${textAt(low, time_s)} to ${textAt(high, time_s)}`);
+  const textOf = (time_s: number) =>
+    isOne ? textAt(median, time_s) : `median ${textAt(median, time_s)}, quartiles ${textAt(low, time_s)} to ${textAt(high, time_s)}`;
   return (
     <>
       <Legend names={[isOne ? runs[0]!.name : "median, with the band between the quartiles; thin: single runs"]} />
@@ -96,7 +104,13 @@ function EscapeOfPolicies({ cases }: Figures, element: HTMLElement) {
       <Legend names={curves.map((curve) => curve.name)} />
       <Timed name="People out" end_s={end_s} textOf={textOf}>
         {(time_s, onTime) => (
-          <ShareCurves bands={curves.map((curve) => ({ median: fractionsOf(curve.share) }))} end_s={end_s} time_s={time_s} onTime={onTime} label={`Share of the people out at ${Math.round(time_s)} s: ${textOf(time_s)}`} />
+          <ShareCurves
+            bands={curves.map((curve) => ({ median: fractionsOf(curve.share) }))}
+            end_s={end_s}
+            time_s={time_s}
+            onTime={onTime}
+            label={`Share of the people out at ${Math.round(time_s)} s: ${textOf(time_s)}`}
+          />
         )}
       </Timed>
       <p class="chart-axis">time since the alarm</p>
@@ -110,24 +124,42 @@ function Convergence({ cases }: Figures, element: HTMLElement) {
     // A run in which somebody never gets out has no time: nor has the mean from then on.
     const means = curve.mean_s.flatMap((mean, i) => {
       const [low, high] = [curve.low_s[i], curve.high_s[i]];
-      return mean === null ? [] : [{ count: i + kFirstCount, mean, margin: typeof low === "number" && typeof high === "number" ? (high - low) / 2 : null }];
+      return mean === null
+        ? []
+        : [{ count: i + kFirstCount, mean, margin: typeof low === "number" && typeof high === "number" ? (high - low) / 2 : null }];
     });
     return { title: curve.name, index: index % kSeries, means };
   });
-  const last = series.flatMap(({ title, means }) => means.slice(-1).map(({ mean, margin }) => `${title} ${mean.toFixed(1)} ± ${margin?.toFixed(1) ?? "?"} s`));
+  const last = series.flatMap(({ title, means }) =>
+    means.slice(-1).map(({ mean, margin }) => `${title} ${mean.toFixed(1)} ± ${margin?.toFixed(1) ?? "?"} s`),
+  );
   return (
     <>
       <Legend names={convergence.map((curve) => curve.name)} />
-      <MeanChart series={series} runs={Math.max(2, ...series.flatMap(({ means }) => means.map(({ count }) => count)))} isDifference={false} label={`Running means, in s: ${last.join(", ")}`} />
+      <MeanChart
+        series={series}
+        runs={Math.max(2, ...series.flatMap(({ means }) => means.map(({ count }) => count)))}
+        isDifference={false}
+        label={`Running means, in s: ${last.join(", ")}`}
+      />
     </>
   );
 }
 
 function Timeline({ runs }: Figures, element: HTMLElement) {
   const { exits, duration_s } = runs[Number(element.dataset["run"])]!;
-  const histories = exits.map(({ id, states }): ExitHistory => ({ id, spans: states.map(([from_s, to_s, state]) => ({ from_s, to_s, state: kExitStates[state] as ExitState })) }));
+  const histories = exits.map(
+    ({ id, states }): ExitHistory => ({
+      id,
+      spans: states.map(([from_s, to_s, state]) => ({ from_s, to_s, state: kExitStates[state] as ExitState })),
+    }),
+  );
   return (
-    <Timed name="State of the exits" end_s={duration_s} textOf={(time_s) => histories.map((history) => `${history.id} ${stateAt(history, time_s) ?? "unknown"}`).join(", ")}>
+    <Timed
+      name="State of the exits"
+      end_s={duration_s}
+      textOf={(time_s) => histories.map((history) => `${history.id} ${stateAt(history, time_s) ?? "unknown"}`).join(", ")}
+    >
       {(time_s, onTime) => <ExitChart histories={histories} time_s={time_s} end_s={duration_s} onTime={onTime} />}
     </Timed>
   );
@@ -141,7 +173,8 @@ export const isReportChart = (name: string) => name in kMakers;
 /** Draws the chart that the element names. Returns what to call when the page's width changes and around printing. */
 export function drawReportChart(element: HTMLElement, figures: Figures): { resize: () => void; printing: (now: boolean) => void } {
   const name = element.dataset["chart"]!;
-  const draw = (width: number | null) => render(<FixedWidth.Provider value={width}>{kMakers[name]!(figures, element)}</FixedWidth.Provider>, element);
+  const draw = (width: number | null) =>
+    render(<FixedWidth.Provider value={width}>{kMakers[name]!(figures, element)}</FixedWidth.Provider>, element);
   element.replaceChildren();
   draw(null);
   return { resize: () => {}, printing: (now) => draw(now ? kPaperWidth : null) };

@@ -26,4 +26,5 @@ export function scaleOf(values: readonly number[], count = 5, hasZero = true): S
 export const shareOn = (scale: Scale, value: number) => (value - scale.low) / (scale.high - scale.low);
 
 /** A difference with its sign; "–" where there is none. */
-export const signedText = (value: number | null | undefined, digits = 1) => (typeof value === "number" ? `${value > 0 ? "+" : value < 0 ? "−" : ""}${Math.abs(value).toFixed(digits)}` : "–");
+export const signedText = (value: number | null | undefined, digits = 1) =>
+  typeof value === "number" ? `${value > 0 ? "+" : value < 0 ? "−" : ""}${Math.abs(value).toFixed(digits)}` : "–";

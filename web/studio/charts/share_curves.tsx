@@ -40,7 +40,17 @@ export function ShareCurves({ bands, singles = [], end_s, time_s, label, onTime 
             {singles.map((shares, index) => (
               <polyline key={index} class="series-single" points={points(shares).join(" ")} />
             ))}
-            {bands.map(({ low, high }, index) => low && high && <polygon key={index} class={`series-band series-${index}`} points={[...points(high), ...points(low).reverse()].join(" ")} />)}
+            {bands.map(
+              ({ low, high }, index) =>
+                low &&
+                high && (
+                  <polygon
+                    key={index}
+                    class={`series-band series-${index}`}
+                    points={[...points(high), ...points(low).reverse()].join(" ")}
+                  />
+                ),
+            )}
             {bands.map(({ median }, index) => (
               <polyline key={index} class={`series series-${index}`} points={points(median).join(" ")} />
             ))}

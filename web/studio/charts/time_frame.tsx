@@ -64,7 +64,15 @@ export function TimeFrame({ time_s, end_s, onTime, height, label, children }: Fr
   return (
     <div ref={element}>
       {width > 0 && (
-        <svg class="chart" width={width} height={height + kAxisHeight} role="img" aria-label={label} onPointerDown={pick} onPointerMove={pick}>
+        <svg
+          class="chart"
+          width={width}
+          height={height + kAxisHeight}
+          role="img"
+          aria-label={label}
+          onPointerDown={pick}
+          onPointerMove={pick}
+        >
           {ticks.map((tick) => (
             <g key={tick}>
               <line class="chart-grid" x1={toX(tick)} x2={toX(tick)} y1="0" y2={height} />

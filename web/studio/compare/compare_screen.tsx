@@ -4,14 +4,14 @@ import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
 import { useSession } from "../api/session";
 import type { Job, JobList } from "../api/types";
+import { Swatch } from "../charts/share_curves";
 import type { Json } from "../form/json";
 import { Empty, ErrorBox } from "../parts/elements";
 import { navigate, usePlace } from "../parts/router";
 import type { Metrics } from "../run/metrics";
-import { Swatch } from "../charts/share_curves";
-import { Curves } from "./job_curves";
 import { type Difference, differencesOf } from "./differences";
 import { FigureTable } from "./figures";
+import { Curves } from "./job_curves";
 import { addressOf, type Choice, choiceOf, choicesOf, keyOf, kMaxSubjects, nameOf, pageOf, runsOf, type Subject } from "./subjects";
 import { Swipe } from "./swipe";
 
@@ -22,7 +22,10 @@ interface Compared {
 
 async function subjectOf({ id, run }: Choice, signal: AbortSignal): Promise<Subject> {
   const job = await getJson<Job>(`/v1/jobs/${id}`, signal);
-  const runs = run === null ? (await getJson<{ runs: Metrics[] }>(`/v1/jobs/${id}/metrics`, signal)).runs : [await getJson<Metrics>(`/v1/jobs/${id}/runs/${run}/metrics`, signal)];
+  const runs =
+    run === null
+      ? (await getJson<{ runs: Metrics[] }>(`/v1/jobs/${id}/metrics`, signal)).runs
+      : [await getJson<Metrics>(`/v1/jobs/${id}/runs/${run}/metrics`, signal)];
   return { id, run, name: nameOf(job, run), job, runs };
 }
 
@@ -49,7 +52,9 @@ function otherRuns(choices: Choice[], jobs: Job[]): { choice: Choice; name: stri
   const chosen = choices.map(keyOf);
   const ids = [...new Set(choices.map((choice) => choice.id))];
   const known = ids.flatMap((id) => jobs.filter((job) => job.id === id).slice(0, 1));
-  const all = known.flatMap((job) => Array.from({ length: runsOf(job) }, (_, run) => ({ choice: { id: job.id, run }, name: nameOf(job, run) })));
+  const all = known.flatMap((job) =>
+    Array.from({ length: runsOf(job) }, (_, run) => ({ choice: { id: job.id, run }, name: nameOf(job, run) })),
+  );
   return all.filter(({ choice }) => !chosen.includes(keyOf(choice)));
 }
 
@@ -69,7 +74,12 @@ function Chosen({ choices, subjects }: { choices: Choice[]; subjects: Subject[] 
         return (
           <span key={keyOf(choice)} class="chosen">
             <Swatch index={index} /> <a href={pageOf(choice)}>{name}</a>
-            <button type="button" class="link" aria-label={`Leave out ${name}`} onClick={() => navigate(addressOf(choices.filter((other) => other !== choice)))}>
+            <button
+              type="button"
+              class="link"
+              aria-label={`Leave out ${name}`}
+              onClick={() => navigate(addressOf(choices.filter((other) => other !== choice)))}
+            >
               ×
             </button>
           </span>
@@ -161,7 +171,12 @@ function SwipePair({ subjects, time_s }: { subjects: Subject[]; time_s: number }
           {select("Right", right, (index) => setPair([left, index]))}
         </div>
       )}
-      <Swipe key={`${keyOf(subjects[left]!)} ${keyOf(subjects[right]!)}`} subjects={[subjects[left]!, subjects[right]!]} indices={[left, right]} time_s={time_s} />
+      <Swipe
+        key={`${keyOf(subjects[left]!)} ${keyOf(subjects[right]!)}`}
+        subjects={[subjects[left]!, subjects[right]!]}
+        indices={[left, right]}
+        time_s={time_s}
+      />
     </>
   );
 }
@@ -180,14 +195,27 @@ function Comparison({ subjects }: { subjects: Subject[] }) {
         {hasSeveral && <p class="quiet-text">Of several runs the median; bands are from the first to the third quartile.</p>}
         <Curves curves={subjects} time_s={time_s} onTime={onTime} />
         <div class="row time-row">
-          <input type="range" aria-label="Time" aria-valuetext={`${time_s.toFixed(1)} s`} min={0} max={end_s} step={0.5} value={time_s} onInput={(event) => onTime(Number(event.currentTarget.value))} />
+          <input
+            type="range"
+            aria-label="Time"
+            aria-valuetext={`${time_s.toFixed(1)} s`}
+            min={0}
+            max={end_s}
+            step={0.5}
+            value={time_s}
+            onInput={(event) => onTime(Number(event.currentTarget.value))}
+          />
           <output>{time_s.toFixed(1)} s</output>
         </div>
       </section>
       <section aria-labelledby="figures">
         <h2 id="figures">Figures</h2>
         <FigureTable curves={subjects} />
-        {hasSeveral && <p class="quiet-text table-note">± half the width of the mean's 95 % interval over the runs (Student's t). A figure that some run does not reach has no mean.</p>}
+        {hasSeveral && (
+          <p class="quiet-text table-note">
+            ± half the width of the mean's 95 % interval over the runs (Student's t). A figure that some run does not reach has no mean.
+          </p>
+        )}
       </section>
       <section aria-labelledby="images" class="swipe-section">
         <h2 id="images">Images at {time_s.toFixed(1)} s</h2>

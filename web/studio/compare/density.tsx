@@ -29,7 +29,11 @@ export function useDensities(left: Side | null, right: Side | null, isWanted: bo
     let isCurrent = true;
     const settle = (value: Densities | string) => isCurrent && setState({ key, value });
     densitiesOf([left, right]).then(settle, (error: unknown) =>
-      settle(error instanceof ApiError && error.status === 404 ? "One of the datasets has no density maps: its job did not ask for density in outputs.annotations." : messageOf(error)),
+      settle(
+        error instanceof ApiError && error.status === 404
+          ? "One of the datasets has no density maps: its job did not ask for density in outputs.annotations."
+          : messageOf(error),
+      ),
     );
     return () => void (isCurrent = false);
   }, [key, isWanted]);

@@ -1,7 +1,8 @@
 // Figures of several jobs side by side, as means over their runs.
+
+import { Swatch } from "../charts/share_curves";
 import { countText } from "../parts/format";
 import type { Metrics } from "../run/metrics";
-import { Swatch } from "../charts/share_curves";
 import type { Curve } from "./job_curves";
 import { summaryOf } from "./statistics";
 

@@ -26,7 +26,10 @@ export function choiceOf(text: string): Choice | null {
 
 /** The first of those that an address names; each counts once. */
 export function choicesOf(query: URLSearchParams): Choice[] {
-  const choices = query.getAll("job").map(choiceOf).filter((choice) => choice !== null);
+  const choices = query
+    .getAll("job")
+    .map(choiceOf)
+    .filter((choice) => choice !== null);
   const keys = choices.map(keyOf);
   return choices.filter((choice, index) => keys.indexOf(keyOf(choice)) === index).slice(0, kMaxSubjects);
 }

@@ -2,10 +2,10 @@
 import { useState } from "preact/hooks";
 import { useSource } from "../api/resource";
 import type { Job } from "../api/types";
+import { Swatch } from "../charts/share_curves";
 import type { Dataset, ImageName } from "../dataset/coco";
 import { useDataset } from "../dataset/stage";
 import { captureOf, frameAt, timeOf } from "../run/capture";
-import { Swatch } from "../charts/share_curves";
 import { DensityMap, useDensities } from "./density";
 import { runName, type Subject } from "./subjects";
 
@@ -35,7 +35,11 @@ function commonCameras(datasets: [Dataset, Dataset], subjects: [Subject, Subject
   // A single run is held against any run of a job.
   const second = (run: string) => (right !== null ? [right] : left !== null ? datasets[1].runs.map((entry) => entry.run) : [run]);
   return first.flatMap(({ run, cameras }) =>
-    second(run).flatMap((other) => cameras.filter(({ camera }) => datasets[1].camerasOf(other).some((entry) => entry.camera === camera)).map(({ camera }): Pair => ({ runs: [run, other], camera }))),
+    second(run).flatMap((other) =>
+      cameras
+        .filter(({ camera }) => datasets[1].camerasOf(other).some((entry) => entry.camera === camera))
+        .map(({ camera }): Pair => ({ runs: [run, other], camera })),
+    ),
   );
 }
 
@@ -48,7 +52,9 @@ function Images({ subjects, indices, datasets, time_s }: ImagesProps) {
   const [edge, setEdge] = useState(50);
   const cameras = commonCameras(datasets, subjects);
   const chosen = cameras[Math.min(choice, cameras.length - 1)];
-  const images = datasets.map((dataset, side) => chosen && nearestImage(dataset, subjects[side]!.job, chosen.runs[side]!, chosen.camera, time_s));
+  const images = datasets.map(
+    (dataset, side) => chosen && nearestImage(dataset, subjects[side]!.job, chosen.runs[side]!, chosen.camera, time_s),
+  );
   const [left, right] = images;
   const sources = [useSource(left ? datasets[0].address(left) : null), useSource(right ? datasets[1].address(right) : null)];
   const [hasDensity, setDensity] = useState(false);
@@ -84,20 +90,45 @@ function Images({ subjects, indices, datasets, time_s }: ImagesProps) {
       )}
       {maps && (
         <p class="quiet-text">
-          Both maps have the same colors, up to {maps.scale.max.toPrecision(2)} people per pixel. People in the images: {maps.people[0].toFixed(1)} and {maps.people[1].toFixed(1)}.
+          Both maps have the same colors, up to {maps.scale.max.toPrecision(2)} people per pixel. People in the images:{" "}
+          {maps.people[0].toFixed(1)} and {maps.people[1].toFixed(1)}.
         </p>
       )}
       <figure>
         <div class="stage swipe">
           {sources[0] && <img src={sources[0]} alt={`${subjects[0].name}: ${left.path}`} />}
-          {sources[1] && <img class="upper" src={sources[1]} alt={`${subjects[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />}
-          {maps && <DensityMap raster={maps.rasters[0]} scale={maps.scale} label={`density of ${subjects[0].name}`} clip={`inset(0 ${100 - edge}% 0 0)`} />}
-          {maps && <DensityMap raster={maps.rasters[1]} scale={maps.scale} label={`density of ${subjects[1].name}`} clip={`inset(0 0 0 ${edge}%)`} />}
+          {sources[1] && (
+            <img class="upper" src={sources[1]} alt={`${subjects[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />
+          )}
+          {maps && (
+            <DensityMap
+              raster={maps.rasters[0]}
+              scale={maps.scale}
+              label={`density of ${subjects[0].name}`}
+              clip={`inset(0 ${100 - edge}% 0 0)`}
+            />
+          )}
+          {maps && (
+            <DensityMap
+              raster={maps.rasters[1]}
+              scale={maps.scale}
+              label={`density of ${subjects[1].name}`}
+              clip={`inset(0 0 0 ${edge}%)`}
+            />
+          )}
           <div class="edge" style={{ left: `${edge}%` }} />
         </div>
         <figcaption class="row swipe-caption">
           {caption(0, left)}
-          <input type="range" aria-label="Edge between the images" aria-valuetext={`${edge} %`} min="0" max="100" value={edge} onInput={(event) => setEdge(Number(event.currentTarget.value))} />
+          <input
+            type="range"
+            aria-label="Edge between the images"
+            aria-valuetext={`${edge} %`}
+            min="0"
+            max="100"
+            value={edge}
+            onInput={(event) => setEdge(Number(event.currentTarget.value))}
+          />
           {caption(1, right)}
         </figcaption>
       </figure>

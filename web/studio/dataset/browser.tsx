@@ -143,13 +143,19 @@ function Thumbnails({ id, query, images, total }: ThumbnailsProps) {
 /** Pages of the service: it filters by run and camera alone. */
 function Grid({ id, query }: GridProps) {
   const list = useJson<ImageList>(pageAddress(id, query, pageOf(query)));
-  if (!list.value) return list.error ? <ErrorBox error={list.error.status === 401 ? null : list.error} /> : <p class="loading">Loading …</p>;
+  if (!list.value)
+    return list.error ? <ErrorBox error={list.error.status === 401 ? null : list.error} /> : <p class="loading">Loading …</p>;
   const { images, total, runs } = list.value;
   return (
     <>
       <div class="row wrap filters">
         <Filter label="Run" name="run" values={runs.map((entry) => entry.run)} query={query} />
-        <Filter label="Camera" name="camera" values={sorted(runs.flatMap((entry) => entry.cameras.map((camera) => camera.camera)))} query={query} />
+        <Filter
+          label="Camera"
+          name="camera"
+          values={sorted(runs.flatMap((entry) => entry.cameras.map((camera) => camera.camera)))}
+          query={query}
+        />
         <a class="button small" href={withQuery(query, { filters: "all", page: null })}>
           All filters
         </a>

@@ -4,7 +4,7 @@ export interface CameraRecord {
   K: [number[], number[], number[]];
   R: [number[], number[], number[]];
   t: [number, number, number];
-  "centre": [number, number, number];
+  centre: [number, number, number];
   model?: string;
   distortion?: Record<string, number>;
 }
@@ -27,7 +27,10 @@ function brown(k: (name: string) => number): Lens {
   const below = (s: number) => 1 + s * (k("k4") + s * (k("k5") + s * k("k6")));
   return {
     radial: (r) => (r * above(r * r)) / below(r * r),
-    tangential: (x, y) => [2 * k("p1") * x * y + k("p2") * (x * x + y * y + 2 * x * x), k("p1") * (x * x + y * y + 2 * y * y) + 2 * k("p2") * x * y],
+    tangential: (x, y) => [
+      2 * k("p1") * x * y + k("p2") * (x * x + y * y + 2 * x * x),
+      k("p1") * (x * x + y * y + 2 * y * y) + 2 * k("p2") * x * y,
+    ],
   };
 }
 
@@ -62,7 +65,11 @@ export function projectionOf(camera: CameraRecord): (point: Point3) => Point2 | 
   const isPinhole = lens === kPinhole;
   const limit = isPinhole ? Infinity : limitOf(lens);
   return (point) => {
-    const [x, y, z] = R.map((row, axis) => row[0]! * point[0] + row[1]! * point[1] + row[2]! * point[2] + t[axis]!) as [number, number, number];
+    const [x, y, z] = R.map((row, axis) => row[0]! * point[0] + row[1]! * point[1] + row[2]! * point[2] + t[axis]!) as [
+      number,
+      number,
+      number,
+    ];
     if (z < kMinDepth_m) return null;
     const [a, b] = [x / z, y / z];
     const r = Math.hypot(a, b);
@@ -78,8 +85,19 @@ export function projectionOf(camera: CameraRecord): (point: Point3) => Point2 | 
 export function cornersOf([x, y, z, length, width, height]: readonly number[], heading: number): Point3[] {
   const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
   return [-0.5, 0.5].flatMap((up) =>
-    ([[0.5, 0.5], [0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5]] as const).map(
-      ([ahead, side]): Point3 => [x! + ahead * length! * cos - side * width! * sin, y! + ahead * length! * sin + side * width! * cos, z! + up * height!],
+    (
+      [
+        [0.5, 0.5],
+        [0.5, -0.5],
+        [-0.5, -0.5],
+        [-0.5, 0.5],
+      ] as const
+    ).map(
+      ([ahead, side]): Point3 => [
+        x! + ahead * length! * cos - side * width! * sin,
+        y! + ahead * length! * sin + side * width! * cos,
+        z! + up * height!,
+      ],
     ),
   );
 }

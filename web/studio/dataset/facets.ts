@@ -11,10 +11,20 @@ export interface Facet {
 
 type Person = ImageSummary["people"][number];
 
-const ofImage = (name: string, label: string, bins: string[], binOf: (image: ImageSummary) => number | null): Facet =>
-  ({ name, label, of: "image", bins, hasBin: (image: ImageSummary, bin: number) => binOf(image) === bin });
-const ofPerson = (name: string, label: string, bins: string[], binOf: (person: Person) => number): Facet =>
-  ({ name, label, of: "person", bins, hasBin: (person: Person, bin: number) => binOf(person) === bin });
+const ofImage = (name: string, label: string, bins: string[], binOf: (image: ImageSummary) => number | null): Facet => ({
+  name,
+  label,
+  of: "image",
+  bins,
+  hasBin: (image: ImageSummary, bin: number) => binOf(image) === bin,
+});
+const ofPerson = (name: string, label: string, bins: string[], binOf: (person: Person) => number): Facet => ({
+  name,
+  label,
+  of: "person",
+  bins,
+  hasBin: (person: Person, bin: number) => binOf(person) === bin,
+});
 
 export function facetsOf({ images, states }: ImageIndex): Facet[] {
   const runs = [...new Set(images.map((image) => image.run))].sort();
@@ -34,7 +44,13 @@ export function facetsOf({ images, states }: ImageIndex): Facet[] {
 export type Choice = ReadonlyMap<string, ReadonlySet<number>>;
 
 export function choiceOf(facets: Facet[], query: URLSearchParams): Choice {
-  const chosen = (facet: Facet) => new Set(query.getAll(facet.name).map((label) => facet.bins.indexOf(label)).filter((bin) => bin >= 0));
+  const chosen = (facet: Facet) =>
+    new Set(
+      query
+        .getAll(facet.name)
+        .map((label) => facet.bins.indexOf(label))
+        .filter((bin) => bin >= 0),
+    );
   return new Map(facets.map((facet) => [facet.name, chosen(facet)]));
 }
 
@@ -50,12 +66,17 @@ function isChosen(image: ImageSummary, facets: Facet[], choice: Choice): boolean
   return ofPeople.length === 0 || image.people.some((person) => ofPeople.every((facet) => fits(person, facet, choice)));
 }
 
-export const chosenImages = (index: ImageIndex, facets: Facet[], choice: Choice) => index.images.filter((image) => isChosen(image, facets, choice));
+export const chosenImages = (index: ImageIndex, facets: Facet[], choice: Choice) =>
+  index.images.filter((image) => isChosen(image, facets, choice));
 
 /** For each bin, how many images have it among those that fit the other facets. */
 export function histogramOf(index: ImageIndex, facets: Facet[], choice: Choice, facet: Facet): number[] {
   const others = facets.filter((other) => other !== facet);
   const only = (bin: number): Choice => new Map([...choice, [facet.name, new Set([bin])]]);
-  const candidates = chosenImages(index, others.filter((other) => other.of === "image"), choice);
+  const candidates = chosenImages(
+    index,
+    others.filter((other) => other.of === "image"),
+    choice,
+  );
   return facet.bins.map((_, bin) => candidates.filter((image) => isChosen(image, facets, only(bin))).length);
 }

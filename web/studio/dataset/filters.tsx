@@ -22,7 +22,8 @@ export function useIndex(job: string, isWanted: boolean): IndexState {
   useEffect(() => {
     if (!isWanted) return;
     const controller = new AbortController();
-    const onShare = (share: number) => setState((last) => (Math.floor(kPercent * share) === Math.floor(kPercent * last.share) ? last : { ...last, share }));
+    const onShare = (share: number) =>
+      setState((last) => (Math.floor(kPercent * share) === Math.floor(kPercent * last.share) ? last : { ...last, share }));
     readIndex(job, controller.signal, onShare).then(
       (index) => setState({ index, share: 1, error: null }),
       (reason: unknown) => controller.signal.aborted || setState({ index: null, share: 0, error: asApiError(reason) }),
@@ -32,7 +33,17 @@ export function useIndex(job: string, isWanted: boolean): IndexState {
   return state;
 }
 
-function Histogram({ facet, counts, chosen, onToggle }: { facet: Facet; counts: number[]; chosen: ReadonlySet<number>; onToggle: (bin: number) => void }) {
+function Histogram({
+  facet,
+  counts,
+  chosen,
+  onToggle,
+}: {
+  facet: Facet;
+  counts: number[];
+  chosen: ReadonlySet<number>;
+  onToggle: (bin: number) => void;
+}) {
   const most = Math.max(1, ...counts);
   return (
     <div role="group" aria-label={facet.label} class="histogram">
@@ -64,7 +75,10 @@ interface FiltersProps {
 
 export function Filters({ state, facets, choice, query }: FiltersProps) {
   const { index, share, error } = state;
-  const histograms = useMemo(() => (index ? facets.map((facet) => histogramOf(index, facets, choice, facet)) : []), [index, facets, choice]);
+  const histograms = useMemo(
+    () => (index ? facets.map((facet) => histogramOf(index, facets, choice, facet)) : []),
+    [index, facets, choice],
+  );
   const toggle = (facet: Facet, bin: number) => {
     const label = facet.bins[bin]!;
     const next = new URLSearchParams(query);
@@ -75,14 +89,25 @@ export function Filters({ state, facets, choice, query }: FiltersProps) {
     kept.forEach((other) => next.append(facet.name, other));
     navigate(`${location.pathname}?${next}`, { replace: true });
   };
-  if (error) return error.status === 401 ? null : <p class="notice warn">{error.status === 404 ? "This dataset has no COCO annotations, so there is nothing else to filter by." : `${error.message}.`}</p>;
+  if (error)
+    return error.status === 401 ? null : (
+      <p class="notice warn">
+        {error.status === 404 ? "This dataset has no COCO annotations, so there is nothing else to filter by." : `${error.message}.`}
+      </p>
+    );
   if (!index) return <Progress done={Math.round(kPercent * share)} total={kPercent} label="reading the annotations" />;
   return (
     <>
       <div class="histograms">
         {facets.map((facet, at) =>
           histograms[at]!.some((count) => count > 0) || choice.get(facet.name)!.size > 0 ? (
-            <Histogram key={facet.name} facet={facet} counts={histograms[at]!} chosen={choice.get(facet.name)!} onToggle={(bin) => toggle(facet, bin)} />
+            <Histogram
+              key={facet.name}
+              facet={facet}
+              counts={histograms[at]!}
+              chosen={choice.get(facet.name)!}
+              onToggle={(bin) => toggle(facet, bin)}
+            />
           ) : null,
         )}
       </div>

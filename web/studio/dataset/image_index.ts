@@ -1,7 +1,7 @@
 // A summary of each image of a dataset, by which images are filtered: read once from the file of annotations.
 import { request } from "../api/client";
-import { readLines } from "./lines";
 import type { ImageRecord } from "./coco";
+import { readLines } from "./lines";
 
 export const kMaxIndexBytes = 256 * 2 ** 20;
 const kPerson = 1; ///< category
@@ -15,13 +15,21 @@ export interface Bins {
 function binsOf(limits: number[], text: (from: number, to: number | undefined) => string): Bins {
   return {
     labels: limits.map((from, index) => text(from, limits[index + 1])),
-    of: (value) => Math.max(0, limits.findLastIndex((limit) => value >= limit)),
+    of: (value) =>
+      Math.max(
+        0,
+        limits.findLastIndex((limit) => value >= limit),
+      ),
   };
 }
 
-export const kCounts = binsOf([0, 1, 2, 5, 10, 20, 50, 100, 200, 500], (from, to) => (to === undefined ? `${from} or more` : to - from === 1 ? String(from) : `${from} to ${to - 1}`));
+export const kCounts = binsOf([0, 1, 2, 5, 10, 20, 50, 100, 200, 500], (from, to) =>
+  to === undefined ? `${from} or more` : to - from === 1 ? String(from) : `${from} to ${to - 1}`,
+);
 export const kVisibility = binsOf([0, 0.2, 0.4, 0.6, 0.8], (from, to) => `${Math.round(100 * from)} to ${Math.round(100 * (to ?? 1))} %`);
-export const kHeights = binsOf([0, 8, 16, 32, 64, 128, 256, 512], (from, to) => (to === undefined ? `${from} px or more` : `${from} to ${to} px`));
+export const kHeights = binsOf([0, 8, 16, 32, 64, 128, 256, 512], (from, to) =>
+  to === undefined ? `${from} px or more` : `${from} to ${to} px`,
+);
 /** Elevation of the sun, degrees. */
 export const kLight: Bins = { ...binsOf([-90, -6, 0, 15], () => ""), labels: ["night", "twilight", "low sun", "day"] };
 
@@ -89,7 +97,9 @@ export async function readIndex(job: string, signal: AbortSignal, onShare: (shar
   const bytes = Number(response.headers.get("Content-Length") ?? 0);
   if (bytes > kMaxIndexBytes) {
     await response.body?.cancel();
-    throw new Error(`the annotations have ${Math.round(bytes / 1e6)} MB; filters by their contents read up to ${Math.round(kMaxIndexBytes / 1e6)} MB`);
+    throw new Error(
+      `the annotations have ${Math.round(bytes / 1e6)} MB; filters by their contents read up to ${Math.round(kMaxIndexBytes / 1e6)} MB`,
+    );
   }
   let read = 0;
   return indexOf(readLines(response.body!, (count) => onShare(Math.min(1, (read += count) / Math.max(1, bytes)))));

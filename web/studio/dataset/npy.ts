@@ -7,7 +7,12 @@ export function npyOf(buffer: ArrayBuffer): { shape: number[]; values: Float32Ar
   const start = isLong ? 12 : 10;
   const end = start + (isLong ? view.getUint32(8, true) : view.getUint16(8, true));
   const header = new TextDecoder().decode(buffer.slice(start, end));
-  const shape = /'shape': \(([^)]*)\)/.exec(header)?.[1]!.split(",").filter((part) => part.trim()).map(Number);
-  if (!shape || !header.includes("'<f4'") || header.includes("'fortran_order': True")) throw new Error("the array is not of float32 in C order");
+  const shape = /'shape': \(([^)]*)\)/
+    .exec(header)?.[1]
+    ?.split(",")
+    .filter((part) => part.trim())
+    .map(Number);
+  if (!shape || !header.includes("'<f4'") || header.includes("'fortran_order': True"))
+    throw new Error("the array is not of float32 in C order");
   return { shape, values: new Float32Array(buffer.slice(end)) };
 }

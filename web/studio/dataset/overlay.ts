@@ -1,6 +1,7 @@
 // Labels of an image on a canvas over it.
-import type { Annotation, Labels } from "./coco";
+
 import { cornersOf, type Point2, type Point3, projectionOf } from "./camera";
+import type { Annotation, Labels } from "./coco";
 import { forEachRun } from "./rle";
 
 export interface Layer {
@@ -44,10 +45,30 @@ const kStateColors: Record<string, string> = {
   panicking: "#ff5a4f",
   lying: "#b8860b",
 };
-const kExitColors: Record<string, string> = { idle: "#c9d1d7", flowing: "#5bd184", congested: "#ffc24d", clogged: "#ff6b60", closed: "#9aa3aa" };
+const kExitColors: Record<string, string> = {
+  idle: "#c9d1d7",
+  flowing: "#5bd184",
+  congested: "#ffc24d",
+  clogged: "#ff6b60",
+  closed: "#9aa3aa",
+};
 /** Of COCO's 17 keypoints. */
 const kLimbs = [
-  [15, 13], [13, 11], [16, 14], [14, 12], [11, 12], [5, 11], [6, 12], [5, 6], [5, 7], [6, 8], [7, 9], [8, 10], [1, 2], [0, 1], [0, 2],
+  [15, 13],
+  [13, 11],
+  [16, 14],
+  [14, 12],
+  [11, 12],
+  [5, 11],
+  [6, 12],
+  [5, 6],
+  [5, 7],
+  [6, 8],
+  [7, 9],
+  [8, 10],
+  [1, 2],
+  [0, 1],
+  [0, 2],
 ] as const;
 
 /** Red where a person is hard to distinguish from the surroundings, green from a CIELAB difference of 30 on. */
@@ -105,12 +126,21 @@ function drawKeypoints(context: CanvasRenderingContext2D, points: number[], colo
 /** Pairs of the corners of camera.ts: the lower face, the upper one, and the edges between. */
 const kBoxEdges = [0, 1, 2, 3].flatMap((corner) => {
   const next = (corner + 1) % 4;
-  return [[corner, next], [corner + 4, next + 4], [corner, corner + 4]] as const;
+  return [
+    [corner, next],
+    [corner + 4, next + 4],
+    [corner, corner + 4],
+  ] as const;
 });
 const kEdgeParts = 6; // straight edges of the world are bent by lenses
 
 /** Draws the edges of a body's box; the face ahead is crossed. */
-function drawBox3d(context: CanvasRenderingContext2D, { box_3d, heading = 0 }: Annotation, project: (point: Point3) => Point2 | null, scale: number): void {
+function drawBox3d(
+  context: CanvasRenderingContext2D,
+  { box_3d, heading = 0 }: Annotation,
+  project: (point: Point3) => Point2 | null,
+  scale: number,
+): void {
   if (!box_3d) return;
   const corners = cornersOf(box_3d, heading);
   const line = (from: Point3, to: Point3) => {
@@ -204,7 +234,9 @@ export function drawLabels(context: CanvasRenderingContext2D, labels: Labels, dr
 /** The smallest box at a point of the image. */
 export function annotationAt(annotations: Annotation[], x: number, y: number): Annotation | null {
   const kSlack = 2;
-  const hits = annotations.filter(({ bbox: [left, top, width, height] }) =>
-    x >= left - kSlack && x <= left + width + kSlack && y >= top - kSlack && y <= top + height + kSlack);
+  const hits = annotations.filter(
+    ({ bbox: [left, top, width, height] }) =>
+      x >= left - kSlack && x <= left + width + kSlack && y >= top - kSlack && y <= top + height + kSlack,
+  );
   return hits.sort((a, b) => a.bbox[2] * a.bbox[3] - b.bbox[2] * b.bbox[3])[0] ?? null;
 }

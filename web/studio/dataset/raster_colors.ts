@@ -4,7 +4,17 @@ import type { Raster } from "./raster";
 type Rgb = readonly [number, number, number];
 
 // Viridis at equal distances (van der Walt and Smith, CC0): even in lightness, also for the color-blind.
-const kViridis: Rgb[] = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+const kViridis: Rgb[] = [
+  [68, 1, 84],
+  [71, 44, 122],
+  [59, 81, 139],
+  [44, 113, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [92, 200, 99],
+  [170, 220, 50],
+  [253, 231, 37],
+];
 const kPercentile = 0.98;
 const kMaxSamples = 20_000;
 const kMinFlow_px = 0.05;
@@ -21,7 +31,9 @@ export function colorAt(share: number): Rgb {
 function hueColor(angle: number, share: number): Rgb {
   const wave = (offset: number) => 0.5 + 0.5 * Math.cos(angle - offset);
   const white = 1 - Math.min(1, share);
-  return [0, (2 * Math.PI) / 3, (4 * Math.PI) / 3].map((offset) => Math.round(255 * (white + (1 - white) * wave(offset)))) as unknown as Rgb;
+  return [0, (2 * Math.PI) / 3, (4 * Math.PI) / 3].map((offset) =>
+    Math.round(255 * (white + (1 - white) * wave(offset))),
+  ) as unknown as Rgb;
 }
 
 export interface Scale {
@@ -47,7 +59,10 @@ export function pixelsOf(raster: Raster, { min, max }: Scale): Uint8ClampedArray
   raster.values.forEach((value, index) => {
     if (Number.isNaN(value)) return;
     const share = (value - min) / (max - min);
-    const color = raster.kind === "flow" ? hueColor(Math.atan2(raster.dy![index]!, raster.dx![index]!), share) : colorAt(raster.kind === "depth" ? 1 - share : Math.sqrt(Math.max(0, share)));
+    const color =
+      raster.kind === "flow"
+        ? hueColor(Math.atan2(raster.dy![index]!, raster.dx![index]!), share)
+        : colorAt(raster.kind === "depth" ? 1 - share : Math.sqrt(Math.max(0, share)));
     pixels.set(color, 4 * index);
     pixels[4 * index + 3] = raster.kind === "depth" ? 255 : Math.round(255 * Math.min(1, 4 * share));
   });

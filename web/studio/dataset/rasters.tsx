@@ -24,7 +24,8 @@ function drawn(raster: Raster): DrawnRaster {
 
 /** Why a raster is not there. */
 function reasonOf(kind: RasterKind, error: unknown): string {
-  if (error instanceof ApiError && error.status === 404) return `The dataset has no ${kind}: its job did not ask for it in outputs.annotations.`;
+  if (error instanceof ApiError && error.status === 404)
+    return `The dataset has no ${kind}: its job did not ask for it in outputs.annotations.`;
   return `${kind}: ${messageOf(error)}`;
 }
 
@@ -39,7 +40,9 @@ function useRaster(dataset: Dataset, image: ImageName, kind: RasterKind, isWante
     if (!isWanted) return;
     let isCurrent = true;
     const settle = (value: DrawnRaster | string) => isCurrent && setState({ path: image.path, value });
-    fetchRaster(dataset.job, image, kind).then(drawn).then(settle, (error: unknown) => settle(reasonOf(kind, error)));
+    fetchRaster(dataset.job, image, kind)
+      .then(drawn)
+      .then(settle, (error: unknown) => settle(reasonOf(kind, error)));
     return () => void (isCurrent = false);
   }, [dataset, image.path, isWanted]);
   return isWanted && state?.path === image.path ? state.value : null;

@@ -20,7 +20,11 @@ export function useDataset(id: string) {
 
 /** Labels of an image; null until they are there. */
 export function useLabels(dataset: Dataset, image: ImageName) {
-  const [state, setState] = useState<{ path: string; labels: Labels | null; error: string | null }>({ path: "", labels: null, error: null });
+  const [state, setState] = useState<{ path: string; labels: Labels | null; error: string | null }>({
+    path: "",
+    labels: null,
+    error: null,
+  });
   useEffect(() => {
     if (!dataset.hasLabels) return;
     let isCurrent = true;
@@ -59,7 +63,11 @@ export function LabelCanvas({ labels, drawing, rasters = kNoRasters, onHover, on
     const image = labels?.image ?? rasters[0]?.raster;
     canvas.current!.width = width;
     canvas.current!.height = image ? Math.round((width * image.height) / image.width) : 1;
-    drawRasters(context, rasters.map((entry) => entry.image), drawing.opacity);
+    drawRasters(
+      context,
+      rasters.map((entry) => entry.image),
+      drawing.opacity,
+    );
     if (labels && width > 0) drawLabels(context, labels, drawing, width / labels.image.width);
     canvas.current!.dataset["drawn"] = labels ? `${labels.image.id} ${[...drawing.layers].join(",")}` : "";
     canvas.current!.dataset["rasters"] = rasters.map((entry) => entry.raster.kind).join();

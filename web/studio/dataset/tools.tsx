@@ -16,7 +16,14 @@ export function Tools({ layers, coloring, opacity, onToggle, onColoring, onOpaci
   return (
     <div class="row wrap tools" role="group" aria-label="Labels">
       {kLayers.map((layer) => (
-        <button key={layer.id} type="button" class="chip" aria-pressed={layers.has(layer.id)} aria-keyshortcuts={layer.key} onClick={() => onToggle(layer.id)}>
+        <button
+          key={layer.id}
+          type="button"
+          class="chip"
+          aria-pressed={layers.has(layer.id)}
+          aria-keyshortcuts={layer.key}
+          onClick={() => onToggle(layer.id)}
+        >
           {layer.label} <kbd>{layer.key.toUpperCase()}</kbd>
         </button>
       ))}
@@ -30,7 +37,14 @@ export function Tools({ layers, coloring, opacity, onToggle, onColoring, onOpaci
       </label>
       <label class="row">
         Opacity
-        <input type="range" min="0.1" max="1" step="0.1" value={opacity} onInput={(event) => onOpacity(Number(event.currentTarget.value))} />
+        <input
+          type="range"
+          min="0.1"
+          max="1"
+          step="0.1"
+          value={opacity}
+          onInput={(event) => onOpacity(Number(event.currentTarget.value))}
+        />
       </label>
     </div>
   );
@@ -61,19 +75,47 @@ export function ViewerHead({ image, labels, isPlaying, neighbor, onGo, onPlay, o
         {counts && ` · ${countText(counts.visible, "person", "people")} visible of ${counts.all}`}
       </span>
       <div class="actions">
-        <button type="button" class="button small" aria-label="Previous frame" aria-keyshortcuts="ArrowLeft" disabled={!neighbor(-1, 0)} onClick={() => onGo(-1, 0)}>
+        <button
+          type="button"
+          class="button small"
+          aria-label="Previous frame"
+          aria-keyshortcuts="ArrowLeft"
+          disabled={!neighbor(-1, 0)}
+          onClick={() => onGo(-1, 0)}
+        >
           ←
         </button>
         <button type="button" class="button small" aria-pressed={isPlaying} aria-keyshortcuts="Space" onClick={onPlay}>
           {isPlaying ? "Pause" : "Play"}
         </button>
-        <button type="button" class="button small" aria-label="Next frame" aria-keyshortcuts="ArrowRight" disabled={!neighbor(1, 0)} onClick={() => onGo(1, 0)}>
+        <button
+          type="button"
+          class="button small"
+          aria-label="Next frame"
+          aria-keyshortcuts="ArrowRight"
+          disabled={!neighbor(1, 0)}
+          onClick={() => onGo(1, 0)}
+        >
           →
         </button>
-        <button type="button" class="button small" aria-label="Previous camera" aria-keyshortcuts="ArrowUp" disabled={!neighbor(0, -1)} onClick={() => onGo(0, -1)}>
+        <button
+          type="button"
+          class="button small"
+          aria-label="Previous camera"
+          aria-keyshortcuts="ArrowUp"
+          disabled={!neighbor(0, -1)}
+          onClick={() => onGo(0, -1)}
+        >
           ↑
         </button>
-        <button type="button" class="button small" aria-label="Next camera" aria-keyshortcuts="ArrowDown" disabled={!neighbor(0, 1)} onClick={() => onGo(0, 1)}>
+        <button
+          type="button"
+          class="button small"
+          aria-label="Next camera"
+          aria-keyshortcuts="ArrowDown"
+          disabled={!neighbor(0, 1)}
+          onClick={() => onGo(0, 1)}
+        >
           ↓
         </button>
       </div>

@@ -48,10 +48,13 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
     if (next) onSelect(next);
     // A followed person out of this camera's sight is shown by another that sees them.
     if (next && frames !== 0 && selected !== null && dataset.hasLabels) {
-      void sightingsAt(dataset, next, selected).then((found) => {
-        const seen = found.filter((sighting) => sighting.annotation);
-        if (seen.length > 0 && seen.every((sighting) => sighting.image.camera !== next.camera)) onSelect(seen[0]!.image);
-      }, () => {});
+      void sightingsAt(dataset, next, selected).then(
+        (found) => {
+          const seen = found.filter((sighting) => sighting.annotation);
+          if (seen.length > 0 && seen.every((sighting) => sighting.image.camera !== next.camera)) onSelect(seen[0]!.image);
+        },
+        () => {},
+      );
     }
     return next !== null;
   };
@@ -104,11 +107,20 @@ export function Viewer({ dataset, image, onSelect, onClose }: ViewerProps) {
       <div class="viewer-body">
         <div class={`stage ${shown ? "pointing" : ""}`}>
           {source && <img src={source} alt={`${image.run}, camera ${image.camera}, frame ${image.frame}`} />}
-          <LabelCanvas labels={labels} drawing={drawing} rasters={rasters.list} onHover={setHovered} onPoint={setPoint} onClick={() => setSelected(hovered?.track_id ?? null)} />
+          <LabelCanvas
+            labels={labels}
+            drawing={drawing}
+            rasters={rasters.list}
+            onHover={setHovered}
+            onPoint={setPoint}
+            onClick={() => setSelected(hovered?.track_id ?? null)}
+          />
         </div>
         <aside aria-label="Person" class="card person">
           {values.length > 0 && <p class="pixel-values">{values.join(" · ")}</p>}
-          {selected !== null && <Follow dataset={dataset} image={image} track={selected} onSelect={onSelect} onEnd={() => setSelected(null)} />}
+          {selected !== null && (
+            <Follow dataset={dataset} image={image} track={selected} onSelect={onSelect} onEnd={() => setSelected(null)} />
+          )}
           {shown ? (
             <PersonRecord dataset={dataset} annotation={shown} />
           ) : (

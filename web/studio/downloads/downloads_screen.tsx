@@ -32,7 +32,19 @@ function partsOf(card: Card): { name: string; text: string }[] {
   ];
 }
 
-function Part({ job, name, text, isChosen, onToggle }: { job: string; name: string; text: string; isChosen: boolean; onToggle: () => void }) {
+function Part({
+  job,
+  name,
+  text,
+  isChosen,
+  onToggle,
+}: {
+  job: string;
+  name: string;
+  text: string;
+  isChosen: boolean;
+  onToggle: () => void;
+}) {
   const size = useArchiveSize(archiveOf(job, { include: [name], runs: "", split: "", format: "tar" }));
   return (
     <li>
@@ -64,7 +76,13 @@ function Chooser({ job, card, selection, onChange }: { job: Job; card: Card; sel
           </label>
         </li>
         {partsOf(card).map((part) => (
-          <Part key={part.name} job={job.id} {...part} isChosen={selection.include.includes(part.name)} onToggle={() => toggle(part.name)} />
+          <Part
+            key={part.name}
+            job={job.id}
+            {...part}
+            isChosen={selection.include.includes(part.name)}
+            onToggle={() => toggle(part.name)}
+          />
         ))}
       </ul>
       <div class="fields">
@@ -81,11 +99,18 @@ function Chooser({ job, card, selection, onChange }: { job: Job; card: Card; sel
         </label>
         <label class="field">
           <span class="field-name">Runs</span>
-          <input value={selection.runs} placeholder="all, or 0-3,7" onChange={(event) => onChange({ ...selection, runs: event.currentTarget.value.trim(), split: "" })} />
+          <input
+            value={selection.runs}
+            placeholder="all, or 0-3,7"
+            onChange={(event) => onChange({ ...selection, runs: event.currentTarget.value.trim(), split: "" })}
+          />
         </label>
         <label class="field">
           <span class="field-name">Archive</span>
-          <select value={selection.format} onChange={(event) => onChange({ ...selection, format: event.currentTarget.value as Selection["format"] })}>
+          <select
+            value={selection.format}
+            onChange={(event) => onChange({ ...selection, format: event.currentTarget.value as Selection["format"] })}
+          >
             <option>tar</option>
             <option>zip</option>
           </select>

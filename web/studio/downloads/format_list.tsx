@@ -19,7 +19,19 @@ interface FormatListProps {
   splits: Record<string, string[]>;
 }
 
-function Format({ format, job, folder, split, isMissing }: { format: FormatEntry; job: Job; folder: string | null; split: string; isMissing: boolean }) {
+function Format({
+  format,
+  job,
+  folder,
+  split,
+  isMissing,
+}: {
+  format: FormatEntry;
+  job: Job;
+  folder: string | null;
+  split: string;
+  isMissing: boolean;
+}) {
   const made = `throng fetch ${job.id} -o dataset.tar && mkdir dataset && tar -xf dataset.tar -C dataset --strip-components=1\nthrong export dataset -o exported --formats ${format.name}`;
   return (
     <details class="source">
@@ -33,7 +45,12 @@ function Format({ format, job, folder, split, isMissing }: { format: FormatEntry
         </p>
       )}
       {!folder && !isMissing && <CodeBlock text={made} label={`export to ${format.name}`} />}
-      {!isMissing && <CodeBlock text={readerOf(format.name, folder ? `dataset/${folder}` : `exported/${format.name}`, split)} label={`read ${format.name}`} />}
+      {!isMissing && (
+        <CodeBlock
+          text={readerOf(format.name, folder ? `dataset/${folder}` : `exported/${format.name}`, split)}
+          label={`read ${format.name}`}
+        />
+      )}
     </details>
   );
 }
@@ -64,7 +81,14 @@ export function FormatList({ job, formats, truths, written, splits }: FormatList
         </p>
         <div class="format-list">
           {formats.map((format) => (
-            <Format key={format.name} format={format} job={job} folder={written[format.name] ?? null} split={split} isMissing={(format.needs || kUsualNeed).split(", ").some((kind) => !(kind in truths))} />
+            <Format
+              key={format.name}
+              format={format}
+              job={job}
+              folder={written[format.name] ?? null}
+              split={split}
+              isMissing={(format.needs || kUsualNeed).split(", ").some((kind) => !(kind in truths))}
+            />
           ))}
         </div>
       </section>

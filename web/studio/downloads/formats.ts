@@ -59,7 +59,10 @@ const kReaders: Reader[] = [
     names: ["depth-exr"],
     text: 'import os, glob\nos.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"\nimport cv2\nfor name in glob.glob("FOLDER/**/*.exr", recursive=True):\n    depth_m = cv2.imread(name, cv2.IMREAD_UNCHANGED)',
   },
-  { names: ["flow-flo"], text: 'import glob, cv2\nfor name in glob.glob("FOLDER/**/*.flo", recursive=True):\n    flow_px = cv2.readOpticalFlow(name)' },
+  {
+    names: ["flow-flo"],
+    text: 'import glob, cv2\nfor name in glob.glob("FOLDER/**/*.flo", recursive=True):\n    flow_px = cv2.readOpticalFlow(name)',
+  },
   {
     names: ["cityscapes"],
     text: 'from torchvision.datasets import Cityscapes\nimages = Cityscapes("FOLDER", "SPLIT", "fine", ["semantic", "instance"])',

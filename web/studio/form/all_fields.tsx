@@ -18,7 +18,8 @@ const isListOfParts = (schema: Schema) => hasType(schema, "array") && Boolean(sc
 export function Members({ form, path, schema, words }: PartProps) {
   const members = Object.entries(schema.properties ?? {}).filter(
     ([key, member]) =>
-      (!member.deprecated || valueAt(form.value, [...path, key]) !== undefined) && (words.length === 0 || isFound([...path, key].join(" "), member, words)),
+      (!member.deprecated || valueAt(form.value, [...path, key]) !== undefined) &&
+      (words.length === 0 || isFound([...path, key].join(" "), member, words)),
   );
   const plain = members.filter(([, member]) => !hasParts(member) && !isListOfParts(member));
   const nested = members.filter(([, member]) => hasParts(member) || isListOfParts(member));
@@ -69,7 +70,13 @@ function ListPart({ form, path, schema, words }: PartProps) {
     <section class="part-list" aria-label={schema.title}>
       {list.map((item, index) => (
         <div key={index} class="part-item">
-          <Part form={form} path={[...path, index]} schema={schema.items!} words={words} title={`${title} ${index + 1}${isObject(item) && item["id"] ? `: ${String(item["id"])}` : ""}`} />
+          <Part
+            form={form}
+            path={[...path, index]}
+            schema={schema.items!}
+            words={words}
+            title={`${title} ${index + 1}${isObject(item) && item["id"] ? `: ${String(item["id"])}` : ""}`}
+          />
           <button type="button" class="button small danger-text" onClick={() => form.change([...path, index], undefined)}>
             Remove {title.toLowerCase()} {index + 1}
           </button>
@@ -89,7 +96,12 @@ export function AllFields({ form, schema }: { form: Form; schema: Schema }) {
     <div class="all-fields">
       <label class="search">
         <span class="hidden">Search fields</span>
-        <input type="search" placeholder="Search fields, e.g. weather or exposure" value={search} onInput={(event) => setSearch(event.currentTarget.value)} />
+        <input
+          type="search"
+          placeholder="Search fields, e.g. weather or exposure"
+          value={search}
+          onInput={(event) => setSearch(event.currentTarget.value)}
+        />
       </label>
       <Members form={form} path={[]} schema={schema} words={words} />
     </div>

@@ -5,7 +5,7 @@ import type { Form } from "./draft";
 import { Field } from "./field";
 import { isObject, type Path, valueAt } from "./json";
 import { dronesOf, Plan } from "./plan";
-import { schemaAt, type Schema } from "./schema";
+import { type Schema, schemaAt } from "./schema";
 
 interface BasicProps {
   form: Form;
@@ -14,7 +14,14 @@ interface BasicProps {
 
 const kGroups: { title: string; fields: Path[] }[] = [
   { title: "Dataset", fields: [["name"], ["runs"], ["seed"]] },
-  { title: "Crowd and light", fields: [["crowd", "agents"], ["environment", "time_of_day"], ["environment", "weather"]] },
+  {
+    title: "Crowd and light",
+    fields: [
+      ["crowd", "agents"],
+      ["environment", "time_of_day"],
+      ["environment", "weather"],
+    ],
+  },
   { title: "Capture", fields: [["capture", "from_s"], ["capture", "to_s"], ["capture", "rate_hz"], ["quality"]] },
 ];
 
@@ -43,7 +50,11 @@ function ScenarioField({ form, schema, scenarios }: BasicProps & { scenarios: Sc
     <Field
       form={form}
       path={["scenario"]}
-      schema={isObject(value) || Array.isArray(value) ? schemaAt(schema, ["scenario"]) : { ...schemaAt(schema, ["scenario"]), type: "string", "x-expected": undefined }}
+      schema={
+        isObject(value) || Array.isArray(value)
+          ? schemaAt(schema, ["scenario"])
+          : { ...schemaAt(schema, ["scenario"]), type: "string", "x-expected": undefined }
+      }
       options={usable.map((scenario) => scenario.id)}
       isRequired
     />
@@ -66,15 +77,20 @@ function Drones({ form, schema, scenario }: BasicProps & { scenario: Scenario | 
       <legend>Drones</legend>
       {!Array.isArray(own) && (
         <p class="field-note">
-          The scenario's drones hover at their starts: {shown.map((drone) => drone.id).join(", ") || "none"}. Move one on the plan, or add one, to set
-          them here.
+          The scenario's drones hover at their starts: {shown.map((drone) => drone.id).join(", ") || "none"}. Move one on the plan, or add
+          one, to set them here.
         </p>
       )}
       {drones.map((drone, index) => (
         <div key={index} class="drone-fields" role="group" aria-label={`Drone ${index + 1}`}>
           <div class="fields">
             {kDroneFields.map((field) => (
-              <Field key={field.join(".")} form={form} path={["drones", index, ...field]} schema={schemaAt(schema, ["drones", 0, ...field])} />
+              <Field
+                key={field.join(".")}
+                form={form}
+                path={["drones", index, ...field]}
+                schema={schemaAt(schema, ["drones", 0, ...field])}
+              />
             ))}
           </div>
           <button

@@ -23,5 +23,9 @@ export async function calibratedDraft(draft: Draft, id: string): Promise<Draft> 
     drones = (known?.drones ?? []).map((drone) => ({ id: drone.id }));
   }
   if (drones.length === 0) drones = [{ id: "d1", start: [0, 0, 30] }];
-  return changedDraft(draft, ["drones"], drones.map((drone) => (isObject(drone) ? withCalibration(drone, id) : drone)));
+  return changedDraft(
+    draft,
+    ["drones"],
+    drones.map((drone) => (isObject(drone) ? withCalibration(drone, id) : drone)),
+  );
 }

@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { FileButton, Tabs } from "../parts/elements";
 import { Lazy } from "../parts/lazy";
 import { navigate, usePlace, withQuery } from "../parts/router";
-import { changedDraft, type Check, type Draft, draftOf, type Form } from "./draft";
+import { type Check, changedDraft, type Draft, draftOf, type Form } from "./draft";
 import { idOf } from "./field";
 import type { JsonEditorProps } from "./json_editor";
 

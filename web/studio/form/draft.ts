@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { ApiError, sendJson } from "../api/client";
 import { useSession } from "../api/session";
 import type { DryRun, Mistake } from "../api/types";
-import { type Json, type JsonObject, isObject, type Path, textOf, withValue } from "./json";
+import { isObject, type Json, type JsonObject, type Path, textOf, withValue } from "./json";
 
 const kStorage = "throng.draft";
 const kPauseMs = 400;

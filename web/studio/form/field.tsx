@@ -1,9 +1,9 @@
 // A field of the job, made from its part of the schema.
 import type { JSX, TargetedInputEvent } from "preact";
 import { useEffect, useState } from "preact/hooks";
+import { DistributionControl, numberOrText } from "./distribution";
 import type { Form } from "./draft";
 import { isEqual, isObject, type Json, type Path, pointerOf, valueAt } from "./json";
-import { DistributionControl, numberOrText } from "./distribution";
 import { expectedText, hasType, isNumeric, type Schema } from "./schema";
 
 export interface FieldProps {
@@ -75,9 +75,11 @@ function SelectControl({ id, schema, value, onChange, aria, options }: ControlPr
     <select id={id} value={current} onChange={(event) => select(event.currentTarget.value)} {...aria}>
       <option value="">{preset ? `${preset} (default)` : "–"}</option>
       {current && !choices.includes(current) && <option>{current}</option>}
-      {choices.filter((choice) => choice !== preset || choice === current).map((choice) => (
-        <option key={choice}>{choice}</option>
-      ))}
+      {choices
+        .filter((choice) => choice !== preset || choice === current)
+        .map((choice) => (
+          <option key={choice}>{choice}</option>
+        ))}
     </select>
   );
 }

@@ -26,7 +26,12 @@ export function footprint(view: View): [number, number][] {
   const up: Vector = [-Math.sin(pitch) * Math.cos(yaw), -Math.sin(pitch) * Math.sin(yaw), Math.cos(pitch)];
   const halfWidth = Math.tan((view.hfovDeg * Math.PI) / 360);
   const halfHeight = halfWidth / view.aspect;
-  const signs = [[-1, 1], [1, 1], [1, -1], [-1, -1]] as const;
+  const signs = [
+    [-1, 1],
+    [1, 1],
+    [1, -1],
+    [-1, -1],
+  ] as const;
   return signs.map(([sideways, vertical]) => {
     const ray = [0, 1, 2].map((i) => ahead[i]! + sideways * halfWidth * right[i]! + vertical * halfHeight * up[i]!);
     const [dx, dy, dz] = ray as [number, number, number];

@@ -1,7 +1,15 @@
 // A document as JSON text, with the service's findings at their lines.
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { json, jsonParseLinter } from "@codemirror/lang-json";
-import { bracketMatching, ensureSyntaxTree, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
+import {
+  bracketMatching,
+  ensureSyntaxTree,
+  HighlightStyle,
+  indentOnInput,
+  indentUnit,
+  syntaxHighlighting,
+  syntaxTree,
+} from "@codemirror/language";
 import { type Diagnostic, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
@@ -20,7 +28,13 @@ export interface JsonEditorProps {
 type Node = NonNullable<ReturnType<ReturnType<typeof syntaxTree>["resolve"]>>;
 
 const kTheme = EditorView.theme({
-  "&": { backgroundColor: "var(--card)", color: "var(--text)", fontSize: "13.5px", border: "1px solid var(--field-line)", borderRadius: "8px" },
+  "&": {
+    backgroundColor: "var(--card)",
+    color: "var(--text)",
+    fontSize: "13.5px",
+    border: "1px solid var(--field-line)",
+    borderRadius: "8px",
+  },
   "&.cm-focused": { outline: "2px solid var(--accent)" },
   ".cm-scroller": { fontFamily: "var(--mono)", minHeight: "380px", maxHeight: "70vh" },
   ".cm-content": { caretColor: "var(--text)" },
@@ -50,7 +64,10 @@ function nodeAt(state: EditorState, pointer: string): Node {
   // On a busy machine the editor parses a part only before it draws.
   const tree = ensureSyntaxTree(state, state.doc.length, 1000) ?? syntaxTree(state);
   let node: Node = tree.topNode.firstChild ?? tree.topNode;
-  for (const part of pointer.split("/").slice(1).map((text) => text.replace(/~1/g, "/").replace(/~0/g, "~"))) {
+  for (const part of pointer
+    .split("/")
+    .slice(1)
+    .map((text) => text.replace(/~1/g, "/").replace(/~0/g, "~"))) {
     let next: Node | null = null;
     if (node.name === "Object") {
       for (const property of node.getChildren("Property")) {

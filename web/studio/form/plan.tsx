@@ -3,10 +3,10 @@ import type { TargetedKeyboardEvent, TargetedPointerEvent } from "preact";
 import { useRef, useState } from "preact/hooks";
 import { useSource } from "../api/resource";
 import type { Scenario } from "../api/types";
+import { sheetOf } from "../parts/sheet";
 import type { Form } from "./draft";
 import { footprint } from "./footprint";
 import { isObject, type Json, valueAt } from "./json";
-import { sheetOf } from "../parts/sheet";
 
 const kStepM = 1;
 const kColors = ["#b3261e", "#0b57d0", "#7b1fa2", "#00695c", "#8d4b00", "#37474f"];
@@ -54,7 +54,10 @@ export function Plan({ form, scenario }: { form: Form; scenario: Scenario }) {
     const place = [Math.round(10 * x) / 10, Math.round(10 * y) / 10, drones[index]!.start[2]];
     // The scenario's drones become the job's own with the first change.
     if (!Array.isArray(valueAt(form.value, ["drones"]))) {
-      form.change(["drones"], drones.map((drone, i): Json => (i === index ? { id: drone.id, start: place } : { id: drone.id })));
+      form.change(
+        ["drones"],
+        drones.map((drone, i): Json => (i === index ? { id: drone.id, start: place } : { id: drone.id })),
+      );
     } else form.change(["drones", index, "start"], place);
   };
   const onPointerMove = (event: TargetedPointerEvent<SVGSVGElement>) => {
@@ -75,7 +78,13 @@ export function Plan({ form, scenario }: { form: Form; scenario: Scenario }) {
     <figure class="plan">
       <div class="plan-sheet">
         {source && <img src={source} alt={`floor plan of ${scenario.name ?? scenario.id}`} width={sheet.width} height={sheet.height} />}
-        <svg ref={svg} viewBox={`0 0 ${sheet.width} ${sheet.height}`} onPointerMove={onPointerMove} onPointerUp={() => setDragged(null)} onPointerLeave={() => setDragged(null)}>
+        <svg
+          ref={svg}
+          viewBox={`0 0 ${sheet.width} ${sheet.height}`}
+          onPointerMove={onPointerMove}
+          onPointerUp={() => setDragged(null)}
+          onPointerLeave={() => setDragged(null)}
+        >
           {drones.map((drone, index) => {
             const [x, y, height] = drone.start;
             const color = kColors[index % kColors.length]!;
@@ -83,7 +92,15 @@ export function Plan({ form, scenario }: { form: Form; scenario: Scenario }) {
             const ground = footprint({ ...drone, x, y, height }).map(([gx, gy]) => sheet.toPx(gx, gy).join(","));
             return (
               <g key={index}>
-                <polygon points={ground.join(" ")} fill={color} fill-opacity="0.14" stroke={color} stroke-width="2.5" stroke-dasharray="10 5" pointer-events="none" />
+                <polygon
+                  points={ground.join(" ")}
+                  fill={color}
+                  fill-opacity="0.14"
+                  stroke={color}
+                  stroke-width="2.5"
+                  stroke-dasharray="10 5"
+                  pointer-events="none"
+                />
                 <g
                   class="drone"
                   tabindex={0}
@@ -98,7 +115,16 @@ export function Plan({ form, scenario }: { form: Form; scenario: Scenario }) {
                 >
                   <circle r="30" fill="transparent" />
                   <circle r="17" fill={color} stroke="#fff" stroke-width="4" />
-                  <text y="50" text-anchor="middle" font-size="26" font-weight="700" fill={color} stroke="#fff" stroke-width="6" paint-order="stroke">
+                  <text
+                    y="50"
+                    text-anchor="middle"
+                    font-size="26"
+                    font-weight="700"
+                    fill={color}
+                    stroke="#fff"
+                    stroke-width="6"
+                    paint-order="stroke"
+                  >
                     {drone.id}
                   </text>
                 </g>
@@ -107,7 +133,9 @@ export function Plan({ form, scenario }: { form: Form; scenario: Scenario }) {
           })}
         </svg>
       </div>
-      <figcaption>Drag a drone, or move it with the arrow keys. The dashed area is the ground that its camera sees at the start.</figcaption>
+      <figcaption>
+        Drag a drone, or move it with the arrow keys. The dashed area is the ground that its camera sees at the start.
+      </figcaption>
     </figure>
   );
 }

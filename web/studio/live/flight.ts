@@ -2,7 +2,7 @@
 import { ApiError, asApiError, request, sendJson } from "../api/client";
 import type { LiveCommands, LiveFlight } from "../api/types";
 import { type Controls, kRest, type Sticks } from "./controls";
-import { type FlightEvent, type Hello, type Message, messagesOf, type CameraImage, type World } from "./messages";
+import { type CameraImage, type FlightEvent, type Hello, type Message, messagesOf, type World } from "./messages";
 
 const kSendMs = 50;
 const kRepeatMs = 400; ///< drones whose pilot says nothing for a second hover
@@ -144,7 +144,11 @@ export class Connection {
     this.lastSent = now;
     this.isSending = true;
     const speed = hello.max_speed_mps;
-    const wish = { id, velocity_mps: [speed * sticks.ahead, speed * sticks.left, hello.max_climb_mps * sticks.up], yaw_rate_deg_s: hello.max_yaw_deg_s * sticks.turn };
+    const wish = {
+      id,
+      velocity_mps: [speed * sticks.ahead, speed * sticks.left, hello.max_climb_mps * sticks.up],
+      yaw_rate_deg_s: hello.max_yaw_deg_s * sticks.turn,
+    };
     const body: LiveCommands = { ...others, sequence, drones: [...drones, wish] };
     void sendJson<void>("POST", `/v1/live/${this.id}/commands`, JSON.stringify(body), this.controller.signal)
       .catch((error: unknown) => {

@@ -98,7 +98,8 @@ function Flight({ id }: { id: string }) {
     flight.start();
     const unlisten = pilot.listen();
     const timer = setInterval(
-      () => setShown({ world: world.current, delayMs: flight.delayMs(), imagesPerS: flight.imagesPerSecond(), hasGamepad: pilot.hasGamepad }),
+      () =>
+        setShown({ world: world.current, delayMs: flight.delayMs(), imagesPerS: flight.imagesPerSecond(), hasGamepad: pilot.hasGamepad }),
       kFigureMs,
     );
     return () => {
@@ -189,7 +190,14 @@ function Flight({ id }: { id: string }) {
         <>
           <div class="fly-stage">
             <div class={place("camera")}>
-              <canvas ref={image} class="fly-canvas" width={hello.image.width} height={hello.image.height} role="img" aria-label={`Camera of ${hello.drones[drone]!.id}`} />
+              <canvas
+                ref={image}
+                class="fly-canvas"
+                width={hello.image.width}
+                height={hello.image.height}
+                role="img"
+                aria-label={`Camera of ${hello.drones[drone]!.id}`}
+              />
             </div>
             {(main === "scene" || inset === "scene") && (
               <div class={place("scene")}>
@@ -270,8 +278,8 @@ function Flight({ id }: { id: string }) {
             onRight={(right, up) => controls.current && Object.assign(controls.current.touch, { left: -right, ahead: up })}
           />
           <p class="quiet-text">
-            Keys: W S ahead and back, A D aside, ↑ ↓ up and down, ← → (or Q E) turn, B beacon, H home, P pause, V swap views, N next drone. Gamepad: left stick up and turn, right
-            stick ahead and aside, A beacon, B home, X swap, Y next drone, Start pause.
+            Keys: W S ahead and back, A D aside, ↑ ↓ up and down, ← → (or Q E) turn, B beacon, H home, P pause, V swap views, N next drone.
+            Gamepad: left stick up and turn, right stick ahead and aside, A beacon, B home, X swap, Y next drone, Start pause.
           </p>
           <ul class="legend fly-legend" aria-label="Colors of people">
             {Object.entries(kColors).map(([name, color]) => (

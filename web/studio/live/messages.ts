@@ -17,7 +17,13 @@ export interface Hello {
   people: number;
   roles: number[]; ///< 0 a person, 1 a hazard, 2 absent, 3 an attacker
   states: string[];
-  drones: { id: string; start: [number, number, number]; yaw_deg: number; leads: boolean; camera: { hfov_deg: number; pitch_deg: number; yaw_deg: number } }[];
+  drones: {
+    id: string;
+    start: [number, number, number];
+    yaw_deg: number;
+    leads: boolean;
+    camera: { hfov_deg: number; pitch_deg: number; yaw_deg: number };
+  }[];
   ground: { min: [number, number]; max: [number, number] };
   inside: { min: [number, number]; max: [number, number] };
   buildings: { id: string; footprint: [number, number][]; height_m: number }[];
@@ -99,7 +105,13 @@ function worldOf(bytes: Uint8Array): World {
       isRunning: (flags & 4) !== 0,
     };
   });
-  const people = { x: new Float32Array(count), y: new Float32Array(count), yaw: new Float32Array(count), state: new Uint8Array(count), flags: new Uint8Array(count) };
+  const people = {
+    x: new Float32Array(count),
+    y: new Float32Array(count),
+    yaw: new Float32Array(count),
+    state: new Uint8Array(count),
+    flags: new Uint8Array(count),
+  };
   for (let index = 0, at = kStateHeadBytes + kDroneBytes * droneCount; index < count; ++index, at += kPersonBytes) {
     people.x[index] = view.getFloat32(at, true);
     people.y[index] = view.getFloat32(at + 4, true);
@@ -107,7 +119,14 @@ function worldOf(bytes: Uint8Array): World {
     people.state[index] = view.getUint8(at + 10);
     people.flags[index] = view.getUint8(at + 11);
   }
-  return { timeS: view.getFloat64(8, true), factor: view.getFloat32(16, true), sequence: view.getUint32(20, true), isPaused: (view.getUint8(1) & 1) !== 0, drones, people };
+  return {
+    timeS: view.getFloat64(8, true),
+    factor: view.getFloat32(16, true),
+    sequence: view.getUint32(20, true),
+    isPaused: (view.getUint8(1) & 1) !== 0,
+    drones,
+    people,
+  };
 }
 
 function imageOf(bytes: Uint8Array): CameraImage {

@@ -46,7 +46,8 @@ export function FlightResult({ result, id }: { result: LiveResult; id: string })
         </a>
       </div>
       <p class="quiet-text measure">
-        The job repeats the flight exactly: its trace has the SHA-256 <code class="wrap-anywhere">{result.trace_sha256}</code>. Flight {id} stays known for ten minutes.
+        The job repeats the flight exactly: its trace has the SHA-256 <code class="wrap-anywhere">{result.trace_sha256}</code>. Flight {id}{" "}
+        stays known for ten minutes.
       </p>
       {result.warnings.length > 0 && (
         <details>

@@ -20,7 +20,10 @@ const kFollow = 0.12; ///< share of the way that the view goes in a frame
 function placeOf(hello: Hello): any {
   const group = new THREE.Group();
   const { min, max } = hello.ground;
-  const ground = new THREE.Mesh(new THREE.PlaneGeometry(max[0] - min[0], max[1] - min[1]), new THREE.MeshLambertMaterial({ color: "#b9bdb4" }));
+  const ground = new THREE.Mesh(
+    new THREE.PlaneGeometry(max[0] - min[0], max[1] - min[1]),
+    new THREE.MeshLambertMaterial({ color: "#b9bdb4" }),
+  );
   ground.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, -0.02);
   group.add(ground);
   const walls = new THREE.MeshLambertMaterial({ color: "#8d979e" });
@@ -30,7 +33,12 @@ function placeOf(hello: Hello): any {
   }
   for (const exit of hello.exits) {
     const points = [exit.from, exit.to].map(([x, y]) => new THREE.Vector3(x, y, 0.3));
-    group.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: exit.open ? "#1d6b3a" : "#b3261e" })));
+    group.add(
+      new THREE.Line(
+        new THREE.BufferGeometry().setFromPoints(points),
+        new THREE.LineBasicMaterial({ color: exit.open ? "#1d6b3a" : "#b3261e" }),
+      ),
+    );
   }
   return group;
 }
@@ -137,7 +145,11 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
       });
       const followed = drones[flown.current]!;
       const yaw = now.drones[flown.current]!.yaw;
-      const wanted = new THREE.Vector3(followed.position.x - kBehindM * Math.cos(yaw), followed.position.y - kBehindM * Math.sin(yaw), followed.position.z + kAboveM);
+      const wanted = new THREE.Vector3(
+        followed.position.x - kBehindM * Math.cos(yaw),
+        followed.position.y - kBehindM * Math.sin(yaw),
+        followed.position.z + kAboveM,
+      );
       eye.lerp(wanted, isFirst ? 1 : kFollow);
       isFirst = false;
       camera.position.copy(eye);

@@ -49,7 +49,12 @@ function puffsOf(hasFlames: boolean): any {
   geometry.setIndex(square.index);
   geometry.setAttribute("position", square.attributes.position);
   const count = kPuffs + (hasFlames ? kFlames : 0);
-  const seeds = Array.from({ length: count }, (_, i) => [scattered(4 * i), 2 * Math.PI * scattered(4 * i + 1), scattered(4 * i + 2), i < kPuffs ? scattered(4 * i + 3) : 2]);
+  const seeds = Array.from({ length: count }, (_, i) => [
+    scattered(4 * i),
+    2 * Math.PI * scattered(4 * i + 1),
+    scattered(4 * i + 2),
+    i < kPuffs ? scattered(4 * i + 3) : 2,
+  ]);
   geometry.setAttribute("aSeed", new THREE.InstancedBufferAttribute(new Float32Array(seeds.flat()), 4));
   geometry.instanceCount = count;
   return geometry;
@@ -59,7 +64,10 @@ const kTones: Partial<Record<Danger["kind"], number[]>> = { gas: [0.42, 0.45, 0.
 const kRises: Partial<Record<Danger["kind"], number>> = { gas: 0.15, collapse: 0.4 };
 
 /** How far a danger reaches at a time, in m; 0 before it begins. */
-export const reachOf = (danger: Danger, timeS: number) => (timeS < danger.start_s ? 0 : Math.min(Math.max(danger.radius_m, danger.max_radius_m), danger.radius_m + danger.growth_mps * (timeS - danger.start_s)));
+export const reachOf = (danger: Danger, timeS: number) =>
+  timeS < danger.start_s
+    ? 0
+    : Math.min(Math.max(danger.radius_m, danger.max_radius_m), danger.radius_m + danger.growth_mps * (timeS - danger.start_s));
 
 export class Smoke {
   readonly group = new THREE.Group();
@@ -69,8 +77,22 @@ export class Smoke {
     if (!hello.smoke) return;
     for (const danger of hello.dangers ?? []) {
       const isFire = danger.kind === "fire" || danger.kind === "explosion";
-      const uniforms = { uTime: { value: 0 }, uAge: { value: 0 }, uReach: { value: 0 }, uStrength: { value: hello.smoke }, uRise: { value: kRises[danger.kind] ?? 1 }, uLife: { value: 14 }, uTone: { value: kTones[danger.kind] ?? [0.16, 0.15, 0.15] } };
-      const material = new THREE.ShaderMaterial({ uniforms, vertexShader: kVertex, fragmentShader: kFragment, transparent: true, depthWrite: false });
+      const uniforms = {
+        uTime: { value: 0 },
+        uAge: { value: 0 },
+        uReach: { value: 0 },
+        uStrength: { value: hello.smoke },
+        uRise: { value: kRises[danger.kind] ?? 1 },
+        uLife: { value: 14 },
+        uTone: { value: kTones[danger.kind] ?? [0.16, 0.15, 0.15] },
+      };
+      const material = new THREE.ShaderMaterial({
+        uniforms,
+        vertexShader: kVertex,
+        fragmentShader: kFragment,
+        transparent: true,
+        depthWrite: false,
+      });
       const mesh = new THREE.Mesh(puffsOf(isFire), material);
       mesh.position.set(danger.position[0], danger.position[1], 0);
       mesh.frustumCulled = false;

@@ -52,7 +52,8 @@ export function StartFlight() {
     <div class="screen">
       <h1>Live flight</h1>
       <p class="measure">
-        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is recorded: afterwards a job repeats it exactly and makes a dataset of it.
+        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is recorded: afterwards a job repeats it exactly and
+        makes a dataset of it.
       </p>
       <ErrorBox error={error && error.status !== 401 ? error : null} />
       <form
@@ -79,7 +80,9 @@ export function StartFlight() {
                   {job.name} ({job.id})
                 </option>
               ))}
-              {source.startsWith("clone=") && !(jobs.value?.jobs ?? []).some((job) => `clone=${job.id}` === source) && <option value={source}>{source.slice(6)}</option>}
+              {source.startsWith("clone=") && !(jobs.value?.jobs ?? []).some((job) => `clone=${job.id}` === source) && (
+                <option value={source}>{source.slice(6)}</option>
+              )}
             </optgroup>
           </select>
         </label>
@@ -93,7 +96,8 @@ export function StartFlight() {
           <ul class="plain-list">
             {flights.map((flight) => (
               <li key={flight.id}>
-                <a href={`/fly?flight=${flight.id}`}>{flight.name || flight.id}</a> <span class="quiet-text">{durationText(flight.time_s)} flown</span>
+                <a href={`/fly?flight=${flight.id}`}>{flight.name || flight.id}</a>{" "}
+                <span class="quiet-text">{durationText(flight.time_s)} flown</span>
               </li>
             ))}
           </ul>

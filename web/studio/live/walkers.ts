@@ -44,8 +44,15 @@ function withPart(geometry: any, part: number): any {
 }
 
 function walkerGeometry(): any {
-  const leg = (side: number) => withPart(new THREE.CylinderGeometry(0.09, 0.07, 0.85, 4, 1, true).rotateX(Math.PI / 2).translate(0, 0.1 * side, 0.425), side);
-  const body = withPart(new THREE.CylinderGeometry(0.23, 0.17, 0.7, 6, 1).rotateX(Math.PI / 2).scale(0.75, 1, 1).translate(0, 0, 1.15), 0);
+  const leg = (side: number) =>
+    withPart(new THREE.CylinderGeometry(0.09, 0.07, 0.85, 4, 1, true).rotateX(Math.PI / 2).translate(0, 0.1 * side, 0.425), side);
+  const body = withPart(
+    new THREE.CylinderGeometry(0.23, 0.17, 0.7, 6, 1)
+      .rotateX(Math.PI / 2)
+      .scale(0.75, 1, 1)
+      .translate(0, 0, 1.15),
+    0,
+  );
   const head = withPart(new THREE.IcosahedronGeometry(0.13, 0).translate(0, 0, 1.62), 2);
   return mergeGeometries([body, head, leg(-1), leg(1)]);
 }
@@ -116,7 +123,10 @@ export class Walkers {
       shader.vertexShader = `${kVertexHead}\n${shader.vertexShader}`
         .replace("#include <beginnormal_vertex>", "vec3 objectNormal = turnedAsPerson(normal) - turnedAsPerson(vec3(0.0));")
         .replace("#include <begin_vertex>", kVertexPlace);
-      shader.fragmentShader = `varying vec3 vShade;\n${shader.fragmentShader}`.replace("#include <color_fragment>", "diffuseColor.rgb *= vShade;");
+      shader.fragmentShader = `varying vec3 vShade;\n${shader.fragmentShader}`.replace(
+        "#include <color_fragment>",
+        "diffuseColor.rgb *= vShade;",
+      );
     };
     this.near = new Group(walkerGeometry(), hello.people, material);
     this.far = new Group(farGeometry(), hello.people, material);
@@ -146,7 +156,11 @@ export class Walkers {
       const yaw = before.people.yaw[index]!;
       const amplitude = now.people.flags[index]! & kFallen ? -1 : isNew ? 0 : Math.min(1, walked / seconds / kStrollMps);
       const group = Math.hypot(toX - x, toY - y) < this.nearM ? this.near : this.far;
-      group.add([fromX, fromY, yaw, phase], [toX, toY, yaw + wrapped(now.people.yaw[index]! - yaw), next], [...this.shadeOf(colorOfPerson(this.hello, now.people, index)), amplitude]);
+      group.add(
+        [fromX, fromY, yaw, phase],
+        [toX, toY, yaw + wrapped(now.people.yaw[index]! - yaw), next],
+        [...this.shadeOf(colorOfPerson(this.hello, now.people, index)), amplitude],
+      );
     }
     if (this.nearM < Infinity) this.nearM = Math.min(kMaxNearM, this.nearM * (this.near.size > kMaxNear ? 0.8 : 1.1));
     this.near.end();

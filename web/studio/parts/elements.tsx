@@ -1,10 +1,10 @@
 // Elements that many screens use.
 import type { ComponentChildren, TargetedKeyboardEvent } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Job, Mistake } from "../api/types";
-import { useSource } from "../api/resource";
 import type { ApiError } from "../api/client";
+import { useSource } from "../api/resource";
 import { useSession } from "../api/session";
+import type { Job, Mistake } from "../api/types";
 
 export function StateBadge({ state }: { state: Job["state"] }) {
   return <span class={`badge state-${state}`}>{state}</span>;
@@ -13,14 +13,7 @@ export function StateBadge({ state }: { state: Job["state"] }) {
 export function Progress({ done, total, label }: { done: number; total: number; label: string }) {
   const share = total > 0 ? Math.min(1, done / total) : 0;
   return (
-    <div
-      class="progress"
-      role="progressbar"
-      aria-label={label}
-      aria-valuemin={0}
-      aria-valuemax={total}
-      aria-valuenow={done}
-    >
+    <div class="progress" role="progressbar" aria-label={label} aria-valuemin={0} aria-valuemax={total} aria-valuenow={done}>
       <div class="progress-bar" style={{ width: `${100 * share}%` }} />
     </div>
   );
@@ -32,7 +25,8 @@ export function ServiceImage({ path, alt, className = "" }: { path: string | nul
   const { round } = useSession();
   const attempt = `${round} ${source}`;
   const [failed, setFailed] = useState<string | null>(null);
-  if (source && failed !== attempt) return <img key={attempt} class={`image ${className}`} src={source} alt={alt} decoding="async" onError={() => setFailed(attempt)} />;
+  if (source && failed !== attempt)
+    return <img key={attempt} class={`image ${className}`} src={source} alt={alt} decoding="async" onError={() => setFailed(attempt)} />;
   return (
     <div class={`image blank ${className}`} role="img" aria-label={alt}>
       {failed ? <span>no image</span> : null}

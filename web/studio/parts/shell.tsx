@@ -138,8 +138,8 @@ export function KeyDialog() {
         <form onSubmit={submit}>
           <h2 id="key-title">Key needed</h2>
           <p>
-            {demand}. A key is made on the machine of the service by{" "}
-            <code>throng keys create NAME --data DIR</code>. This browser stays signed in until you sign out, the service is restarted or the browser is closed.
+            {demand}. A key is made on the machine of the service by <code>throng keys create NAME --data DIR</code>. This browser stays
+            signed in until you sign out, the service is restarted or the browser is closed.
           </p>
           <label for="key">Key</label>
           <input

@@ -11,7 +11,13 @@ export function CodeBlock({ text, label }: { text: string; label: string }) {
     return () => clearTimeout(timer);
   }, [isCopied]);
   // Pages that are neither of this machine nor behind TLS have no clipboard.
-  const copy = navigator.clipboard && (() => void navigator.clipboard.writeText(text).then(() => setCopied(true), () => {}));
+  const copy =
+    navigator.clipboard &&
+    (() =>
+      void navigator.clipboard.writeText(text).then(
+        () => setCopied(true),
+        () => {},
+      ));
   return (
     <div class="code-block">
       <pre tabIndex={0} aria-label={label}>

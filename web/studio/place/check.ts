@@ -48,7 +48,9 @@ export function useCheckedPlace(document: JsonObject): PlaceCheck {
         (reason: unknown) => {
           if (signal.aborted) return;
           const error = reason instanceof ApiError ? reason : asApiError(reason);
-          const findings = error.errors.map((entry): Finding => ({ severity: "error", pointer: entry.pointer, text: sentence(entry), remedy: "" }));
+          const findings = error.errors.map(
+            (entry): Finding => ({ severity: "error", pointer: entry.pointer, text: sentence(entry), remedy: "" }),
+          );
           setCheck({ isPending: false, findings, message: findings.length > 0 ? null : error.message });
         },
       );

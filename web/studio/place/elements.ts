@@ -15,20 +15,27 @@ const kWallThicknessM = 0.4;
 const kDroneHeightM = 25;
 const kMinCorners = 3;
 
-const isPoint = (value: Json | undefined): value is number[] => Array.isArray(value) && value.length >= 2 && value.every((part) => typeof part === "number");
+const isPoint = (value: Json | undefined): value is number[] =>
+  Array.isArray(value) && value.length >= 2 && value.every((part) => typeof part === "number");
 const pointOf = (value: Json | undefined): Point[] => (isPoint(value) ? [[value[0]!, value[1]!]] : []);
 const centimeters = (value: number) => Math.round(100 * value) / 100;
 const rounded = ([x, y]: Point): Point => [centimeters(x), centimeters(y)];
 
 export function boxCorners([x0, y0, x1, y1]: readonly [number, number, number, number]): Point[] {
-  return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+  return [
+    [x0, y0],
+    [x1, y0],
+    [x1, y1],
+    [x0, y1],
+  ];
 }
 
 function pointsOf(kind: Kind, value: JsonObject): Point[] {
   if (kind.shape === "point") return pointOf(value[kind.place!]);
   if (kind.shape === "segment") return [...pointOf(value["from"]), ...pointOf(value["to"])];
   const box = value["box"];
-  if (Array.isArray(box) && box.length === 4 && box.every((part) => typeof part === "number")) return boxCorners(box as [number, number, number, number]);
+  if (Array.isArray(box) && box.length === 4 && box.every((part) => typeof part === "number"))
+    return boxCorners(box as [number, number, number, number]);
   const outline = value[kind.outline!];
   return Array.isArray(outline) ? outline.flatMap(pointOf) : [];
 }
@@ -96,7 +103,14 @@ const replaced = (document: JsonObject, element: Element, value: JsonObject) => 
 
 export function moved(document: JsonObject, element: Element, [dx, dy]: Point): JsonObject {
   if (element.points.length === 0) return document;
-  return replaced(document, element, withPoints(element, element.points.map(([x, y]) => rounded([x + dx, y + dy]))));
+  return replaced(
+    document,
+    element,
+    withPoints(
+      element,
+      element.points.map(([x, y]) => rounded([x + dx, y + dy])),
+    ),
+  );
 }
 
 /** With one corner elsewhere. Those of a box move with it, so that it stays a box. */
@@ -128,7 +142,14 @@ export function withNewCorner(document: JsonObject, element: Element, edge: numb
 
 export function withoutCorner(document: JsonObject, element: Element, index: number): JsonObject {
   if (element.kind.shape !== "polygon" || element.points.length <= kMinCorners) return document;
-  return replaced(document, element, withPoints(element, element.points.filter((_, i) => i !== index)));
+  return replaced(
+    document,
+    element,
+    withPoints(
+      element,
+      element.points.filter((_, i) => i !== index),
+    ),
+  );
 }
 
 export function removed(document: JsonObject, element: Element): JsonObject {
@@ -147,7 +168,14 @@ function freeId(document: JsonObject, kind: Kind, prefix: string): string {
 function wallOutline([[x0, y0], [x1, y1]]: [Point, Point]): Point[] {
   const length = Math.hypot(x1 - x0, y1 - y0) || 1;
   const [nx, ny] = [(-(y1 - y0) / length) * kWallThicknessM, ((x1 - x0) / length) * kWallThicknessM];
-  return ([[x0, y0], [x1, y1], [x1 + nx, y1 + ny], [x0 + nx, y0 + ny]] as Point[]).map(rounded);
+  return (
+    [
+      [x0, y0],
+      [x1, y1],
+      [x1 + nx, y1 + ny],
+      [x0 + nx, y0 + ny],
+    ] as Point[]
+  ).map(rounded);
 }
 
 /** A blueprint with a new element from one point of the plan to another, and the path of that. A wall is a low building. */

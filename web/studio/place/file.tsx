@@ -23,7 +23,13 @@ export const storePlace = (document: JsonObject) => sessionStorage.setItem(kStor
 /** A word for files and ids, of the place's name. */
 export function wordOf(document: JsonObject): string {
   const name = typeof document["name"] === "string" ? document["name"] : "";
-  return name.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_+|_+$/g, "").slice(0, 40) || "place";
+  return (
+    name
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, "_")
+      .replace(/^_+|_+$/g, "")
+      .slice(0, 40) || "place"
+  );
 }
 
 const isShipped = (scenario: Scenario) => !scenario.error && !scenario.uploaded;
@@ -114,7 +120,10 @@ export function UploadPanel({ document, canUpload }: UploadPanelProps) {
     setBusy(true);
     try {
       if (isReplaced) await request(`/v1/scenarios/${name}`, { method: "DELETE" });
-      setMade({ upload: await sendJson<Upload>("POST", `/v1/scenarios?name=${encodeURIComponent(name)}`, JSON.stringify(document)), document });
+      setMade({
+        upload: await sendJson<Upload>("POST", `/v1/scenarios?name=${encodeURIComponent(name)}`, JSON.stringify(document)),
+        document,
+      });
       setError(null);
     } catch (reason) {
       setError(asApiError(reason));

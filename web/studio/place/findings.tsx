@@ -9,7 +9,15 @@ interface FindingListProps {
   onShow: (element: Element) => void;
 }
 
-function FindingEntry({ finding, element, onShow }: { finding: Finding; element: Element | undefined; onShow: (element: Element) => void }) {
+function FindingEntry({
+  finding,
+  element,
+  onShow,
+}: {
+  finding: Finding;
+  element: Element | undefined;
+  onShow: (element: Element) => void;
+}) {
   return (
     <li class={finding.severity}>
       <p>
@@ -32,7 +40,9 @@ export function FindingList({ check, elements, onShow }: FindingListProps) {
   const { findings, isPending, message } = check;
   const errors = findings.filter((finding) => finding.severity === "error").length;
   const warnings = findings.length - errors;
-  const summary = [errors > 0 ? countText(errors, "error") : "", warnings > 0 ? countText(warnings, "warning") : ""].filter(Boolean).join(", ");
+  const summary = [errors > 0 ? countText(errors, "error") : "", warnings > 0 ? countText(warnings, "warning") : ""]
+    .filter(Boolean)
+    .join(", ");
   return (
     <section class="card summary" aria-labelledby="findings">
       <h2 id="findings">Check</h2>

@@ -31,7 +31,12 @@ export function useHistory<T>(first: () => T): History<T> {
     present: steps.present,
     canUndo: steps.past.length > 0,
     canRedo: steps.future.length > 0,
-    change: (next) => setSteps(({ past, present, base }) => (next === present ? { past, present, future: [], base: null } : { past: latest([...past, base ?? present]), present: next, future: [], base: null })),
+    change: (next) =>
+      setSteps(({ past, present, base }) =>
+        next === present
+          ? { past, present, future: [], base: null }
+          : { past: latest([...past, base ?? present]), present: next, future: [], base: null },
+      ),
     preview: (next) => setSteps((last) => ({ ...last, present: next, base: last.base ?? last.present })),
     commit: () =>
       setSteps((last) => {
@@ -42,7 +47,9 @@ export function useHistory<T>(first: () => T): History<T> {
     undo: () =>
       setSteps((last) => {
         const before = last.past.at(-1);
-        return before === undefined ? last : { past: last.past.slice(0, -1), present: before, future: [last.present, ...last.future], base: null };
+        return before === undefined
+          ? last
+          : { past: last.past.slice(0, -1), present: before, future: [last.present, ...last.future], base: null };
       }),
     redo: () =>
       setSteps((last) => {

@@ -29,7 +29,22 @@ export interface Kind {
 const kDoing: FieldSpec = { key: "doing", label: "Doing", type: "choice", choices: ["stroll", "wait", "cross", "leave"], isRequired: true };
 const number = (key: string, label: string, unit = "", usual = ""): FieldSpec => ({ key, label, type: "number", unit, usual });
 const kId: FieldSpec = { key: "id", label: "Id", type: "text", isRequired: true };
-const kPropKinds = ["tree", "bench", "lamp_post", "bin", "car", "bollard", "stall", "barrier", "fence", "kiosk", "tent", "stage", "train", "fountain"];
+const kPropKinds = [
+  "tree",
+  "bench",
+  "lamp_post",
+  "bin",
+  "car",
+  "bollard",
+  "stall",
+  "barrier",
+  "fence",
+  "kiosk",
+  "tent",
+  "stage",
+  "train",
+  "fountain",
+];
 const kPropFields: FieldSpec[] = [
   { key: "kind", label: "Kind", type: "choice", choices: kPropKinds, isRequired: true },
   number("yaw_deg", "Heading", "deg", "0"),
@@ -45,7 +60,11 @@ export const kKinds: Kind[] = [
     shape: "polygon",
     outline: "footprint",
     idPrefix: "building",
-    fields: [kId, { ...number("height_m", "Height", "m"), isRequired: true }, { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "glass", "hedge"], usual: "by number" }],
+    fields: [
+      kId,
+      { ...number("height_m", "Height", "m"), isRequired: true },
+      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "glass", "hedge"], usual: "by number" },
+    ],
     members: { height_m: 9 },
   },
   {
@@ -135,7 +154,16 @@ export const kKinds: Kind[] = [
     fields: [kId, number("yaw_deg", "Heading", "deg", "0")],
     members: { yaw_deg: 0 },
   },
-  { name: "prop", label: "Prop", key: "p", list: ["props"], shape: "point", place: "position", fields: kPropFields, members: { kind: "tree" } },
+  {
+    name: "prop",
+    label: "Prop",
+    key: "p",
+    list: ["props"],
+    shape: "point",
+    place: "position",
+    fields: kPropFields,
+    members: { kind: "tree" },
+  },
   {
     name: "row",
     label: "Row of props",
@@ -151,7 +179,10 @@ export const kKinds: Kind[] = [
     key: "m",
     list: ["ground", "markings"],
     shape: "segment",
-    fields: [{ key: "kind", label: "Kind", type: "choice", choices: ["line", "dashes", "crossing"], isRequired: true }, number("width_m", "Width", "m", "by kind")],
+    fields: [
+      { key: "kind", label: "Kind", type: "choice", choices: ["line", "dashes", "crossing"], isRequired: true },
+      number("width_m", "Width", "m", "by kind"),
+    ],
     members: { kind: "dashes" },
   },
   {
@@ -186,5 +217,8 @@ export const kFirstPlace: JsonObject = {
     { id: "east_wall2", box: [20, -10, 20.4, -2], height_m: 2 },
   ] as Json,
   drones: [{ id: "d1", start: [0, -8, 25], yaw_deg: 90 }],
-  people: { groups: [{ doing: "stroll", box: [-18, -8, 18, 8], count: 60 }], sources: [{ doing: "cross", exit: "west", towards: "east", per_minute: 20 }] },
+  people: {
+    groups: [{ doing: "stroll", box: [-18, -8, 18, 8], count: 60 }],
+    sources: [{ doing: "cross", exit: "west", towards: "east", per_minute: 20 }],
+  },
 };

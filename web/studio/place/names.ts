@@ -33,7 +33,7 @@ function nameOf(element: Element, unit: number): PlacedName | null {
 
 function cover(a: PlacedName, b: PlacedName, unit: number): boolean {
   const height = kNameSize * unit;
-  const width = (0.5 * kWidthOfLetter * height) * (a.text.length + b.text.length);
+  const width = 0.5 * kWidthOfLetter * height * (a.text.length + b.text.length);
   return Math.abs(a.x - b.x) < width && Math.abs(a.y - b.y) < kLineHeight * height;
 }
 

@@ -7,9 +7,9 @@ import { OpenBar, storedPlace, storePlace, UploadPanel } from "./file";
 import { FindingList } from "./findings";
 import { type History, useHistory } from "./history";
 import { kKinds, type Point } from "./kinds";
+import { middleOfPoints } from "./names";
 import { focusElement, PlanEditor, type Tool } from "./plan_editor";
 import { PlaceFields, Properties } from "./properties";
-import { middleOfPoints } from "./names";
 import { type Underlay, UnderlayPanel } from "./underlay";
 import { middleOf, useView, type View, zoomed } from "./view";
 
@@ -37,7 +37,14 @@ function ToolBar({ tool, onTool, grid, onGrid, history, view, onView }: ToolBarP
     <div class="plan-tools" role="toolbar" aria-label="Tools">
       <div class="tool-group">
         {kTools.map((entry) => (
-          <button key={entry.tool} type="button" class="button small" aria-pressed={tool === entry.tool} aria-keyshortcuts={entry.key} onClick={() => onTool(entry.tool)}>
+          <button
+            key={entry.tool}
+            type="button"
+            class="button small"
+            aria-pressed={tool === entry.tool}
+            aria-keyshortcuts={entry.key}
+            onClick={() => onTool(entry.tool)}
+          >
             {entry.label} <kbd>{entry.key}</kbd>
           </button>
         ))}
@@ -73,7 +80,15 @@ function ToolBar({ tool, onTool, grid, onGrid, history, view, onView }: ToolBarP
   );
 }
 
-function ElementList({ elements, selected, onShow }: { elements: Element[]; selected: Element | undefined; onShow: (element: Element) => void }) {
+function ElementList({
+  elements,
+  selected,
+  onShow,
+}: {
+  elements: Element[];
+  selected: Element | undefined;
+  onShow: (element: Element) => void;
+}) {
   return (
     <details class="part">
       <summary>All elements ({elements.length})</summary>
@@ -166,15 +181,28 @@ export function PlaceScreen() {
             onUnderlayPoint={points !== null && points.length < 2 ? (point) => setPoints([...points, point]) : null}
           />
           <p class="quiet-text">
-            Drag to draw, move or pan; Ctrl and the wheel zoom. Tab goes through the elements, arrow keys move what has the focus (Shift: ten steps), Delete removes
-            it. Enter on an element leads to its corners, Enter in the plan adds an element of the chosen tool.
+            Drag to draw, move or pan; Ctrl and the wheel zoom. Tab goes through the elements, arrow keys move what has the focus (Shift:
+            ten steps), Delete removes it. Enter on an element leads to its corners, Enter in the plan adds an element of the chosen tool.
           </p>
         </div>
         <div class="stack">
-          {selected ? <Properties document={place} element={selected} onChange={history.change} onRemove={() => setPointer(null)} /> : <PlaceFields document={place} onChange={history.change} />}
+          {selected ? (
+            <Properties document={place} element={selected} onChange={history.change} onRemove={() => setPointer(null)} />
+          ) : (
+            <PlaceFields document={place} onChange={history.change} />
+          )}
           <FindingList check={check} elements={elements} onShow={show} />
-          <UploadPanel document={place} canUpload={!check.isPending && check.message === null && !check.findings.some((finding) => finding.severity === "error")} />
-          <UnderlayPanel underlay={underlay} onChange={setUnderlay} points={points} onPoints={setPoints} widthM={ground ? ground[2] - ground[0] : kUsualWidthM} />
+          <UploadPanel
+            document={place}
+            canUpload={!check.isPending && check.message === null && !check.findings.some((finding) => finding.severity === "error")}
+          />
+          <UnderlayPanel
+            underlay={underlay}
+            onChange={setUnderlay}
+            points={points}
+            onPoints={setPoints}
+            widthM={ground ? ground[2] - ground[0] : kUsualWidthM}
+          />
           <ElementList elements={elements} selected={selected} onShow={show} />
         </div>
       </div>

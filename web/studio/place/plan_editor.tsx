@@ -111,7 +111,8 @@ export function PlanEditor(props: PlanEditorProps) {
   const onUp = () => {
     if (drag?.what === "new") {
       const isClick = Math.hypot(drag.to[0] - drag.from[0], drag.to[1] - drag.from[1]) < kSmallDrag * view.width;
-      const isFlat = kindOfTool(tool).shape === "polygon" && tool !== "wall" && (drag.to[0] === drag.from[0] || drag.to[1] === drag.from[1]);
+      const isFlat =
+        kindOfTool(tool).shape === "polygon" && tool !== "wall" && (drag.to[0] === drag.from[0] || drag.to[1] === drag.from[1]);
       if (kindOfTool(tool).shape === "point") add(drag.to, drag.to);
       else if (isClick || isFlat) addUsual(drag.from);
       else add(drag.from, drag.to);
@@ -174,7 +175,17 @@ export function PlanEditor(props: PlanEditorProps) {
       onWheel={onWheel}
     >
       <Ground document={present} unit={unit} />
-      {underlay && <image href={underlay.url} x={underlay.x} y={-underlay.y} width={underlay.width} height={underlay.height} opacity={underlay.opacity} preserveAspectRatio="none" />}
+      {underlay && (
+        <image
+          href={underlay.url}
+          x={underlay.x}
+          y={-underlay.y}
+          width={underlay.width}
+          height={underlay.height}
+          opacity={underlay.opacity}
+          preserveAspectRatio="none"
+        />
+      )}
       {elements.map((element) =>
         element.points.length === 0 ? null : (
           <g
@@ -212,7 +223,15 @@ export function PlanEditor(props: PlanEditorProps) {
           onSplit={(edge) => history.change(withNewCorner(present, selected, edge))}
         />
       )}
-      {drag?.what === "new" && <polygon class="plan-new" stroke-width={0.3 * unit} points={newOutline(tool, drag.from, drag.to).map(([x, y]) => `${x},${-y}`).join(" ")} />}
+      {drag?.what === "new" && (
+        <polygon
+          class="plan-new"
+          stroke-width={0.3 * unit}
+          points={newOutline(tool, drag.from, drag.to)
+            .map(([x, y]) => `${x},${-y}`)
+            .join(" ")}
+        />
+      )}
     </svg>
   );
 }

@@ -88,7 +88,9 @@ function ElementField({ document, element, field, onChange }: Omit<PropertiesPro
   }
   if (field.type === "choice" || field.type === "exit") {
     const exits = valueAt(document, ["exits"]);
-    const ids = (Array.isArray(exits) ? exits : []).flatMap((exit) => (isObject(exit) && typeof exit["id"] === "string" ? [exit["id"]] : []));
+    const ids = (Array.isArray(exits) ? exits : []).flatMap((exit) =>
+      isObject(exit) && typeof exit["id"] === "string" ? [exit["id"]] : [],
+    );
     const isFigure = field.choices?.every((choice) => !Number.isNaN(Number(choice))) ?? false;
     return (
       <Choice
@@ -114,7 +116,12 @@ function ElementField({ document, element, field, onChange }: Omit<PropertiesPro
 }
 
 function CornerFields({ document, element, onChange }: Omit<PropertiesProps, "onRemove">) {
-  const names = element.kind.shape === "point" ? ["Place"] : element.kind.shape === "segment" ? ["From", "To"] : element.points.map((_, i) => `Corner ${i + 1}`);
+  const names =
+    element.kind.shape === "point"
+      ? ["Place"]
+      : element.kind.shape === "segment"
+        ? ["From", "To"]
+        : element.points.map((_, i) => `Corner ${i + 1}`);
   const start = element.kind.name === "drone" ? element.value["start"] : undefined;
   return (
     <>
@@ -129,7 +136,8 @@ function CornerFields({ document, element, onChange }: Omit<PropertiesProps, "on
               isNumber
               value={point[axis]!}
               onChange={(value) => {
-                if (typeof value === "number") onChange(withCorner(document, element, index, axis === 0 ? [value, point[1]] : [point[0], value]));
+                if (typeof value === "number")
+                  onChange(withCorner(document, element, index, axis === 0 ? [value, point[1]] : [point[0], value]));
               }}
             />
           ))}
@@ -208,7 +216,12 @@ export function PlaceFields({ document, onChange }: { document: JsonObject; onCh
     <section class="card summary" aria-labelledby="place">
       <h2 id="place">Place</h2>
       <TextInput id="place-name" label="Name" value={document["name"]} onChange={(value) => set(["name"], value)} />
-      <TextInput id="place-description" label="Description" value={document["description"]} onChange={(value) => set(["description"], value)} />
+      <TextInput
+        id="place-description"
+        label="Description"
+        value={document["description"]}
+        onChange={(value) => set(["description"], value)}
+      />
       <Choice
         label="Ground"
         value={valueAt(document, ["ground", "material"])}

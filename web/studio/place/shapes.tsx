@@ -1,5 +1,5 @@
 // Elements of a blueprint as they are drawn. Sizes of signs are in units of the view, so that they stay as large.
-import { type Element } from "./elements";
+import type { Element } from "./elements";
 import type { Point } from "./kinds";
 import { kNameSize, type PlacedName } from "./names";
 
@@ -43,7 +43,14 @@ export function Shape({ element, unit }: ShapeProps) {
       <>
         {/* Wide enough to be hit. */}
         <line class="plan-hit" x1={from[0]} y1={-from[1]} x2={to[0]} y2={-to[1]} stroke-width={2.4 * unit} />
-        <line class={`plan-${kind.name} ${isClosed ? "closed" : ""}`} x1={from[0]} y1={-from[1]} x2={to[0]} y2={-to[1]} stroke-width={0.7 * unit} />
+        <line
+          class={`plan-${kind.name} ${isClosed ? "closed" : ""}`}
+          x1={from[0]}
+          y1={-from[1]}
+          x2={to[0]}
+          y2={-to[1]}
+          stroke-width={0.7 * unit}
+        />
       </>
     );
   }

@@ -71,7 +71,15 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
           <>
             <label class="row">
               Opacity
-              <input class="grow" type="range" min="0.1" max="1" step="0.05" value={underlay.opacity} onInput={(event) => onChange({ ...underlay, opacity: Number(event.currentTarget.value) })} />
+              <input
+                class="grow"
+                type="range"
+                min="0.1"
+                max="1"
+                step="0.05"
+                value={underlay.opacity}
+                onInput={(event) => onChange({ ...underlay, opacity: Number(event.currentTarget.value) })}
+              />
             </label>
             {points === null ? (
               <button type="button" class="button small" onClick={() => onPoints([])}>
@@ -79,11 +87,16 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
               </button>
             ) : (
               <>
-                <p aria-live="polite">{points.length < 2 ? `Click the ${points.length === 0 ? "first" : "second"} point in the plan.` : "How far apart are they?"}</p>
+                <p aria-live="polite">
+                  {points.length < 2
+                    ? `Click the ${points.length === 0 ? "first" : "second"} point in the plan.`
+                    : "How far apart are they?"}
+                </p>
                 <div class="row">
                   <label class="row grow">
                     Distance
-                    <input class="short" inputMode="decimal" value={distance} onInput={(event) => setDistance(event.currentTarget.value)} /> m
+                    <input class="short" inputMode="decimal" value={distance} onInput={(event) => setDistance(event.currentTarget.value)} />{" "}
+                    m
                   </label>
                   <button type="button" class="button small" disabled={points.length < 2 || !(Number(distance) > 0)} onClick={apply}>
                     Apply
@@ -104,7 +117,11 @@ export function UnderlayPanel({ underlay, onChange, points, onPoints, widthM }: 
                     onChange={(event) => {
                       const value = Number(event.currentTarget.value);
                       if (!Number.isFinite(value) || (key === "width" && value <= 0)) return;
-                      onChange(key === "width" ? { ...underlay, width: value, height: (underlay.height * value) / underlay.width } : { ...underlay, [key]: value });
+                      onChange(
+                        key === "width"
+                          ? { ...underlay, width: value, height: (underlay.height * value) / underlay.width }
+                          : { ...underlay, [key]: value },
+                      );
                     }}
                   />
                 </label>

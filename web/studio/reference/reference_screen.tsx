@@ -7,7 +7,19 @@ import { Empty, ErrorBox } from "../parts/elements";
 import { countText } from "../parts/format";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { CodeBlock } from "../parts/snippet";
-import { addressOf, answerOf, curlOf, type Document, groupsOf, isMatch, namesIn, type Operation, operationsOf, type Schema, typeText } from "./openapi";
+import {
+  addressOf,
+  answerOf,
+  curlOf,
+  type Document,
+  groupsOf,
+  isMatch,
+  namesIn,
+  type Operation,
+  operationsOf,
+  type Schema,
+  typeText,
+} from "./openapi";
 
 const kMaxShown = 20_000; // characters of an answer
 
@@ -57,7 +69,15 @@ function Contents({ content, document }: { content: Record<string, { schema?: Sc
   );
 }
 
-function Parameters({ operation, values, onChange }: { operation: Operation; values: Record<string, string>; onChange: (values: Record<string, string>) => void }) {
+function Parameters({
+  operation,
+  values,
+  onChange,
+}: {
+  operation: Operation;
+  values: Record<string, string>;
+  onChange: (values: Record<string, string>) => void;
+}) {
   return (
     <div class="fields">
       {operation.parameters!.map(({ name, in: place, description, schema, required }) => (
@@ -104,7 +124,9 @@ function Trial({ address, isReady }: { address: string; isReady: boolean }) {
       {answer && (
         <div role="status" class="stack">
           <p class="answer-title">{answer.title}</p>
-          {answer.text && <CodeBlock text={answer.text.length > kMaxShown ? `${answer.text.slice(0, kMaxShown)}\n…` : answer.text} label="answer" />}
+          {answer.text && (
+            <CodeBlock text={answer.text.length > kMaxShown ? `${answer.text.slice(0, kMaxShown)}\n…` : answer.text} label="answer" />
+          )}
         </div>
       )}
     </>
@@ -164,7 +186,12 @@ export function ReferenceScreen() {
       <ErrorBox error={document.error} />
       <label class="search">
         <span class="hidden">Search operations</span>
-        <input type="search" placeholder="Search operations" value={text} onInput={(event) => navigate(withQuery(query, { q: event.currentTarget.value }), { replace: true })} />
+        <input
+          type="search"
+          placeholder="Search operations"
+          value={text}
+          onInput={(event) => navigate(withQuery(query, { q: event.currentTarget.value }), { replace: true })}
+        />
       </label>
       <p class="quiet-text" role="status">
         {countText(operations.length, "operation")}
@@ -175,9 +202,15 @@ export function ReferenceScreen() {
           <h2>{tag}</h2>
           <div class="format-list">
             {group.map((operation) => (
-              <details key={operation.id} class="source" open={selected === operation.id} onToggle={(event) => select(operation.id, event.currentTarget.open)}>
+              <details
+                key={operation.id}
+                class="source"
+                open={selected === operation.id}
+                onToggle={(event) => select(operation.id, event.currentTarget.open)}
+              >
                 <summary>
-                  <span class={`method method-${operation.method}`}>{operation.method}</span> <code>{operation.path}</code> <span class="quiet-text">{operation.summary}</span>
+                  <span class={`method method-${operation.method}`}>{operation.method}</span> <code>{operation.path}</code>{" "}
+                  <span class="quiet-text">{operation.summary}</span>
                 </summary>
                 {selected === operation.id && <OperationBody operation={operation} document={document.value!} />}
               </details>

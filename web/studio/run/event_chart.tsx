@@ -1,6 +1,7 @@
 // Events of a run as marks over its time, and as a list that leads to them.
-import { countText } from "../parts/format";
+
 import { kLeft, TimeFrame } from "../charts/time_frame";
+import { countText } from "../parts/format";
 import { collisionText, eventsOf, type RunEvent } from "./events";
 import type { Metrics } from "./metrics";
 
@@ -33,7 +34,12 @@ export function EventChart({ metrics, ...chart }: EventChartProps) {
                   {events
                     .filter((event) => event.kind === kind && event.time_s <= chart.end_s)
                     .map((event) => (
-                      <path key={`${event.time_s} ${event.text}`} class={`event event-${kind}`} transform={`translate(${toX(event.time_s)} ${row * kRowHeight + 11})`} d="M0-7L6 0L0 7L-6 0Z">
+                      <path
+                        key={`${event.time_s} ${event.text}`}
+                        class={`event event-${kind}`}
+                        transform={`translate(${toX(event.time_s)} ${row * kRowHeight + 11})`}
+                        d="M0-7L6 0L0 7L-6 0Z"
+                      >
                         <title>
                           {event.text}, {event.time_s.toFixed(1)} s
                         </title>

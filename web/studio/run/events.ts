@@ -21,13 +21,16 @@ export function eventsOf(metrics: Metrics): RunEvent[] {
     add("drone", drone.battery_flat_s, `battery of drone ${drone.id} is flat`);
   }
   for (const exit of metrics.exits ?? []) {
-    for (const clog of exit.clogs ?? []) add("clog", clog.from_s, `clog at ${exit.id}${clog.ended ? `, until ${clog.until_s.toFixed(1)} s` : ", not ended"}`);
+    for (const clog of exit.clogs ?? [])
+      add("clog", clog.from_s, `clog at ${exit.id}${clog.ended ? `, until ${clog.until_s.toFixed(1)} s` : ", not ended"}`);
   }
   return events.sort((a, b) => a.time_s - b.time_s);
 }
 
 /** Collisions of drones: figures hold how many there were of each kind, not when. */
 export function collisionText(metrics: Metrics): string | null {
-  const parts = (metrics.drones ?? []).flatMap((drone) => Object.entries(drone.collisions ?? {}).map(([thing, count]) => `${drone.id} with ${thing} ${count}×`));
+  const parts = (metrics.drones ?? []).flatMap((drone) =>
+    Object.entries(drone.collisions ?? {}).map(([thing, count]) => `${drone.id} with ${thing} ${count}×`),
+  );
   return parts.length > 0 ? parts.join(", ") : null;
 }

@@ -11,7 +11,13 @@ export interface Metrics {
   escape_curve: { escaped_share: number[] }; ///< at 0, 1, 2, … s
   escape_time_percentiles: Record<string, number | null>;
   by_person?: { agent: number[]; hurt_s?: (number | null)[] };
-  drones?: { id: string; falling_s: number | null; landed_s: number | null; battery_flat_s: number | null; collisions: Record<string, number> }[];
+  drones?: {
+    id: string;
+    falling_s: number | null;
+    landed_s: number | null;
+    battery_flat_s: number | null;
+    collisions: Record<string, number>;
+  }[];
   exits?: { id: string; clogs?: { from_s: number; until_s: number; ended: boolean }[] }[];
   exposure: { max_density_2m2_per_m2: number | null } | null;
   exit_balance: { jain: number | null } | null; ///< null: nobody left

@@ -3,25 +3,35 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { ApiError, request } from "../api/client";
 import { useInterval, useJson, useSource } from "../api/resource";
 import type { Job, Scenario } from "../api/types";
-import type { Dataset, ImageName, Labels } from "../dataset/coco";
+import { EscapeCurve } from "../charts/escape_curve";
+import { ExitChart } from "../charts/exit_chart";
 import { addressOf, runsOf } from "../compare/subjects";
+import type { Dataset, ImageName, Labels } from "../dataset/coco";
 import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
 import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
-import { EscapeCurve } from "../charts/escape_curve";
-import { ExitChart } from "../charts/exit_chart";
+import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import { EventChart } from "./event_chart";
 import { type ExitHistory, historiesOf } from "./exit_states";
-import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import type { Metrics } from "./metrics";
 import { TopView } from "./top_view";
 import { useTrajectories } from "./trajectories";
 
 const kPlayMs = 600;
 
-function Camera({ dataset, image, drawing, onLabels }: { dataset: Dataset; image: ImageName; drawing: Drawing; onLabels: (camera: string, labels: Labels | null) => void }) {
+function Camera({
+  dataset,
+  image,
+  drawing,
+  onLabels,
+}: {
+  dataset: Dataset;
+  image: ImageName;
+  drawing: Drawing;
+  onLabels: (camera: string, labels: Labels | null) => void;
+}) {
   const source = useSource(dataset.address(image));
   const { labels } = useLabels(dataset, image);
   useEffect(() => onLabels(image.camera, labels), [labels]);
@@ -102,7 +112,10 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
     addEventListener("keydown", listener);
     return () => removeEventListener("keydown", listener);
   }, []);
-  const drawing: Drawing = useMemo(() => ({ layers: new Set(hasBoxes ? ["boxes"] : []), coloring: "state", opacity: 0.5, selected: null }), [hasBoxes]);
+  const drawing: Drawing = useMemo(
+    () => ({ layers: new Set(hasBoxes ? ["boxes"] : []), coloring: "state", opacity: 0.5, selected: null }),
+    [hasBoxes],
+  );
   const chart = { time_s, end_s, onTime };
   return (
     <>
@@ -110,7 +123,15 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
         <button type="button" class="button" aria-pressed={isPlaying} onClick={() => setPlaying(!isPlaying)}>
           {isPlaying ? "Pause" : "Play"}
         </button>
-        <input type="range" aria-label="Time" aria-valuetext={`${time_s.toFixed(1)} s`} min={first} max={last} value={frame} onInput={(event) => show(Number(event.currentTarget.value))} />
+        <input
+          type="range"
+          aria-label="Time"
+          aria-valuetext={`${time_s.toFixed(1)} s`}
+          min={first}
+          max={last}
+          value={frame}
+          onInput={(event) => show(Number(event.currentTarget.value))}
+        />
         <output>{time_s.toFixed(1)} s</output>
         <label class="row">
           <input type="checkbox" checked={hasBoxes} onChange={(event) => setBoxes(event.currentTarget.checked)} />
@@ -121,10 +142,25 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
         <div class="run-cameras">
           {cameras.map(({ camera }) => {
             const image = dataset.imageAt(run, camera, frame);
-            return image && <Camera key={camera} {...{ dataset, image, drawing }} onLabels={(name, value) => setLabels((known) => ({ ...known, [name]: value }))} />;
+            return (
+              image && (
+                <Camera
+                  key={camera}
+                  {...{ dataset, image, drawing }}
+                  onLabels={(name, value) => setLabels((known) => ({ ...known, [name]: value }))}
+                />
+              )
+            );
           })}
         </div>
-        {scenario?.ground_m && <TopView scenario={scenario} run={number} trajectories={trajectories} labels={cameras.map(({ camera }) => labels[camera] ?? null)} />}
+        {scenario?.ground_m && (
+          <TopView
+            scenario={scenario}
+            run={number}
+            trajectories={trajectories}
+            labels={cameras.map(({ camera }) => labels[camera] ?? null)}
+          />
+        )}
       </div>
       {metrics.error && metrics.error.status !== 401 && <ErrorBox error={metrics.error} />}
       {metrics.value && (

@@ -48,13 +48,19 @@ export function TopView({ scenario, run, labels, trajectories }: TopViewProps) {
   const source = useSource(`/v1/scenarios/${scenario.id}?format=svg`);
   const sheet = sheetOf(scenario.ground_m as [number, number, number, number]);
   const people = peopleOf(labels);
-  const unseen = trajectories ? unseenAt(trajectories.places, trajectories.index, run, new Set(people.map((person) => person.track_id))) : [];
+  const unseen = trajectories
+    ? unseenAt(trajectories.places, trajectories.index, run, new Set(people.map((person) => person.track_id)))
+    : [];
   return (
     <figure>
       <div class="plan-sheet">
         {source && <img src={source} alt={`floor plan of ${scenario.name ?? scenario.id}`} width={sheet.width} height={sheet.height} />}
         <Dots places={unseen.map(([x, y]) => sheet.toPx(x, y))} width={sheet.width} height={sheet.height} />
-        <svg viewBox={`0 0 ${sheet.width} ${sheet.height}`} role="img" aria-label={`${countText(people.length + unseen.length, "person", "people")} on the plan`}>
+        <svg
+          viewBox={`0 0 ${sheet.width} ${sheet.height}`}
+          role="img"
+          aria-label={`${countText(people.length + unseen.length, "person", "people")} on the plan`}
+        >
           {people.map((person) => {
             const [x, y] = sheet.toPx(person.position[0], person.position[1]);
             return <circle key={person.track_id} cx={x} cy={y} r="6" fill={colorOf(person, "state")} stroke="#000" stroke-width="1.5" />;
@@ -76,7 +82,9 @@ export function TopView({ scenario, run, labels, trajectories }: TopViewProps) {
       </div>
       <figcaption>
         {countText(people.length, "person", "people")} that a camera sees, colored by state; crosses are the drones.{" "}
-        {trajectories ? `White: ${countText(unseen.length, "person", "people")} that no camera sees.` : "Others are shown while the run's trace is there."}
+        {trajectories
+          ? `White: ${countText(unseen.length, "person", "people")} that no camera sees.`
+          : "Others are shown while the run's trace is there."}
       </figcaption>
     </figure>
   );

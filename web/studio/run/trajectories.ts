@@ -34,7 +34,12 @@ export function placesOf(buffer: ArrayBuffer): Places {
 }
 
 /** Positions (m) of the people at a time of the block who are not among the tracks that are `seen`. */
-export function unseenAt({ times, roles, view, origin, step }: Places, time: number, run: number, seen: ReadonlySet<number>): [number, number][] {
+export function unseenAt(
+  { times, roles, view, origin, step }: Places,
+  time: number,
+  run: number,
+  seen: ReadonlySet<number>,
+): [number, number][] {
   const places: [number, number][] = [];
   if (time >= times) return places;
   roles.forEach((role, agent) => {
@@ -67,7 +72,9 @@ export function useTrajectories(job: string, run: number, capture: Capture, fram
       blocks.current.set(keyOf(start), placesOf(await answer.arrayBuffer()));
       setCount(blocks.current.size);
     };
-    fetchBlock(first).then(() => fetchBlock(first + kBlockFrames)).catch(() => {});
+    fetchBlock(first)
+      .then(() => fetchBlock(first + kBlockFrames))
+      .catch(() => {});
     return () => controller.abort();
   }, [key]);
   const places = blocks.current.get(key);

@@ -5,9 +5,9 @@ import { useEvents } from "../api/events";
 import { cancelJob, prioritize, shareDone, stageText } from "../api/jobs";
 import { useInterval, useJson } from "../api/resource";
 import type { Job, JobList, PreviewList } from "../api/types";
+import { ConnectionNote } from "../parts/connection";
 import { Confirmation, Empty, ErrorBox, Figures, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
 import { agoText, bytesText, countText, durationText, secondsBetween } from "../parts/format";
-import { ConnectionNote } from "../parts/connection";
 
 const kPollMs = 1500;
 const kMaxQueued = 50;
@@ -104,7 +104,10 @@ function ResultCard({ job }: { job: Job }) {
   return (
     <article class="card result">
       <a href={`/jobs/${job.id}/images`} aria-label={`Images of ${job.name}`}>
-        <ServiceImage path={image ? `${image.href}?clean` : previews.value ? `/v1/jobs/${job.id}/plan` : null} alt={image ? `image of ${job.name}` : `floor plan of ${job.name}`} />
+        <ServiceImage
+          path={image ? `${image.href}?clean` : previews.value ? `/v1/jobs/${job.id}/plan` : null}
+          alt={image ? `image of ${job.name}` : `floor plan of ${job.name}`}
+        />
       </a>
       <div class="result-text">
         <h3>

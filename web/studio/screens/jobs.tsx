@@ -2,7 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { messageOf } from "../api/client";
 import { useEvents } from "../api/events";
-import { cancelJob, canRetry, hasDataset, isActive, kStates, keepJob, removeJob, retryJob, shareDone, stageText } from "../api/jobs";
+import { cancelJob, canRetry, hasDataset, isActive, keepJob, kStates, removeJob, retryJob, shareDone, stageText } from "../api/jobs";
 import { useInterval, useJson } from "../api/resource";
 import type { Job, JobList } from "../api/types";
 import { ConnectionNote } from "../parts/connection";
@@ -98,7 +98,11 @@ function JobRow({ job, isSelected, onSelect }: { job: Job; isSelected: boolean; 
           </>
         ) : (
           <span class="quiet-text">
-            {job.error ? job.error.message : job.progress.frames_total ? countText(job.progress.frames_total, "image") : (job.waiting_for ?? "")}
+            {job.error
+              ? job.error.message
+              : job.progress.frames_total
+                ? countText(job.progress.frames_total, "image")
+                : (job.waiting_for ?? "")}
           </span>
         )}
       </td>

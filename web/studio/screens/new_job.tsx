@@ -8,7 +8,7 @@ import { AllFields } from "../form/all_fields";
 import { Basic } from "../form/basic";
 import { calibratedDraft } from "../form/calibrated";
 import { DocumentViews, OpenDraft } from "../form/document_views";
-import { changedDraft, type Check, type Draft, draftOf, forgetDraft, type Form, storedDraft, useCheck } from "../form/draft";
+import { type Check, changedDraft, type Draft, draftOf, type Form, forgetDraft, storedDraft, useCheck } from "../form/draft";
 import { type JsonObject, textOf } from "../form/json";
 import { type Schema, withoutDefaults } from "../form/schema";
 import { ErrorBox, Mistakes } from "../parts/elements";
@@ -50,7 +50,8 @@ function Forecast({ plan }: { plan: DryRun }) {
   return (
     <span class="quiet-text">
       about {durationText(Math.max(1, cpu_s))} of one core and {bytesText(disk_bytes)} of disk
-      {total > 0 && `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
+      {total > 0 &&
+        `; ${durationText(Math.max(1, (plan.frames * seconds) / total))} at the pace of ${done.length === 1 ? "the last job" : `the last ${done.length} jobs`}`}
     </span>
   );
 }
@@ -119,7 +120,16 @@ function Editor({ draft, check, schema, onDraft }: EditorProps) {
     { id: "basic", label: "Basic", show: (form: Form) => <Basic form={form} schema={schema} /> },
     { id: "all", label: "All fields", show: (form: Form) => <AllFields form={form} schema={schema} /> },
   ];
-  return <DocumentViews what="The job" views={views} draft={draft} check={check} onDraft={onDraft} bar={(onErrors) => <SubmitBar draft={draft} check={check} onErrors={onErrors} />} />;
+  return (
+    <DocumentViews
+      what="The job"
+      views={views}
+      draft={draft}
+      check={check}
+      onDraft={onDraft}
+      bar={(onErrors) => <SubmitBar draft={draft} check={check} onErrors={onErrors} />}
+    />
+  );
 }
 
 function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
@@ -172,7 +182,9 @@ export function NewJob() {
         // From here on the draft counts, also after a reload.
         if (source.trim()) {
           sessionStorage.setItem("throng.draft", next.text);
-          navigate(withQuery(new URLSearchParams(location.search), Object.fromEntries(kSources.map((name) => [name, null]))), { replace: true });
+          navigate(withQuery(new URLSearchParams(location.search), Object.fromEntries(kSources.map((name) => [name, null]))), {
+            replace: true,
+          });
         }
       },
       (reason: unknown) => isLatest && setError(asApiError(reason)),

@@ -29,7 +29,9 @@ export function Convergence({ plan, values }: { plan: StudyPlan; values: StudyVa
   }, [one, horizon, isDifference]);
   const shown = series.filter((_, index) => !hidden.has(candidates[index]!.id));
   const toggle = (id: string) => setHidden(new Set(hidden.has(id) ? [...hidden].filter((other) => other !== id) : [...hidden, id]));
-  const latest = shown.map(({ title, means }) => `${title} ${signedText(means.at(-1)?.mean)} ± ${means.at(-1)?.margin?.toFixed(1) ?? "?"} s`);
+  const latest = shown.map(
+    ({ title, means }) => `${title} ${signedText(means.at(-1)?.mean)} ± ${means.at(-1)?.margin?.toFixed(1) ?? "?"} s`,
+  );
   return (
     <div class="card run-charts convergence">
       <div class="row wrap">
@@ -63,7 +65,12 @@ export function Convergence({ plan, values }: { plan: StudyPlan; values: StudyVa
       {one.runs.length === 0 ? (
         <p class="quiet-text">No pair of this case is finished yet.</p>
       ) : (
-        <MeanChart series={shown} runs={Math.max(2, one.runs.length)} isDifference={isDifference} label={`Running mean up to ${one.horizons_s[horizon]} s after ${one.runs.length} runs: ${latest.join(", ")}`} />
+        <MeanChart
+          series={shown}
+          runs={Math.max(2, one.runs.length)}
+          isDifference={isDifference}
+          label={`Running mean up to ${one.horizons_s[horizon]} s after ${one.runs.length} runs: ${latest.join(", ")}`}
+        />
       )}
       <div class="row wrap" role="group" aria-label="Policies in the chart">
         {candidates.map((policy, index) => (

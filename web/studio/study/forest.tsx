@@ -1,7 +1,7 @@
 // Differences to the baseline with their 95 % intervals: the forest plot of a study.
 import type { StudyPlan, StudySummary } from "../api/types";
-import { rowOf } from "./grid";
 import { type Scale, scaleOf, shareOn, signedText } from "../charts/scale";
+import { rowOf } from "./grid";
 
 type Mean = StudySummary["rows"][number]["restricted_means"][number];
 
@@ -23,7 +23,12 @@ function Interval({ mean, runs, scale }: { mean: Mean; runs: number; scale: Scal
   return (
     <div class={`forest-plot ${isClear ? "clear" : ""}`} aria-hidden="true">
       <i class="forest-zero" style={{ left: percent(scale, 0) }} />
-      {hasInterval(mean, runs) && <i class="forest-interval" style={{ left: percent(scale, low!), width: `${100 * (shareOn(scale, high!) - shareOn(scale, low!))}%` }} />}
+      {hasInterval(mean, runs) && (
+        <i
+          class="forest-interval"
+          style={{ left: percent(scale, low!), width: `${100 * (shareOn(scale, high!) - shareOn(scale, low!))}%` }}
+        />
+      )}
       {mean.difference_s !== null && <i class="forest-point" style={{ left: percent(scale, mean.difference_s) }} />}
     </div>
   );
@@ -54,8 +59,20 @@ function PolicyRows({ title, means, runs, scale }: { title: string; means: Mean[
   );
 }
 
-function CaseRows({ one, plan, summary, scale }: { one: StudyPlan["cases"][number]; plan: StudyPlan; summary: StudySummary; scale: Scale }) {
-  const rows = plan.policies.filter((policy) => policy.id !== plan.baseline).map((policy) => ({ policy, row: rowOf(summary, one.id, policy.id) }));
+function CaseRows({
+  one,
+  plan,
+  summary,
+  scale,
+}: {
+  one: StudyPlan["cases"][number];
+  plan: StudyPlan;
+  summary: StudySummary;
+  scale: Scale;
+}) {
+  const rows = plan.policies
+    .filter((policy) => policy.id !== plan.baseline)
+    .map((policy) => ({ policy, row: rowOf(summary, one.id, policy.id) }));
   const runs = Math.max(0, ...rows.map(({ row }) => row?.runs ?? 0));
   return (
     <tbody>
@@ -64,22 +81,27 @@ function CaseRows({ one, plan, summary, scale }: { one: StudyPlan["cases"][numbe
           {one.title} <span class="quiet-text">{runs === 1 ? "1 pair" : `${runs} pairs`}</span>
         </th>
       </tr>
-      {rows.map(({ policy, row }) => row && <PolicyRows key={policy.id} title={policy.title} means={row.restricted_means} runs={row.runs} scale={scale} />)}
+      {rows.map(
+        ({ policy, row }) =>
+          row && <PolicyRows key={policy.id} title={policy.title} means={row.restricted_means} runs={row.runs} scale={scale} />,
+      )}
     </tbody>
   );
 }
 
 export function Forest({ plan, summary }: { plan: StudyPlan; summary: StudySummary }) {
   const others = summary.rows.filter((row) => row.policy !== plan.baseline);
-  const ends = others.flatMap((row) => row.restricted_means.flatMap((mean) => [mean.difference_s, ...(hasInterval(mean, row.runs) ? mean.difference_95_s : [])]));
+  const ends = others.flatMap((row) =>
+    row.restricted_means.flatMap((mean) => [mean.difference_s, ...(hasInterval(mean, row.runs) ? mean.difference_95_s : [])]),
+  );
   const scale = scaleOf(ends.filter((end): end is number => end !== null));
   const baseline = plan.policies.find((policy) => policy.id === plan.baseline)?.title ?? plan.baseline;
   if (others.length === 0) return <p class="quiet-text">A study with one policy has nothing to compare.</p>;
   return (
     <>
       <p class="quiet-text">
-        Mean of the times up to either horizon, less that of “{baseline}” in the same pairs (s). Left of the line people are out sooner. Lines are 95 % intervals by bootstrap; p is Wilcoxon's, adjusted by Holm for all
-        comparisons of the study.
+        Mean of the times up to either horizon, less that of “{baseline}” in the same pairs (s). Left of the line people are out sooner.
+        Lines are 95 % intervals by bootstrap; p is Wilcoxon's, adjusted by Holm for all comparisons of the study.
       </p>
       <table class="forest">
         <thead>
@@ -104,7 +126,12 @@ export function Forest({ plan, summary }: { plan: StudyPlan; summary: StudySumma
             </th>
           </tr>
         </thead>
-        {plan.cases.map((one) => summary.rows.some((row) => row.case === one.id) && <CaseRows key={one.id} one={one} plan={plan} summary={summary} scale={scale} />)}
+        {plan.cases.map(
+          (one) =>
+            summary.rows.some((row) => row.case === one.id) && (
+              <CaseRows key={one.id} one={one} plan={plan} summary={summary} scale={scale} />
+            ),
+        )}
       </table>
     </>
   );

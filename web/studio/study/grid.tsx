@@ -7,7 +7,8 @@ interface GridProps {
   summary: StudySummary | null;
 }
 
-export const rowOf = (summary: StudySummary | null, one: string, policy: string) => summary?.rows.find((row) => row.case === one && row.policy === policy) ?? null;
+export const rowOf = (summary: StudySummary | null, one: string, policy: string) =>
+  summary?.rows.find((row) => row.case === one && row.policy === policy) ?? null;
 
 function Cell({ done, runs, mean_s, until_s }: { done: number; runs: number; mean_s: number | null; until_s: number }) {
   return (
@@ -47,7 +48,15 @@ export function StudyGrid({ study, plan, summary }: GridProps) {
               <th scope="row">{one.title}</th>
               {plan.policies.map((policy, column) => {
                 const mean = rowOf(summary, one.id, policy.id)?.restricted_means.at(-1);
-                return <Cell key={policy.id} done={cells[row]?.[column] ?? 0} runs={plan.runs} mean_s={mean?.mean_s ?? null} until_s={mean?.until_s ?? 0} />;
+                return (
+                  <Cell
+                    key={policy.id}
+                    done={cells[row]?.[column] ?? 0}
+                    runs={plan.runs}
+                    mean_s={mean?.mean_s ?? null}
+                    until_s={mean?.until_s ?? 0}
+                  />
+                );
               })}
             </tr>
           ))}

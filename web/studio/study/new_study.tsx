@@ -4,7 +4,7 @@ import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
 import type { Study, StudyPlan } from "../api/types";
 import { DocumentViews, OpenDraft } from "../form/document_views";
-import { type Check, type Draft, draftOf, type DraftPlace, type Form, storedDraft, useCheck } from "../form/draft";
+import { type Check, type Draft, type DraftPlace, draftOf, type Form, storedDraft, useCheck } from "../form/draft";
 import { type Json, textOf } from "../form/json";
 import type { Schema } from "../form/schema";
 import { ErrorBox } from "../parts/elements";
@@ -68,7 +68,16 @@ interface EditorProps {
 function Editor({ draft, check, onDraft }: EditorProps) {
   const schema = useSchema();
   const views = [{ id: "form", label: "Form", show: (form: Form) => schema && <StudyForm form={form} schema={schema} /> }];
-  return <DocumentViews what="The study" views={views} draft={draft} check={check} onDraft={onDraft} bar={(onErrors) => <StartBar draft={draft} place={kPlace} check={check} onErrors={onErrors} />} />;
+  return (
+    <DocumentViews
+      what="The study"
+      views={views}
+      draft={draft}
+      check={check}
+      onDraft={onDraft}
+      bar={(onErrors) => <StartBar draft={draft} place={kPlace} check={check} onErrors={onErrors} />}
+    />
+  );
 }
 
 /** With `?from=ID` the document of another study, to be changed. `studies`: those that can be copied. */

@@ -15,7 +15,10 @@ const itemsOf = (study: JsonObject, key: string) => ((study[key] ?? []) as Json[
 
 /** Some cases and policies of a study, by their places in it, with few runs of at most five minutes. */
 function partOf(study: JsonObject, name: string, cases: number[], policies: number[]): JsonObject {
-  const shortened = itemsOf(study, "cases").map((one) => ({ ...one, duration_s: Math.min(kSmallDuration_s, Number(one["duration_s"] ?? kSmallDuration_s)) }));
+  const shortened = itemsOf(study, "cases").map((one) => ({
+    ...one,
+    duration_s: Math.min(kSmallDuration_s, Number(one["duration_s"] ?? kSmallDuration_s)),
+  }));
   const baseline = study["baseline"];
   return {
     ...study,
@@ -31,8 +34,16 @@ function presetsOf({ file, study }: { file: string; study: JsonObject }): Preset
   const last = itemsOf(study, "cases").length - 1;
   const policies = itemsOf(study, "policies").length;
   return [
-    { id: `${file} one`, title: `${title}: one case, one drone`, study: partOf(study, `${title}, one case`, [last], [Math.min(2, policies - 1)]) },
-    { id: `${file} drones`, title: `${title}: two cases, numbers of drones`, study: partOf(study, `${title}, numbers of drones`, [last - 1, last], [2, 3, 4]) },
+    {
+      id: `${file} one`,
+      title: `${title}: one case, one drone`,
+      study: partOf(study, `${title}, one case`, [last], [Math.min(2, policies - 1)]),
+    },
+    {
+      id: `${file} drones`,
+      title: `${title}: two cases, numbers of drones`,
+      study: partOf(study, `${title}, numbers of drones`, [last - 1, last], [2, 3, 4]),
+    },
     { id: file, title: `${title}: the whole study`, study },
   ];
 }

@@ -11,7 +11,8 @@ import { navigate } from "../parts/router";
 const kMiB = 2 ** 20;
 
 /** People times simulated seconds, which the time of a study goes with. */
-export const workOf = (plan: StudyPlan) => plan.people * plan.runs * plan.policies.length * plan.cases.reduce((sum, one) => sum + one.duration_s, 0);
+export const workOf = (plan: StudyPlan) =>
+  plan.people * plan.runs * plan.policies.length * plan.cases.reduce((sum, one) => sum + one.duration_s, 0);
 
 /** As long as the newest finished study took for its work; runs that end early, and others' jobs, make it rough. */
 function Forecast({ plan }: { plan: StudyPlan }) {
@@ -57,7 +58,8 @@ export function StartBar({ draft, place, check, onErrors }: StartBarProps) {
         {check.isPending && !plan && errors.length === 0 && <span class="quiet-text">checking …</span>}
         {plan && (
           <>
-            <strong>{countText(plan.simulations, "simulation")}</strong>: {countText(plan.cases.length, "case")} × {countText(plan.policies.length, "policy", "policies")} × {countText(plan.runs, "run")}
+            <strong>{countText(plan.simulations, "simulation")}</strong>: {countText(plan.cases.length, "case")} ×{" "}
+            {countText(plan.policies.length, "policy", "policies")} × {countText(plan.runs, "run")}
             <span class="quiet-text">
               {" "}
               of at most {plan.people.toLocaleString("en-US")} people, {bytesText(plan.memory_mib * kMiB)} of memory each

@@ -4,8 +4,8 @@ import { type ApiError, asApiError, request } from "../api/client";
 import { useEvents } from "../api/events";
 import { useInterval, useJson } from "../api/resource";
 import type { Study, StudyList } from "../api/types";
-import { Confirmation, Empty, ErrorBox, Progress, type Question, StateBadge } from "../parts/elements";
 import { ConnectionNote } from "../parts/connection";
+import { Confirmation, Empty, ErrorBox, Progress, type Question, StateBadge } from "../parts/elements";
 import { agoText } from "../parts/format";
 import { usePlace, withQuery } from "../parts/router";
 import { NewStudy } from "./new_study";
@@ -16,7 +16,13 @@ export const isAtWork = ({ state }: Study) => state === "queued" || state === "r
 export const removeStudy = (id: string) => request(`/v1/studies/${id}`, { method: "DELETE" });
 
 export function removalOf(study: Study, confirm: () => void): Question {
-  return { title: `Delete ${study.name}?`, text: "Its results are deleted. If it runs, it is ended.", action: "Delete the study", isDangerous: true, confirm };
+  return {
+    title: `Delete ${study.name}?`,
+    text: "Its results are deleted. If it runs, it is ended.",
+    action: "Delete the study",
+    isDangerous: true,
+    confirm,
+  };
 }
 
 function StudyTable({ list, onRemove }: { list: Study[]; onRemove: (study: Study) => void }) {
@@ -78,7 +84,8 @@ export function StudiesScreen() {
   const studies = list.value?.studies ?? [];
   const connection = useEvents("/v1/events", list.reload);
   useInterval(list.reload, studies.some(({ state }) => state === "running") ? kPollMs : 0);
-  const remove = (study: Study) => setQuestion(removalOf(study, () => void removeStudy(study.id).then(list.reload, (reason: unknown) => setError(asApiError(reason)))));
+  const remove = (study: Study) =>
+    setQuestion(removalOf(study, () => void removeStudy(study.id).then(list.reload, (reason: unknown) => setError(asApiError(reason)))));
   return (
     <div class="screen">
       <div class="heading">

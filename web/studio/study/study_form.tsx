@@ -11,9 +11,28 @@ import { type Schema, schemaAt } from "../form/schema";
 import { withoutFields } from "./study_schema";
 
 const kStudyFields = ["name", "seed", "runs", "baseline", "baseline_case", "horizons_s"];
-const kCaseFields: Path[] = [["id"], ["title"], ["scenario"], ["crowd", "agents"], ["crowd", "model"], ["crowd", "compat"], ["alarm_s"], ["duration_s"]];
-const kReferenceFields: Path[] = [["reference", "speed_mps"], ["reference", "capacity_per_s"]];
-const kDroneFields: Path[] = [["id"], ["start"], ["guidance", "policy"], ["guidance", "speed_mps"], ["guidance", "lead_speed_mps"], ["moves_goal"]];
+const kCaseFields: Path[] = [
+  ["id"],
+  ["title"],
+  ["scenario"],
+  ["crowd", "agents"],
+  ["crowd", "model"],
+  ["crowd", "compat"],
+  ["alarm_s"],
+  ["duration_s"],
+];
+const kReferenceFields: Path[] = [
+  ["reference", "speed_mps"],
+  ["reference", "capacity_per_s"],
+];
+const kDroneFields: Path[] = [
+  ["id"],
+  ["start"],
+  ["guidance", "policy"],
+  ["guidance", "speed_mps"],
+  ["guidance", "lead_speed_mps"],
+  ["moves_goal"],
+];
 // Studies make no images.
 const kImageFields: Path[] = [["camera"]];
 
@@ -66,10 +85,20 @@ function ItemBox({ form, path, index, noun, children }: ItemBoxProps) {
     <div class="item-fields" role="group" aria-label={`${noun} ${index + 1}`}>
       {children}
       <div class="row wrap">
-        <button type="button" class="button small" onClick={() => form.change(path, withCopy(list, index))} aria-label={`Duplicate ${noun.toLowerCase()} ${name}`}>
+        <button
+          type="button"
+          class="button small"
+          onClick={() => form.change(path, withCopy(list, index))}
+          aria-label={`Duplicate ${noun.toLowerCase()} ${name}`}
+        >
           Duplicate
         </button>
-        <button type="button" class="button small danger-text" onClick={() => form.change(path, list.length > 1 ? list.filter((_, i) => i !== index) : undefined)} aria-label={`Remove ${noun.toLowerCase()} ${name}`}>
+        <button
+          type="button"
+          class="button small danger-text"
+          onClick={() => form.change(path, list.length > 1 ? list.filter((_, i) => i !== index) : undefined)}
+          aria-label={`Remove ${noun.toLowerCase()} ${name}`}
+        >
           Remove
         </button>
       </div>
@@ -110,9 +139,13 @@ function FieldsOf({ form, path, schema, fields, scenarios }: ItemProps & { field
 function Cases({ form, schema, scenarios }: PartProps & { scenarios: Scenario[] }) {
   const cases = listAt(form, ["cases"]);
   const item = schemaAt(schema, ["cases", 0]);
-  const crowd = withoutFields(schemaAt(item, ["crowd"]), kCaseFields.filter(([first]) => first === "crowd").map((path) => path.slice(1)));
+  const crowd = withoutFields(
+    schemaAt(item, ["crowd"]),
+    kCaseFields.filter(([first]) => first === "crowd").map((path) => path.slice(1)),
+  );
   const ids = scenarios.filter((scenario) => !scenario.error && scenario.crowd_model !== null).map((scenario) => scenario.id);
-  const add = () => form.change(["cases"], [...cases, { id: freeId("case", idsOf(cases)), scenario: textAt(cases.at(-1), "scenario") || (ids[0] ?? "") }]);
+  const add = () =>
+    form.change(["cases"], [...cases, { id: freeId("case", idsOf(cases)), scenario: textAt(cases.at(-1), "scenario") || (ids[0] ?? "") }]);
   return (
     <fieldset>
       <legend>Cases</legend>
@@ -138,13 +171,18 @@ function formOfPolicy(form: Form, path: Path): Form {
   const pointer = pointerOf(path);
   const errors = form.errors.filter((error) => error.pointer.startsWith(`${pointer}/`));
   const value = valueAt(form.value, path);
-  return { value: isObject(value) ? value : {}, errors: errors.map((error) => ({ ...error, pointer: error.pointer.slice(pointer.length) })), change: (below, next) => form.change([...path, ...below], next) };
+  return {
+    value: isObject(value) ? value : {},
+    errors: errors.map((error) => ({ ...error, pointer: error.pointer.slice(pointer.length) })),
+    change: (below, next) => form.change([...path, ...below], next),
+  };
 }
 
 function Drones({ form, path, schema, scenario }: ItemProps & { scenario: Scenario | undefined }) {
   const list = listAt(form, [...path, "drones"]);
   const item = schemaAt(schema, ["drones", 0]);
-  const add = () => form.change([...path, "drones"], [...list, { id: freeId("d1", idsOf(list)), start: [0, 0, 20], guidance: { policy: "balance" } }]);
+  const add = () =>
+    form.change([...path, "drones"], [...list, { id: freeId("d1", idsOf(list)), start: [0, 0, 20], guidance: { policy: "balance" } }]);
   const rest = withoutFields(item, [...kDroneFields, ...kImageFields]);
   return (
     <>
@@ -152,7 +190,11 @@ function Drones({ form, path, schema, scenario }: ItemProps & { scenario: Scenar
         <div key={index} class="study-drone" role="group" aria-label={`Drone ${textAt(drone, "id") || index + 1}`}>
           <FieldsOf form={form} path={[...path, "drones", index]} schema={item} fields={kDroneFields} />
           <More form={form} path={[...path, "drones", index]} schema={rest} title="More of the drone" />
-          <button type="button" class="button small danger-text" onClick={() => form.change([...path, "drones"], list.length > 1 ? list.filter((_, i) => i !== index) : undefined)}>
+          <button
+            type="button"
+            class="button small danger-text"
+            onClick={() => form.change([...path, "drones"], list.length > 1 ? list.filter((_, i) => i !== index) : undefined)}
+          >
             Remove drone {textAt(drone, "id")}
           </button>
         </div>

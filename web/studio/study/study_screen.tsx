@@ -93,7 +93,9 @@ function Results({ study, plan, values }: { study: Study; plan: StudyPlan; value
       <section aria-labelledby="runs">
         <h2 id="runs">Runs</h2>
         <StudyGrid study={study} plan={plan} summary={summary} />
-        <p class="quiet-text table-note">Finished runs; below, the mean of the times up to the longer horizon, of the runs that every policy of the case has.</p>
+        <p class="quiet-text table-note">
+          Finished runs; below, the mean of the times up to the longer horizon, of the runs that every policy of the case has.
+        </p>
       </section>
       {summary && summary.rows.length > 0 && (
         <>
@@ -104,7 +106,9 @@ function Results({ study, plan, values }: { study: Study; plan: StudyPlan; value
           <section aria-labelledby="times">
             <h2 id="times">Times</h2>
             <TimesTable plan={plan} summary={summary} />
-            <p class="quiet-text table-note">Medians [quartiles] over the runs, from the later of alarm and arrival. Left inside: unhurt at the end, mean.</p>
+            <p class="quiet-text table-note">
+              Medians [quartiles] over the runs, from the later of alarm and arrival. Left inside: unhurt at the end, mean.
+            </p>
           </section>
         </>
       )}
@@ -112,7 +116,9 @@ function Results({ study, plan, values }: { study: Study; plan: StudyPlan; value
         <section aria-labelledby="convergence">
           <h2 id="convergence">Convergence</h2>
           <Convergence plan={plan} values={values} />
-          <p class="quiet-text table-note">Mean of the first runs with its 95 % interval (Student's t). A mean that still drifts wants more runs.</p>
+          <p class="quiet-text table-note">
+            Mean of the first runs with its 95 % interval (Student's t). A mean that still drifts wants more runs.
+          </p>
         </section>
       )}
     </>
