@@ -118,8 +118,8 @@ soak_release() { run_ctest soak-release release -j4 -L '^waits$' -LE '^sanitized
 soak_asan() { asan_ctest soak-asan -j4 -L '^waits$' -LE '^slow$' --repeat "until-fail:${THRONG_SOAK:-10}"; }
 
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
-# of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. What has passed once
-# is not checked again, in any checkout of this user: the same bytes, list of modules and version of clang-tidy.
+# of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. A tree that passed once
+# is not checked again, in any checkout of this user, by the same bytes, list of modules and version of clang-tidy.
 step_tidy() {
   say "clang-tidy"
   cmake -S . --preset asan >build/configure-asan.log

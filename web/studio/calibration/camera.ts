@@ -6,7 +6,7 @@ export interface CameraView {
   points: number; ///< used
   rms_px: number | null;
   outliers: unknown[];
-  camera_centre: [number, number, number]; ///< in the frame of the points
+  "camera_centre": [number, number, number]; ///< in the frame of the points
   rotation_vector: [number, number, number]; ///< from that frame to the camera's
 }
 

@@ -4,7 +4,7 @@ export interface CameraRecord {
   K: [number[], number[], number[]];
   R: [number[], number[], number[]];
   t: [number, number, number];
-  centre: [number, number, number];
+  "centre": [number, number, number];
   model?: string;
   distortion?: Record<string, number>;
 }
