@@ -58,8 +58,9 @@ std::vector<std::uint8_t> flow_targets(const Frame& now, const Frame& next) {
   const auto width = static_cast<std::size_t>(now.width());
   parallel_ranges(targets.size(), kRowsOfTask * width, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const float u = static_cast<float>(i % width) + now.flow[2 * i];
-      const float v = static_cast<float>(i / width) + now.flow[2 * i + 1];
+      const std::size_t row = i / width;
+      const float u = static_cast<float>(i - row * width) + now.flow[2 * i];
+      const float v = static_cast<float>(row) + now.flow[2 * i + 1];
       const FlowTarget target = std::isnan(u) || std::isnan(v)
                                     ? FlowTarget::unknown
                                     : target_of(next, u, v, now.flow_depth_m[i]);
