@@ -58,27 +58,30 @@ class Package(unittest.TestCase):
     @unittest.skipUnless(os.getuid() == 0, "only root may mount a layer over the sources and be another user")
     def test_packaging_and_installing_write_only_below_their_prefix(self):
         """Another user may write into the prefix and list what was installed; a layer over the sources shows the rest."""
-        os.chmod(self.folder, 0o777)
-        for name in ("written", "work"):
-            (self.folder / name).mkdir()
         script = """set -e
-            mount -t overlay overlay -o "lowerdir=$1,upperdir=$2/written,workdir=$2/work" "$1"
-            rm -f "$3"/install_manifest*.txt
-            chown nobody "$3"  # cmake writes install_manifest*.txt there
-            cd "$2"
-            base="$2"
+            base="$(mktemp -d /tmp/throng-package.XXXXXX)"  # not below the sources
+            mount -t tmpfs tmpfs "$base"
+            chmod 777 "$base"
+            cd "$base"
+            mkdir written work
+            mount -t overlay overlay -o "lowerdir=$1,upperdir=$base/written,workdir=$base/work" "$1"
+            rm -f "$2"/install_manifest*.txt
+            chown nobody "$2"  # cmake writes install_manifest*.txt there
             nobody() { setpriv --reuid nobody --regid nogroup --clear-groups env HOME="$base" "$@"; }
-            nobody cpack --config "$3/CPackConfig.cmake" -B "$2/package"
-            for component in program library; do
-              nobody cmake --install "$3" --prefix "$2/$component" --component $component
-            done"""
-        run("unshare", "--mount", "bash", "-c", script, "bash", ROOT, self.folder, BUILD)
-        self.assertEqual(len(list((self.folder / "package").glob("*.deb"))), 1)
-        self.assertTrue(
-            (self.folder / "program/bin/throng").is_file() and (self.folder / "library/include/throng").is_dir()
-        )
-        written = {path.name for path in (self.folder / "written").rglob("*") if not path.is_dir()}
+            {
+              nobody cpack --config "$2/CPackConfig.cmake" -B "$base/package"
+              for component in program library; do
+                nobody cmake --install "$2" --prefix "$base/$component" --component $component
+              done
+            } >&2
+            find package/*.deb program/bin/throng library/include/throng -maxdepth 0
+            find written ! -type d
+            umount "$1" && cd / && umount "$base" && rmdir "$base" """
+        found = run("unshare", "--mount", "bash", "-c", script, "bash", ROOT, BUILD).splitlines()
+        written = {path.rsplit("/", 1)[1] for path in found if path.startswith("written/")}
         self.assertEqual(written, {"install_manifest_program.txt", "install_manifest_library.txt"})
+        self.assertEqual(sum(path.startswith("package/throng_") for path in found), 1)
+        self.assertLess({"program/bin/throng", "library/include/throng"}, set(found))
 
     def test_install_and_uninstall(self):
         prefix = self.folder / "usr"
