@@ -23,7 +23,7 @@ if(THRONG_SANITIZE)
   # have (vptr). They instrument every access and double the build's time.
   target_compile_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all -fno-sanitize=null,object-size,pointer-overflow,alignment,vptr)
-  target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE})
+  target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE} -fuse-ld=lld)
   # Macros of our own: by __SANITIZE_ADDRESS__ Eigen allocates in another way than Debian's libceres.a, whose copies of
   # Eigen's functions the linker may choose.
   if(THRONG_SANITIZE MATCHES address)

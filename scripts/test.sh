@@ -26,6 +26,10 @@ fi
 # Tests of what scripts/packages.txt lists fail where it is missing, instead of being skipped.
 export CI=true
 
+# What passed once, by content (tidy) or by date (long), for all checkouts of this user.
+stamps="${XDG_CACHE_HOME:-$HOME/.cache}/throng"
+mkdir -p "$stamps/tidy"
+
 sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
 
 # run_parts FUNCTION...: runs each, whatever failed before. Fails if one did; their names go to build/checks/failed_parts.
@@ -65,19 +69,21 @@ python_format() {
 shell() { git ls-files --cached --others --exclude-standard -- '*.sh' .ci/run | xargs shellcheck; }
 language() { /usr/bin/python3 scripts/check_language.py; }
 generated_types() { /usr/bin/python3 python/generate_types.py --check; }
-python_types() { mypy --strict --cache-dir build/mypy python/throng python/generate_types.py; }
+python_types() { mypy --strict --cache-dir "$stamps/mypy" python/throng python/generate_types.py; }
 
 # Each test program of a module runs once: those that compute with this build, the others with the sanitizers' (cmake/
-# Tests.cmake). Tests of the program run here, the shorter ones there as well. Of the benchmarks only the syntax is checked.
+# Tests.cmake). Tests of the program run here, the shorter ones there as well. The benchmarks are compiled only.
 step_release() {
   say "building and testing (release)"
   run_parts release_build
   run_parts benchmarks release_tests
 }
 release_build() { build release throng_computing_tests; }
+# Without optimization, and by ccache, which does not know -fsyntax-only.
 benchmarks() {
+  mkdir -p build/benchmarks
   jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
-    sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
+    sed -E "s# -o [^ ]*/([^ /]+) # -O0 -o $root/build/benchmarks/\1 #" | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
 }
 release_tests() { run_ctest release release --repeat-waits -j4 -LE '^sanitized$'; }
 run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
@@ -86,7 +92,8 @@ run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
 # a sample (all damages to datasets, all kinds of sound datasets, more people and time in all scenarios, more crashes).
 step_long() {
   say "testing what lasts"
-  run_parts long_sanitized_with_release long_samples long_computing_with_asan
+  run_parts long_sanitized_with_release long_samples long_with_asan long_fuzz
+  touch "$stamps/long"
 }
 long_sanitized_with_release() {
   build release throng_tests
@@ -96,10 +103,11 @@ long_samples() {
   build release throng_computing_tests
   THRONG_LONG=1 THRONG_CRASHES=10 run_ctest long-samples release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
 }
-long_computing_with_asan() {
+long_with_asan() {
   build asan throng_tests
-  asan_ctest long-asan -j3 -L '^computing$'
+  asan_ctest long-asan -j3 -L '^(computing|asan_in_long)$'
 }
+long_fuzz() { step_fuzz 60; }
 
 # Not among the default steps: tests that wait, ten times each (or $THRONG_SOAK times), beside two busy loops. None may fail.
 step_soak() {
@@ -123,18 +131,17 @@ soak_asan() { asan_ctest soak-asan -j4 -L '^waits$' -LE '^slow$' --repeat "until
 step_tidy() {
   say "clang-tidy"
   cmake -S . --preset asan >build/configure-asan.log
-  local stamps="${XDG_CACHE_HOME:-$HOME/.cache}/throng/tidy" state modules
+  local state modules
   modules="$(cut -d/ -f1 build/asan/modules.txt | sort -u | paste -sd'|')"
   state="$({ sources | sort | xargs sha256sum; sha256sum .clang-tidy scripts/join_sources.py; echo "$modules"; clang-tidy --version; } | sha256sum | cut -d' ' -f1)"
-  if [ -e "$stamps/$state" ]; then
-    echo "passed before, on $(date -r "$stamps/$state" '+%F %R')"
+  if [ -e "$stamps/tidy/$state" ]; then
+    echo "passed before, on $(date -r "$stamps/tidy/$state" '+%F %R')"
     return
   fi
   python3 scripts/join_sources.py 4 build/asan build/tidy |
     xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --header-filter="^$root/($modules)/" --extra-arg=-Wno-everything \
       2>build/tidy.err || return 1
-  mkdir -p "$stamps"
-  touch "$stamps/$state"
+  touch "$stamps/tidy/$state"
 }
 
 asan_ctest() {
@@ -144,7 +151,7 @@ asan_ctest() {
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan throng_sanitized_tests throng_fuzz
-  asan_ctest asan --repeat-waits -j3 -LE '^(slow|computing)$'
+  asan_ctest asan --repeat-waits -j3 -LE '^(slow|computing|asan_in_long)$'
 }
 
 # Of the crowd's tests those that compare numbers of threads. None of these is ever repeated.
@@ -154,14 +161,14 @@ step_tsan() {
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" run_ctest tsan tsan -j2 -L '^(base|crowd_determinism|jobs_queue|server)$'
 }
 
-# A quarter of a minute of new inputs each on top of the corpus, with the sanitizers' build. Findings stay in build/fuzz; make them
+# Some seconds of new inputs each on top of the corpus (a minute in the step long), with the sanitizers' build. Findings stay in build/fuzz; make them
 # files of tests/fuzz/corpus once they are fixed. The time limit is generous, since both cores are busy.
 step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan throng_fuzz
-  printf '%s\n' crowd files imports bundle json head job | xargs -P "$(nproc)" -I TARGET bash -c '
+  printf '%s\n' crowd files imports bundle json head job | xargs -P "$(nproc)" -I TARGET env SECONDS_EACH="${1:-6}" bash -c '
     mkdir -p build/fuzz/corpus/TARGET
-    build/asan/tests/fuzz/fuzz_TARGET -max_total_time=15 -timeout=60 -rss_limit_mb=3000 -max_len=8000 \
+    build/asan/tests/fuzz/fuzz_TARGET -max_total_time=$SECONDS_EACH -timeout=60 -rss_limit_mb=3000 -max_len=8000 \
       -dict=tests/fuzz/crowd.dict -artifact_prefix=build/fuzz/TARGET- -print_final_stats=1 -verbosity=0 \
       build/fuzz/corpus/TARGET tests/fuzz/corpus/TARGET >build/fuzz/TARGET.log 2>&1 ||
       { grep -v "# Uses" build/fuzz/TARGET.log | tail -60; echo "fuzz_TARGET failed: build/fuzz/TARGET-*"; exit 1; }
@@ -201,4 +208,9 @@ for step in "${steps[@]}"; do
     $((cpu_s - cpu_start)) "$status" "$(sort -u build/checks/failed_parts 2>/dev/null | tr '\n' ' ' | sed 's/ *$//')" >>build/checks/steps.jsonl
   say "$step: $([ $status = 0 ] && echo passed || echo FAILED) after $((SECONDS - wall_start)) s"
 done
+if [ -e "$stamps/long" ]; then
+  echo "the step long passed last on $(date -r "$stamps/long" '+%F %R')"
+else
+  echo "the step long has not passed here yet"
+fi
 /usr/bin/python3 scripts/report_checks.py build/checks
