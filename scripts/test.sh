@@ -26,7 +26,7 @@ fi
 # Tests of what scripts/packages.txt lists fail where it is missing, instead of being skipped.
 export CI=true
 
-# What passed once, by content (tidy) or by date (long), for all checkouts of this user.
+# Stamps of trees that passed tidy, and of the last success of the step long, for all checkouts of this user.
 stamps="${XDG_CACHE_HOME:-$HOME/.cache}/throng"
 mkdir -p "$stamps/tidy"
 
