@@ -240,7 +240,8 @@ std::vector<pid_t> workers_of(const fs::path& folder) {
   std::vector<pid_t> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     std::ifstream file(entry.path() / "cmdline", std::ios::binary);
-    const std::string line(std::istreambuf_iterator<char>(file), {});
+    std::string line;
+    std::getline(file, line);  // nothing of a process that has ended
     if (line.find("worker") == std::string::npos) continue;
     if (line.find(folder.string()) == std::string::npos) continue;
     found.push_back(std::stoi(entry.path().filename()));
