@@ -16,7 +16,7 @@ namespace throng::annotate {
 /// Members of a group are together up to this distance.
 inline constexpr double kTogetherM = 3;
 
-/// Of a run: which agents carry something, and groups.
+/// Facts that the actions of a run's people depend on: which agents carry something, and groups.
 class ActionFacts {
  public:
   /// The trace and the population must outlive it; the styling is that of the renderer.

@@ -121,7 +121,7 @@ double region_contrast(const Cutout& cutout, int margin_px) {
   return difference(inside, around);
 }
 
-/// Of an outline pixel.
+/// The difference between the inside and the outside around one pixel of the outline.
 double local_contrast(const Cutout& cutout, int x, int y) {
   Mean inside;
   Mean outside;

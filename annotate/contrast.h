@@ -26,7 +26,7 @@ struct Contrast {
   double edge = 0;
 };
 
-/// Of the object whose visible pixels are set in `mask`, whose box is in the image.
+/// The contrast of the object whose visible pixels are set in `mask` and whose box is in the image.
 Contrast contrast_of(const ColorImage& image, const render::PixelMask& mask);
 
 }  // namespace throng::annotate

@@ -26,7 +26,7 @@ class HazardView {
   /// A JSON array of the hazards that have begun (docs/formats_coco.md).
   std::string json(const camera::Camera& camera) const;
 
-  /// Of somebody at `position`; none before a hazard has begun.
+  /// The danger for somebody at `position`; none before a hazard has begun.
   std::optional<Danger> danger(std::uint32_t agent, const Eigen::Vector2d& position) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace throng::annotate {
 
-/// Of each object with a visible pixel, by id.
+/// A label for each object with a visible pixel, by id.
 std::vector<ObjectLabel> label_objects(const render::Frame& frame);
 
 }  // namespace throng::annotate

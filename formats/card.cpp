@@ -18,7 +18,7 @@ using nlohmann::json;
 namespace {
 
 constexpr int kCardVersion = 1;
-/// Of the characters that set-up bakes; own ones that were imported have their own.
+/// The license of the characters that set-up bakes; imported ones have licenses of their own.
 constexpr const char* kPeopleLicense =
     "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the character library";
 

@@ -16,7 +16,7 @@
 
 namespace throng::formats {
 
-/// Of one kind and one dataset, fed image by image in the order of the COCO file.
+/// Checks one kind of ground truth of one dataset, image by image in the order of the COCO file.
 class GroundTruthCheck {
  public:
   GroundTruthCheck() = default;

@@ -17,7 +17,7 @@ std::vector<Head> heads_with_boxes(const Image& image) {
     const Eigen::Vector2d& at = *person.head;
     if (!is_in_image(image, at)) continue;
     if (!person.head_box) {
-      // Of a head that surrounds the camera, it may see the middle and nothing of the surface.
+      // A camera inside a head may see the head's middle and nothing of its surface.
       if (person.record.contains("head_box")) continue;
       throw InputError({image.file, fmt::format("annotation {}", person.id), "no head_box",
                         "a box of each head that is in the image"});

@@ -31,7 +31,8 @@ namespace {
 constexpr double kMinCropHeightPx = 32;
 constexpr double kMinCropVisibility = 0.5;
 constexpr double kMaxCropTruncation = 0.25;
-/// Of whom so much is visible is junk in the gallery, which counts neither as found nor as missed.
+/// A person with less visible than is asked for, but at least this share, is junk in the gallery,
+/// which counts neither as found nor as missed.
 constexpr double kMinJunkVisibility = 0.2;
 
 constexpr int kCropQuality = 95;  ///< of JPEG

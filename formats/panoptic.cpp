@@ -42,8 +42,8 @@ struct Segment {
   }
 };
 
-/// Of the classes that segments have; null for the others. A building is one segment, whatever
-/// surfaces of it show.
+/// The supercategory of a class that segments have; null for the others. A building is one segment,
+/// whatever surfaces of it show.
 const char* supercategory_of(const world::SemanticClassInfo& known) {
   using world::SemanticClass;
   using world::SemanticGroup;
@@ -209,7 +209,7 @@ class PanopticExporter : public Exporter {
     return list;
   }
 
-  /// Of a dataset with semantic classes: after people's.
+  /// The category of a class in a dataset with semantic classes: they follow those of people.
   std::size_t category_of(world::SemanticClass value) const {
     return info_.categories.size() + static_cast<std::size_t>(value);
   }

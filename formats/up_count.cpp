@@ -15,7 +15,7 @@ namespace throng::formats {
 
 namespace {
 
-/// Of the drone above the ground, m.
+/// The drone's height above the ground, m.
 double drone_height_m(const Image& image) {
   const auto flight = image.record.find("flight");
   if (flight != image.record.end()) return flight->at("true").at("height_m").get<double>();

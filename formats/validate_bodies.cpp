@@ -188,7 +188,7 @@ Eigen::Vector3d Shot::point_at(int x, int y, double depth_m) const {
 void check_whole_bodies(const Shot& shot, Findings& findings) {
   for (const Person& person : shot.image.people) {
     check_whole_mask_place(shot, person, findings);
-    // Of characters, whose shape is known.
+    // Only characters have a known shape.
     if (!person.track->contains("attributes")) continue;
     if (shot.is_plain) check_box_is_tight(shot, person, findings);
     check_head(shot, person, findings);

@@ -35,7 +35,7 @@ std::optional<Eigen::Vector2d> flow_at(const FlowPlane& plane, const Pixels& pix
   return flow_of(&(pixels.*plane.samples)[3 * pixel]);
 }
 
-/// Of the pixels that show what stands still, and of sky.
+/// Counts of the pixels that show still surfaces or sky.
 struct StillFlow {
   std::size_t looked_at = 0;
   std::size_t wrong = 0;

@@ -17,7 +17,7 @@ using world::SemanticGroup;
 
 namespace {
 
-/// Of a value of the image of instances.
+/// The group of a value in the image of instances.
 SemanticGroup group_of_instance(std::uint32_t id) {
   if (id == 0) return SemanticGroup::nothing;
   if (id < kFirstUmbrella) return SemanticGroup::person;

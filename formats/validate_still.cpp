@@ -176,7 +176,7 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
   return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * per_pixel_m;
 }
 
-/// Of an sRGB pixel, in linear light.
+/// The luminance of an sRGB pixel, in linear light.
 double luminance(const std::uint8_t* rgb) {
   return 0.2126 * linear_of_srgb(rgb[0]) + 0.7152 * linear_of_srgb(rgb[1]) +
          0.0722 * linear_of_srgb(rgb[2]);

@@ -154,7 +154,7 @@ step_asan() {
   asan_ctest asan --repeat-waits -j3 -LE '^(slow|computing|asan_in_long)$'
 }
 
-# Of the crowd's tests those that compare numbers of threads. None of these is ever repeated.
+# The crowd's tests are those that compare numbers of threads. None of these is ever repeated.
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
   build tsan test_base test_crowd_determinism test_jobs_queue test_server

@@ -25,7 +25,7 @@ bool is_under_way(const LiveFlight& flight) {
   return flight.state() == LiveState::starting || flight.state() == LiveState::flying;
 }
 
-/// Of a flight, which holds the run and draws small images of one camera.
+/// The memory that a flight needs, which holds the run and draws small images of one camera.
 std::int64_t flight_memory_mib(const jobs::ResolvedJob& job) {
   jobs::JobSpec small = job.spec();
   for (jobs::DroneSpec& drone : small.drones) {

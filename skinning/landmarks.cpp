@@ -155,7 +155,7 @@ void add_ends_of_limbs(const Character& character, float side, Landmarks& landma
     if ((point - wrist).norm() <= 0.115F * character.stature_m) bounds.extend(point);
   }
   set(Joint::left_hand, hand, bounds.isEmpty() ? wrist : Eigen::Vector3f(bounds.center()));
-  // Of a foot without surface: its length, of which a quarter is behind the ankle.
+  // The length of a foot without surface; a quarter of it is behind the ankle.
   const float length_m = 0.152F * character.stature_m;
   const float half_width_m = 0.15F * length_m;
   const auto at_foot = [&](const Eigen::Vector3f& direction, float ahead_m, float out_m) {

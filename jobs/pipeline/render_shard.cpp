@@ -30,7 +30,7 @@ namespace throng::jobs {
 
 namespace {
 
-/// Of the run, for labels; those that are not asked for are not there.
+/// Facts of the run that labels need; members that the job does not ask for are empty.
 struct RunViews {
   annotate::PersonFacts facts;
   std::optional<annotate::ExitView> exits = std::nullopt;

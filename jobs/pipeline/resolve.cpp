@@ -69,7 +69,7 @@ void check_formats(const OutputSpec& outputs, std::vector<Problem>& problems) {
   }
 }
 
-// Of every run, as each may have another lens.
+// Checks the cameras of every run, as each may have another lens.
 void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const CameraSpec& camera = job.drones[i].camera;

@@ -34,7 +34,7 @@ class TaskMemory {
 /// Likewise of a calibration whose largest image has so many pixels.
 std::int64_t calibration_memory_mib(std::int64_t max_image_pixels);
 
-/// Of a report, which reads the results of a job run by run.
+/// The memory that a report needs, which reads the results of a job run by run.
 inline constexpr std::int64_t kReportMemoryMib = 512;
 
 }  // namespace throng::jobs

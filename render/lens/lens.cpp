@@ -304,8 +304,8 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
         shown_box(mesh, parts, palette, instance, frame.camera, rows, is_cut);
     const bool shows = visible.contains(id_of_agent(person.agent));
     if (!shows && (box.isEmpty() || !box.intersects(image))) continue;
-    // Of somebody right at the camera, or where the lens's model ends, it may show triangles but no
-    // corner of them.
+    // Right at the camera, or where the lens's model ends, an image may show triangles of somebody
+    // but no corner of them.
     person.amodal_box = box;
     const skinning::Mesh& with_head =
         character.levels[std::min<std::size_t>(person.level, kHeadLevel)];

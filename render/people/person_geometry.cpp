@@ -200,7 +200,7 @@ void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
 Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera) {
   const Projector project(palette, image_from_model(person, camera));
-  // Of u, v and z at once; the fourth value is nothing.
+  // Bounds of u, v and z at once; the fourth value is unused.
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Eigen::Array4f low = Eigen::Array4f::Constant(kInfinity);
   Eigen::Array4f high = Eigen::Array4f::Constant(-kInfinity);

@@ -186,7 +186,8 @@ constexpr std::array kClipActions = {
     ClipActions{"panic", Actions(Action::run, Action::panic)},
 };
 
-/// Of a piece of a fall: forth falling, back getting up, and between them lying.
+/// The actions during a piece of a fall: played forward it is falling, backward getting up, and a
+/// still one is lying.
 Actions fall_actions(const Piece& piece) {
   if (piece.to_frame > piece.frame) return Actions(Action::fall);
   return piece.to_frame < piece.frame ? Actions(Action::get_up) : Actions(Action::lie);

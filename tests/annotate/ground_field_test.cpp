@@ -217,7 +217,7 @@ TEST(FieldLevels, ShareCellsByTheirAreas) {
                          .velocity_y = {0, 0, 0, 0},
                          .voronoi = {4, 4, 0, 0},
                          .people = 2};
-  // Of 0.625 m: the first has cells 0, 1 and half of cell 2, the second the rest; both are
+  // Cells of 0.625 m: the first has cells 0, 1 and half of cell 2, the second the rest; both are
   // higher than the ground.
   const FieldLevel level = field_level(grid, 0.625);
   const GroundField coarse = field_on(level, grid, fine);

@@ -62,7 +62,7 @@ TEST(Surfaces, WhatStandsStillMovesWithTheCamera) {
       const std::size_t i = index_of(frame, x, y);
       const float depth_m = frame.depth_m[i];
       const bool sky = std::isinf(depth_m);
-      // Of the sky a point far away.
+      // A point of the sky is far away.
       const Eigen::Vector3d point = frame.camera.unproject({x, y}, sky ? 1e7 : depth_m);
       const Eigen::Vector2d moved = next.camera.project(point).pixel - Eigen::Vector2d(x, y);
       EXPECT_NEAR(frame.flow[i * 2], moved.x(), 0.02) << x << ' ' << y;

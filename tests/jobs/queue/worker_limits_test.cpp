@@ -52,7 +52,7 @@ TEST(WorkerLimits, WaysAroundTheSocketAreRefused) {
               testing::ExitedWithCode(0), "");
 }
 
-/// Of another process of the same user, who is not root.
+/// Whether a process of the same user, who is not root, can open a file of another one in /proc.
 bool can_read(pid_t other, const char* name) {
   const std::string file = "/proc/" + std::to_string(other) + "/" + name;
   const int descriptor = ::open(file.c_str(), O_RDONLY);
