@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "skinning/population.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {
@@ -33,14 +34,6 @@ Eigen::Vector3f position_of(const Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
 }
 
-bool belongs_to_head(const Vertex& vertex) {
-  int weight = 0;
-  for (std::size_t i = 0; i < vertex.bones.size(); ++i) {
-    if (vertex.bones[i] == static_cast<std::uint8_t>(Bone::head)) weight += vertex.weights[i];
-  }
-  return weight > 127;
-}
-
 /// The head's own surface, without hair, hats and glasses: skin, and eyeballs if they are apart.
 struct Face {
   std::vector<Eigen::Vector3f> skin;
@@ -56,7 +49,7 @@ Face face_of(const Mesh& mesh) {
     bool is_all_head = true;
     for (std::uint32_t i = 0; i < part.index_count; ++i) {
       const Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
-      if (belongs_to_head(vertex)) {
+      if (moves_mostly_with(vertex, {Bone::head})) {
         points.push_back(position_of(vertex));
       } else {
         is_all_head = false;
@@ -115,13 +108,7 @@ std::vector<Eigen::Vector3f> surface_of(const Mesh& mesh, Bone one, Bone other) 
     if (part.tint == Tint::item) continue;
     for (std::uint32_t i = 0; i < part.index_count; ++i) {
       const Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
-      int weight = 0;
-      for (std::size_t k = 0; k < vertex.bones.size(); ++k) {
-        const bool is_one = vertex.bones[k] == static_cast<std::uint8_t>(one) ||
-                            vertex.bones[k] == static_cast<std::uint8_t>(other);
-        if (is_one) weight += vertex.weights[k];
-      }
-      if (weight > 127) points.push_back(position_of(vertex));
+      if (moves_mostly_with(vertex, {one, other})) points.push_back(position_of(vertex));
     }
   }
   return points;

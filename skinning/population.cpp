@@ -1,6 +1,7 @@
 #include "skinning/population.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <map>
 
@@ -93,6 +94,16 @@ Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, f
   }
   const Eigen::Vector3f position(vertex.position[0], vertex.position[1], vertex.position[2]);
   return matrix.leftCols<3>() * position + matrix.col(3);
+}
+
+bool moves_mostly_with(const Vertex& vertex, std::initializer_list<Bone> bones) {
+  constexpr int kHalf = 127;  // weights sum to 255
+  int weight = 0;
+  for (std::size_t i = 0; i < vertex.bones.size(); ++i) {
+    const auto bone = static_cast<Bone>(vertex.bones[i]);
+    if (std::find(bones.begin(), bones.end(), bone) != bones.end()) weight += vertex.weights[i];
+  }
+  return weight > kHalf;
 }
 
 }  // namespace throng::skinning

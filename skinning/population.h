@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 
 #include "skinning/character.h"
 
@@ -19,5 +20,8 @@ std::filesystem::path population_folder();
 /// The skinning equation that the vertex shader runs too: sum of weights * (palette * position),
 /// with the two palettes blended linearly first.
 Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend);
+
+/// Whether these bones together move a vertex by more than a half.
+bool moves_mostly_with(const Vertex& vertex, std::initializer_list<Bone> bones);
 
 }  // namespace throng::skinning

@@ -139,20 +139,13 @@ std::vector<skinning::Part> parts_of(const skinning::Character& character,
 
 std::vector<SkinPoint> head_points(const skinning::Mesh& mesh,
                                    const std::vector<skinning::Part>& parts) {
-  constexpr int kHalf = 127;  // weights sum to 255
   std::set<std::uint32_t> known;
   std::vector<SkinPoint> points;
   for (const skinning::Part& part : parts) {
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
       const skinning::Vertex& vertex = mesh.vertices[mesh.indices[i]];
-      int weight = 0;
-      for (std::size_t k = 0; k < vertex.bones.size(); ++k) {
-        const bool is_head = vertex.bones[k] == static_cast<std::uint8_t>(skinning::Bone::head);
-        if (is_head) weight += vertex.weights[k];
-      }
-      if (weight > kHalf && known.insert(mesh.indices[i]).second) {
-        points.push_back(skin_point(vertex));
-      }
+      const bool is_head = skinning::moves_mostly_with(vertex, {skinning::Bone::head});
+      if (is_head && known.insert(mesh.indices[i]).second) points.push_back(skin_point(vertex));
     }
   }
   return points;
