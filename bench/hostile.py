@@ -27,6 +27,7 @@ import uuid
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "cli"))
 from free_ports import free_ports  # noqa: E402
+from service import start_service, wait_until  # noqa: E402
 
 JOB = {
     "name": "hostile",
@@ -34,14 +35,6 @@ JOB = {
     "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
     "capture": {"rate_hz": 1, "from_s": 1, "to_s": 4},
 }
-
-
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.05)
 
 
 class Throng:
@@ -56,14 +49,7 @@ class Throng:
             capture_output=True,
             text=True,
         ).stdout.split()[-1]
-        port_file = self.folder / "port"
-        self.process = subprocess.Popen(
-            [program, "serve", "--data", data, "--port", "0", "--port-file", str(port_file), "--workers", "1"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
-        self.port = int(port_file.read_text())
+        self.process, self.port = start_service(program, data, "--workers", "1")
 
     def resident_mb(self):
         for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():

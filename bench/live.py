@@ -11,14 +11,15 @@ import argparse
 import math
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "cli")]
 import throng  # noqa: E402
+from service import start_service  # noqa: E402
 
 
 def yaw_deg(q):
@@ -55,16 +56,9 @@ def main():
     options.add_argument("--scenario", default="city_square/nearest_exit")
     given = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        port = pathlib.Path(folder) / "port"
-        server = subprocess.Popen(
-            [given.throng, "serve", "--data", folder + "/data", "--port", "0", "--port-file", port],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(given.throng, pathlib.Path(folder) / "data")
         try:
-            while not port.exists() or not port.read_text().strip():
-                time.sleep(0.05)
-            measure(throng.Client(f"http://127.0.0.1:{port.read_text().strip()}"), given)
+            measure(throng.Client(f"http://127.0.0.1:{port}"), given)
         finally:
             server.terminate()
             server.wait()

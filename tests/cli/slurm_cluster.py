@@ -12,6 +12,7 @@ import subprocess
 import time
 
 from free_ports import free_ports
+from service import wait_until
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "scontrol")
 NODES = ("node1", "node2")
@@ -29,18 +30,6 @@ def prepare_daemon():
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
     with contextlib.suppress(OSError):
         os.nice(-10)
-
-
-def wait_until(condition, seconds=30, what="something"):
-    """The time is that of an idle machine; a busy one gets ten times as long."""
-    end = time.monotonic() + 10 * seconds
-    while True:
-        result = condition()
-        if result:
-            return result
-        if time.monotonic() > end:
-            raise TimeoutError(f"timed out waiting for {what}")
-        time.sleep(0.05)
 
 
 class Cluster:

@@ -5,9 +5,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 import urllib.request
+
+from service import start_service, wait_until
 
 THRONG = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,14 +35,6 @@ def points_table():
                 x2, y2, z2 = c * x1 + d * z1, y1, -d * x1 + c * z1 + 1.6
                 lines.append(f"v{view},{row * 8 + column},{x},{y},0,{800 * x2 / z2 + 321},{800 * y2 / z2 + 238}")
     return "\n".join(lines) + "\n"
-
-
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.05)
 
 
 class Calibrate(unittest.TestCase):
@@ -176,16 +169,10 @@ class Calibrate(unittest.TestCase):
         self.assertIn("/drones/0/camera/calibration", done.stderr)
 
     def serve(self):
-        port = self.base / "port"
-        server = subprocess.Popen(
-            [THRONG, "serve", "--data", self.base / "data", "--port", "0", "--port-file", port],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(THRONG, self.base / "data")
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
-        wait_until(lambda: port.exists() and port.read_text().strip())
-        return int(port.read_text())
+        return port
 
     def test_calibrations_over_http(self):
         port = self.serve()

@@ -4,9 +4,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 import urllib.request
+
+from service import start_service
 
 THRONG = sys.argv.pop(1)
 SQUARE = {"scenario": "city_square/nearest_exit", "capture": {"to_s": 5}}
@@ -133,17 +134,10 @@ class Check(unittest.TestCase):
         self.assertRegex(self.warned(drones=high)["/drones/0/camera"], r"people of at most \d px")
 
     def test_the_dry_run_of_the_service_says_the_same(self):
-        port_file = self.folder / "port"
-        server = subprocess.Popen(
-            [THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(THRONG, self.folder / "data")
         self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
-        while not (port_file.exists() and port_file.read_text().strip()):
-            time.sleep(0.05)
-        url = f"http://127.0.0.1:{port_file.read_text().strip()}/v1/jobs?dry_run"
+        url = f"http://127.0.0.1:{port}/v1/jobs?dry_run"
         job = {**SQUARE, "environment": {"rain_mm_per_h": 20}}
         request = urllib.request.Request(url, json.dumps(job).encode(), {"Content-Type": "application/json"})
         with urllib.request.urlopen(request, timeout=300) as response:

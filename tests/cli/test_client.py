@@ -7,11 +7,11 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-import time
 import unittest
 import zipfile
 
 from free_ports import free_port
+from service import start_service, wait_until
 
 THRONG = sys.argv.pop(1)
 
@@ -21,14 +21,6 @@ JOB = {
     "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
     "capture": {"rate_hz": 1, "from_s": 1, "to_s": 4},
 }
-
-
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.05)
 
 
 class Client(unittest.TestCase):
@@ -44,24 +36,7 @@ class Client(unittest.TestCase):
         self.addCleanup(self.stop)
 
     def start(self):
-        port_file = self.base / "port"
-        port_file.unlink(missing_ok=True)
-        self.server = subprocess.Popen(
-            [
-                THRONG,
-                "serve",
-                "--data",
-                str(self.base / "data"),
-                "--port",
-                str(self.port),
-                "--port-file",
-                str(port_file),
-            ],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
-        self.port = int(port_file.read_text())
+        self.server, self.port = start_service(THRONG, self.base / "data", port=self.port)
         self.environment["THRONG_URL"] = f"http://127.0.0.1:{self.port}"
 
     def stop(self):

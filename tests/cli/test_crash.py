@@ -23,6 +23,8 @@ import unittest
 import urllib.error
 import urllib.request
 
+from service import ServiceEnded, start_service, wait_until
+
 THRONG = sys.argv.pop(1)
 CRASHES = int(os.environ.get("THRONG_CRASHES", "1"))
 
@@ -38,17 +40,6 @@ JOB = {
     "capture": CAPTURE,
     "outputs": {"annotations": ["coco"]},
 }
-
-
-def wait_until(condition, seconds=300, what="something"):
-    end = time.monotonic() + seconds
-    while True:
-        result = condition()
-        if result:
-            return result
-        if time.monotonic() > end:
-            raise TimeoutError(f"waited in vain for {what}")
-        time.sleep(0.02)
 
 
 def children_of(pid):
@@ -90,22 +81,14 @@ class Server:
         self.log = open(base / "server.log", "ab")
 
     def start(self, faults=None):
-        port_file = self.base / "port"
-        port_file.unlink(missing_ok=True)
         environment = dict(os.environ)
         if faults:
             environment["THRONG_FAULTS"] = faults
-        self.process = subprocess.Popen(
-            [THRONG, "serve", "--data", str(self.data), "--port", "0", "--port-file", str(port_file), *self.options],
-            stdout=subprocess.DEVNULL,
-            stderr=self.log,
-            env=environment,
-        )
-        wait_until(
-            lambda: port_file.exists() and port_file.read_text().strip() or self.process.poll() is not None,
-            what="the port",
-        )
-        self.url = f"http://127.0.0.1:{int(port_file.read_text())}" if port_file.exists() else None
+        try:
+            self.process, port = start_service(THRONG, self.data, *self.options, stderr=self.log, env=environment)
+            self.url = f"http://127.0.0.1:{port}"
+        except ServiceEnded as ended:  # by a fault
+            self.process, self.url = ended.process, None
 
     def kill(self):
         workers = [pid for pid, _ in children_of(self.process.pid)]

@@ -15,7 +15,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import urllib.request
 
 THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(pathlib.Path(__file__).parent))

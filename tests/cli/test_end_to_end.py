@@ -11,12 +11,12 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-import time
 import unittest
 import urllib.error
 import urllib.request
 
 from check_dataset import check_dataset
+from service import start_service, wait_until
 
 THRONG = sys.argv.pop(1)
 
@@ -285,16 +285,8 @@ class EndToEnd(unittest.TestCase):
 
 class Server:
     def __init__(self, data):
-        port_file = pathlib.Path(data) / "port"
-        port_file.unlink(missing_ok=True)
-        pathlib.Path(data).mkdir(exist_ok=True)
-        self.process = subprocess.Popen(
-            [THRONG, "serve", "--data", str(data), "--port", "0", "--port-file", str(port_file)],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
-        self.url = f"http://127.0.0.1:{port_file.read_text().strip()}"
+        self.process, port = start_service(THRONG, data)
+        self.url = f"http://127.0.0.1:{port}"
 
     def get_bytes(self, path):
         with urllib.request.urlopen(self.url + path, timeout=300) as answer:
@@ -318,14 +310,6 @@ class Server:
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise
-
-
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.05)
 
 
 if __name__ == "__main__":

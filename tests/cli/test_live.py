@@ -10,6 +10,8 @@ import threading
 import time
 import unittest
 
+from service import start_service, wait_until
+
 THRONG = sys.argv.pop(1)
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
@@ -44,14 +46,6 @@ JOB = {
 }
 
 
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.05)
-
-
 class WithServer(unittest.TestCase):
     live_timeout_s = 600  # no flight ends by itself while a busy machine gets round to looking at it
 
@@ -59,28 +53,12 @@ class WithServer(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.base = pathlib.Path(folder.name)
-        port_file = self.base / "port"
         self.log = open(self.base / "log", "w")
         self.addCleanup(self.log.close)
-        self.server = subprocess.Popen(
-            [
-                THRONG,
-                "serve",
-                "--data",
-                str(self.base / "data"),
-                "--port",
-                "0",
-                "--port-file",
-                str(port_file),
-                "--live-timeout",
-                str(self.live_timeout_s),
-            ],
-            stdout=subprocess.DEVNULL,
-            stderr=self.log,
-        )
+        options = ["--live-timeout", self.live_timeout_s]
+        self.server, port = start_service(THRONG, self.base / "data", *options, stderr=self.log)
         self.addCleanup(self.stop)
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
-        self.url = f"http://127.0.0.1:{int(port_file.read_text())}"
+        self.url = f"http://127.0.0.1:{port}"
         self.client = throng.Client(self.url, timeout_s=300, patience_s=2)
 
     def stop(self):

@@ -6,10 +6,10 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 from free_ports import free_port
+from service import start_service
 
 THRONG = sys.argv.pop(1)
 
@@ -192,17 +192,10 @@ class Messages(unittest.TestCase):
         )
 
     def test_a_job_that_is_not_there_is_answered_with_the_nearest_one(self):
-        port_file = self.folder / "port"
-        server = subprocess.Popen(
-            [THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(THRONG, self.folder / "data")
         self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
-        while not (port_file.exists() and port_file.read_text().strip()):
-            time.sleep(0.05)
-        url = f"http://127.0.0.1:{port_file.read_text().strip()}"
+        url = f"http://127.0.0.1:{port}"
         for command in ("watch", "cancel", "retry", "remove", "logs", "fetch"):
             self.refused(
                 f'unknown job "nope" on {url}; expected an id that `throng jobs` lists', command, "nope", THRONG_URL=url

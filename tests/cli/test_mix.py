@@ -6,9 +6,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 import urllib.request
+
+from service import start_service
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
@@ -114,19 +115,9 @@ class Mix(unittest.TestCase):
         self.assertIn(" in city_square/nearest_exit", said)
 
     def test_the_service_makes_the_same_bytes(self):
-        server = subprocess.Popen(
-            [THRONG, "serve", "--data", "data", "--port", "0", "--port-file", "port"],
-            cwd=self.folder,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(THRONG, self.folder / "data", cwd=self.folder)
         try:
-            port = self.folder / "port"
-            for _ in range(3000):
-                if port.exists() and port.read_text().strip():
-                    break
-                time.sleep(0.1)
-            url = f"http://127.0.0.1:{port.read_text().strip()}"
+            url = f"http://127.0.0.1:{port}"
             os.environ["THRONG_URL"] = url
             self.run_throng("submit", "job.json", "--fetch", "there.tar")
             there = throng.Dataset(self.folder / "there.tar")

@@ -16,7 +16,8 @@ import unittest
 import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from slurm_cluster import Cluster, is_alive, missing_programs, wait_until  # noqa: E402
+from service import start_service, wait_until  # noqa: E402
+from slurm_cluster import Cluster, is_alive, missing_programs  # noqa: E402
 
 THRONG = sys.argv.pop(1)
 
@@ -50,30 +51,10 @@ class Server:
         self.log = open(base / "server.log", "ab")
 
     def start(self, faults=""):
-        port = self.base / "port"
-        port.unlink(missing_ok=True)
-        self.process = subprocess.Popen(
-            [
-                THRONG,
-                "serve",
-                "--data",
-                str(self.base / "shared"),
-                "--database",
-                str(self.base / "local"),
-                "--executor",
-                "slurm",
-                *POLL,
-                "--port",
-                "0",
-                "--port-file",
-                str(port),
-            ],
-            stdout=subprocess.DEVNULL,
-            stderr=self.log,
-            env=dict(self.environment, THRONG_FAULTS=faults),
-        )
-        wait_until(lambda: port.exists() or self.process.poll() is not None, what="the port")
-        self.url = f"http://127.0.0.1:{int(port.read_text())}"
+        options = ["--database", self.base / "local", "--executor", "slurm", *POLL]
+        environment = dict(self.environment, THRONG_FAULTS=faults)
+        self.process, port = start_service(THRONG, self.base / "shared", *options, stderr=self.log, env=environment)
+        self.url = f"http://127.0.0.1:{port}"
 
     def end(self, number):
         self.process.send_signal(number)
@@ -97,8 +78,8 @@ class Server:
     def job(self, name):
         return self.request("GET", f"/v1/jobs/{name}")
 
-    def wait_for_end(self, name, seconds=150):
-        wait_until(lambda: self.job(name)["state"] not in ("queued", "running"), seconds, "the job's end")
+    def wait_for_end(self, name):
+        wait_until(lambda: self.job(name)["state"] not in ("queued", "running"), what="the job's end")
         return self.job(name)
 
 
@@ -160,7 +141,7 @@ class Slurm(unittest.TestCase):
                             return pid, name
             return None
 
-        return wait_until(found, 40, f"a worker of {task}")
+        return wait_until(found, what=f"a worker of {task}")
 
     def test_run_on_two_nodes(self):
         self.start_cluster()
@@ -214,11 +195,13 @@ class Slurm(unittest.TestCase):
         worker, _ = self.worker_of("run000/shard0000")
         self.assertEqual(starts_of(folder)["run000_trace"], 1, "it did not run twice")
         os.kill(worker, signal.SIGKILL)
-        wait_until(lambda: starts_of(folder).get("run000_shard0000", 0) == 2, 40, "the second attempt")
+        wait_until(lambda: starts_of(folder).get("run000_shard0000", 0) == 2, what="the second attempt")
 
         # The controller goes away; workers go on.
         self.cluster.end("slurmctld")
-        wait_until(lambda: "does not answer" in str(server.job(name)["waiting_for"]), 40, "a word about the controller")
+        wait_until(
+            lambda: "does not answer" in str(server.job(name)["waiting_for"]), what="a word about the controller"
+        )
         self.assertEqual(server.job(name)["state"], "running")
         self.cluster.start_controller()
         self.cluster.wait_for_nodes()
@@ -230,7 +213,7 @@ class Slurm(unittest.TestCase):
             os.kill(pid, signal.SIGSTOP)
         begun = time.monotonic()
         try:
-            wait_until(lambda: any("NODE_FAIL" in end["message"] for end in ends_of(folder)), 60, "the node's loss")
+            wait_until(lambda: any("NODE_FAIL" in end["message"] for end in ends_of(folder)), what="the node's loss")
         except TimeoutError:
             print(self.cluster.node_states(), self.cluster.jobs(), ends_of(folder), server.job(name), file=sys.stderr)
             raise
@@ -249,7 +232,7 @@ class Slurm(unittest.TestCase):
         for pid in cut_off:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGCONT)
-        wait_until(lambda: not is_alive(worker), 30, "the end of the worker that was cut off")
+        wait_until(lambda: not is_alive(worker), what="the end of the worker that was cut off")
         self.assertEqual(files_of(folder / "work"), published)
         self.assertFalse((folder / "attempts").exists())
 
@@ -270,8 +253,8 @@ class Slurm(unittest.TestCase):
         worker, _ = self.worker_of("run000/trace")
         self.assertIn(" Nice=60 ", self.cluster.run("scontrol", "show", "job").stdout)
         server.request("POST", f"/v1/jobs/{name}/cancel")
-        wait_until(lambda: not is_alive(worker), 30, "the worker's end")
-        wait_until(lambda: not self.tasks("RUNNING", "PENDING", "COMPLETING"), 30, "an empty queue")
+        wait_until(lambda: not is_alive(worker), what="the worker's end")
+        wait_until(lambda: not self.tasks("RUNNING", "PENDING", "COMPLETING"), what="an empty queue")
         self.assertEqual(server.job(name)["state"], "cancelled")
         self.assertFalse((self.base / "shared" / "jobs" / name / "attempts").exists())
 

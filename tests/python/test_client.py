@@ -19,6 +19,7 @@ import common
 import numpy as np
 import throng
 from free_ports import free_port
+from service import start_service, wait_until
 from throng import Client, job
 from throng._download import file_name_of
 from throng._events import parse
@@ -86,14 +87,6 @@ class Proxy:
                 sent += len(data)
 
 
-def wait_until(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError("waited in vain")
-        time.sleep(0.02)
-
-
 class WithService(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -108,25 +101,7 @@ class WithService(unittest.TestCase):
 
     @classmethod
     def start(cls):
-        port_file = cls.base / "port"
-        port_file.unlink(missing_ok=True)
-        cls.server = subprocess.Popen(
-            [
-                common.THRONG,
-                "serve",
-                "--data",
-                cls.base / "data",
-                "--port",
-                str(cls.port),
-                "--port-file",
-                port_file,
-                "--webhook-private",
-            ],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
-        cls.port = int(port_file.read_text())
+        cls.server, cls.port = start_service(common.THRONG, cls.base / "data", "--webhook-private", port=cls.port)
 
     @classmethod
     def tearDownClass(cls):

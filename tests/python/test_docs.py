@@ -9,11 +9,11 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 import types
 import unittest
 
 import common
+from service import start_service
 
 
 class Examples(unittest.TestCase):
@@ -26,17 +26,10 @@ class Examples(unittest.TestCase):
         os.environ["THRONG_PROGRAM"] = str(common.THRONG)
 
     def serve(self):
-        port_file = self.folder / "port"
-        server = subprocess.Popen(
-            [common.THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        server, port = start_service(common.THRONG, self.folder / "data")
         self.addCleanup(server.wait, 120)
         self.addCleanup(server.terminate)
-        while not (port_file.exists() and port_file.read_text().strip()):
-            time.sleep(0.02)
-        os.environ["THRONG_URL"] = f"http://127.0.0.1:{port_file.read_text().strip()}"
+        os.environ["THRONG_URL"] = f"http://127.0.0.1:{port}"
 
     def test_the_documentation(self):
         self.serve()
