@@ -11,7 +11,7 @@ shift || true
 [ "$(id -u)" = 0 ] || { echo "fresh_debian.sh: needs root" >&2; exit 1; }
 
 unmount() {
-  for mount in dev/pts dev/shm dev sys proc; do
+  for mount in dev/pts dev/shm dev sys proc .; do
     mountpoint -q "$folder/$mount" && umount -l "$folder/$mount"
   done
   return 0
@@ -23,6 +23,10 @@ rm -rf --one-file-system "$folder"
 # The mirror that this machine uses, so that the proof also works behind one.
 mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
 [ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
+# A mount of its own: mount namespaces, which tests make, cannot begin below a folder that is none.
+mkdir -p "$folder"
+mount --bind "$folder" "$folder"
+mount --make-private "$folder"
 debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$folder.debootstrap.log"
 
 # How this machine reaches its registries: that is the machine's, not the project's.
