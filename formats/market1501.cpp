@@ -83,7 +83,8 @@ struct Crop {
 struct CroppedImage {
   std::string file;
   std::int64_t frame = 0;
-  int camera = 0;
+  std::string camera_id;
+  int camera = 0;  ///< its number, from 1
   std::vector<Crop> crops;
 };
 
@@ -117,7 +118,7 @@ class Market1501Exporter : public Exporter {
     run_ = image.run;
     const auto next_camera = static_cast<int>(cameras_.size()) + 1;
     const int camera = cameras_.try_emplace(image.camera, next_camera).first->second;
-    CroppedImage cropped{image.file, image.frame, camera, {}};
+    CroppedImage cropped{image.file, image.frame, image.camera, camera, {}};
     for (const Person& person : image.people) add_crop(image, person, cropped);
     if (!cropped.crops.empty()) images_.push_back(std::move(cropped));
   }
@@ -259,12 +260,9 @@ class Market1501Exporter : public Exporter {
       const CropBox& box = crop.box;
       output_.write(name, annotate::jpeg_bytes(cut(rgb, jpeg.width(), box), box.width, box.height,
                                                kCropQuality));
-      const auto camera = std::find_if(cameras_.begin(), cameras_.end(), [&](const auto& entry) {
-        return entry.second == image.camera;
-      });
       crops_csv_.write(fmt::format("{},{},{},{},{},{},{},{},{},{}\n", name, image.file, box.x,
-                                   box.y, box.width, box.height, run_, camera->first, crop.track_id,
-                                   crop.visibility));
+                                   box.y, box.width, box.height, run_, image.camera_id,
+                                   crop.track_id, crop.visibility));
     }
   }
 

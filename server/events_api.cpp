@@ -161,7 +161,7 @@ void send_page(const Call& call, const Request& request, Response& response,
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
 
-/// Sends the events of the job, calibration or study with this id; "" for all.
+/// Sends the events of the job or study with this id; "" for all.
 void send_events_of(const Call& call, const Request& request, Response& response,
                     const std::string& job, const std::filesystem::path& folder) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
