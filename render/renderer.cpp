@@ -502,6 +502,10 @@ double Renderer::metered_gain(const Scene& scene, const camera::Camera& camera) 
 
 std::span<const Vehicle> Renderer::vehicles() const { return state_->vehicles; }
 
+std::span<const SkinPoint> Renderer::head_points(std::uint32_t character, std::size_t level) const {
+  return state_->finder.head_points(character, level);
+}
+
 double Renderer::illuminance_lux() const { return state_->daylight.illuminance_lux; }
 
 void Renderer::recycle(Frame&& frame) { state_->spare = std::move(frame); }

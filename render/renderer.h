@@ -20,6 +20,8 @@
 
 namespace throng::render {
 
+struct SkinPoint;
+
 /// The GL device for rendering: "auto" (an NVIDIA GPU if there is one, else software), "gpu",
 /// "software".
 struct DeviceChoice {
@@ -82,6 +84,9 @@ class Renderer {
 
   /// The vehicles that Frame::objects has, as far as the camera sees them; none unless asked for.
   std::span<const Vehicle> vehicles() const;
+
+  /// Places on a character's head, as boxes of heads of people drawn at this level are taken from.
+  std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
   /// On level ground in the open.
   double illuminance_lux() const;

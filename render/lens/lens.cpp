@@ -307,9 +307,7 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     // Right at the camera, or where the lens's model ends, an image may show triangles of somebody
     // but no corner of them.
     person.amodal_box = box;
-    const skinning::Mesh& with_head =
-        character.levels[std::min<std::size_t>(person.level, kHeadLevel)];
-    person.head_box = head_box(head_points(with_head, parts_of(character, with_head, Share::body)),
+    person.head_box = head_box(renderer_->head_points(instance.appearance.character, person.level),
                                palette, instance, frame.camera);
     if (shows && (box.isEmpty() || is_cut)) {
       person.amodal_box.extend(visible_box(frame, rows, person.agent));

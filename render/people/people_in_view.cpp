@@ -49,6 +49,13 @@ PersonDraw PeopleFinder::draw_of(std::uint32_t person, double height_px, double 
           static_cast<float>(depth_m)};
 }
 
+std::span<const SkinPoint> PeopleFinder::head_points(std::uint32_t character,
+                                                     std::size_t level) const {
+  // Coarser levels leave two or three points of some heads.
+  constexpr std::size_t kCoarsest = 3;
+  return bodies_[character][std::min(level, kCoarsest)].head;
+}
+
 PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& instance) const {
   const std::size_t level =
       population_->characters[instance.appearance.character].levels.size() - 1;
@@ -121,9 +128,8 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     found.draw = draw;
     found.is_listed = shows(body);
     found.truth.amodal_box = body;
-    const std::size_t head_level = std::min<std::size_t>(draw.level, kHeadLevel);
     found.truth.head_box =
-        head_box(bodies_[person.appearance.character][head_level].head, palette, person, camera);
+        head_box(head_points(person.appearance.character, draw.level), palette, person, camera);
     found.truth.level = draw.level;
     measure(person, palette, found.truth);
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "camera/camera.h"
@@ -38,6 +39,9 @@ class PeopleFinder {
   /// with box, body, level of detail and whether they are rendered with textures. A pure function
   /// of the arguments.
   std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
+
+  /// Places on a character's head, as boxes of heads of people drawn at this level are taken from.
+  std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
   /// How somebody is rendered into the shadow map, which shows no more than the coarsest level.
   PersonDraw caster(std::uint32_t person, const PersonInstance& instance) const;

@@ -137,31 +137,18 @@ std::vector<skinning::Part> parts_of(const skinning::Character& character,
   return parts;
 }
 
-std::vector<SkinPoint> head_points(const skinning::Mesh& mesh,
-                                   const std::vector<skinning::Part>& parts) {
-  std::set<std::uint32_t> known;
-  std::vector<SkinPoint> points;
-  for (const skinning::Part& part : parts) {
-    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
-      const skinning::Vertex& vertex = mesh.vertices[mesh.indices[i]];
-      const bool is_head = skinning::moves_mostly_with(vertex, {skinning::Bone::head});
-      if (is_head && known.insert(mesh.indices[i]).second) points.push_back(skin_point(vertex));
-    }
-  }
-  return points;
-}
-
 BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> its_parts)
-    : mesh(&of_mesh), parts(std::move(its_parts)), head(head_points(of_mesh, parts)) {
+    : mesh(&of_mesh), parts(std::move(its_parts)) {
   using Place =
       std::tuple<std::array<float, 3>, std::array<std::uint8_t, 4>, std::array<std::uint8_t, 4>>;
   std::set<Place> known;
   for (const skinning::Part& part : parts) {
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
       const skinning::Vertex& vertex = mesh->vertices[mesh->indices[i]];
-      if (known.emplace(vertex.position, vertex.bones, vertex.weights).second) {
-        points.push_back(skin_point(vertex));
-      }
+      if (!known.emplace(vertex.position, vertex.bones, vertex.weights).second) continue;
+      points.push_back(skin_point(vertex));
+      if (skinning::moves_mostly_with(vertex, {skinning::Bone::head}))
+        head.push_back(points.back());
     }
   }
   // Loops over equal numbers of bones are the fastest.

@@ -44,14 +44,6 @@ enum class Share : std::uint8_t { body, umbrella };
 std::vector<skinning::Part> parts_of(const skinning::Character& character,
                                      const skinning::Mesh& mesh, Share share);
 
-/// The coarsest level of detail that boxes of heads are taken from: coarser ones leave two or three
-/// points of some heads.
-inline constexpr std::size_t kHeadLevel = 3;
-
-/// Places of these parts that move with the head by more than a half: skin, hair and headwear.
-std::vector<SkinPoint> head_points(const skinning::Mesh& mesh,
-                                   const std::vector<skinning::Part>& parts);
-
 /// A share of a mesh and where its vertices are, each place once however many normals or texture
 /// coordinates it has. The mesh must outlive it.
 struct BodyShape {
@@ -60,7 +52,7 @@ struct BodyShape {
   const skinning::Mesh* mesh;
   std::vector<skinning::Part> parts;
   std::vector<SkinPoint> points;
-  std::vector<SkinPoint> head;  ///< head_points()
+  std::vector<SkinPoint> head;  ///< those that move mostly with the head: skin, hair and headwear
 };
 
 /// Sets the person's keypoints, and the upright box around this shape of theirs.
