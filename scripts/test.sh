@@ -89,7 +89,8 @@ release_tests() { run_ctest release release --repeat-waits -j4 -LE '^sanitized$'
 run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
 
 # Not among the default steps: every test program of a module with both builds, and tests of which the default steps take
-# a sample (all damages to datasets, all kinds of sound datasets, more people and time in all scenarios, more crashes).
+# a sample (label samples: all damages to datasets, all kinds of sound datasets, all scenarios with more people and time,
+# more crashes, all recipes, the notebooks).
 step_long() {
   say "testing what lasts"
   run_parts long_sanitized_with_release long_samples long_with_asan long_fuzz
@@ -101,7 +102,7 @@ long_sanitized_with_release() {
 }
 long_samples() {
   build release throng_computing_tests
-  THRONG_LONG=1 THRONG_CRASHES=10 run_ctest long-samples release -j2 -R '^cli\.(validate_damages|sound_datasets|shipped|crash|damaged_traces)$'
+  THRONG_LONG=1 THRONG_CRASHES=10 run_ctest long-samples release -j2 -L '^samples$'
 }
 long_with_asan() {
   build asan throng_tests

@@ -17,7 +17,7 @@ import tempfile
 import urllib.request
 
 JOB = {"scenario": "concert/everyday", "crowd": {"agents": 9000}}
-REPETITIONS = 10
+REPETITIONS = 4
 MAX_CPU_S = 0.010  # of each dry run
 MAX_MIB = 8  # that stay, after all of them
 

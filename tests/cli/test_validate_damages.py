@@ -1,7 +1,7 @@
 """`throng validate` believes no manifest: a dataset with everything is damaged in one way after the other, with its
 hashes put right each time (damages/), and the damage is found; the dataset itself is not found fault with.
 
-usage: test_validate_damages.py THRONG    one damage for each rule of validate; with $THRONG_LONG, all"""
+usage: test_validate_damages.py THRONG    damages for every third rule of validate; with $THRONG_LONG, all"""
 import concurrent.futures
 import json
 import os
@@ -228,13 +228,14 @@ def is_found(name, rules, rule_of):
 def test_everything(throng, folder):
     is_long = bool(os.environ.get("THRONG_LONG"))
     others = damages.OF_VEHICLES | damages.OF_HAZARDS
-    names = sorted(set(damages.KINDS) - others) if is_long else sorted(set(ONE_PER_RULE.values()))
     rule_of = {}
-    for rule, name in ONE_PER_RULE.items():
-        rule_of.setdefault(name, set()).add(rule)
+    for rule in sorted(ONE_PER_RULE)[:: 1 if is_long else 3]:
+        rule_of.setdefault(ONE_PER_RULE[rule], set()).add(rule)
+    names = sorted(set(damages.KINDS) - others) if is_long else sorted(rule_of)
     test_damages(throng, JOB, names, folder / "people", rule_of)
-    test_damages(throng, VEHICLES_JOB, sorted(damages.OF_VEHICLES), folder / "vehicles")
-    test_damages(throng, HAZARDS_JOB, sorted(damages.OF_HAZARDS), folder / "hazards")
+    some = slice(None, None, 1 if is_long else 3)
+    test_damages(throng, VEHICLES_JOB, sorted(damages.OF_VEHICLES)[some], folder / "vehicles")
+    test_damages(throng, HAZARDS_JOB, sorted(damages.OF_HAZARDS)[some], folder / "hazards")
 
 
 if __name__ == "__main__":

@@ -59,6 +59,7 @@ class Examples(unittest.TestCase):
             exec(block, namespace)  # noqa: S102
         return printed.getvalue()
 
+    @unittest.skipUnless(os.environ.get("THRONG_LONG"), "in the long test")
     @unittest.skipUnless(common.has("matplotlib"), "matplotlib is not installed")
     def test_the_notebooks(self):
         """Without Jupyter: Debian's nbclient and a kernel are 40 packages."""
