@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,13 @@ std::optional<double> cell_of(const json& columns, const char* key, std::size_t 
   return column->at(i).get<double>();
 }
 
+/// Empty where there is no word.
+std::string word_of(const json& columns, const char* key, std::size_t i) {
+  const auto column = columns.find(key);
+  if (column == columns.end() || i >= column->size() || !column->at(i).is_string()) return {};
+  return column->at(i).get<std::string>();
+}
+
 /// A figure against what it follows from; files that lack one of them are of other versions.
 void follows(const Report& fault, const std::string& name, double found, double expected,
              double slack) {
@@ -44,6 +52,8 @@ struct Evacuation {
   std::size_t all = 0;
   std::size_t evacuees = 0;
   std::size_t casualties = 0;
+  std::size_t never_inside = 0;
+  std::size_t vanished = 0;
   std::vector<double> escapes;    ///< since each one's start, sorted
   std::vector<double> escaped_s;  ///< by the run's clock
   double censored_sum_s = 0;
@@ -62,12 +72,21 @@ Evacuation evacuation_of(const json& run) {
   for (std::size_t i = 0; i < people.all; ++i) {
     const std::optional<double> start = cell_of(columns, "start_s", i);
     const std::optional<double> escaped = cell_of(columns, "escaped_s", i);
+    if (word_of(columns, "outcome", i) == "never_inside") {
+      ++people.never_inside;
+      continue;
+    }
     if (escaped) people.escaped_s.push_back(*escaped);
     if (!start || (escaped && *escaped < *start)) continue;  // had left before the alarm
     ++people.evacuees;
     if (escaped) people.escapes.push_back(*escaped - *start);
-    if (!escaped && cell_of(columns, "hurt_s", i)) ++people.casualties;
-    people.censored_sum_s += std::max(0.0, escaped.value_or(end_s) - *start);
+    const std::optional<double> vanished = cell_of(columns, "vanished_s", i);
+    if (!escaped && cell_of(columns, "hurt_s", i)) {
+      ++people.casualties;
+    } else if (!escaped && vanished) {
+      ++people.vanished;
+    }
+    people.censored_sum_s += std::max(0.0, escaped.value_or(vanished.value_or(end_s)) - *start);
   }
   std::sort(people.escapes.begin(), people.escapes.end());
   return people;
@@ -77,13 +96,16 @@ void check_escape_times(const json& run, const Evacuation& people, const Report&
   const auto all = static_cast<double>(people.all);
   const auto evacuees = static_cast<double>(people.evacuees);
   follows(fault, "people", number_in(run, "people"), all, kCountSlack);
-  follows(fault, "left_before_alarm", number_in(run, "left_before_alarm"), all - evacuees,
+  const double left_before = all - evacuees - static_cast<double>(people.never_inside);
+  follows(fault, "left_before_alarm", number_in(run, "left_before_alarm"), left_before,
           kCountSlack);
-  if (number_in(run, "left_before_alarm") != all - evacuees) return;
+  if (number_in(run, "left_before_alarm") != left_before) return;
   follows(fault, "casualties", number_in(run, "casualties"), static_cast<double>(people.casualties),
           kCountSlack);
-  follows(fault, "not_escaped", number_in(run, "not_escaped"),
-          evacuees - static_cast<double>(people.casualties + people.escapes.size()), kCountSlack);
+  follows(
+      fault, "not_escaped", number_in(run, "not_escaped"),
+      evacuees - static_cast<double>(people.casualties + people.vanished + people.escapes.size()),
+      kCountSlack);
   if (people.evacuees > 0) {
     follows(fault, "mean_escape_time_censored_s", number_in(run, "mean_escape_time_censored_s"),
             people.censored_sum_s / evacuees, kFigureSlackS);
@@ -101,6 +123,33 @@ void check_escape_times(const json& run, const Evacuation& people, const Report&
     } else if (is_reached) {
       follows(fault, name, times.at(name).get<double>(), people.escapes[rank - 1], kFigureSlackS);
     }
+  }
+}
+
+/// How the run ended for everybody, by the rows.
+void check_people_counts(const json& run, const Report& fault) {
+  const json columns = run.value("by_person", json::object());
+  const json counts = run.value("people_counts", json());
+  if (!counts.is_object() || !columns.contains("outcome") || !columns.contains("exit")) return;
+  std::map<std::string, double> number_of;
+  std::map<std::string, double> left_by;
+  for (std::size_t i = 0; i < columns.at("outcome").size(); ++i) {
+    const std::string outcome = word_of(columns, "outcome", i);
+    const std::string exit = word_of(columns, "exit", i);
+    ++number_of[outcome == "left" && exit.empty() ? "left_by_no_exit" : outcome];
+    if (outcome == "left" && !exit.empty()) ++left_by[exit];
+  }
+  for (const auto& [name, outcome] :
+       {std::pair{"left_by_no_exit", "left_by_no_exit"}, std::pair{"inside", "inside"},
+        std::pair{"casualties", "casualty"}, std::pair{"vanished_inside", "vanished"},
+        std::pair{"never_inside", "never_inside"}}) {
+    follows(fault, std::string("people_counts.") + name, number_in(counts, name),
+            number_of[outcome], kCountSlack);
+  }
+  for (const json& exit : counts.value("left_by_exit", json::array())) {
+    const std::string id = exit.value("id", "");
+    follows(fault, "people_counts.left_by_exit of " + id, number_in(exit, "people"), left_by[id],
+            kCountSlack);
   }
 }
 
@@ -275,6 +324,7 @@ void check_run_figures(const json& run, const Report& fault) {
   if (people.is_complete) {
     check_escape_times(run, people, fault);
     check_curve(run, people, fault);
+    check_people_counts(run, fault);
   }
   check_ratios(run, fault);
   check_exit_sums(run, fault);

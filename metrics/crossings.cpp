@@ -17,11 +17,19 @@ bool ExitLine::leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2
   const double from = beyond_m(a);
   const double to = beyond_m(b);
   const Eigen::Vector2d hit = a + (from / (from - to)) * (b - a);
-  const Eigen::Vector2d along(outward_.y(), -outward_.x());
-  return std::abs((hit - middle_).dot(along)) <= half_width_m_;
+  return std::abs(along_m(hit)) <= half_width_m_;
 }
 
-int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position, double time_s) {
+bool ExitLine::is_in_doorway(const Eigen::Vector2d& point) const {
+  return std::abs(along_m(point)) <= half_width_m_ && std::abs(beyond_m(point)) <= kDoorwayM;
+}
+
+double ExitLine::along_m(const Eigen::Vector2d& point) const {
+  return (point - middle_).dot(Eigen::Vector2d(outward_.y(), -outward_.x()));
+}
+
+int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position, double time_s,
+                          bool is_outside_of_place) {
   const double before_s = last_s_;
   last_s_ = time_s;
   const double beyond = line.beyond_m(position);
@@ -33,16 +41,26 @@ int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position,
   const bool is_outside = beyond >= 0;
   const double was_beyond = line.beyond_m(*last_);
   if (is_outside != (was_beyond >= 0)) {
-    passed_ = is_outside != outside_ && line.leads_through_door(*last_, position);
+    const bool by_door = line.leads_through_door(*last_, position);
+    has_left_ = is_outside && by_door;
+    passed_ = is_outside != outside_ && by_door;
     crossed_at_s_ = before_s + was_beyond / (was_beyond - beyond) * (time_s - before_s);
   }
   last_ = position;
-  if (is_outside == outside_ || std::abs(beyond) < kHysteresisM) return 0;
+  const bool is_clear = std::abs(beyond) >= kHysteresisM || (is_outside && is_outside_of_place);
+  if (is_outside == outside_ || !is_clear) return 0;
   const bool counts = passed_;
   outside_ = is_outside;
   passed_ = false;
   if (!counts) return 0;
   return is_outside ? 1 : -1;
+}
+
+int CrossingCounter::vanish() {
+  if (!last_ || outside_ || !passed_) return 0;
+  outside_ = true;
+  passed_ = false;
+  return 1;
 }
 
 }  // namespace throng::metrics

@@ -76,7 +76,9 @@ EscapeTimes escape_times(const std::vector<PersonRecord>& people, double end_s) 
   EscapeTimes times;
   for (const PersonRecord& person : people) {
     ++times.people;
-    if (person.left_before_alarm()) {
+    if (!person.was_inside) {
+      ++times.never_inside;
+    } else if (person.left_before_alarm()) {
       ++times.left_before_alarm;
     } else if (person.escaped_s) {
       times.escape_s.push_back(std::max(0.0, *person.escaped_s - person.start_s));
@@ -84,7 +86,8 @@ EscapeTimes escape_times(const std::vector<PersonRecord>& people, double end_s) 
       times.casualties.push_back(
           {std::max(0.0, end_s - person.start_s), std::max(0.0, *person.hurt_s - person.start_s)});
     } else {
-      times.inside_s.push_back(std::max(0.0, end_s - person.start_s));
+      if (person.vanished_s) ++times.vanished;
+      times.inside_s.push_back(std::max(0.0, person.vanished_s.value_or(end_s) - person.start_s));
     }
   }
   std::sort(times.escape_s.begin(), times.escape_s.end());
@@ -104,6 +107,8 @@ json to_json(const EscapeTimes& times) {
   }
   return {{"people", times.people},
           {"left_before_alarm", times.left_before_alarm},
+          {"never_inside", times.never_inside},
+          {"vanished", times.vanished},
           {"escape_s", times.escape_s},
           {"inside_s", times.inside_s},
           {"casualties", std::move(casualties)}};
@@ -113,6 +118,8 @@ EscapeTimes escape_times_from(const json& value) {
   EscapeTimes times;
   value.at("people").get_to(times.people);
   value.at("left_before_alarm").get_to(times.left_before_alarm);
+  value.at("never_inside").get_to(times.never_inside);
+  value.at("vanished").get_to(times.vanished);
   value.at("escape_s").get_to(times.escape_s);
   value.at("inside_s").get_to(times.inside_s);
   for (const json& casualty : value.at("casualties")) {

@@ -14,9 +14,12 @@ namespace throng::metrics {
 struct EscapeTimes {
   int people = 0;             ///< everybody who took part at any time
   int left_before_alarm = 0;  ///< who had left before there was anything to escape from
+  int never_inside = 0;       ///< who took no part in the evacuation (PersonRecord::was_inside)
+  int vanished = 0;           ///< how many of `inside_s` were watched until they vanished only
   /// In order: of those who escaped from the later of alarm and arrival on (s).
   std::vector<double> escape_s;
-  /// In order: of those who were inside at the end, unhurt, for how long they had been watched (s).
+  /// In order: of those who were inside when last seen, unhurt, for how long they had been watched
+  /// (s).
   std::vector<double> inside_s;
   /// Somebody who lay hurt inside at the end.
   struct Casualty {
@@ -25,11 +28,12 @@ struct EscapeTimes {
   };
   std::vector<Casualty> casualties;  ///< in order of `hurt_s`
 
-  /// Those whose escape is measured: all but those who left before the alarm.
+  /// Those whose escape is measured: people who were inside, and did not leave before the alarm.
   int evacuees() const {
     return static_cast<int>(escape_s.size() + inside_s.size() + casualties.size());
   }
-  int not_escaped() const { return static_cast<int>(inside_s.size()); }
+  /// Inside at the end, unhurt.
+  int not_escaped() const { return static_cast<int>(inside_s.size()) - vanished; }
   /// The ceil(percent * evacuees / 100)-th escape time; empty if fewer escaped.
   std::optional<double> percentile_s(int percent) const;
   /// Mean escape time; who did not escape counts with the time watched. 0 without anybody.

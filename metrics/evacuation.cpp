@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "metrics/definitions.h"
 #include "metrics/percents.h"
 #include "metrics/person_table.h"
 #include "metrics/walking_distance.h"
@@ -62,6 +63,15 @@ json horizons_json(const std::vector<RunMetrics::Horizon>& horizons) {
   return result;
 }
 
+/// For each value the paragraph that defines it.
+json definitions_json() {
+  json addresses = json::object();
+  for (const Definition& definition : definitions_of_run()) {
+    for (const std::string& path : definition.paths) addresses[path] = address_of(definition);
+  }
+  return addresses;
+}
+
 /// The model whose doors' capacities bound the run: the one that made it, of older traces the one
 /// that the scenario names.
 std::string model_of_run(const world::Trace& trace, const world::Scenario& scenario) {
@@ -78,6 +88,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   metrics.persons = person_records(trace, scenario, alarm);
   const std::vector<PersonRecord>& people = metrics.persons;
   metrics.crowd_model = trace.header.crowd.model;
+  metrics.counts = count_people(people, scenario.exits);
   metrics.people = static_cast<int>(people.size());
   metrics.duration_s = trace.duration_s();
   metrics.alarm_s = alarm.at_s;
@@ -126,8 +137,11 @@ json to_json(const RunMetrics& metrics) {
   json drones = json::array();
   for (const DroneFigures& drone : metrics.drones) drones.push_back(to_json(drone));
   return {{"definitions_version", kDefinitionsVersion},
+          {"definitions", definitions_json()},
           {"crowd_model", metrics.crowd_model.empty() ? json(nullptr) : json(metrics.crowd_model)},
           {"people", metrics.people},
+          {"people_counts", to_json(metrics.counts)},
+          {"warnings", warnings_of(metrics.counts)},
           {"left_before_alarm", metrics.escapes.left_before_alarm},
           {"alarm_s", seconds_or_null(metrics.alarm_s)},
           {"duration_s", metrics.duration_s},
@@ -151,7 +165,7 @@ json to_json(const RunMetrics& metrics) {
           {"guidance", to_json(metrics.guidance)},
           {"lower_bound", to_json(metrics.lower_bound, metrics.escapes)},
           {"reference_time", to_json(metrics.reference, metrics.escapes)},
-          {"by_person", person_table(metrics.persons, metrics.journeys, metrics.exits)}};
+          {"by_person", person_table(metrics.persons, metrics.journeys, metrics.counts)}};
 }
 
 }  // namespace throng::metrics

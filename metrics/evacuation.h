@@ -15,6 +15,7 @@
 #include "metrics/journeys.h"
 #include "metrics/notification.h"
 #include "metrics/people.h"
+#include "metrics/people_counts.h"
 #include "metrics/remaining.h"
 #include "metrics/run_bound.h"
 #include "world/alarm.h"
@@ -27,6 +28,7 @@ struct RunMetrics {
   int people = 0;
   double duration_s = 0;
   std::optional<double> alarm_s;  ///< by the run's clock; empty: nothing happens here
+  PeopleCounts counts;            ///< how the run ended for everybody
   EscapeTimes escapes;            ///< each from the later of alarm and arrival
   /// Share of people who have ever left Scenario::inside, at 0, 1, 2, ... s of the run's clock.
   std::vector<double> escape_curve;
@@ -72,7 +74,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::optional<world::Alarm>& alarm = {});
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 9;
+inline constexpr int kDefinitionsVersion = 10;
 
 /// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);

@@ -51,13 +51,15 @@ std::optional<std::size_t> intent_of(const Trace& trace, const std::string& exit
 // Measures one exit from the first step to the last.
 class ExitObserver {
  public:
-  ExitObserver(const Trace& trace, const world::Exit& exit, const ControlZone& zone,
-               const std::vector<std::size_t>& people, const VoronoiCutter& cutter)
+  ExitObserver(const Trace& trace, const world::Exit& exit, const world::Rectangle& inside,
+               const ControlZone& zone, const std::vector<std::size_t>& people,
+               const VoronoiCutter& cutter)
       : trace_(trace),
         people_(people),
         cutter_(cutter),
         zone_(zone),
         exit_(exit),
+        inside_(inside),
         intent_(intent_of(trace, exit.id)),
         mean_radius_m_(mean_radius_m(trace.header)),
         line_(exit, mean_radius_m_),
@@ -144,16 +146,19 @@ class ExitObserver {
     queuing_.clear();
     const std::size_t already = passages.size();
     for (std::size_t i = 0; i < people_.size(); ++i) {
-      if (!trace_.present(step, people_[i])) continue;
+      const bool present = trace_.present(step, people_[i]);
       const std::size_t at = trace_.at(step, people_[i]);
       const Eigen::Vector2d place = trace_.position[at].cast<double>();
-      const int crossing = counters_[i].step(line_, place, time_s);
+      const int crossing = present
+                               ? counters_[i].step(line_, place, time_s, !inside_.contains(place))
+                               : counters_[i].vanish();
       if (crossing < 0) ++doors_.in;
       if (crossing > 0) {
         ++doors_.out;
         last_outward_s_ = time_s;
         passages.push_back({counters_[i].crossed_at_s(), people_[i]});
       }
+      if (!present) continue;
       const bool comes = !intent_ || trace_.exit_intent[at] == static_cast<int>(*intent_);
       const bool near = (place - zone_.middle()).squaredNorm() < near_m * near_m;
       if (!comes && !near) continue;
@@ -232,6 +237,7 @@ class ExitObserver {
   const VoronoiCutter& cutter_;
   const ControlZone& zone_;
   const world::Exit& exit_;
+  const world::Rectangle& inside_;
   std::optional<std::size_t> intent_;  ///< empty: the trace has no intents for this exit
   double mean_radius_m_;
   ExitLine line_;
@@ -296,7 +302,8 @@ std::vector<ExitSeries> exit_series(const Trace& trace, const world::Scenario& s
   std::vector<ExitSeries> series(scenario.exits.size());
   parallel_ranges(series.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      series[i] = ExitObserver(trace, scenario.exits[i], zones[i], people, cutter).observe();
+      series[i] = ExitObserver(trace, scenario.exits[i], scenario.inside, zones[i], people, cutter)
+                      .observe();
     }
   });
   return series;

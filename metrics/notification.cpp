@@ -28,7 +28,7 @@ json percentiles_of(const std::vector<Watched>& people) {
 Notification notification_of(const std::vector<PersonRecord>& people, double end_s) {
   Notification notification;
   for (const PersonRecord& person : people) {
-    if (person.left_before_alarm()) continue;
+    if (!person.is_evacuee()) continue;
     const double gone_s = person.escaped_s.value_or(end_s);
     notification.notice.push_back(
         {std::max(0.0, person.noticed_s.value_or(gone_s) - person.start_s),

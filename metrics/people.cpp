@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <string>
 #include <utility>
+
+#include "geometry/polygon.h"
 
 namespace throng::metrics {
 
@@ -48,7 +51,7 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
     : scenario_(scenario),
       alarm_(std::move(alarm)),
       dt_s_(header.dt_s),
-      doors_(scenario.exits.size()) {
+      is_recorded_(header.crowd.model == world::kRecordedCrowd) {
   for (const std::string& name : header.state_names) {
     const auto& aware = alarm_.aware_states;
     follows_.push_back(in_lower_case(name).find("follow") != std::string::npos);
@@ -69,19 +72,64 @@ void PeopleTracker::step(const PeopleStep& step) {
   time_s_ = step.time_s;
   for (Person& person : people_) {
     const bool present = (step.flags[person.record.agent] & world::kPresent) != 0;
-    if (present && !person.arrived) {
-      person.arrived = true;
-      person.record.first_step = steps_;
-      person.record.arrived_s = step.time_s;
-      person.record.start_s = std::max(alarm_.at_s.value_or(step.time_s), step.time_s);
-    }
-    if (!person.arrived) continue;
-    if (!person.record.escaped_s) follow(person, step, present);
-    if (present) count_doors(person, step);
+    if (present) arrive(person, step);
+    if (!person.seen) continue;
+    if (present || person.present_before) count_doors(person, step, present);
+    if (person.record.was_inside && !person.record.escaped_s) follow(person, step, present);
     if (present) person.last_place = step.position[person.record.agent].cast<double>();
     person.present_before = present;
   }
   ++steps_;
+}
+
+bool PeopleTracker::all_escaped() const {
+  return std::all_of(people_.begin(), people_.end(),
+                     [](const Person& person) { return person.record.has_ended() && person.seen; });
+}
+
+void PeopleTracker::arrive(Person& person, const PeopleStep& step) {
+  PersonRecord& record = person.record;
+  const bool is_inside = scenario_.inside.contains(step.position[record.agent].cast<double>());
+  if (person.seen && (record.was_inside || !is_inside)) return;
+  person.seen = true;
+  record.was_inside = is_inside;
+  record.first_step = steps_;
+  record.arrived_s = step.time_s;
+  record.start_s = std::max(alarm_.at_s.value_or(step.time_s), step.time_s);
+  person.is_before_doors = true;
+}
+
+std::optional<std::size_t> PeopleTracker::nearest_exit_if_beyond(const Vector2d& place) const {
+  std::optional<std::size_t> nearest;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < scenario_.exits.size(); ++e) {
+    const world::Exit& exit = scenario_.exits[e];
+    const double distance_m = geometry::distance_to_segment(exit.from, exit.to, place);
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    nearest = e;
+  }
+  if (nearest && lines_[*nearest].beyond_m(place) < 0) return std::nullopt;
+  return nearest;
+}
+
+std::optional<std::size_t> PeopleTracker::exit_of_escape(const Person& person,
+                                                         const Vector2d& place) const {
+  std::optional<std::size_t> passed;
+  for (std::size_t e = 0; e < lines_.size(); ++e) {
+    const CrossingCounter& counter = person.counters[e];
+    if (!counter.has_left()) continue;
+    if (!passed || counter.crossed_at_s() > person.counters[*passed].crossed_at_s()) passed = e;
+  }
+  if (passed) return passed;
+  if (person.is_before_doors) return nearest_exit_if_beyond(place);
+  // Recordings end anywhere; the crowd removes people at doors.
+  if (is_recorded_ && scenario_.inside.contains(place)) return std::nullopt;
+  // The place, or a person's way, ends before the line of the door.
+  for (std::size_t e = 0; e < lines_.size(); ++e) {
+    if (lines_[e].is_in_doorway(place)) return e;
+  }
+  return std::nullopt;
 }
 
 void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present) {
@@ -94,11 +142,18 @@ void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present)
   }
   if (present) add_motion(person, step);
   if (!present || !scenario_.inside.contains(place)) {
-    record.escaped_s = step.time_s;
-    record.hurt_s.reset();
-    ++escaped_;
+    record.left_by = exit_of_escape(person, present ? place : person.last_place);
+    if (present || record.left_by) {
+      record.escaped_s = step.time_s;
+      record.turned_back = record.left_by && person.is_before_doors;
+      record.hurt_s.reset();
+    } else if (!record.vanished_s) {
+      record.vanished_s = step.time_s;
+    }
     return;
   }
+  record.vanished_s.reset();
+  person.is_before_doors = person.is_before_doors && nearest_exit_if_beyond(place);
   const std::uint8_t state = step.state[record.agent];
   if (!holds(is_down_, state)) {
     record.hurt_s.reset();
@@ -137,14 +192,16 @@ bool PeopleTracker::notices(const Person& person, const PeopleStep& step) const 
   return holds(follows_, state) || (intent >= 0 && intent != person.intent_before_alarm);
 }
 
-void PeopleTracker::count_doors(Person& person, const PeopleStep& step) {
+void PeopleTracker::count_doors(Person& person, const PeopleStep& step, bool present) {
   PersonRecord& record = person.record;
   const Vector2d place = step.position[record.agent].cast<double>();
+  const bool is_outside = !scenario_.inside.contains(place);
   for (std::size_t e = 0; e < lines_.size(); ++e) {
-    const int crossing = person.counters[e].step(lines_[e], place, step.time_s);
+    CrossingCounter& counter = person.counters[e];
+    const int crossing =
+        present ? counter.step(lines_[e], place, step.time_s, is_outside) : counter.vanish();
     if (crossing == 0) continue;
-    ++(crossing > 0 ? doors_[e].out : doors_[e].in);
-    const double crossed_s = person.counters[e].crossed_at_s();
+    const double crossed_s = counter.crossed_at_s();
     // A crossing is known 0.2 m beyond the line only, by when the person may have escaped.
     const bool before_escape = !record.escaped_s || crossed_s <= *record.escaped_s;
     if (crossing < 0 || crossed_s < record.start_s || !before_escape) continue;
@@ -157,7 +214,7 @@ void PeopleTracker::count_doors(Person& person, const PeopleStep& step) {
 std::vector<PersonRecord> PeopleTracker::records() const {
   std::vector<PersonRecord> records;
   for (const Person& person : people_) {
-    if (person.arrived) records.push_back(person.record);
+    if (person.seen) records.push_back(person.record);
   }
   return records;
 }

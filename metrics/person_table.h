@@ -4,15 +4,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "metrics/exit_totals.h"
 #include "metrics/journeys.h"
 #include "metrics/people.h"
+#include "metrics/people_counts.h"
 
 namespace throng::metrics {
 
 /// One list per value with one entry per person; null where there is none.
 nlohmann::json person_table(const std::vector<PersonRecord>& people,
-                            const std::vector<Journey>& journeys,
-                            const std::vector<ExitTotals>& exits);
+                            const std::vector<Journey>& journeys, const PeopleCounts& counts);
 
 }  // namespace throng::metrics

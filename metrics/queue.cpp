@@ -137,7 +137,7 @@ double WaitPredictor::step(const Queue& queue, int crossed_out) {
   }
   const double queued_s = static_cast<double>(queued_steps_) * dt_s_;
   const double used_m =
-      std::min(width_m_, std::max(kMinLaneM, queue.breadth_m + 2 * mean_radius_m_));
+      std::max(kMinLaneM, std::min(width_m_, queue.breadth_m + 2 * mean_radius_m_));
   const double rate = (served_ + capacity_per_s(used_m) * kPriorS) / (queued_s + kPriorS);
   return queue.people / rate;
 }

@@ -47,7 +47,8 @@ Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenari
   if (trace.steps() == 0) return remaining;
   const Window window = window_of(trace);
   for (const PersonRecord& person : people) {
-    if (person.escaped_s || !trace.present(window.last, person.agent)) continue;
+    if (!person.was_inside || person.escaped_s || !trace.present(window.last, person.agent))
+      continue;
     const std::size_t at = trace.at(window.last, person.agent);
     const Eigen::Vector2d place = trace.position[at].cast<double>();
     if (person.hurt_s || (trace.flags[at] & world::kFallen) != 0) {

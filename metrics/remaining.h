@@ -11,7 +11,7 @@
 
 namespace throng::metrics {
 
-/// Everybody who took part, is present and inside at the last step and has never been outside: each
+/// Everybody who took part, is present and inside at the last step and has not escaped: each
 /// counts for the first reason that holds, in this order.
 struct Remaining {
   int casualty = 0;  ///< lies there, hurt or fallen

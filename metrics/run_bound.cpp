@@ -110,7 +110,7 @@ BestTimes best_times(const std::vector<Traveler>& travelers, const Doors& doors,
 std::vector<const PersonRecord*> evacuees_of(const std::vector<PersonRecord>& people) {
   std::vector<const PersonRecord*> evacuees;
   for (const PersonRecord& person : people) {
-    if (!person.left_before_alarm()) evacuees.push_back(&person);
+    if (person.is_evacuee()) evacuees.push_back(&person);
   }
   return evacuees;
 }

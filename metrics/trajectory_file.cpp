@@ -321,6 +321,7 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
   world::Trace trace;
   trace.header.scenario_id = file.stem().string();
   trace.header.dt_s = 1 / recorded.frames_per_s;
+  trace.header.crowd.model = world::kRecordedCrowd;
   const std::size_t people = recorded.places.size();
   trace.header.role.assign(people, world::AgentRole::person);
   trace.header.radius_m.assign(people, static_cast<float>(walkers.radius_m));

@@ -50,12 +50,8 @@ double Outcome::restricted_mean_s(double until_s) const {
 }
 
 json to_json(const Outcome& outcome) {
-  json doors = json::array();
-  for (const metrics::DoorCounts& door : outcome.exit_use) {
-    doors.push_back({{"out", door.out}, {"in", door.in}});
-  }
   return {{"escapes", metrics::to_json(outcome.escapes)},
-          {"exit_use", std::move(doors)},
+          {"people_counts", metrics::to_json(outcome.counts)},
           {"followed", outcome.followed},
           {"bound", best_json(outcome.bound)},
           {"reference", best_json(outcome.reference)}};
@@ -64,9 +60,7 @@ json to_json(const Outcome& outcome) {
 Outcome outcome_from(const json& value) {
   Outcome outcome;
   outcome.escapes = metrics::escape_times_from(value.at("escapes"));
-  for (const json& door : value.at("exit_use")) {
-    outcome.exit_use.push_back({door.at("out").get<int>(), door.at("in").get<int>()});
-  }
+  outcome.counts = metrics::people_counts_from(value.at("people_counts"));
   value.at("followed").get_to(outcome.followed);
   outcome.bound = best_from(value.at("bound"));
   outcome.reference = best_from(value.at("reference"));
@@ -100,7 +94,7 @@ Outcome OutcomeObserver::take() const {
   const double end_s = tracker_->time_s();
   Outcome outcome;
   outcome.escapes = metrics::escape_times(people, end_s);
-  outcome.exit_use = tracker_->doors();
+  outcome.counts = metrics::count_people(people, scenario_.exits);
   outcome.followed = static_cast<int>(
       std::count_if(people.begin(), people.end(),
                     [](const metrics::PersonRecord& person) { return person.followed_s > 0; }));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "metrics/people_counts.h"
 #include "metrics/run_bound.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -23,10 +24,10 @@ struct BestFigures {
 };
 
 struct Outcome {
-  metrics::EscapeTimes escapes;               ///< as in metrics.json
-  std::vector<metrics::DoorCounts> exit_use;  ///< per exit
-  int followed = 0;                           ///< people who followed a guide at some time
-  BestFigures bound;                          ///< with people who know of the alarm at once
+  metrics::EscapeTimes escapes;  ///< as in metrics.json
+  metrics::PeopleCounts counts;  ///< as in metrics.json
+  int followed = 0;              ///< people who followed a guide at some time
+  BestFigures bound;             ///< with people who know of the alarm at once
   BestFigures reference;
 
   /// When so many percent are out; infinite if never.

@@ -96,6 +96,9 @@ std::string markdown_of(const Study& study, const Summary& summary) {
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     text += fmt::format("\n## {}\n\n", study.cases[c].title) +
             markdown_table(case_table(study, summary.rows, c));
+    for (const std::string& warning : case_warnings(study, summary.rows, c)) {
+      text += "\n" + warning + "\n";
+    }
   }
   text += fmt::format("\n## {}\n\n{}\n\n", kIntervalTitle, interval_explanation()) +
           markdown_table(interval_table(study, summary.rows));
@@ -177,7 +180,8 @@ json json_of(const Study& study, const Summary& summary) {
                     {"t90_to_reference", time_json(row.t90_to_reference)},
                     {"mean_to_reference", time_json(row.mean_to_reference)},
                     {"followed", row.followed},
-                    {"exit_use", std::move(exits)}});
+                    {"exit_use", std::move(exits)},
+                    {"left_by_no_exit", row.left_by_no_exit}});
   }
   json document = {{"name", study.name},
                    {"seed", study.seed},
@@ -282,9 +286,12 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
     }
     cases.push_back(
         {{"curves", std::move(curves)}, {"convergence", convergence_json(study, outcomes[c])}});
+    page.body += fmt::format("<h2>{}</h2>\n", escaped_markup(study.cases[c].title)) +
+                 html_table(case_table(study, summary.rows, c));
+    for (const std::string& warning : case_warnings(study, summary.rows, c)) {
+      page.body += fmt::format("<p>{}</p>\n", escaped_markup(warning));
+    }
     page.body +=
-        fmt::format("<h2>{}</h2>\n", escaped_markup(study.cases[c].title)) +
-        html_table(case_table(study, summary.rows, c)) +
         chart_frame("People out", fmt::format("data-chart=\"policies\" data-case=\"{}\"", c));
     if (study.runs < 2) continue;
     page.body += chart_frame(

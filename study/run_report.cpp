@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -20,13 +22,19 @@ std::string time_cell(const std::optional<double>& seconds) {
   return seconds && std::isfinite(*seconds) ? fmt::format("{:.1f}", *seconds) : "not reached";
 }
 
+std::string header(const std::string& path, const std::string& name) {
+  return "<th>" + definition_link(path, name) + "</th>";
+}
+
 std::string runs_table(const std::vector<MeasuredRun>& runs) {
-  std::string html =
-      "<table><tr><th>run</th><th>people</th><th>not escaped</th><th>mean escape (s)</th>";
+  std::string html = "<table><tr><th>run</th>" + header("people", "people") +
+                     header("not_escaped", "not escaped") +
+                     header("mean_escape_time_censored_s", "mean escape (s)");
   for (const auto& percentile : runs.front().metrics.percentiles) {
-    html += fmt::format("<th>T{} (s)</th>", percentile.percent);
+    html += header("escape_time_percentiles.tP_s", fmt::format("T{} (s)", percentile.percent));
   }
-  html += "<th>balance</th><th>above 5/m² (person s)</th></tr>\n";
+  html += header("exit_balance.balance", "balance") + header("exposure", "above 5/m² (person s)") +
+          "</tr>\n";
   for (const MeasuredRun& run : runs) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>",
                         escaped_markup(run.name), run.metrics.people, run.metrics.not_escaped,
@@ -42,13 +50,53 @@ std::string runs_table(const std::vector<MeasuredRun>& runs) {
   return html + "</table>\n";
 }
 
+/// One row per run that adds up to its people.
+std::string people_table(const std::vector<MeasuredRun>& runs) {
+  std::string html = "<table><tr><th>run</th>" + header("people_counts", "people");
+  for (const auto& exit : runs.front().metrics.counts.left_by) {
+    html += header("people_counts", "left by " + exit.exit_id);
+  }
+  for (const char* name :
+       {"by no exit", "inside at the end", "casualties", "vanished inside", "never inside"}) {
+    html += header("people_counts", name);
+  }
+  html += "</tr>\n";
+  for (const MeasuredRun& run : runs) {
+    const metrics::PeopleCounts& counts = run.metrics.counts;
+    html += fmt::format("<tr><td>{}</td><td>{}</td>", escaped_markup(run.name), counts.people);
+    for (const auto& exit : counts.left_by) html += fmt::format("<td>{}</td>", exit.people);
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        counts.left_by_no_exit, counts.inside, counts.casualties,
+                        counts.vanished_inside, counts.never_inside);
+  }
+  html += "</table>\n";
+  for (const MeasuredRun& run : runs) {
+    for (const std::string& warning : metrics::warnings_of(run.metrics.counts)) {
+      html += fmt::format("<p class=\"warning\">{}: {}.</p>\n", escaped_markup(run.name),
+                          escaped_markup(warning));
+    }
+  }
+  return html;
+}
+
 std::string exits_table(const MeasuredRun& run) {
-  std::string html =
-      "<table><tr><th>exit</th><th>width (m)</th><th>crossings out / in</th><th>flow with demand "
-      "(1/s)</th>"
-      "<th>specific (1/(m s))</th><th>demand (s)</th><th>congested (s)</th><th>clogged (s)</th>"
-      "<th>clogs</th><th>clogging index</th><th>longest queue</th><th>longest gap (s)</th>"
-      "<th>max density (1/m²)</th><th>max pressure (1/s²)</th></tr>\n";
+  static constexpr std::array kColumns = {
+      std::pair{"exits[].width_m", "width (m)"},
+      std::pair{"exits[].crossings.out", "crossings out / in"},
+      std::pair{"exits[].demand_flow_per_s", "flow with demand (1/s)"},
+      std::pair{"exits[].demand_specific_flow_per_ms", "specific (1/(m s))"},
+      std::pair{"exits[].demand_s", "demand (s)"},
+      std::pair{"exits[].congested_s", "congested (s)"},
+      std::pair{"exits[].clogged_s", "clogged (s)"},
+      std::pair{"exits[].clogs", "clogs"},
+      std::pair{"exits[].mean_clogging_index", "clogging index"},
+      std::pair{"exits[].max_queue", "longest queue"},
+      std::pair{"exits[].gaps", "longest gap (s)"},
+      std::pair{"exits[].max_voronoi_density_per_m2", "max density (1/m²)"},
+      std::pair{"exits[].max_pressure_per_s2", "max pressure (1/s²)"}};
+  std::string html = "<table><tr><th>exit</th>";
+  for (const auto& [path, name] : kColumns) html += header(path, name);
+  html += "</tr>\n";
   for (const metrics::ExitTotals& exit : run.metrics.exits) {
     // Without demand the flow is undefined, not 0.
     const auto flow_cell = [&](double per) {
@@ -101,9 +149,10 @@ std::string all_runs(const std::vector<MeasuredRun>& runs) {
   std::vector<const metrics::RunMetrics*> figures;
   figures.reserve(runs.size());
   for (const MeasuredRun& run : runs) figures.push_back(&run.metrics);
-  return fmt::format("<h2>{}</h2>\n{}", runs.size() == 1 ? "Run" : "All runs", runs_table(runs)) +
-         chart_frame("People who have escaped", "data-chart=\"escape\"") +
-         "<h3>Definitions of the figures</h3>\n" + metric_table(figures);
+  return fmt::format("<h2>{}</h2>\n{}{}", runs.size() == 1 ? "Run" : "All runs", people_table(runs),
+                     runs_table(runs)) +
+         chart_frame("People who have escaped", "data-chart=\"escape\"") + "<h3>Figures</h3>\n" +
+         metric_table(figures);
 }
 
 }  // namespace
@@ -139,6 +188,7 @@ std::string html_report(const world::Scenario& scenario, const std::vector<Measu
     page.body +=
         fmt::format("<section id=\"of_run{}\">\n{}</section>\n", i, run_section(i, runs[i]));
   }
+  page.body += "<h2>Definitions of the figures</h2>\n" + definition_list();
   return html_of(page, report_figures(scenario, runs));
 }
 

@@ -109,10 +109,12 @@ SummaryRow summarize_one(const Case& one, const std::vector<Outcome>& runs,
   };
   ratios(&Outcome::bound, row.t90_to_bound, row.mean_to_bound);
   ratios(&Outcome::reference, row.t90_to_reference, row.mean_to_reference);
-  for (std::size_t e = 0; e < runs.front().exit_use.size(); ++e) {
-    row.exit_use.push_back(mean_of(
-        [&](const Outcome& run) -> double { return run.exit_use[e].out - run.exit_use[e].in; }));
+  for (std::size_t e = 0; e < runs.front().counts.left_by.size(); ++e) {
+    row.exit_use.push_back(
+        mean_of([&](const Outcome& run) -> double { return run.counts.left_by[e].people; }));
   }
+  row.left_by_no_exit =
+      mean_of([](const Outcome& run) -> double { return run.counts.left_by_no_exit; });
   row.followed = mean_of([](const Outcome& run) -> double { return run.followed; });
   return row;
 }

@@ -54,7 +54,8 @@ struct SummaryRow {
   double mean_to_bound = 0;
   double t90_to_reference = 0;  ///< of T90 / reference time
   double mean_to_reference = 0;
-  std::vector<double> exit_use;  ///< per exit: net number gone out, mean over the runs
+  std::vector<double> exit_use;  ///< per exit: people who left by it, mean over the runs
+  double left_by_no_exit = 0;    ///< people who left where there is no exit; mean over the runs
   double followed = 0;           ///< mean over the runs
 };
 

@@ -35,6 +35,7 @@ std::string exits_text(const SummaryRow& row) {
   std::string text;
   for (const double count : row.exit_use)
     text += fmt::format("{}{:.0f}", text.empty() ? "" : "/", count);
+  if (row.left_by_no_exit > 0) text += fmt::format(" and {:.1f} by none", row.left_by_no_exit);
   return text;
 }
 
@@ -87,6 +88,20 @@ Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::s
     if (row.one_case == one_case) table.rows.push_back(case_cells(study, row));
   }
   return table;
+}
+
+std::vector<std::string> case_warnings(const Study& study, const std::vector<SummaryRow>& rows,
+                                       std::size_t one_case) {
+  std::vector<std::string> warnings;
+  for (const SummaryRow& row : rows) {
+    if (row.one_case != one_case || row.left_by_no_exit <= 0) continue;
+    warnings.push_back(fmt::format(
+        "Warning: under \"{}\" {:.1f} people per run left where there is no exit. They are among "
+        "the escape times, but no exit counts them (`throng scenario check` finds gaps in the "
+        "outline).",
+        study.policies[row.policy].title, row.left_by_no_exit));
+  }
+  return warnings;
 }
 
 Table interval_table(const Study& study, const std::vector<SummaryRow>& rows) {
@@ -156,8 +171,8 @@ std::string case_explanation(const Study& study) {
         study.policies[study.baseline].title);
   }
   return text +
-         "Left inside: unhurt at the end, mean. Bound, reference: docs/guidance.md. Exits: net "
-         "number of people out per exit, mean.";
+         "Left inside: unhurt at the end, mean. Bound, reference: docs/guidance.md. Exits: people "
+         "who left by each exit, mean; by none: who left where there is no exit.";
 }
 
 }  // namespace throng::study

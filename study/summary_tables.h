@@ -16,6 +16,10 @@ struct Table {
 /// Of one case: a row for each policy with medians, quartiles and comparisons.
 Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::size_t one_case);
 
+/// A sentence for each policy of the case in whose runs people left where there is no exit.
+std::vector<std::string> case_warnings(const Study& study, const std::vector<SummaryRow>& rows,
+                                       std::size_t one_case);
+
 /// T50, T90 and T95 of all cases and policies with the intervals of their means, and whether there
 /// are runs enough.
 Table interval_table(const Study& study, const std::vector<SummaryRow>& rows);

@@ -307,6 +307,29 @@ test("events of a run lead to their time", async () => {
   await check(page, "run with events");
 });
 
+test("everybody of a run is counted once, and figures lead to their definitions", async () => {
+  const { people, people_counts: counts } = await service.json(`/v1/jobs/${job}/runs/0/metrics`);
+  await go(`/jobs/${job}/runs/0`);
+  const figures = page.locator("section", { hasText: "Escaped by time" }).locator(".figures").first();
+  await figures.waitFor();
+  const [all, ...parts] = (await figures.locator("dd").allTextContents()).map(Number);
+  assert.equal(all, people);
+  assert.equal(
+    parts.reduce((sum, part) => sum + part, 0),
+    people,
+  );
+  const exit = counts.left_by_exit[0];
+  await figures
+    .locator("div", { hasText: `left by ${exit.id}` })
+    .locator("dd", { hasText: String(exit.people) })
+    .first()
+    .waitFor();
+  await page.getByRole("link", { name: "escape time, median" }).click();
+  const definition = page.locator("#definition-escape_time_percentiles[aria-current]");
+  await definition.getByText("escape_time_percentiles").waitFor();
+  await check(page, "definitions of figures");
+});
+
 test("the plan shows everybody, seen by a camera or not", async () => {
   await go(`/jobs/${job}/runs/0?frame=1`);
   const seen = new Set(

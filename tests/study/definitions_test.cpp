@@ -126,10 +126,16 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   }
   EXPECT_NEAR(run.mean_escape_time_s, expected.mean_s, 1e-9);
   EXPECT_NEAR(outcome.escapes.mean_censored_s(), expected.mean_s, 1e-9);
+  int left_by_exits = 0;
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
-    EXPECT_EQ(run.exits[e].crossings.out, outcome.exit_use[e].out) << scenario.exits[e].id;
-    EXPECT_EQ(run.exits[e].crossings.in, outcome.exit_use[e].in) << scenario.exits[e].id;
+    EXPECT_EQ(run.counts.left_by[e].people, outcome.counts.left_by[e].people)
+        << scenario.exits[e].id;
+    left_by_exits += run.counts.left_by[e].people;
   }
+  EXPECT_EQ(left_by_exits, expected.people - expected.inside);
+  EXPECT_EQ(run.counts.left_by_no_exit, 0);
+  EXPECT_EQ(run.counts.vanished_inside, 0);
+  EXPECT_EQ(run.counts.never_inside, 0);
   EXPECT_EQ(run.guidance.led, outcome.followed);
   for (const metrics::PersonRecord& person : run.persons) {
     EXPECT_GE(person.noticed_s.value_or(person.start_s), person.start_s) << person.agent;

@@ -23,7 +23,7 @@ Outcome run_with(std::vector<double> escape_s) {
   outcome.escapes.people = 2;
   outcome.escapes.inside_s.assign(2 - escape_s.size(), 100);
   outcome.escapes.escape_s = std::move(escape_s);
-  outcome.exit_use = {{3, 1}};
+  outcome.counts.left_by = {{"door", 2}};
   outcome.bound = {1, 2, 10, 15, 20, 5};
   outcome.reference = {2, 4, 20, 30, 40, 10};
   return outcome;

@@ -42,11 +42,11 @@ TEST(RunReport, HoldsChartsAndTables) {
   scenario.buildings.push_back(metrics::box({-10, 5}, {-5, 8}));
   const std::string html = html_report(scenario, two_runs(scenario));
   EXPECT_EQ(count(html, "<div data-chart="), 11U) << "one of all runs, five of each";
-  EXPECT_EQ(count(html, "<table>"), 4U);
+  EXPECT_EQ(count(html, "<table>"), 5U);
   EXPECT_EQ(count(html, "type=\"radio\""), 2U) << "to choose a run by";
   EXPECT_EQ(count(html, " checked>"), 1U);
   EXPECT_EQ(count(html, "<section id="), 2U);
-  EXPECT_EQ(count(html, "fast&lt;&amp;&gt;"), 4U);
+  EXPECT_EQ(count(html, "fast&lt;&amp;&gt;"), 5U);
   EXPECT_EQ(count(html, "fast<"), 0U) << "nor in the figures";
   EXPECT_NE(html.find("A &quot;hall&quot; &amp; &lt;more&gt;"), std::string::npos);
   EXPECT_EQ(html, html_report(scenario, two_runs(scenario)));
@@ -95,10 +95,25 @@ TEST(RunReport, ChartsHaveTheRunsFigures) {
 TEST(RunReport, SaysWhatItsFiguresAre) {
   const world::Scenario scenario = metrics::place_with_door(2);
   const std::string html = html_report(scenario, two_runs(scenario));
-  EXPECT_NE(html.find("<td>people</td><td class=\"text\">1</td><td class=\"text\">who took "
+  EXPECT_NE(html.find(">people</a></td><td class=\"text\">1</td><td class=\"text\">who took "
                       "part</td><td>12</td><td>12 to 12</td><td>2</td>"),
             std::string::npos);
-  EXPECT_NE(html.find("<td>T90</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td><a href=\"#def-escape_time_percentiles\">T90</a></td>"),
+            std::string::npos);
+  EXPECT_EQ(count(html, "<dt id=\"def-escape_time_percentiles\">"), 1U);
+}
+
+TEST(RunReport, SaysThatPeopleLeftByNoExit) {
+  const world::Scenario scenario = metrics::place_with_door(2);
+  std::vector<MeasuredRun> runs;
+  runs.push_back(measured(
+      "leak",
+      metrics::trace_of({metrics::walking({-5, 0}, {1, 0}), metrics::walking({-5, 6}, {0, 1})}),
+      scenario));
+  const std::string html = html_report(scenario, runs);
+  EXPECT_NE(html.find("<td>leak</td><td>2</td><td>1</td><td>1</td><td>0</td>"), std::string::npos)
+      << "people, by the door, by no exit, inside";
+  EXPECT_NE(html.find("1 of 2 people left the place where there is no exit"), std::string::npos);
 }
 
 TEST(RunReport, NobodyIsNoError) {

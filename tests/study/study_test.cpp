@@ -207,7 +207,7 @@ TEST_F(StudyWork, AnOutcomeSurvivesItsFile) {
   outcome.escapes.left_before_alarm = 1;
   outcome.escapes.escape_s = {5, 20};
   outcome.escapes.casualties = {{90, 7}};
-  outcome.exit_use = {{1, 0}, {2, 1}};
+  outcome.counts.left_by = {{"south", 1}, {"north", 2}};
   outcome.bound.t90_s = std::numeric_limits<double>::infinity();
   outcome.reference.t75_s = 12;
   const Outcome read = outcome_from(json::parse(to_json(outcome).dump()));
@@ -218,7 +218,8 @@ TEST_F(StudyWork, AnOutcomeSurvivesItsFile) {
   EXPECT_TRUE(std::isinf(read.percentile_s(90)));
   EXPECT_TRUE(std::isinf(read.bound.t90_s));
   EXPECT_EQ(read.reference.t75_s, 12);
-  EXPECT_EQ(read.exit_use[1].in, 1);
+  EXPECT_EQ(read.counts.left_by[1].exit_id, "north");
+  EXPECT_EQ(read.counts.left_by[1].people, 2);
 }
 
 }  // namespace

@@ -39,7 +39,25 @@ const documents = (module, suffix, key) => ({
     });
   },
 });
-const modules = [documents("presets", ".job.json", "job"), documents("study_presets", "study.json", "study")];
+
+/// The rows of docs/metrics.md that define figures of a run as a module: the anchor, the paths in metrics.json as the
+/// document writes them, and the text without markup.
+const definitions = {
+  name: "definitions",
+  setup(build) {
+    build.onResolve({ filter: /^definitions$/ }, () => ({ path: "definitions", namespace: "definitions" }));
+    build.onLoad({ filter: /.*/, namespace: "definitions" }, () => {
+      const document = readFileSync(path.join(root, "docs/metrics.md"), "utf8");
+      const list = [...document.matchAll(/^\| <a id="([^"]+)"><\/a>(.*?) \| (.*) \|$/gm)].map(([, anchor, names, text]) => ({
+        anchor,
+        names: names.replaceAll("`", ""),
+        text: text.replaceAll(/\[([^\]]*)\]\([^)]*\)/g, "$1").replaceAll(/[`*\\]/g, ""),
+      }));
+      return { contents: JSON.stringify(list), loader: "json" };
+    });
+  },
+};
+const modules = [definitions, documents("presets", ".job.json", "job"), documents("study_presets", "study.json", "study")];
 
 const options = {
   absWorkingDir: here,

@@ -17,6 +17,7 @@ interface Screen {
 
 const loadAccess = () => import("./access/access_screen").then((module) => module.AccessScreen);
 const loadReference = () => import("./reference/reference_screen").then((module) => module.ReferenceScreen);
+const loadDefinitions = () => import("./run/definitions").then((module) => module.DefinitionsScreen);
 const loadDownloads = () => import("./downloads/downloads_screen").then((module) => module.DownloadsScreen);
 const loadNewJob = () => import("./screens/new_job").then((module) => module.NewJob);
 const loadBrowser = () => import("./dataset/browser").then((module) => module.Browser);
@@ -36,6 +37,7 @@ function screenOf(path: string): Screen {
   if (path === "/compare") return { title: "Compare", element: <Lazy load={loadCompare} props={{}} /> };
   if (path === "/keys") return { title: "Keys and webhooks", element: <Lazy load={loadAccess} props={{}} /> };
   if (path === "/api") return { title: "API", element: <Lazy load={loadReference} props={{}} /> };
+  if (path === "/definitions") return { title: "Definitions", element: <Lazy load={loadDefinitions} props={{}} /> };
   if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
   if (path === "/fly") return { title: "Live flight", element: <Lazy load={loadFly} props={{}} /> };
   if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };

@@ -322,6 +322,14 @@ def not_escaped_one_less(d):
 
 
 @damage
+def one_more_left_by_an_exit(d):
+    def change(run):
+        run["people_counts"]["left_by_exit"][0]["people"] += 1
+
+    change_metrics(d, change)
+
+
+@damage
 def net_out_one_more(d):
     def change(run):
         exit = max(run["exits"], key=lambda e: e["net_out"])

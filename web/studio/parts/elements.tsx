@@ -114,11 +114,11 @@ export function Confirmation({ question, onClose }: { question: Question | null;
 }
 
 /** Figures with their names: in a row, or as a record. */
-export function Figures({ list, className = "figures" }: { list: [name: string, value: string][]; className?: string }) {
+export function Figures({ list, className = "figures" }: { list: [name: ComponentChildren, value: string][]; className?: string }) {
   return (
     <dl class={className}>
-      {list.map(([name, value]) => (
-        <div key={name}>
+      {list.map(([name, value], index) => (
+        <div key={index}>
           <dt>{name}</dt>
           <dd>{value}</dd>
         </div>

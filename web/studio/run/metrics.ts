@@ -5,6 +5,15 @@ export interface Metrics {
   duration_s: number;
   alarm_s: number | null;
   people: number;
+  people_counts?: {
+    left_by_exit: { id: string; people: number }[];
+    left_by_no_exit: number;
+    inside: number;
+    casualties: number;
+    vanished_inside: number;
+    never_inside: number;
+  };
+  warnings?: string[];
   not_escaped: number;
   casualties: number;
   mean_escape_time_censored_s: number | null;

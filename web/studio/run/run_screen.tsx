@@ -13,6 +13,7 @@ import { ErrorBox, Figures } from "../parts/elements";
 import { GoneJob } from "../parts/gone";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
+import { Defined } from "./definitions";
 import { EventChart } from "./event_chart";
 import { type ExitHistory, historiesOf } from "./exit_states";
 import type { Metrics } from "./metrics";
@@ -62,13 +63,33 @@ function useExits(address: string, end_s: number | undefined): ExitHistory[] {
   return histories;
 }
 
-function figuresOf(metrics: Metrics): [string, string][] {
+type Figure = [preact.JSX.Element, string];
+
+const defined = (anchor: string, name: string) => <Defined anchor={anchor}>{name}</Defined>;
+
+/** Everybody once: the numbers add up to the people. Older files have two numbers only. */
+function countsOf({ people, not_escaped, people_counts: counts }: Metrics): Figure[] {
+  const count = (name: string, value: number): Figure => [defined("people_counts", name), String(value)];
+  if (!counts) return [count("people", people), count("not escaped", not_escaped)];
+  const others: Figure[] = [
+    count("by no exit", counts.left_by_no_exit),
+    count("casualties", counts.casualties),
+    count("vanished inside", counts.vanished_inside),
+    count("never inside", counts.never_inside),
+  ];
+  return [
+    count("people", people),
+    ...counts.left_by_exit.map((exit) => count(`left by ${exit.id}`, exit.people)),
+    count("inside at the end", counts.inside),
+    ...others.filter(([, value]) => value !== "0"),
+  ];
+}
+
+function figuresOf(metrics: Metrics): Figure[] {
   const seconds = (value: number | null | undefined) => (value === null || value === undefined ? "–" : `${value.toFixed(1)} s`);
   return [
-    ["people", String(metrics.people)],
-    ["not escaped", String(metrics.not_escaped)],
-    ["escape time, median", seconds(metrics.escape_time_percentiles["t50_s"])],
-    ["90th percentile", seconds(metrics.escape_time_percentiles["t90_s"])],
+    [defined("escape_time_percentiles", "escape time, median"), seconds(metrics.escape_time_percentiles["t50_s"])],
+    [defined("escape_time_percentiles", "90th percentile"), seconds(metrics.escape_time_percentiles["t90_s"])],
   ];
 }
 
@@ -166,7 +187,13 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
       {metrics.value && (
         <section class="card run-charts" aria-labelledby="escape">
           <h2 id="escape">Escaped by time</h2>
+          <Figures list={countsOf(metrics.value)} />
           <Figures list={figuresOf(metrics.value)} />
+          {metrics.value.warnings?.map((warning) => (
+            <p key={warning} class="run-warning">
+              Warning: {warning}.
+            </p>
+          ))}
           <EscapeCurve {...chart} shares={metrics.value.escape_curve.escaped_share} alarm_s={metrics.value.alarm_s} />
           <h2>Events</h2>
           <EventChart {...chart} metrics={metrics.value} />
