@@ -101,7 +101,11 @@ void measure(const MetricsArguments& arguments) {
       scenario_of_trace(arguments.scenario, trace.header, arguments.trace);
   if (recorded) check_somebody_inside(trace, scenario, arguments.trajectory);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
-  nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
+  const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
+  nlohmann::json figures = metrics::to_json(measured);
+  for (const std::string& warning : metrics::warnings_of(measured.counts)) {
+    fmt::print(stderr, "warning: {}\n", warning);
+  }
   if (!arguments.without_guides.empty()) {
     metrics::add_to_json(
         metrics::lead_effect(trace, read_trace_file(arguments.without_guides), scenario),

@@ -461,6 +461,8 @@ class StudySummaryRow(TypedDict):
     mean_to_reference: float | None
     followed: float
     exit_use: dict[str, float]
+    left_by_no_exit: NotRequired[float]
+    """People who left where there is no exit, mean over the runs: there is a gap in the outline."""
 
 
 class StudySummary(TypedDict):

@@ -349,6 +349,8 @@ export interface StudySummary {
     t90_to_reference: number | null;
     mean_to_reference: number | null;
     followed: number;
+    /** People who left where there is no exit, mean over the runs: there is a gap in the outline. */
+    left_by_no_exit?: number;
     exit_use: Record<string, number>;
   })[];
 }

@@ -40,36 +40,45 @@ function CaseRows({ one, plan, rows }: { one: StudyPlan["cases"][number]; plan: 
 }
 
 export function TimesTable({ plan, summary }: { plan: StudyPlan; summary: StudySummary }) {
+  const leaks = summary.rows.filter((row) => (row.left_by_no_exit ?? 0) > 0);
   return (
-    <div class="scroll" tabIndex={0} role="region" aria-label="Times at which shares of the people were out">
-      <table class="compared study-times">
-        <thead>
-          <tr>
-            <th scope="col">Policy</th>
-            <th scope="col" class="number">
-              Runs
-            </th>
-            {kTimes.map((percent) => (
-              <th key={percent} scope="col" class="number">
-                T{percent} <span class="unit">s</span>
+    <>
+      <div class="scroll" tabIndex={0} role="region" aria-label="Times at which shares of the people were out">
+        <table class="compared study-times">
+          <thead>
+            <tr>
+              <th scope="col">Policy</th>
+              <th scope="col" class="number">
+                Runs
               </th>
-            ))}
-            <th scope="col" class="number">
-              All out
-            </th>
-            <th scope="col" class="number">
-              Left inside
-            </th>
-            <th scope="col" class="number">
-              T90 / bound
-            </th>
-          </tr>
-        </thead>
-        {plan.cases.map((one) => {
-          const rows = summary.rows.filter((row) => row.case === one.id);
-          return rows.length > 0 && <CaseRows key={one.id} one={one} plan={plan} rows={rows} />;
-        })}
-      </table>
-    </div>
+              {kTimes.map((percent) => (
+                <th key={percent} scope="col" class="number">
+                  T{percent} <span class="unit">s</span>
+                </th>
+              ))}
+              <th scope="col" class="number">
+                All out
+              </th>
+              <th scope="col" class="number">
+                Left inside
+              </th>
+              <th scope="col" class="number">
+                T90 / bound
+              </th>
+            </tr>
+          </thead>
+          {plan.cases.map((one) => {
+            const rows = summary.rows.filter((row) => row.case === one.id);
+            return rows.length > 0 && <CaseRows key={one.id} one={one} plan={plan} rows={rows} />;
+          })}
+        </table>
+      </div>
+      {leaks.map((row) => (
+        <p key={row.case + row.policy}>
+          Warning: {plan.cases.find((one) => one.id === row.case)?.title ?? row.case}: {row.left_by_no_exit?.toFixed(1)} people per run left
+          where there is no exit.
+        </p>
+      ))}
+    </>
   );
 }
