@@ -20,6 +20,7 @@
 #include "base/suggest.h"
 #include "geometry/polygon.h"
 #include "schemas/schemas.h"
+#include "world/exit_overlap.h"
 #include "world/json_reader.h"
 
 namespace throng::world {
@@ -108,6 +109,18 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     exits.push_back(std::move(exit));
   }
   return exits;
+}
+
+// Doors at which the same people would count.
+void reject_overlaps(const JsonValue& list, const std::vector<Exit>& exits) {
+  const std::vector<JsonValue> items = list.items();
+  for (const ExitOverlap& overlap : overlapping_exits(exits)) {
+    items[overlap.second].reject(
+        overlap.found,
+        fmt::format("exits that at most touch, none less than {:g} m behind another: those who go "
+                    "out there would count at both",
+                    kExitDepthM));
+  }
 }
 
 Facade read_facade(const JsonValue& value) {
@@ -303,7 +316,9 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   scenario.ground = read_rectangle(root["ground"]);
   scenario.ground_material = read_ground_material(root["ground"]["material"]);
   scenario.inside = read_rectangle(root["inside"]);
+  const std::size_t problems_before = problems.size();
   scenario.exits = read_exits(root["exits"], scenario.inside);
+  if (problems.size() == problems_before) reject_overlaps(root["exits"], scenario.exits);
   scenario.buildings = read_buildings(root["buildings"]);
   scenario.drones = read_drones(root["drones"], scenario.buildings);
   scenario.props = read_props(root["props"], root["scatter"], scenario);

@@ -119,6 +119,18 @@ TEST_F(ScenarioFile, ADoorMayCloseAtATime) {
   EXPECT_EQ(problems_of(document.dump()).front().where, "/exits/0/closes_at_s");
 }
 
+TEST_F(ScenarioFile, ExitsThatCountTheSamePeopleAreRefused) {
+  json document = valid_scenario();
+  document["exits"].push_back({{"id", "c"}, {"from", {10.5, 0}}, {"to", {10.5, 3}}});
+  const std::vector<Problem> problems = problems_of(document.dump());
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/exits/2");
+  EXPECT_THAT(problems[0].found, HasSubstr("exit \"c\", which lies 0.5 m behind exit \"a\""));
+  document["exits"][2]["from"] = {10, 1};
+  document["exits"][2]["to"] = {10, 3};
+  EXPECT_EQ(load(document).exits.size(), 3U) << "doors side by side";
+}
+
 TEST_F(ScenarioFile, NamesOfVersion01AreReadWithAWarning) {
   json document = valid_scenario();
   document["exits"][0]["shuts_s"] = 12.5;
