@@ -68,6 +68,7 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     check_exits(scenario, loaded, routes, findings);
     check_walls(scenario, routes, findings);
     check_ground(scenario, routes, findings);
+    check_outline(scenario, loaded, routes, findings);
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
     for (const Problem& warning : loaded.warnings) {

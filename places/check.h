@@ -26,7 +26,8 @@ struct Finding {
 
 /// Checks a scenario and its crowd: sizes that only wrong units give; buildings that overlap;
 /// people who start in walls, buildings or props or cannot get out; exits that nobody fits through,
-/// that are walled up, that nobody reaches or heads for; drones in walls or in each other. `source`
+/// that are walled up, that nobody reaches or heads for; gaps by which people get out without
+/// passing an exit; drones in walls or in each other. `source`
 /// names the scenario's file in the findings. Each error in its Menge files is a
 /// finding, too. Throws EnvironmentError when one cannot be read.
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source);

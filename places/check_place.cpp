@@ -10,6 +10,7 @@
 #include "geometry/polygon.h"
 #include "geometry/rectangle.h"
 #include "geometry/triangulate.h"
+#include "places/outline.h"
 
 namespace throng::places {
 
@@ -308,6 +309,36 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
                                "exit can be reached",
                                area, point_text(first)),
                    "ground that people can leave", "fill it with an obstacle or open a way out");
+}
+
+void check_outline(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
+                   Findings& findings) {
+  const OutlineSurvey survey = survey_outline(scenario, loaded, routes);
+  const std::string expected = "walls with no way out but the exits, which count people";
+  if (survey.is_open) {
+    findings.warning("/crowd/scene",
+                     fmt::format("a place that walls do not close: people leave it without "
+                                 "passing an exit, for example at {}",
+                                 point_text(survey.open_at)),
+                     expected, "put obstacles between the exits, or more exits");
+  }
+  for (const Gap& gap : survey.gaps) {
+    const auto distance_m = [&](const Exit& exit) {
+      return geometry::distance_to_segment(exit.from, exit.to, gap.middle);
+    };
+    const Exit& nearest = *std::min_element(
+        scenario.exits.begin(), scenario.exits.end(),
+        [&](const Exit& a, const Exit& b) { return distance_m(a) < distance_m(b); });
+    constexpr double kInDoorM = 1;
+    const bool is_door = !nearest.open && distance_m(nearest) < kInDoorM;
+    findings.warning(
+        "/crowd/scene",
+        fmt::format("a gap {:.1f} m wide at {}, {} exit \"{}\"{}, by which people leave without "
+                    "passing an open exit",
+                    gap.width_m, point_text(gap.middle), is_door ? "in" : "nearest to", nearest.id,
+                    is_door ? ", which is closed but has no obstacle" : ""),
+        expected, "close it with an <Obstacle>, or make an exit of it");
+  }
 }
 
 void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,

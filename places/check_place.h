@@ -44,6 +44,9 @@ void check_people(const world::Scenario& scenario, const LoadedCrowd& loaded, co
 void check_walls(const world::Scenario& scenario, const Routes& routes, Findings& findings);
 /// Whether there is ground that people can stand on but not leave.
 void check_ground(const world::Scenario& scenario, const Routes& routes, Findings& findings);
+/// Whether people can get out of the place without passing an exit.
+void check_outline(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
+                   Findings& findings);
 void check_exits(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                  Findings& findings);
 

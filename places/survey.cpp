@@ -198,8 +198,12 @@ Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded) {
   Routes routes;
   const float radius_m = min_radius_m(loaded);
   const Vector2d margin = Vector2d::Constant(kMarginM);
-  const crowd::Box box{(scenario.inside.min - margin).cast<float>(),
-                       (scenario.inside.max + margin).cast<float>()};
+  world::Rectangle around = scenario.inside;
+  for (const world::Exit& exit : scenario.exits) {
+    around.extend(exit.from);
+    around.extend(exit.to);
+  }
+  const crowd::Box box{(around.min - margin).cast<float>(), (around.max + margin).cast<float>()};
   routes.grid = crowd::mark_walkable(loaded.crowd.obstacles, walls_of_people(loaded), box,
                                      cell_size_m(scenario, radius_m), radius_m);
   routes.nearest_exit.assign(routes.grid.walkable.size(), Routes::kNone);

@@ -33,7 +33,7 @@ LoadedCrowd load_crowd_of(const world::Scenario& scenario);
 struct Routes {
   static constexpr int kNone = -1;
 
-  crowd::WalkableGrid grid;       ///< of `inside` and a margin around it
+  crowd::WalkableGrid grid;       ///< of `inside`, the exits and a margin around them
   std::vector<int> nearest_exit;  ///< per cell: index into the scenario's exits, or kNone
   std::vector<float> distance_m;  ///< per cell: to that exit, by steps to one of eight cells
   std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 where it is closed or walled up
