@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -15,9 +16,11 @@
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
+#include "cli/words.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/queue/executors.h"
 #include "jobs/queue/profile.h"
+#include "jobs/queue/run_warnings.h"
 #include "jobs/queue/supervisor.h"
 #include "jobs/spec/calibrations.h"
 #include "jobs/spec/task_memory.h"
@@ -73,6 +76,17 @@ jobs::Share job_share(const jobs::ResolvedJob& job) {
   return share;
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  constexpr std::size_t kMaxPrinted = 12;
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMaxPrinted); ++i) {
+    fmt::print(stderr, "throng: warning: {}\n", warnings[i]);
+  }
+  if (warnings.size() > kMaxPrinted) {
+    fmt::print(stderr, "throng: and {} more, in work/RUN/trace.h5.warnings.json\n",
+               counted(warnings.size() - kMaxPrinted, "warning"));
+  }
+}
+
 }  // namespace
 
 void add_job_options(CLI::App& command, JobArguments& arguments) {
@@ -121,6 +135,7 @@ void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved
         [&](const jobs::JobProgress& progress) { show_job(bar, progress); }, interrupt.token(),
         job_share(resolved));
   }
+  print_warnings(jobs::kept_warnings(folder, job.runs));
   fmt::print("{}\n", folder.dataset().string());
   if (failures.empty()) {
     if (arguments.profile) fmt::print("{}", jobs::profile_table(folder, job));

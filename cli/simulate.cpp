@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/commands.h"
@@ -12,6 +13,7 @@
 #include "cli/progress_bar.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/rehearsal.h"
 #include "jobs/spec/scenario_mix.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -34,19 +36,20 @@ void simulate(const SimulateArguments& arguments) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});
   }
+  const world::Scenario scenario =
+      jobs::scenario_of(jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder());
   std::vector<Problem> warnings;
   {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
     warnings = sim::simulate(
-        jobs::scenario_of(jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder()),
-        jobs::run_spec(job, arguments.run), arguments.trace_file,
+        scenario, jobs::run_spec(job, arguments.run), arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },
         interrupt.token(), arguments.pilot_logs);
   }
-  for (const Problem& warning : warnings) {
+  for (const Problem& warning : jobs::with_figure_warnings(std::move(warnings), scenario)) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
   fmt::print("{}\n", arguments.trace_file);

@@ -56,6 +56,7 @@ std::string Finding::text() const {
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source) {
   Findings findings(source);
   check_sizes(scenario, findings);
+  check_drawn_ground(scenario, findings);
   check_buildings(scenario, findings);
   check_drones(scenario, findings);
   std::vector<Finding> all = findings.take();
@@ -69,6 +70,7 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     check_walls(scenario, routes, findings);
     check_ground(scenario, routes, findings);
     check_outline(scenario, loaded, routes, findings);
+    check_outsiders(scenario, loaded, findings);
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
     for (const Problem& warning : loaded.warnings) {
@@ -78,6 +80,22 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     append(findings_of(error, source), all);
   }
   return all;
+}
+
+std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source) {
+  Findings findings(source);
+  check_sizes(scenario, findings);
+  if (any_error(findings.take())) return {};
+  check_drawn_ground(scenario, findings);
+  if (!scenario.has_crowd()) return findings.take();
+  try {
+    const LoadedCrowd loaded = load_crowd_of(scenario);
+    check_outline(scenario, loaded, find_routes(scenario, loaded), findings);
+    check_outsiders(scenario, loaded, findings);
+  } catch (const InputError&) {
+    return {};  // said when the crowd is loaded for a run
+  }
+  return findings.take();
 }
 
 std::vector<Finding> check_files(const fs::path& file_or_folder) {

@@ -32,8 +32,13 @@ struct Finding {
 /// finding, too. Throws EnvironmentError when one cannot be read.
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source);
 
-/// The same for a scenario file, or for all scenarios below a folder; what cannot be loaded is a
-/// finding. Throws InputError when there is no such file or folder, or no scenario in it.
+/// Those warnings of check() that concern its figures: who counts, and when. None for a scenario
+/// that is unfit otherwise.
+std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source);
+
+/// The same as check() for a scenario file, or for all scenarios below a folder; what cannot be
+/// loaded is a finding. Throws InputError when there is no such file or folder, or no scenario in
+/// it.
 std::vector<Finding> check_files(const std::filesystem::path& file_or_folder);
 
 /// Whether any of them is an error.

@@ -10,7 +10,7 @@
 #include "geometry/polygon.h"
 #include "geometry/rectangle.h"
 #include "geometry/triangulate.h"
-#include "places/outline.h"
+#include "places/sufferers.h"
 
 namespace throng::places {
 
@@ -20,10 +20,6 @@ using world::Exit;
 using world::Scenario;
 
 namespace {
-
-std::string point_text(const Vector2d& point) {
-  return fmt::format("[{:.4g}, {:.4g}]", point.x(), point.y());
-}
 
 using Outline = std::vector<Vector2d>;
 
@@ -45,26 +41,6 @@ double overlap_m2(const Building& a, const Building& b) {
     }
   }
   return area;
-}
-
-/// The first of those who have the same trouble, and how many more there are.
-class Sufferers {
- public:
-  void add(std::size_t agent, const Vector2d& at, std::string what) {
-    if (count_++ == 0) first_ = fmt::format("agent {} at {} {}", agent, point_text(at), what);
-  }
-  bool any() const { return count_ > 0; }
-  std::string text() const {
-    return count_ > 1 ? fmt::format("{}, and {} more", first_, count_ - 1) : first_;
-  }
-
- private:
-  std::size_t count_ = 0;
-  std::string first_;
-};
-
-bool is_to_arrive_or_there(const LoadedCrowd& loaded, std::size_t agent) {
-  return loaded.is_person[agent] != 0 && loaded.crowd.agents.position[agent].allFinite();
 }
 
 /// Whether somebody could head for an exit: one of its goals is in a set that a state chooses from.
@@ -309,36 +285,6 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
                                "exit can be reached",
                                area, point_text(first)),
                    "ground that people can leave", "fill it with an obstacle or open a way out");
-}
-
-void check_outline(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
-                   Findings& findings) {
-  const OutlineSurvey survey = survey_outline(scenario, loaded, routes);
-  const std::string expected = "walls with no way out but the exits, which count people";
-  if (survey.is_open) {
-    findings.warning("/crowd/scene",
-                     fmt::format("a place that walls do not close: people leave it without "
-                                 "passing an exit, for example at {}",
-                                 point_text(survey.open_at)),
-                     expected, "put obstacles between the exits, or more exits");
-  }
-  for (const Gap& gap : survey.gaps) {
-    const auto distance_m = [&](const Exit& exit) {
-      return geometry::distance_to_segment(exit.from, exit.to, gap.middle);
-    };
-    const Exit& nearest = *std::min_element(
-        scenario.exits.begin(), scenario.exits.end(),
-        [&](const Exit& a, const Exit& b) { return distance_m(a) < distance_m(b); });
-    constexpr double kInDoorM = 1;
-    const bool is_door = !nearest.open && distance_m(nearest) < kInDoorM;
-    findings.warning(
-        "/crowd/scene",
-        fmt::format("a gap {:.1f} m wide at {}, {} exit \"{}\"{}, by which people leave without "
-                    "passing an open exit",
-                    gap.width_m, point_text(gap.middle), is_door ? "in" : "nearest to", nearest.id,
-                    is_door ? ", which is closed but has no obstacle" : ""),
-        expected, "close it with an <Obstacle>, or make an exit of it");
-  }
 }
 
 void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,

@@ -35,6 +35,8 @@ class Findings {
 };
 
 void check_sizes(const world::Scenario& scenario, Findings& findings);
+/// Whether ground is drawn wherever people are inside.
+void check_drawn_ground(const world::Scenario& scenario, Findings& findings);
 void check_buildings(const world::Scenario& scenario, Findings& findings);
 void check_drones(const world::Scenario& scenario, Findings& findings);
 /// Whether people start where they can be and can get out from there.
@@ -44,6 +46,9 @@ void check_people(const world::Scenario& scenario, const LoadedCrowd& loaded, co
 void check_walls(const world::Scenario& scenario, const Routes& routes, Findings& findings);
 /// Whether there is ground that people can stand on but not leave.
 void check_ground(const world::Scenario& scenario, const Routes& routes, Findings& findings);
+/// Whether people start or arrive outside of the place, where they count as escaped.
+void check_outsiders(const world::Scenario& scenario, const LoadedCrowd& loaded,
+                     Findings& findings);
 /// Whether people can get out of the place without passing an exit.
 void check_outline(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                    Findings& findings);

@@ -34,11 +34,12 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
                               const std::stop_token& stop = {});
 
 /// Simulates one run and writes the trace at `trace_file` (complete or absent). Same scenario and
-/// spec give the same bytes. Returns what was ignored in the scenario's files and which drones
-/// could not hold. Throws InputError for a spec the scenario cannot serve (too many people, unknown
-/// airframe or policy, waypoint below ground or inside a building), Cancelled when `stop` asks.
-/// With a `pilot_log_folder` a file DRONE.csv there holds what each drone was asked to do, as the
-/// policy "pilot_log" reads it.
+/// spec give the same bytes. Returns what was ignored in the scenario's files, which drones could
+/// not hold, and why the figures of its people say nothing (sim/people/people_watch.h). Throws
+/// InputError for a spec the scenario cannot serve (too many people, unknown airframe or policy,
+/// waypoint below ground or inside a building), Cancelled when `stop` asks. With a
+/// `pilot_log_folder` a file DRONE.csv there holds what each drone was asked to do, as the policy
+/// "pilot_log" reads it.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               const std::filesystem::path& trace_file,
                               const RunProgress& progress = {}, const std::stop_token& stop = {},

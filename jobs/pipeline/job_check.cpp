@@ -9,6 +9,7 @@
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/job_warnings.h"
 #include "jobs/pipeline/recording.h"
+#include "jobs/pipeline/rehearsal.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/scenario_mix.h"
@@ -81,6 +82,10 @@ InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int 
     if (view) checked.views.push_back(std::move(*view));
   }
   checked.warnings = warnings_of_place(job, scenario, crowd, run);
+  for (Problem& warning : figure_warnings(scenario)) checked.warnings.push_back(std::move(warning));
+  for (Problem& warning : rehearse(job, scenario, run, checked.people)) {
+    checked.warnings.push_back(std::move(warning));
+  }
   return checked;
 }
 

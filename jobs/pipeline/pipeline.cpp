@@ -13,8 +13,10 @@
 #include "camera/files.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/recording.h"
+#include "jobs/pipeline/rehearsal.h"
 #include "jobs/pipeline/run_writers.h"
 #include "jobs/queue/publication.h"
+#include "jobs/queue/run_warnings.h"
 #include "jobs/queue/trace_seal.h"
 #include "jobs/spec/environment.h"
 #include "jobs/spec/scenario_mix.h"
@@ -39,6 +41,7 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   sim::RunSpec spec;
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
   spec.duration_s = job.capture.to_s;
+  if (!job.drones.empty()) spec.images_from_s = job.capture.from_s;
   spec.people = job.agents;
   spec.crowd = job.crowd;
   if (job.recorded) {
@@ -65,17 +68,18 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
-  const std::vector<Problem> warnings =
-      sim::simulate(scenario_of(in_scenario_of_run(job, run), scenarios), run_spec(job, run), trace,
-                    progress, stop);
+  const world::Scenario scenario = scenario_of(in_scenario_of_run(job, run), scenarios);
+  std::vector<std::string> warnings;
+  for (const Problem& warning : with_figure_warnings(
+           sim::simulate(scenario, run_spec(job, run), trace, progress, stop), scenario)) {
+    warnings.push_back(without_folders(warning.text(), {folder.path(), scenarios}));
+  }
+  keep_warnings(trace, warnings);
   seal_trace(trace);
   // All runs of a scenario read the same files.
   const std::vector<int> first = first_runs(job);
   if (std::find(first.begin(), first.end(), run) == first.end()) return;
-  for (const Problem& warning : warnings) {
-    fmt::print(stderr, "warning: {}\n",
-               without_folders(warning.text(), {folder.path(), scenarios}));
-  }
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 namespace {

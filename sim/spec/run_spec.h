@@ -84,7 +84,8 @@ struct CrowdSpec {
 
 struct RunSpec {
   std::uint64_t seed = 1;
-  double duration_s = 120;    ///< simulated time; the run may not end earlier
+  double duration_s = 120;              ///< simulated time; the run may not end earlier
+  std::optional<double> images_from_s;  ///< time of the first image, if any; for warnings only
   std::optional<int> people;  ///< how many of the scenario's people take part; default all
   CrowdSpec crowd;
   std::shared_ptr<const world::Trace> recorded;  ///< people to replay instead of the scenario's

@@ -90,6 +90,11 @@ class Check(unittest.TestCase):
         size = sum(file.stat().st_size for file in files)
         self.assertLess(abs(size / answer["estimate"]["disk_bytes"] - 1), 1, (size, answer["estimate"]))
 
+    def test_an_alarm_that_nobody_notices(self):
+        paper = {"scenario": "city_square/huang2016/second_nearest", "capture": {"to_s": 60}}
+        self.assertIn("that none of 260 people noticed", self.warned(**paper)["/scenario"])
+        self.assertEqual(self.warned(**paper, crowd={"compat": "huang2016"}), {})
+
     def test_text(self):
         done = self.check({**SQUARE, "environment": {"rain_mm_per_h": 20}})
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -114,6 +114,36 @@ TEST_F(CheckYard, SeesPeopleWhoAreWalledIn) {
   EXPECT_THAT(found.back().problem.found, HasSubstr("no way to any open exit"));
 }
 
+TEST_F(CheckYard, WarnsOfPeopleWhoStartOutside) {
+  yard.generator = R"(<Generator type="explicit"><Agent p_x="0" p_y="0"/><Agent p_x="13" p_y="6"/>
+                      <Agent p_x="-16" p_y="7"/></Generator>)";
+  const std::vector<Finding> found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_THAT(found[0].text(), HasSubstr("/inside: found agent 1 at [13, 6] outside of \"inside\", "
+                                         "and 1 more, out of 3 people"));
+}
+
+TEST_F(CheckYard, WarnsOfGroundThatIsSmallerThanThePlace) {
+  yard.scenario["ground"]["max"] = {11, 30};
+  const std::vector<Finding> found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_THAT(found[0].text(), HasSubstr("/ground: found ground from [-30, -30] to [11, 30], "
+                                         "smaller than \"inside\", from [-12, -12] to [12, 12]"));
+}
+
+TEST_F(CheckYard, FiguresAreCheckedByThemselves) {
+  yard.scenario["ground"]["max"] = {11, 30};
+  yard.scenario["drones"][0]["start"] = {-6, 6, 3.9};
+  yard.scenario["drones"][0]["start"][1] = 8.2;
+  const world::Scenario scenario = world::load_scenario(yard.write(folder), "yard");
+  EXPECT_EQ(check(scenario, "yard").size(), 2U);
+  const std::vector<Finding> figures = check_figures(scenario, "yard");
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].problem.where, "/ground");
+}
+
 TEST_F(CheckYard, SeesPeopleInProps) {
   yard.scenario["props"] = nlohmann::json::parse(R"([{"kind": "stall", "position": [-3, -3]}])");
   expect_error("/crowd/scene", "in prop 0");

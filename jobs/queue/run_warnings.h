@@ -1,0 +1,19 @@
+// Warnings of a job's simulations, kept beside their traces for the end of the job.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "jobs/queue/folder.h"
+
+namespace throng::jobs {
+
+/// Keeps the texts of a run's warnings beside its trace. Throws EnvironmentError.
+void keep_warnings(const std::filesystem::path& trace, const std::vector<std::string>& texts);
+
+/// The warnings of the first `runs` runs of a job, each text once: "run000: ...". Files that
+/// cannot be read are left out.
+std::vector<std::string> kept_warnings(const JobFolder& folder, int runs);
+
+}  // namespace throng::jobs

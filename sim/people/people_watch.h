@@ -1,0 +1,69 @@
+// Runs whose figures say nothing: people who start outside, whom no alarm reaches, who never move.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+
+/// The finding about a run without images that ends before its alarm (s).
+Problem late_alarm(double alarm_s, double end_s);
+
+class PeopleWatch {
+ public:
+  /// The scenario must outlive it. `images_from_s`: time of the first image, if there are any.
+  PeopleWatch(const world::Scenario& scenario, const world::TraceHeader& header,
+              std::optional<double> images_from_s);
+
+  /// Steps come in order of time.
+  void look(const world::CrowdStep& step);
+
+  /// Whether somebody knows of the alarm, as docs/metrics.md defines it.
+  bool anybody_noticed() const { return noticed_ > 0; }
+
+  /// Findings about the run so far, at most one of each kind. JSON pointers into a job.
+  std::vector<Problem> warnings() const;
+  /// Those of them about people who do not do what a run is about: of several reasons the first.
+  std::vector<Problem> idleness() const;
+
+ private:
+  struct Person {
+    std::size_t agent = 0;
+    bool arrived = false;
+    bool escaped = false;
+    bool started = false;  ///< was inside at the alarm or arrived later
+    bool noticed = false;
+    bool heads_out = false;  ///< since then: for an exit or behind a guide
+    bool moved = false;      ///< since then
+    std::int8_t intent_before = -1;
+    Eigen::Vector2f start = Eigen::Vector2f::Zero();  ///< m; where it was at first since then
+  };
+
+  void look_at(Person& person, const world::CrowdStep& step);
+  bool notices(const Person& person, const world::CrowdStep& step) const;
+  double start_s() const { return alarm_s_.value_or(0); }
+  void add_emptiness(std::vector<Problem>& warnings) const;
+
+  const world::Scenario& scenario_;
+  std::optional<double> alarm_s_;
+  std::optional<double> images_from_s_;
+  bool are_recorded_;
+  bool has_aware_states_;
+  std::vector<bool> is_aware_;  ///< per state
+  std::vector<Person> people_;
+  std::size_t arrived_ = 0;
+  std::size_t outside_ = 0;  ///< people who were so when they arrived
+  std::size_t started_ = 0;
+  std::size_t noticed_ = 0;
+  double time_s_ = 0;
+  double last_inside_s_ = 0;  ///< when somebody was inside
+};
+
+}  // namespace throng::sim
