@@ -13,15 +13,13 @@ namespace {
 
 /// Sides of outlines are no longer, so that lenses bend them as they bend what is on the ground.
 constexpr double kMaxSideM = 0.5;
-/// Nearer to the camera's plane nothing is projected.
-constexpr double kMinDistanceM = 0.1;
 
 /// The part of a polygon on the ground that is in front of the camera (Sutherland and Hodgman,
 /// 1974), m.
 std::vector<Eigen::Vector3d> in_front(const std::vector<Eigen::Vector2d>& polygon,
                                       const camera::Camera& camera) {
   const auto depth_of = [&](const Eigen::Vector3d& point) {
-    return (camera.pose.R * point + camera.pose.t).z() - kMinDistanceM;
+    return (camera.pose.R * point + camera.pose.t).z() - camera::kNearPlaneM;
   };
   std::vector<Eigen::Vector3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

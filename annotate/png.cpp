@@ -126,7 +126,8 @@ std::string depth_png(const render::Frame& frame) {
   constexpr float kTooFar = 65536;
   centimeters.resize(frame.depth_m.size());
   std::transform(frame.depth_m.begin(), frame.depth_m.end(), centimeters.begin(), [](float depth) {
-    const float rounded = depth * kDepthPerMeter + 0.5F;
+    // Surfaces that nearly touch the camera are not nothing.
+    const float rounded = std::max(depth * kDepthPerMeter + 0.5F, 1.0F);
     return static_cast<std::uint16_t>(rounded < kTooFar ? static_cast<int>(rounded) : 0);
   });
   return png_bytes({frame.width(), frame.height(), 1}, centimeters);

@@ -11,6 +11,11 @@
 
 namespace throng::camera {
 
+/// Nothing closer to the camera's plane is rendered, or in a box (m). Nothing but a surface
+/// that touches the lens of a drone on the ground is so close. Depth is a float of 1 / z
+/// without a far plane, as exact with a plane of 1 mm as with one of 0.1 m.
+inline constexpr double kNearPlaneM = 0.001;
+
 struct Intrinsics {
   int width = 0;
   int height = 0;

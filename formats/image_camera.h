@@ -15,9 +15,6 @@ camera::Camera camera_of(const Image& image);
 /// count as that far.
 double pixels_across(const camera::Camera& camera, const Eigen::Vector3d& world, double size_m);
 
-/// Nothing nearer to the camera's plane is drawn or in a box, m.
-constexpr double kNearPlaneM = 0.1;
-
 /// The place in bbox_amodal for a point of the body, in box coordinates. bbox_amodal is cut off one
 /// size of the image beyond its borders (a quarter with a lens): the point is moved to there along
 /// each axis, and then lies in bbox_amodal wherever the point is.

@@ -54,7 +54,7 @@ ExitsCheck::Outline ExitsCheck::outline_of(const camera::Camera& camera, const j
     const Vector2d point = point_at(written);
     const auto corner = on_ground(camera, point);
     if (!corner) return {};
-    constexpr double kCutM = 0.2;  // the polygon is cut off at 0.1 m
+    constexpr double kCutM = 0.2;  // the polygon may be cut off
     if (!(camera.project({corner->x(), corner->y(), 0}).depth_m > kCutM)) return {};
     std::array<Vector2d, 4> rounding;
     constexpr double kRoundingPx = 0.01;  // twice, so that it leaves the lens where that cuts

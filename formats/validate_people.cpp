@@ -199,14 +199,15 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
 
 /// The upright box holds the body: as seen by the camera, it holds the box in the image, and its
 /// middle lies in that. Of people who reach behind the near plane, the image's box is that of a
-/// part.
+/// part; close to it a millimeter, to which the box is written, is many pixels.
 void check_projection(const Image& image, const Person& person, Findings& findings) {
   const Eigen::Matrix<double, 3, 8> in_camera = corners_in_camera(image, person);
-  if (!(in_camera.row(2).maxCoeff() > kNearPlaneM)) {
+  if (!(in_camera.row(2).maxCoeff() > camera::kNearPlaneM)) {
     findings.add("box-3d", person, "box_3d is behind the camera");
     return;
   }
-  if (!(in_camera.row(2).minCoeff() > kNearPlaneM)) return;
+  constexpr double kCloseM = 0.1;
+  if (!(in_camera.row(2).minCoeff() > kCloseM)) return;
   const Eigen::Matrix<double, 3, 8> corners = image.camera_matrix * in_camera;
   const Eigen::Vector2d middle =
       in_amodal_limit(image, Eigen::Vector3d(corners.rowwise().mean()).hnormalized().array() + 0.5);
@@ -236,7 +237,8 @@ void check_keypoints_3d(const camera::Camera& camera, const Person& person, Find
     const auto seen =
         camera.project({at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>()});
     // Places are written to a millimeter, pixels to a hundredth; the truth is in float.
-    const double slack = 0.03 + 2e-3 * camera.intrinsics.fx_px / std::max(seen.depth_m, 0.1);
+    const double slack =
+        0.03 + 2e-3 * camera.intrinsics.fx_px / std::max(seen.depth_m, camera::kNearPlaneM);
     if (seen.visible &&
         std::hypot(seen.pixel.x() + 0.5 - point.x, seen.pixel.y() + 0.5 - point.y) <= slack) {
       continue;

@@ -12,8 +12,8 @@
 
 namespace throng::render {
 
-/// Nothing closer to the camera plane is rendered (m); also in shaders/view.glsl.
-inline constexpr float kNear = 0.1F;
+/// camera::kNearPlaneM as shaders count; also in shaders/view.glsl.
+inline constexpr float kNear = static_cast<float>(camera::kNearPlaneM);
 
 /// Pixels around the image in which triangles are rasterized rather than clipped.
 inline constexpr int kGuardBand = 1024;

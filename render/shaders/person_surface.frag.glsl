@@ -17,7 +17,7 @@ void main() {
 #endif
   vec3 n = normalize(gl_FrontFacing ? normal : -normal);  // hair is rendered from both sides
   normal_out = vec4((n * 127.0 + 128.0) / 255.0, 1.0);
-  bool known = is_next != 0u && next.z >= 0.1;  // kNear of view.glsl
+  bool known = is_next != 0u && next.z >= 0.001;  // kNear of view.glsl
   flow = known ? vec4(next.xy / next.z - gl_FragCoord.xy, next.z, 0.0)
                : vec4(uintBitsToFloat(0x7FC00000u));
   body_part = surface.y;

@@ -8,7 +8,7 @@ layout(std140, binding = 0) uniform View {
   vec4 viewport;  // corner in window coordinates, then 2 / size
 } view;
 
-const float kNear = 0.1;          // m; also in render/view.h
+const float kNear = 0.001;        // m; also in render/view.h
 const float kSnap = 256.0;        // positions per pixel
 
 invariant gl_Position;

@@ -85,9 +85,10 @@ TEST(Png, GivesBackNoiseOfAnySizeAndDepthExactly) {
 }
 
 TEST(Png, DepthIsInCentimetersAndTheSkyZero) {
-  render::Frame frame = empty_frame(4, 1);
-  frame.depth_m = {std::numeric_limits<float>::infinity(), 12.344F, 655.35F, 700.0F};
-  EXPECT_EQ(decode(depth_png(frame)).samples, (std::vector<std::uint16_t>{0, 1234, 65535, 0}));
+  render::Frame frame = empty_frame(5, 1);
+  frame.depth_m = {std::numeric_limits<float>::infinity(), 12.344F, 655.35F, 700.0F, 0.001F};
+  // A surface that touches the lens is no sky.
+  EXPECT_EQ(decode(depth_png(frame)).samples, (std::vector<std::uint16_t>{0, 1234, 65535, 0, 1}));
 }
 
 TEST(Png, InstancesTellPeopleAndThingsApart) {
