@@ -158,13 +158,17 @@ nlohmann::json attributes_of(const skinning::Population& population,
 }  // namespace
 
 std::string_view name_of(Activity activity) {
-  constexpr std::array<std::string_view, 6> kNames = {"waiting",   "walking",   "running",
-                                                      "following", "panicking", "lying"};
+  constexpr std::array<std::string_view, 8> kNames = {
+      "waiting", "walking", "running", "following", "panicking", "lying", "falling", "getting_up"};
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
-Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mps) {
-  if ((flags & world::kFallen) != 0) return Activity::lying;
+Activity activity_of(std::string_view state, std::uint8_t flags, skinning::Actions actions,
+                     double speed_mps) {
+  using skinning::Action;
+  if (actions.has(Action::fall)) return Activity::falling;
+  if (actions.has(Action::get_up)) return Activity::getting_up;
+  if (actions.has(Action::lie) || (flags & world::kFallen) != 0) return Activity::lying;
   if ((flags & world::kPanicked) != 0) return Activity::panicking;
   if (speed_mps < kStandingMps) return Activity::waiting;
   if (says_follow(state)) return Activity::following;
@@ -194,13 +198,13 @@ std::size_t PersonFacts::step_at(double time_s) const {
 }
 
 void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
-                         double speed_mps) const {
+                         skinning::Actions actions, double speed_mps) const {
   check(agent < fixed_.size(), "facts are those of the run that is drawn");
   const std::size_t at = trace_->at(step_at(time_s), agent);
   const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
   const bool is_named = state < behavior_.size();
-  const Activity activity =
-      activity_of(is_named ? trace_->header.state_names[state] : "", trace_->flags[at], speed_mps);
+  const Activity activity = activity_of(is_named ? trace_->header.state_names[state] : "",
+                                        trace_->flags[at], actions, speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
   fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));

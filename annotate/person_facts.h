@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "skinning/animate/action.h"
 #include "skinning/appearance.h"
 #include "skinning/population.h"
 #include "world/trace.h"
@@ -14,14 +15,25 @@
 namespace throng::annotate {
 
 /// A person's activity, independent of the names in the behavior file.
-enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
+enum class Activity : std::uint8_t {
+  waiting,
+  walking,
+  running,
+  following,
+  panicking,
+  lying,
+  falling,
+  getting_up
+};
 std::string_view name_of(Activity activity);
 
-/// Of somebody in a behavior's state of this name, with the trace's flags: lying with
-/// world::kFallen, else panicking with world::kPanicked, else by speed: below 0.2 m/s they wait;
-/// faster they follow if the state's name says so, and above 2.07 m/s they run (Hreljac, 1993:
-/// where people change from walking to running).
-Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mps);
+/// The activity of somebody in a behavior's state of this name, with the trace's flags, whose body
+/// is rendered in such a motion: falling, lying or getting up where that shows it, and lying with
+/// world::kFallen where it shows neither; else panicking with world::kPanicked, else by
+/// speed: below 0.2 m/s they wait; faster they follow if the state's name says so, and above
+/// 2.07 m/s they run (Hreljac, 1993: where people change from walking to running).
+Activity activity_of(std::string_view state, std::uint8_t flags, skinning::Actions actions,
+                     double speed_mps);
 
 class PersonFacts {
  public:
@@ -32,7 +44,8 @@ class PersonFacts {
 
   /// Appends `,"state":..,"behaviour":..,"exit":..` of an agent at a time (docs/formats.md); the
   /// last two only where there are any.
-  void append(std::string& text, std::uint32_t agent, double time_s, double speed_mps) const;
+  void append(std::string& text, std::uint32_t agent, double time_s, skinning::Actions actions,
+              double speed_mps) const;
 
   /// Appends `,"group":..,"attributes":{..}`: what stays the same all run long.
   void append_track(std::string& text, std::uint32_t agent) const;

@@ -181,7 +181,7 @@ void append_person_members(std::string& text, const CocoImage& image, const Pers
   if (label.danger) append_danger(text, *label.danger);
   if (label.occluders) append_occluders(text, *label.occluders);
   if (image.facts != nullptr) {
-    image.facts->append(text, label.agent, image.time_s, person.velocity.norm());
+    image.facts->append(text, label.agent, image.time_s, person.actions, person.velocity.norm());
   }
 }
 

@@ -26,7 +26,9 @@ enum class Category : std::uint8_t {
 /// Standing and walking people are pedestrians; in other poses they are "people".
 Category category_of(const Person& person) {
   if (person.is_ignored) return Category::ignored;
-  return person.state == "lying" ? Category::people : Category::pedestrian;
+  const bool is_down =
+      person.state == "lying" || person.state == "falling" || person.state == "getting_up";
+  return is_down ? Category::people : Category::pedestrian;
 }
 
 /// Trains are "others"; drones have no category: nothing.

@@ -19,7 +19,9 @@ const std::vector<Property>& properties() {
       {"none", {"person"}},
       {"sex", {"female", "male"}},
       {"age_band", {"child", "teenager", "adult", "senior"}},
-      {"state", {"waiting", "walking", "running", "following", "panicking", "lying"}},
+      {"state",
+       {"waiting", "walking", "running", "following", "panicking", "lying", "falling",
+        "getting_up"}},
       {"carries", {"nothing", "backpack", "shoulder bag", "handbag", "umbrella"}},
   };
   return table;

@@ -331,7 +331,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
 
     @property
     def states(self) -> list[str | None]:
-        """Activities: waiting, walking, running, following, panicking or lying."""
+        """Activities: waiting, walking, running, following, panicking, lying, falling or getting_up."""
         return [record.get("state") for record in self.records]
 
     @property

@@ -200,6 +200,8 @@ void RestLayer::hold(const Clip& clip, double begin, double end, double raising_
 }
 
 void RestLayer::lie(const Stretch& stretch, bool first, bool last) {
+  // A person who is up at the last step has got up before.
+  const bool stays_down = last && trajectory_.moments()[stretch.last].down;
   const auto begin = static_cast<double>(stretch.first);
   const auto end = static_cast<double>(stretch.last);
   const double before = std::max(begin - steps(1.0), 0.0);
@@ -214,15 +216,18 @@ void RestLayer::lie(const Stretch& stretch, bool first, bool last) {
   const double lying = clip->frames - 1;
   double lies_from = begin;
   if (!first) {
-    lies_from = begin + std::min(steps(kFallS), 0.5 * (end - begin));
+    lies_from = begin + (stays_down ? steps(kFallS) : std::min(steps(kFallS), 0.5 * (end - begin)));
     // Slowly at first, as everything falls.
     const double halfway = std::lerp(begin, lies_from, 0.6);
     add(*clip, begin, halfway, 0, 0.45 * lying);
     add(*clip, halfway, lies_from, 0.45 * lying, lying);
   }
-  const double lies_to = last ? end + 1 : end - std::min(steps(kGetUpS), 0.5 * (end - begin));
+  const double lies_to = stays_down ? std::max(end, lies_from) + 1
+                                    : end - std::min(steps(kGetUpS), 0.5 * (end - begin));
   add(*clip, lies_from, lies_to, lying, lying);
-  if (!last) add(*clip, lies_to, end, lying, 0);
+  if (stays_down) return;
+  add(*clip, lies_to, end, lying, 0);
+  if (last) idle(end, end + 1);
 }
 
 }  // namespace throng::skinning

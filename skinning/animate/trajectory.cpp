@@ -100,8 +100,12 @@ void Trajectory::find_stretches() {
     ++step;
   }
   drop_short_walk();
-  if (stretches_.empty()) {
-    stretches_.push_back({moments_[0].down ? Activity::lying : Activity::standing, 0, 0});
+  const bool falls_last = moments_[last()].down &&
+                          (stretches_.empty() || stretches_.back().activity != Activity::lying);
+  if (falls_last) {
+    stretches_.push_back({Activity::lying, last(), last()});
+  } else if (stretches_.empty()) {
+    stretches_.push_back({Activity::standing, 0, 0});
   }
 }
 

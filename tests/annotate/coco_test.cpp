@@ -265,7 +265,7 @@ TEST_F(Coco, WhoLiesIsLabeledSoWhateverTheirStateIsCalled) {
   for (std::uint32_t agent = 0; agent < 30; ++agent) {
     const auto state_at = [&](double time_s) {
       std::string text = "{\"agent\":0";
-      facts.append(text, agent, time_s, 0.0);
+      facts.append(text, agent, time_s, {}, 0.0);
       return json::parse(text + "}").at("state").get<std::string>();
     };
     EXPECT_EQ(state_at(0.05), "waiting");

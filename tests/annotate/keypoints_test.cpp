@@ -222,13 +222,18 @@ TEST(Keypoints, OutsideOfTheImageAreNotLabeled) {
 TEST(PersonFacts, ActivityFollowsFromStateFlagsAndSpeed) {
   constexpr std::uint8_t kCalm = world::kPresent;
   constexpr std::uint8_t kFell = world::kPresent | world::kFallen;
-  EXPECT_EQ(activity_of("Walk", kFell, 0), Activity::lying);
-  EXPECT_EQ(activity_of("Flee", kFell | world::kPanicked, 1), Activity::lying);
-  EXPECT_EQ(activity_of("Walk", kCalm | world::kPanicked, 3), Activity::panicking);
-  EXPECT_EQ(activity_of("FollowDrone", kCalm, 1), Activity::following);
-  EXPECT_EQ(activity_of("FollowDrone", kCalm, 0.1), Activity::waiting);
-  EXPECT_EQ(activity_of("Walk", kCalm, 1.3), Activity::walking);
-  EXPECT_EQ(activity_of("Walk", kCalm, 2.5), Activity::running);
+  using skinning::Action;
+  const skinning::Actions none;
+  EXPECT_EQ(activity_of("Walk", kFell, none, 0), Activity::lying);
+  EXPECT_EQ(activity_of("Flee", kFell | world::kPanicked, none, 1), Activity::lying);
+  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::fall), 1), Activity::falling);
+  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::lie), 0), Activity::lying);
+  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::get_up), 0), Activity::getting_up);
+  EXPECT_EQ(activity_of("Walk", kCalm | world::kPanicked, none, 3), Activity::panicking);
+  EXPECT_EQ(activity_of("FollowDrone", kCalm, none, 1), Activity::following);
+  EXPECT_EQ(activity_of("FollowDrone", kCalm, none, 0.1), Activity::waiting);
+  EXPECT_EQ(activity_of("Walk", kCalm, none, 1.3), Activity::walking);
+  EXPECT_EQ(activity_of("Walk", kCalm, none, 2.5), Activity::running);
   EXPECT_EQ(name_of(Activity::running), "running");
 }
 

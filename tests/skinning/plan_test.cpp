@@ -242,6 +242,45 @@ TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
   EXPECT_LT(placed(two_people(), 0, plan_for(moments), moments, 0, head).z(), 0.3F);
 }
 
+// Flags may change at any step, the last one included. The pose is that of the action, and a person
+// is down in action exactly while the flag says so.
+TEST(Plan, PoseActionAndFlagChangeTogether) {
+  const Vertex head =
+      made_up_vertex(made_up_joints()[index_of(Bone::head)], Bone::head, Bone::head, 0);
+  const std::size_t last = 99;
+  for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{{40, 80},
+                                                                                 {40, last},
+                                                                                 {40, last + 1},
+                                                                                 {90, last + 1},
+                                                                                 {last, last + 1},
+                                                                                 {0, last},
+                                                                                 {0, 50},
+                                                                                 {60, 70},
+                                                                                 {60, 62},
+                                                                                 {97, 99},
+                                                                                 {20, 21}}) {
+    SCOPED_TRACE(std::to_string(from) + " to " + std::to_string(to));
+    std::vector<Moment> moments = straight_trajectory(speeds({{100, 0}}), kDtS);
+    moments.resize(last + 1);
+    for (std::size_t step = from; step < to; ++step) moments[step].down = true;
+    const MotionPlan plan = plan_for(moments);
+    float before_m = -1;
+    for (double step = 0; step <= static_cast<double>(last); step += 0.25) {
+      const Actions actions = plan.actions_at(step);
+      const bool is_down =
+          actions.has(Action::fall) || actions.has(Action::lie) || actions.has(Action::get_up);
+      EXPECT_EQ(is_down, moments[static_cast<std::size_t>(step)].down) << step;
+      const float head_m = placed(two_people(), 0, plan, moments, step, head).z();
+      EXPECT_LT(head_m, actions.has(Action::lie) ? 0.3F : 2.0F) << step;
+      EXPECT_GT(head_m, is_down ? -0.1F : 1.3F) << step;
+      const bool is_slow = to - from > 20 || to > last;
+      const float moved_m = is_slow && before_m >= 0 ? std::abs(head_m - before_m) : 0;
+      EXPECT_LT(moved_m, 0.25F) << step;
+      before_m = head_m;
+    }
+  }
+}
+
 TEST(Plan, PeopleLookUpAtWhatFlies) {
   std::vector<Moment> moments = straight_trajectory(speeds({{150, 0}, {100, 1.3}}), kDtS);
   for (std::size_t step = 50; step < 100; ++step) moments[step].gaze = Gaze::left;

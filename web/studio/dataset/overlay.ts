@@ -44,6 +44,8 @@ const kStateColors: Record<string, string> = {
   following: "#c77dff",
   panicking: "#ff5a4f",
   lying: "#b8860b",
+  falling: "#e0702c",
+  getting_up: "#d9c27a",
 };
 const kExitColors: Record<string, string> = {
   idle: "#c9d1d7",
