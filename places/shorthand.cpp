@@ -1,13 +1,16 @@
 #include "places/shorthand.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
+#include "geometry/angle.h"
 #include "places/frame.h"
 #include "world/json_reader.h"
+#include "world/props.h"
 
 namespace throng::places {
 
@@ -46,6 +49,19 @@ void expand_boxes(const JsonValue& said, json& items, const char* outline) {
   }
 }
 
+/// How much of a row one of its props takes, m; 0 of an unknown kind, which is refused elsewhere.
+double own_length_m(const JsonValue& row, double turn_rad) {
+  const double scale = row["scale"].exists() ? row["scale"].number(0.2, 5) : 1;
+  const std::string kind = row["kind"].text();
+  for (const world::PropType& type : world::prop_types()) {
+    if (kind != type.name) continue;
+    return 2 * scale *
+           (std::abs(std::cos(turn_rad)) * type.half_size.x() +
+            std::abs(std::sin(turn_rad)) * type.half_size.y());
+  }
+  return 0;
+}
+
 /// A row of one kind of prop from a point to another, both included.
 void add_row(const JsonValue& row, json& props) {
   row.fields({"kind", "from", "to", "apart_m"}, {"yaw_deg", "scale"});
@@ -53,10 +69,14 @@ void add_row(const JsonValue& row, json& props) {
   const Vector2d to = row["to"].vector2(kMaxOutsideM);
   const double apart_m = row["apart_m"].number(0.2, 1000);
   const double length_m = (to - from).norm();
-  const int steps = static_cast<int>(std::lround(length_m / apart_m));
+  int steps = static_cast<int>(std::lround(length_m / apart_m));
   const double along_deg =
       std::atan2(to.y() - from.y(), to.x() - from.x()) * 180 / std::numbers::pi;
   const double more_deg = row["yaw_deg"].exists() ? row["yaw_deg"].number(-180, 180) : 0;
+  // One more than fits would push props that touch each other into each other.
+  if (length_m < steps * own_length_m(row, more_deg * kDegree)) {
+    steps = std::min(steps, static_cast<int>(length_m / apart_m + 1e-9));
+  }
   for (int i = 0; i <= steps; ++i) {
     const double share = steps > 0 ? static_cast<double>(i) / steps : 0;
     json prop = {{"kind", row["kind"].text()},

@@ -146,11 +146,12 @@ def writing(word, length_m, first_row, cell_m, mirrored):
 
 def main():
     mesh = Mesh()
+    out_m = 0.02  # in front of the crowd's obstacle: surfaces that coincide flicker
     for west, east in SOUTH_BLOCKS:  # faces north; rows go up to the south
-        length = east - west
+        length = east - west + 2 * out_m
         stand(
             mesh,
-            lambda p, east=east: (east - p[0], 33 - p[1], p[2]),
+            lambda p, east=east: (east + out_m - p[0], 33 + out_m - p[1], p[2]),
             length,
             14,
             light=lambda along, row, length=length: min(along, length - along) < 2.2 or row in (0, 13),

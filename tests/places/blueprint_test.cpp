@@ -77,6 +77,21 @@ TEST_F(Blueprint, WallsOfTheCrowdAreThoseThatAreDrawn) {
   EXPECT_FALSE(loaded.crowd.obstacles.is_solid({22, 0}, 1)) << "the exit";
 }
 
+TEST_F(Blueprint, RowsDoNotPushPropsThatTouchIntoEachOther) {
+  for (const double length_m : {9.9, 10.0, 13.7, 14.0, 16.4}) {
+    SCOPED_TRACE(length_m);
+    blueprint["rows"] = {
+        {{"kind", "barrier"}, {"from", {-8, -14}}, {"to", {-8 + length_m, -14}}, {"apart_m", 2.5}}};
+    std::vector<double> xs;
+    for (const world::Prop& prop : make().props) {
+      if (prop.kind == world::PropKind::barrier) xs.push_back(prop.position.x());
+    }
+    ASSERT_GT(xs.size(), 3U);
+    EXPECT_DOUBLE_EQ(xs.back(), -8 + length_m);
+    for (std::size_t i = 1; i < xs.size(); ++i) EXPECT_GE(xs[i] - xs[i - 1], 2.5 - 0.006);
+  }
+}
+
 TEST_F(Blueprint, GivesTheSameBytesAgain) {
   make();
   const std::string scene = read_file(folder.path() / "sq_scene.xml");
