@@ -161,11 +161,11 @@ void append_pose_members(std::string& text, const CocoImage& image, const Placed
     append_decimal(text, truncation, kShareDecimals);
   }
   text += R"(,"heading":)";
-  append_decimal(text, placed.yaw_rad, kBodyDecimals);
+  append_decimal(text, placed.yaw_rad, kTurnDecimals);
   Eigen::Matrix<double, 6, 1> box;
   box << placed.box_middle, placed.box_size;
   text += R"(,"box_3d":)";
-  append_decimals(text, box, kBodyDecimals);
+  append_decimals(text, box, kMeterDecimals);
 }
 
 void append_person_members(std::string& text, const CocoImage& image, const PersonLabel& label) {

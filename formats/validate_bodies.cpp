@@ -109,7 +109,7 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
         in_amodal_limit(shot.image, Eigen::Vector3d(corners.col(i)).hnormalized().array() + 0.5);
   }
   const Box& box = person.amodal;
-  // The box is that of a coarser mesh than the drawn one.
+  // The box holds finer meshes than the drawn one.
   const double focal_px = shot.image.camera_matrix(0, 0);
   const double slack_px = 1.5 + 0.05 * focal_px / corners.row(2).minCoeff();
   for (int axis = 0; axis < 3; ++axis) {

@@ -10,10 +10,6 @@ namespace throng::render {
 
 namespace {
 
-/// The level of detail whose bounds are people's boxes in the world: a coarse one, as the outlines
-/// of all levels are nearly equal.
-constexpr std::size_t kBoxLevel = 4;
-
 Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
   return {Eigen::Vector2d::Zero(),
           Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
@@ -32,6 +28,9 @@ PeopleFinder::PeopleFinder(const skinning::Population& population, const Quality
       umbrellas.emplace_back(mesh, parts_of(character, mesh, Share::umbrella));
     }
     landmarks_.push_back(skinning::landmarks_of(character));
+  }
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    boxes_.emplace_back(population, i, bodies_[i]);
   }
 }
 
@@ -74,9 +73,8 @@ void PeopleFinder::measure(const PersonInstance& person, const skinning::Palette
   truth.yaw_rad = person.yaw_rad;
   truth.actions = person.actions;
   truth.stature_m = stature_m;
-  const std::vector<BodyShape>& all = bodies_[character];
-  measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks_[character], palette, person,
-               truth);
+  measure_body(boxes_[character].box_of(person.pose, palette), landmarks_[character], palette,
+               person, truth);
 }
 
 /// Near people show the most texels; equals go by agent, so that nothing hangs on their order.

@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "render/frame.h"
 #include "render/passes/people_pass.h"
+#include "render/people/body_boxes.h"
 #include "render/people/person_geometry.h"
 #include "render/scene.h"
 #include "render/spec/quality.h"
@@ -37,7 +38,7 @@ class PeopleFinder {
 
   /// Everybody whose box, or whose umbrella's, touches the image of a pinhole camera, by agent:
   /// with box, body, level of detail and whether they are rendered with textures. A pure function
-  /// of the arguments.
+  /// of the arguments, but not for several threads at once.
   std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
 
   /// Places on a character's head, as boxes of heads of people drawn at this level are taken from.
@@ -59,6 +60,7 @@ class PeopleFinder {
   std::vector<std::vector<BodyShape>> bodies_;     ///< [character][level]
   std::vector<std::vector<BodyShape>> umbrellas_;  ///< the same; without points where there is none
   std::vector<skinning::Landmarks> landmarks_;     ///< per character
+  mutable std::vector<BodyBoxes> boxes_;           ///< per character; they keep what they found
 };
 
 }  // namespace throng::render

@@ -14,8 +14,6 @@ namespace throng::render {
 
 namespace {
 
-constexpr float kAboveGround = 0.002F;  // m; also in shaders/person.vert.glsl
-
 Eigen::Matrix3d turn(float yaw_rad) {
   return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
@@ -157,7 +155,7 @@ BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> 
   });
 }
 
-void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
+void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& landmarks,
                   const skinning::Palette& palette, const PersonInstance& person,
                   PersonInView& truth) {
   const Eigen::Matrix3f to_world = turn(person.yaw_rad).cast<float>();
@@ -168,11 +166,6 @@ void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
     // Blends of poses shrink bones by some thousandths.
     truth.bone_turns[i] = Eigen::Quaternionf(Eigen::Matrix3f(to_world * turned)).normalized();
   }
-  Eigen::AlignedBox3f box;
-  Eigen::Matrix4f as_it_is = Eigen::Matrix4f::Identity();
-  as_it_is.row(3) << 0, 0, 1, 0;  // height above the feet
-  const Projector posed(palette, as_it_is);
-  for (const SkinPoint& point : shape.points) box.extend(posed(point).head<3>().eval());
   truth.box_middle = person.position + to_world * box.center();
   truth.box_size = box.sizes();
 }

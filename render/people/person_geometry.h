@@ -18,6 +18,9 @@
 
 namespace throng::render {
 
+/// People are kept so far above their feet's ground (m); also in shaders/person.vert.glsl.
+inline constexpr float kAboveGround = 0.002F;
+
 /// Heights of a standing person's mid-head and mid-pelvis as shares of stature.
 inline constexpr float kHeadShare = 0.93F;
 inline constexpr float kHipsShare = 0.53F;
@@ -55,8 +58,8 @@ struct BodyShape {
   std::vector<SkinPoint> head;  ///< those that move mostly with the head: skin, hair and headwear
 };
 
-/// Sets the person's keypoints, and the upright box around this shape of theirs.
-void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
+/// Sets the person's keypoints, and the upright box: `box` in the model's axes.
+void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& landmarks,
                   const skinning::Palette& palette, const PersonInstance& person,
                   PersonInView& truth);
 

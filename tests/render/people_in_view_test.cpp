@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "base/random.h"
 #include "stage.h"
 
 namespace throng::render {
@@ -81,6 +83,83 @@ TEST_F(Textures, DoNotHangOnTheOrderOfThePeople) {
     EXPECT_EQ(one[i].truth.agent, other[i].truth.agent);
     EXPECT_EQ(one[i].draw.shading, other[i].draw.shading) << one[i].truth.agent;
   }
+}
+
+/// How far the vertices of a level leave a person's box, m, and how far its sides are beyond all
+/// vertices of all levels.
+struct Misfit {
+  double outside_m = 0;
+  double loose_m = 0;
+};
+
+Misfit misfit_of(const skinning::Population& people, const PersonInstance& person,
+                 const PersonInView& truth) {
+  const skinning::Character& character = people.characters[person.appearance.character];
+  const skinning::Palette& a = people.palette(person.appearance.character, person.pose.a);
+  const skinning::Palette& b = people.palette(person.appearance.character, person.pose.b);
+  const Eigen::AngleAxisd back(-static_cast<double>(truth.yaw_rad), Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turned(static_cast<double>(person.yaw_rad), Eigen::Vector3d::UnitZ());
+  const Eigen::Array3d half = 0.5 * truth.box_size.cast<double>();
+  Eigen::Array3d above = Eigen::Array3d::Constant(1e9);  // of the nearest vertex to each side
+  Eigen::Array3d below = above;
+  Misfit misfit;
+  for (const skinning::Mesh& mesh : character.levels) {
+    for (const skinning::Part& part : parts_of(character, mesh, Share::body)) {
+      for (std::uint32_t i = 0; i < part.index_count; ++i) {
+        const skinning::Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
+        Eigen::Vector3d model = Eigen::Vector3d::Zero();
+        for (std::size_t k = 0; k < vertex.weights.size(); ++k) {
+          const Eigen::Matrix<double, 3, 4> bone =
+              (1 - static_cast<double>(person.pose.blend)) * a[vertex.bones[k]].cast<double>() +
+              static_cast<double>(person.pose.blend) * b[vertex.bones[k]].cast<double>();
+          const Eigen::Vector3d rest = Eigen::Vector3f(vertex.position.data()).cast<double>();
+          model += vertex.weights[k] / 255.0 * (bone * rest.homogeneous());
+        }
+        model.z() = std::max(model.z(), 0.002);
+        const Eigen::Vector3d world = person.position.cast<double>() + turned * model;
+        const Eigen::Array3d off = (back * (world - truth.box_middle.cast<double>())).array();
+        misfit.outside_m = std::max(misfit.outside_m, (off.abs() - half).maxCoeff());
+        above = above.min(half - off);
+        below = below.min(half + off);
+      }
+    }
+  }
+  misfit.loose_m = std::max(above.maxCoeff(), below.maxCoeff());
+  return misfit;
+}
+
+/// Boxes of many poses, between frames and between motions.
+void expect_boxes_fit(const skinning::Population& people) {
+  const PeopleFinder finder(people, settings_of(Quality::standard));
+  std::uint64_t draws = 0;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    Random random(9, Stream::crowd_generator, i);
+    PersonInstance person = standing(people, i, 4 + 60 * random.uniform(), 0);
+    person.appearance.character = i % static_cast<std::uint32_t>(people.characters.size());
+    person.yaw_rad = static_cast<float>(random.uniform(-3, 3));
+    const auto palettes = static_cast<double>(people.palettes_per_character - 1);
+    person.pose.a = static_cast<std::uint32_t>(random.uniform(0, palettes));
+    person.pose.b =
+        i % 3 == 0 ? static_cast<std::uint32_t>(random.uniform(0, palettes)) : person.pose.a + 1;
+    person.pose.blend = i % 5 == 0 ? 0 : static_cast<float>(random.uniform());
+    Scene scene;
+    scene.people = {person};
+    for (const Seen& seen : finder.find(scene, camera_at({0, 0, 6}, 0, -20, 1280, 960, 90))) {
+      const Misfit misfit = misfit_of(people, person, seen.truth);
+      EXPECT_LT(misfit.outside_m, 1e-4) << i;
+      EXPECT_LT(misfit.loose_m, 1.2e-3) << i;
+      ++draws;
+    }
+  }
+  EXPECT_GT(draws, 200U);
+}
+
+TEST(BoxesInTheWorld, HoldAllThatIsRenderedOfABody) { expect_boxes_fit(synthetic_people()); }
+
+TEST(BoxesInTheWorld, HoldAllThatIsRenderedOfRealPeople) {
+  const std::filesystem::path folder = skinning::population_folder();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no people in " << folder;
+  expect_boxes_fit(skinning::load_population(folder));
 }
 
 }  // namespace
