@@ -53,8 +53,10 @@ void print_job_summary(const json& answer, const std::string& file, int cores) {
              warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning"));
   fmt::print("  {:<10}{}, {}\n", "people", answer["people"].get<std::int64_t>(),
              counted(answer["runs"], "run"));
-  fmt::print("  {:<10}{} in {}\n", "images", answer["frames"].get<std::int64_t>(),
-             counted(answer["shards"], "shard"));
+  const std::int64_t images = answer["frames"];
+  fmt::print("  {:<10}{}\n", "images",
+             images == 0 ? "none without drones: the job makes traces and figures"
+                         : fmt::format("{} in {}", images, counted(answer["shards"], "shard")));
   fmt::print("  {:<10}about {} on {}\n", "time",
              duration_text(estimate["cpu_s"].get<double>() / cores), counted(cores, "core"));
   fmt::print("  {:<10}about {}\n", "disk", size_text(estimate["disk_bytes"].get<double>()));

@@ -28,6 +28,9 @@ struct RenderArguments : JobArguments {
 void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
                 const RenderArguments& arguments) {
   std::vector<Problem> problems;
+  if (job.drones.empty()) {
+    problems.push_back({arguments.job_file, "/drones", "nothing", "a drone, whose camera renders"});
+  }
   if (trace.header.scenario_id != job.scenario) {
     problems.push_back({arguments.trace_file, "scenario", trace.header.scenario_id, job.scenario});
   }

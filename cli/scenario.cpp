@@ -88,8 +88,7 @@ void draw_plan(const PlanArguments& arguments) {
   std::vector<world::DronePath> paths;
   std::optional<world::Scenario> scenario;
   if (is_job(arguments.name)) {
-    const jobs::JobSpec job = jobs::in_scenario_of_run(
-        read_job_file(arguments.name, jobs::DefaultDrones::if_any).spec(), 0);
+    const jobs::JobSpec job = jobs::in_scenario_of_run(read_job_file(arguments.name).spec(), 0);
     scenario = jobs::scenario_of(job, world::scenarios_folder());
     paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
   } else {

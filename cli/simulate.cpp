@@ -31,7 +31,7 @@ struct SimulateArguments {
 
 void simulate(const SimulateArguments& arguments) {
   check_output_file("--output", arguments.trace_file, {arguments.job_file});
-  const jobs::JobSpec job = read_job_file(arguments.job_file, jobs::DefaultDrones::if_any).spec();
+  const jobs::JobSpec job = read_job_file(arguments.job_file).spec();
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});

@@ -281,7 +281,9 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
   } catch (const json::exception& error) {
     throw bad_manifest(root, error);
   }
-  if (!info.has(annotate::GroundTruth::coco)) {
+  const json drones = manifest.at("job").value("drones", json());
+  const bool has_images = !drones.is_array() || !drones.empty();
+  if (has_images && !info.has(annotate::GroundTruth::coco)) {
     throw InputError({root.string(), "", "no COCO annotations",
                       "a dataset whose job has coco among outputs.annotations"});
   }

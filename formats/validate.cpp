@@ -236,6 +236,21 @@ class RecordChecks {
   HazardCheck hazards_;
 };
 
+/// A dataset of a job without drones: figures, and tables of each run.
+void check_dataset_without_images(const DatasetInfo& info, const json& manifest,
+                                  Findings& findings) {
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    if (!info.has(kind.kind)) continue;
+    for (const std::string& run : info.runs) {
+      const std::string file = annotate::file_of(kind.kind, run);
+      if (!fs::is_regular_file(info.root / file)) {
+        findings.add("schema", file, "", "no such file, but the job asks for it");
+      }
+    }
+  }
+  check_metrics(info, manifest, findings);
+}
+
 /// Runs what reads the manifest. Throws InputError naming that where a value is none that throng
 /// writes.
 template <typename Read>
@@ -263,6 +278,10 @@ Validation validate_dataset(const fs::path& root) {
   RecordChecks records(manifest);
   GroundTruthChecks kinds(info);
   try {
+    if (!info.has(annotate::GroundTruth::coco)) {
+      check_dataset_without_images(info, manifest, findings);
+      return validation;
+    }
     DatasetReader reader(info);
     Image image;
     while (reader.next(image)) {

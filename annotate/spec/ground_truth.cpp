@@ -209,6 +209,10 @@ const GroundTruthKind& kind_of(GroundTruth kind) {
   return kKinds.at(static_cast<std::size_t>(kind));
 }
 
+bool needs_images(const GroundTruthKind& kind) {
+  return kind.file == kCocoPath || kind.file.find("CAMERA") != std::string_view::npos;
+}
+
 const GroundTruthKind* find_kind(std::string_view name) {
   const auto* found = std::find_if(kKinds.begin(), kKinds.end(),
                                    [&](const GroundTruthKind& kind) { return kind.name == name; });

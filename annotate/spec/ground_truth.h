@@ -84,6 +84,9 @@ std::span<const GroundTruthKind> ground_truth_kinds();
 
 const GroundTruthKind& kind_of(GroundTruth kind);
 
+/// Whether a kind comes from images or lies beside them, for each camera.
+bool needs_images(const GroundTruthKind& kind);
+
 /// Null if there is no kind of this name.
 const GroundTruthKind* find_kind(std::string_view name);
 

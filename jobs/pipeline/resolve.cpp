@@ -88,7 +88,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
 void take_from_scenario(JobSpec& job, const world::Scenario& scenario,
                         DefaultDrones default_drones) {
   if (job.mix.empty()) job.crowd.model = sim::model_for(scenario, job.crowd);
-  if (job.drones.empty() && default_drones != DefaultDrones::none) {
+  if (job.drones.empty() && !job.is_without_drones && default_drones != DefaultDrones::none) {
     for (const world::DroneStart& known : scenario.drones) {
       job.drones.emplace_back().mission.id = known.id;
     }
@@ -129,13 +129,39 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
-void check_has_drones(const JobSpec& job, std::vector<Problem>& problems) {
-  if (!job.drones.empty()) return;
-  problems.push_back({"", "/drones", "nothing",
-                      job.mix.empty()
-                          ? "at least one drone, since the scenario has none of its own"
-                          : "at least one drone, since a job of several scenarios takes none of "
-                            "theirs; \"aim\" places it in each"});
+/// Of a job without drones: leaves out the ground truth that images hold, if the job does not say
+/// which it wants, and refuses it otherwise.
+void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
+  job.is_without_drones = true;
+  OutputSpec& outputs = job.outputs;
+  const auto needs_images = [](const std::string& name) {
+    const annotate::GroundTruthKind* kind = annotate::find_kind(name);
+    return kind != nullptr && annotate::needs_images(*kind);
+  };
+  if (outputs.annotations == annotate::default_ground_truth()) {
+    std::erase_if(outputs.annotations, needs_images);
+  }
+  const std::string expected = job.mix.empty()
+                                   ? "a drone in /drones, since the scenario has none of its own "
+                                     "or the job wants none"
+                                   : "a drone in /drones, since a job of several scenarios takes "
+                                     "none of theirs; \"aim\" places it in each";
+  const auto refuse = [&](const std::string& pointer, const std::string& what) {
+    problems.push_back(
+        {"", pointer, what + " without drones, whose cameras make images", expected});
+  };
+  for (std::size_t i = 0; i < outputs.annotations.size(); ++i) {
+    if (!needs_images(outputs.annotations[i])) continue;
+    refuse(fmt::format("/outputs/annotations/{}", i),
+           fmt::format("\"{}\"", outputs.annotations[i]));
+  }
+  for (std::size_t i = 0; i < outputs.formats.size(); ++i) {
+    refuse(fmt::format("/outputs/formats/{}", i), fmt::format("\"{}\"", outputs.formats[i]));
+  }
+  if (outputs.previews != OutputSpec().previews && outputs.previews > 0) {
+    refuse("/outputs/previews", fmt::format("{}", outputs.previews));
+  }
+  outputs.previews = 0;
 }
 
 // Whether it comes from the trace of a run, which was simulated and has no need of its crowd.
@@ -295,9 +321,12 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
                      const std::string& source, std::vector<Problem> problems,
                      DefaultDrones default_drones) {
   read_files(job, problems);
-  check_formats(job.outputs, problems);
   if (job.mix.empty()) take_from_scenario(job, scenarios.front(), default_drones);
-  if (default_drones == DefaultDrones::of_scenario) check_has_drones(job, problems);
+  if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
+    make_job_for_figures(job, problems);
+  } else {
+    check_formats(job.outputs, problems);
+  }
   check_image_count(job, problems);
   check_filters(job, problems);
   check_ground_outputs(job.outputs, scenarios, problems);

@@ -15,12 +15,10 @@ namespace throng::jobs {
 /// part. Throws InputError with all problems (JSON pointers into `source`, the job's file or "").
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source);
 
-/// Drones of a job that names none: the scenario's, of which there must be one, or none at all, for
-/// simulations that are not rendered.
+/// Drones of a job that names none.
 enum class DefaultDrones {
-  of_scenario,  ///< those of the scenario; a job without any is refused
-  if_any,       ///< those of the scenario, or none: for what renders nothing
-  none
+  of_scenario,  ///< those of the scenario; without any the job is one for figures
+  none          ///< nobody flies, and nothing is rendered
 };
 
 /// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. All

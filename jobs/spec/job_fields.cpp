@@ -37,12 +37,13 @@ void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
 }
 
 json drones_json(const JobSpec& job) {
-  json drones;
+  json drones = job.is_without_drones ? json::array() : json();
   for (const DroneSpec& drone : job.drones) drones.push_back(drone_fields().print(drone));
   return drones;
 }
 
 void set_drones(JobSpec& job, const json& value, const FieldPlace& place) {
+  job.is_without_drones = value.is_array() && value.empty();
   for (const json& drone : value) {
     const std::string index = std::to_string(job.drones.size());
     drone_fields().read(drone, job.drones.emplace_back(), place.below(index));
@@ -171,9 +172,9 @@ FieldTable<JobSpec> make_job_fields() {
   table.add("runs", "Runs", "runs", integers(1, 1000), at(&JobSpec::runs),
             "Number of simulations of the scenario, each with its own seed.");
   add_crowd_fields(table);
-  table.add("drones", "Drones", "", lists(1, 16, drone_rules()), drones_json, set_drones,
+  table.add("drones", "Drones", "", lists(0, 16, drone_rules()), drones_json, set_drones,
             "The drones, one camera each; default: the scenario's drones, hovering "
-            "at their starts.");
+            "at their starts. [] or a scenario without drones: figures without images.");
   table.group("capture", "Capture",
               "Times of the frames of every run and camera: from_s, then every 1 / "
               "rate_hz, up to to_s. The run lasts until to_s.");

@@ -67,6 +67,8 @@ struct JobSpec {
   sim::CrowdSpec crowd;
   std::optional<RecordedSpec> recorded;  ///< replayed instead of simulating people
   std::vector<DroneSpec> drones;
+  /// Nobody flies, whatever the scenario has: a job for figures, without images.
+  bool is_without_drones = false;
   CaptureSpec capture;
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;

@@ -48,6 +48,7 @@ std::vector<RunPlan> plan_runs(const JobSpec& job) {
 }
 
 std::vector<Shard> plan_shards(const JobSpec& job, int run) {
+  if (job.drones.empty()) return {};
   const std::int64_t frames = job.frames_per_camera();
   const std::int64_t size = frames_per_shard(job, frames);
   std::vector<Shard> shards;

@@ -642,7 +642,8 @@ class Job(Part):
     crowd: Crowd | None = None
     """The people of a run and their movement."""
     drones: Sequence[Drone] | None = None
-    """The drones, one camera each; default: the scenario's drones, hovering at their starts."""
+    """The drones, one camera each; default: the scenario's drones, hovering at their starts. [] or a scenario
+    without drones: figures without images."""
     capture: Capture | None = None
     """Times of the frames of every run and camera: from_s, then every 1 / rate_hz, up to to_s. The run lasts until
     to_s."""

@@ -82,7 +82,9 @@ class Alone(unittest.TestCase):
     def test_no_drone_is_needed_to_simulate(self):
         self.simulated({"scenario": "yard", "capture": {"to_s": 2}})
         self.assertGreater(json.loads(self.throng("metrics", "run.h5"))["people"], 0)
-        self.assertIn("at least one drone", self.throng("check", "job.json", code=2))
+        self.assertIn("none without drones", self.throng("check", "job.json"))
+        render = self.throng("render", "job.json", "--trace", "run.h5", "-o", "out", code=2)
+        self.assertIn("/drones: found nothing, expected a drone, whose camera renders", render)
 
     def test_a_scenario_of_a_hazard_is_sound(self):
         self.throng("scenario", "make", "yard.place.json", "-o", "mine")

@@ -90,6 +90,44 @@ class Check(unittest.TestCase):
         size = sum(file.stat().st_size for file in files)
         self.assertLess(abs(size / answer["estimate"]["disk_bytes"] - 1), 1, (size, answer["estimate"]))
 
+    def test_a_job_for_figures_needs_no_drone(self):
+        answer = self.answer(drones=[])
+        self.assertEqual((answer["frames"], answer["shards"]), (0, 0))
+        self.assertEqual(answer["job"]["drones"], [])
+        self.assertEqual(answer["job"]["outputs"]["annotations"], ["exits"])
+        self.assertIn("figures", self.check({**SQUARE, "drones": []}).stdout)
+        images = {"annotations": ["events", "depth", "coco"], "formats": ["mot"], "previews": 2}
+        done = self.check({**SQUARE, "drones": [], "outputs": images})
+        self.assertEqual(done.returncode, 2)
+        for pointer in ("annotations/1", "annotations/2", "formats/0", "previews"):
+            self.assertRegex(
+                done.stderr, f"/outputs/{pointer}: found .* without drones, .* expected a drone in /drones"
+            )
+        self.assertNotIn("annotations/0", done.stderr)
+
+    def test_a_run_for_figures(self):
+        job = {"scenario": "city_square/huang2016/second_nearest", "drones": [], "capture": {"to_s": 15}}
+        file = self.write({**job, "outputs": {"annotations": ["exits", "events", "counts", "trajectories"]}})
+        out = self.folder / "out"
+        done = subprocess.run([THRONG, "run", file, "-o", out], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("warning: run000: /scenario: found an alarm at 0 s that none of 260 people noticed", done.stderr)
+        for name in ("metrics.json", "exits/run000.csv", "events/run000.jsonl", "trajectories/run000.npy"):
+            self.assertTrue((out / "dataset" / name).is_file(), name)
+        self.assertFalse((out / "dataset/images").exists())
+        validate = [THRONG, "validate", out / "dataset"]
+        done = subprocess.run(validate, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        refused = {**job, "outputs": {"annotations": ["coco"]}}
+        done = subprocess.run([THRONG, "run", self.write(refused), "-o", out], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/outputs/annotations/0", done.stderr)
+        self.assertEqual(subprocess.run(validate, capture_output=True).returncode, 0, "what was there before stays")
+        (out / "dataset/exits/run000.csv").unlink()
+        done = subprocess.run(validate, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("exits/run000.csv: no such file", done.stdout)
+
     def test_an_alarm_that_nobody_notices(self):
         paper = {"scenario": "city_square/huang2016/second_nearest", "capture": {"to_s": 60}}
         self.assertIn("that none of 260 people noticed", self.warned(**paper)["/scenario"])
