@@ -163,14 +163,18 @@ class MissionCheck {
   }
 
   void check_height(const PlannedDrone& drone) {
-    for (const world::Building& building : scenario_.buildings) {
-      if (drone.start.z() >= building.height_m + kClearanceM) continue;
-      add("/start", text_of(drone.start),
-          fmt::format("a height of at least {:g} m, above building \"{}\", since the policy "
-                      "\"{}\" keeps the height and flies everywhere",
-                      building.height_m + kClearanceM, building.id, drone.policy->name));
+    const auto tallest = std::max_element(
+        scenario_.buildings.begin(), scenario_.buildings.end(),
+        [](const world::Building& a, const world::Building& b) { return a.height_m < b.height_m; });
+    if (tallest == scenario_.buildings.end() ||
+        drone.start.z() >= tallest->height_m + kClearanceM) {
       return;
     }
+    add("/start", text_of(drone.start),
+        fmt::format("a height of at least {:g} m, above building \"{}\", the tallest with "
+                    "{:g} m, since the policy \"{}\" keeps the height and flies everywhere",
+                    tallest->height_m + kClearanceM, tallest->id, tallest->height_m,
+                    drone.policy->name));
   }
 
   bool check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,

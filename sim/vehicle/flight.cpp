@@ -49,6 +49,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
       world_(buildings, interval_s / ticks_per_interval_),
       log_(std::move(log)),
       wind_(weather.wind),
+      damages_(drones.size()),
       states_(drones.size()),
       air_(drones.size(), Vector3d::Zero()),
       crafts_(drones.size()),
@@ -181,10 +182,17 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
   }
 }
 
-// Breaks what does not withstand the impact.
+// Breaks what does not withstand the impact, and is not broken already.
 void Flight::damage(const Impact& impact) {
   const Airframe& airframe = world_.airframe(impact.vehicle);
-  const Damage damage = damage_of(impact, airframe);
+  Damage damage = damage_of(impact, airframe);
+  Damage& before = damages_[impact.vehicle];
+  if (before.structure) return;
+  for (std::size_t rotor = 0; rotor < damage.propeller.size(); ++rotor) {
+    damage.propeller[rotor] = damage.propeller[rotor] && !before.propeller[rotor];
+    before.propeller[rotor] = before.propeller[rotor] || damage.propeller[rotor];
+  }
+  before.structure = damage.structure;
   if (!damage.structure && !damage.any_propeller()) return;
   const double speed_mps = wall_speed_mps(impact.impulse_ns, airframe);
   const auto drone = static_cast<std::int32_t>(impact.vehicle);

@@ -12,6 +12,7 @@
 #include "sim/recording/downwash_exposure.h"
 #include "sim/recording/fall_warning.h"
 #include "sim/recording/near_misses.h"
+#include "sim/vehicle/damage.h"
 #include "sim/vehicle/flight_world.h"
 #include "sim/vehicle/pilot.h"
 #include "sim/vehicle/wind.h"
@@ -78,6 +79,7 @@ class Flight {
   std::vector<Gusts> gusts_;
   std::vector<Jet> jets_;
   std::vector<FallWarning> falls_;
+  std::vector<Damage> damages_;       ///< of each drone so far
   std::vector<FlightState> states_;   ///< when the pilots last decided
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
   std::vector<VehicleInAir> crafts_;  ///< as of the last samples

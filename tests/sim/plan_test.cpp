@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
                   m[1].policy = "survey";
                   m[1].start = Eigen::Vector3d(-8, 8, 4);
                 },
-                "/drones/1/start", "above building \"hut\""},
+                "/drones/1/start", "above building \"hut\", the tallest with"},
         BadCase{"no_start", [](Missions& m) { m[1].start.reset(); }, "/drones/1/start", "a start"},
         BadCase{"start_in_building", [](Missions& m) { m[1].start->z() = 5; }, "/drones/1/start",
                 "building \"hut\""},
