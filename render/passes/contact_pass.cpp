@@ -21,6 +21,13 @@ constexpr double kTypicalStatureM = 1.7;
 /// A prop's part that touches the ground or nearly does: what it hides the sky from.
 double reach_of(world::PropKind kind) { return kind == world::PropKind::car ? 0.7 : 0.35; }
 
+/// Whether a prop's foot is a disc rather than a rectangle.
+bool is_round(world::PropKind kind) {
+  using world::PropKind;
+  return kind == PropKind::fountain || kind == PropKind::tree || kind == PropKind::lamp_post ||
+         kind == PropKind::bin || kind == PropKind::bollard;
+}
+
 }  // namespace
 
 ContactPass::Rim ContactPass::rim(const Vector2d& middle, const Vector2d& half_size, double yaw_rad,
@@ -28,7 +35,8 @@ ContactPass::Rim ContactPass::rim(const Vector2d& middle, const Vector2d& half_s
   return {{static_cast<float>(middle.x()), static_cast<float>(middle.y()),
            static_cast<float>(half_size.x()), static_cast<float>(half_size.y())},
           {static_cast<float>(std::cos(yaw_rad)), static_cast<float>(std::sin(yaw_rad)),
-           static_cast<float>(reach_m), static_cast<float>(strength)}};
+           static_cast<float>(reach_m), static_cast<float>(strength)},
+          0};
 }
 
 // In the sun the sky gives a smaller part of the light.
@@ -43,6 +51,7 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
         prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
     still_.push_back(
         rim(prop.position, 0.9 * half, prop.yaw_rad, reach_of(prop.kind), 1.1 * strength_));
+    if (is_round(prop.kind)) still_.back().rounding_m = still_.back().footprint[2];
   }
   constexpr double kWallReachM = 0.9;
   for (const world::Building& building : scenario.buildings) {
@@ -55,7 +64,8 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
   }
   describe_vertices(array_, 0, instances_, sizeof(Rim), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Rim, footprint)},
-                     {1, 4, GL_FLOAT, false, offsetof(Rim, shade)}});
+                     {1, 4, GL_FLOAT, false, offsetof(Rim, shade)},
+                     {2, 1, GL_FLOAT, false, offsetof(Rim, rounding_m)}});
 }
 
 void ContactPass::draw(std::span<const PersonInstance> people, const camera::Camera& camera) {

@@ -27,6 +27,7 @@ class ContactPass {
   struct Rim {
     std::array<float, 4> footprint{};  ///< middle, half sizes (m)
     std::array<float, 4> shade{};      ///< heading's cosine and sine, reach (m), strength
+    float rounding_m = 0;              ///< radius of the footprint's corners
   };
   static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
                  double reach_m, double strength);

@@ -199,6 +199,32 @@ TEST(Props, CastShadows) {
   EXPECT_NEAR(darkened(5), 0, 3) << "towards the sun";
 }
 
+// The sky that a round foot hides is hidden from a ring around it, not from a square.
+TEST(Props, DarkenTheGroundAroundARoundFootEquallyOnAllSides) {
+  Environment light;
+  light.weather = Weather::overcast;
+  light.sun_elevation_rad = 89.9 * kDegree;
+  RenderOptions options;
+  options.quality = Quality::standard;
+  Stage empty(ground_with({}), light, options);
+  Stage stage(ground_with({prop_at(PropKind::fountain, 0, 0)}), light, options);
+  const camera::Camera camera = camera_at({0, 0, 14}, 0, -90, 480, 480, 40);
+  const Frame before = empty.draw(camera);
+  const Frame after = stage.draw(camera);
+  const auto darkened = [&](double radius_m, double turn_deg) {
+    const Eigen::Vector3d place(radius_m * std::cos(turn_deg * kDegree),
+                                radius_m * std::sin(turn_deg * kDegree), 0);
+    const Eigen::Vector2d pixel = camera.project(place).pixel;
+    const int x = static_cast<int>(std::lround(pixel.x()));
+    const int y = static_cast<int>(std::lround(pixel.y()));
+    return brightness(before, x, y) - brightness(after, x, y);
+  };
+  for (const double turn_deg : {0.0, 30.0, 45.0, 60.0, 135.0, 250.0}) {
+    EXPECT_NEAR(darkened(2.85, turn_deg), 0, 15) << turn_deg;
+    EXPECT_NEAR(darkened(3.1, turn_deg), 0, 15) << turn_deg;
+  }
+}
+
 /// A tetrahedron of 2 units, y up, of a red material, as files in a folder of its own.
 class MeshFile : public testing::Test {
  protected:
