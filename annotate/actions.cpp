@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "annotate/coco.h"
-#include "annotate/exit_view.h"
 #include "skinning/items.h"
 
 namespace throng::annotate {
@@ -88,25 +87,26 @@ std::vector<std::string_view> ActionFacts::names_of(std::uint32_t agent,
   return names;
 }
 
-std::vector<std::uint32_t> ActionFacts::together_with(std::uint32_t agent, std::size_t step) const {
+std::vector<std::uint32_t> ActionFacts::together_with(std::uint32_t agent,
+                                                      const world::BetweenSteps& at) const {
   std::vector<std::uint32_t> others;
   const auto& groups = trace_->header.group;
   const std::int32_t group = agent < groups.size() ? groups[agent] : -1;
   if (group < 0) return others;
-  const Eigen::Vector2f here = trace_->position[trace_->at(step, agent)];
+  const Eigen::Vector2f here = trace_->position_at(at, agent);
   for (const std::uint32_t other : members_.at(static_cast<std::size_t>(group))) {
-    if (other == agent || !trace_->present(step, other)) continue;
-    const Eigen::Vector2f there = trace_->position[trace_->at(step, other)];
+    if (other == agent || !trace_->present(at.before, other)) continue;
+    const Eigen::Vector2f there = trace_->position_at(at, other);
     if ((there - here).norm() <= static_cast<float>(kTogetherM)) others.push_back(other);
   }
   return others;
 }
 
 void add_actions(const ActionFacts& facts, double time_s, FrameLabels& labels) {
-  const std::size_t step = step_at(facts.trace().time_s, time_s);
+  const world::BetweenSteps at = facts.trace().steps_around(time_s);
   for (PersonLabel& label : labels.people) {
     label.actions = ActionLabel{facts.names_of(label.agent, label.person.actions),
-                                facts.together_with(label.agent, step)};
+                                facts.together_with(label.agent, at)};
   }
 }
 
@@ -127,7 +127,7 @@ std::string actions_csv(const world::Trace& trace, const render::Animator& anima
       for (const std::string_view name : facts.names_of(number, actions)) {
         doings.emplace_back(name, 0);
       }
-      for (const std::uint32_t other : facts.together_with(number, step)) {
+      for (const std::uint32_t other : facts.together_with(number, {step, step, 0})) {
         doings.emplace_back(kTogether, track_id(run_index, other));
       }
       stretches.add(step, doings);

@@ -26,9 +26,10 @@ class ActionFacts {
   /// Names of what a body's motion shows, with "carry" if the person carries something.
   std::vector<std::string_view> names_of(std::uint32_t agent, skinning::Actions actions) const;
 
-  /// Members of the agent's group who are within kTogetherM at a step of the trace, at which the
+  /// Members of the agent's group who are within kTogetherM at a time of the trace, at which the
   /// agent is present.
-  std::vector<std::uint32_t> together_with(std::uint32_t agent, std::size_t step) const;
+  std::vector<std::uint32_t> together_with(std::uint32_t agent,
+                                           const world::BetweenSteps& at) const;
 
   const world::Trace& trace() const { return *trace_; }
 

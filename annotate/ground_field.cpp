@@ -18,15 +18,6 @@ namespace {
 constexpr std::size_t kMaxCells = 1U << 17U;
 constexpr double kKernelReach = 3;  // times kFieldKernelM
 
-std::size_t nearest_step(const world::Trace& trace, double time_s) {
-  check(trace.steps() > 0, "a trace has steps");
-  const auto after = std::lower_bound(trace.time_s.begin(), trace.time_s.end(), time_s);
-  if (after == trace.time_s.begin()) return 0;
-  if (after == trace.time_s.end()) return trace.steps() - 1;
-  const auto step = static_cast<std::size_t>(after - trace.time_s.begin());
-  return time_s - trace.time_s[step - 1] < trace.time_s[step] - time_s ? step - 1 : step;
-}
-
 // Finds x where a line of constant y enters and leaves rings, in order: pairs of these are inside.
 void find_edges(const std::vector<metrics::Ring>& rings, double y, std::vector<double>& edges) {
   edges.clear();
@@ -163,20 +154,20 @@ GroundGrid::GroundGrid(const world::Scenario& scenario)
 }
 
 GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, double time_s) {
-  const std::size_t step = nearest_step(trace, time_s);
+  const world::BetweenSteps around = trace.steps_around(time_s);
   std::vector<Vector2d> places;
   std::vector<Eigen::Vector2f> velocities;
   const Vector2d size = grid.cell_m() * Vector2d(grid.columns(), grid.rows());
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    if (trace.header.role[agent] != world::AgentRole::person || !trace.present(step, agent)) {
+    if (trace.header.role[agent] != world::AgentRole::person ||
+        !trace.present(around.before, agent)) {
       continue;
     }
-    const std::size_t at = trace.at(step, agent);
-    const Vector2d place = trace.position[at].cast<double>();
+    const Vector2d place = trace.position_at(around, agent).cast<double>();
     const Eigen::Array2d offset = (place - grid.origin()).array();
     if ((offset < 0).any() || (offset >= size.array()).any()) continue;
     places.push_back(place);
-    velocities.push_back(trace.velocity[at]);
+    velocities.push_back(trace.velocity_at(around, agent));
   }
   GroundField field;
   field.people = static_cast<std::int64_t>(places.size());

@@ -52,7 +52,7 @@ struct GroundField {
   std::int64_t people = 0;     ///< on the ground, seen by cameras or not
 };
 
-/// Everybody who is there at the trace's step nearest to `time_s`.
+/// Everybody who is there at `time_s`, between the trace's steps, too.
 GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, double time_s);
 
 /// The bytes of a .npy file, float32, C order, shape (4, rows, columns): density, velocity x, y,

@@ -242,7 +242,7 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
   const double height_m = person.box_size.z();
   // Walkers neither raise their arms nor bend.
   const bool is_upright = person.state == "walking" && height_m > 1.5 * upright;
-  const double highest_m = is_upright ? 1.07 * stature_m : stature_m + 0.35;
+  const double highest_m = is_upright ? 1.1 * stature_m : stature_m + 0.35;
   const double lowest_m = is_upright ? 0.88 * stature_m : 0;
   if (height_m > highest_m || height_m < lowest_m) {
     fault(fmt::format("stature_m {}, but box_3d of annotation {} is {:.2f} m high", stature_m,

@@ -15,22 +15,6 @@ namespace {
 using skinning::Gaze;
 using skinning::Moment;
 
-/// Two neighboring crowd steps and how far between them.
-struct Between {
-  std::size_t before;
-  std::size_t after;
-  float share;
-};
-
-Between find(const std::vector<double>& times, double time_s) {
-  const auto next = std::upper_bound(times.begin(), times.end(), time_s);
-  if (next == times.begin()) return {0, 0, 0};
-  const auto before = static_cast<std::size_t>(next - times.begin()) - 1;
-  if (next == times.end()) return {before, before, 0};
-  return {before, before + 1,
-          static_cast<float>((time_s - times[before]) / (*next - times[before]))};
-}
-
 /// When somebody looks at drones: now and then, if at all.
 struct Curiosity {
   bool looks;
@@ -145,24 +129,21 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   scene.index = frame_index;
   scene.time_s = time_s;
   if (trace.steps() == 0) return scene;
-  const Between at = find(trace.time_s, time_s);
+  const world::BetweenSteps at = trace.steps_around(time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (!trace.present(at.before, agent)) continue;
     if (!is_rendered(trace.header.role[agent])) {
       scene.dangers.push_back(trace.position[trace.at(at.before, agent)]);
       continue;
     }
-    const bool leaves = !trace.present(at.after, agent);
-    const std::size_t a = trace.at(at.before, agent);
-    const std::size_t b = leaves ? a : trace.at(at.after, agent);
-    const float share = leaves ? 0 : at.share;
     PersonInstance person;
     person.agent = static_cast<std::uint32_t>(agent);
     person.appearance = appearance_[agent];
-    person.position.head<2>() = trace.position[a] + share * (trace.position[b] - trace.position[a]);
-    person.velocity = trace.velocity[a] + share * (trace.velocity[b] - trace.velocity[a]);
-    person.yaw_rad = geometry::interpolated_rad(trace.yaw_rad[a], trace.yaw_rad[b], share);
+    person.position.head<2>() = trace.position_at(at, agent);
+    person.velocity = trace.velocity_at(at, agent);
+    person.yaw_rad = trace.yaw_at(at, agent);
     const Stay& stay = stay_at(agent, at.before);
+    const float share = trace.present(at.after, agent) ? at.share : 0;
     const double step =
         static_cast<double>(at.before - stay.first_step) + static_cast<double>(share);
     person.pose = stay.plan.at(step);

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "geometry/angle.h"
 
 namespace throng::world {
 
@@ -24,6 +25,38 @@ std::vector<bool> TraceHeader::lying_states() const {
   std::vector<bool> lying;
   for (const std::string& name : state_names) lying.push_back(implies_lying(name));
   return lying;
+}
+
+BetweenSteps Trace::steps_around(double time) const {
+  check(!time_s.empty(), "a trace has steps");
+  const auto next = std::upper_bound(time_s.begin(), time_s.end(), time + kTimeSlackS);
+  if (next == time_s.begin()) return {};
+  const auto before = static_cast<std::size_t>(next - time_s.begin()) - 1;
+  if (next == time_s.end()) return {before, before, 0};
+  const double share = (time - time_s[before]) / (*next - time_s[before]);
+  return {before, before + 1, static_cast<float>(std::max(share, 0.0))};
+}
+
+Eigen::Vector2f Trace::position_at(const BetweenSteps& around, std::size_t agent) const {
+  const Eigen::Vector2f& from = position[at(around.before, agent)];
+  if (around.share == 0 || !present(around.after, agent)) return from;
+  return from + around.share * (position[at(around.after, agent)] - from);
+}
+
+Eigen::Vector2f Trace::velocity_at(const BetweenSteps& around, std::size_t agent) const {
+  const Eigen::Vector2f& before = velocity[at(around.before, agent)];
+  if (around.share == 0 || !present(around.after, agent)) return before;
+  constexpr float kJumpMps = 12;  // nobody runs as fast
+  const auto duration_s = static_cast<float>(time_s[around.after] - time_s[around.before]);
+  const Eigen::Vector2f mean =
+      (position[at(around.after, agent)] - position[at(around.before, agent)]) / duration_s;
+  return mean.norm() < kJumpMps ? mean : before;
+}
+
+float Trace::yaw_at(const BetweenSteps& around, std::size_t agent) const {
+  const float from = yaw_rad[at(around.before, agent)];
+  if (around.share == 0 || !present(around.after, agent)) return from;
+  return geometry::interpolated_rad(from, yaw_rad[at(around.after, agent)], around.share);
 }
 
 DroneSample Trace::drone_at(std::size_t drone, double time) const {

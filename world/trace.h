@@ -103,6 +103,13 @@ struct DroneSample {
   double energy_j = 0;                                     ///< taken from the battery so far
 };
 
+/// A time between two steps of a trace.
+struct BetweenSteps {
+  std::size_t before = 0;  ///< the last one at or before the time
+  std::size_t after = 0;   ///< the next one; the same at the end
+  float share = 0;         ///< of the way from one to the other, in [0, 1)
+};
+
 /// A whole trace in memory. Arrays over [step][agent] are row-major.
 struct Trace {
   TraceHeader header;
@@ -124,6 +131,15 @@ struct Trace {
   bool present(std::size_t step, std::size_t agent) const {
     return (flags[at(step, agent)] & kPresent) != 0;
   }
+  /// The steps around a time; times before the first and after the last one are theirs.
+  BetweenSteps steps_around(double time_s) const;
+  /// Place, velocity and facing of an agent who is present at `at.before`: linear between steps, so
+  /// that the velocity between two is that of getting from one to the other, and at a step the
+  /// step's. An agent who leaves before the next step stays until then, and one who jumps has the
+  /// velocity of the step before.
+  Eigen::Vector2f position_at(const BetweenSteps& at, std::size_t agent) const;
+  Eigen::Vector2f velocity_at(const BetweenSteps& at, std::size_t agent) const;
+  float yaw_at(const BetweenSteps& at, std::size_t agent) const;
   double duration_s() const { return time_s.empty() ? 0.0 : time_s.back(); }
   /// The drone between its samples: all linear but the orientation, which is slerped; clamped to
   /// the recorded span.

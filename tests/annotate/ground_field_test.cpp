@@ -57,7 +57,7 @@ TEST(GroundField, SumsToThePeopleOnTheGround) {
   EXPECT_EQ(grid.cell_m(), 0.25);
   EXPECT_EQ(grid.columns(), 80);
   EXPECT_EQ(grid.rows(), 42);
-  const GroundField field = ground_field(trace, grid, 0.4);
+  const GroundField field = ground_field(trace, grid, 0.5);
   std::int64_t expected = 0;
   for (std::size_t agent = 0; agent < 400; ++agent) {
     const Eigen::Vector2f& at = trace.position[400 + agent];
@@ -67,6 +67,23 @@ TEST(GroundField, SumsToThePeopleOnTheGround) {
   EXPECT_EQ(field.people, expected);
   EXPECT_NEAR(people_in(field.density, grid), static_cast<double>(expected), 1e-3);
   for (const float value : field.density) EXPECT_GE(value, 0);
+}
+
+TEST(GroundField, IsThatOfItsOwnTime) {
+  world::Trace trace = ground_crowd(2);
+  trace.position = {{-4.875F, 0.125F}, {5.125F, 2.125F}, {-2.875F, 0.125F}, {5.125F, 2.125F}};
+  trace.flags[2 + 1] = 0;  // has left by the second step
+  const GroundGrid grid(yard());
+  for (const double time_s : {0.125, 0.375}) {
+    const GroundField field = ground_field(trace, grid, time_s);
+    EXPECT_EQ(field.people, 2) << "nobody has left before the second step";
+    const double x = -4.875 + 4 * time_s;
+    const auto densest = std::max_element(field.density.begin(), field.density.end());
+    EXPECT_EQ(field.density[cell_at(grid, x, 0.125)], *densest);
+    EXPECT_NEAR(field.velocity_x[cell_at(grid, x, 0.125)], 4, 1e-5) << "2 m in 0.5 s";
+    EXPECT_NEAR(field.velocity_y[cell_at(grid, x, 0.125)], 0, 1e-5);
+  }
+  EXPECT_EQ(ground_field(trace, grid, 0.5).people, 1);
 }
 
 TEST(GroundField, NobodyIsInsideOfBuildingsUnlessTheyAre) {
