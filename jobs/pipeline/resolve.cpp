@@ -129,6 +129,17 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
+/// A job of several scenarios that says nothing of drones takes none of theirs.
+void check_no_drones_are_meant(const JobSpec& job, const std::vector<world::Scenario>& scenarios,
+                               std::vector<Problem>& problems) {
+  const bool have_drones = std::any_of(scenarios.begin(), scenarios.end(),
+                                       [](const auto& place) { return !place.drones.empty(); });
+  if (job.mix.empty() || job.is_without_drones || !have_drones) return;
+  problems.push_back({"", "/drones", "nothing",
+                      "at least one drone, since a job of several scenarios takes none of theirs; "
+                      "\"aim\" places it in each; or [] for figures without images"});
+}
+
 /// Of a job without drones: leaves out the ground truth that images hold, if the job does not say
 /// which it wants, and refuses it otherwise.
 void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
@@ -141,11 +152,8 @@ void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
   if (outputs.annotations == annotate::default_ground_truth()) {
     std::erase_if(outputs.annotations, needs_images);
   }
-  const std::string expected = job.mix.empty()
-                                   ? "a drone in /drones, since the scenario has none of its own "
-                                     "or the job wants none"
-                                   : "a drone in /drones, since a job of several scenarios takes "
-                                     "none of theirs; \"aim\" places it in each";
+  const char* const expected =
+      "a drone in /drones, since the scenario has none of its own or the job wants none";
   const auto refuse = [&](const std::string& pointer, const std::string& what) {
     problems.push_back(
         {"", pointer, what + " without drones, whose cameras make images", expected});
@@ -323,6 +331,7 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
   read_files(job, problems);
   if (job.mix.empty()) take_from_scenario(job, scenarios.front(), default_drones);
   if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
+    check_no_drones_are_meant(job, scenarios, problems);
     make_job_for_figures(job, problems);
   } else {
     check_formats(job.outputs, problems);

@@ -177,6 +177,21 @@ TEST_F(Resolve, TheSimulationGetsWhatWasDrawn) {
   }
 }
 
+TEST_F(Resolve, AJobForFiguresNeedsNoDrone) {
+  const JobSpec job = resolved(R"({"scenario": "yard", "drones": []})");
+  EXPECT_TRUE(job.drones.empty()) << "not the scenario's either";
+  EXPECT_THAT(job.outputs.annotations, ElementsAre("exits"));
+  EXPECT_TRUE(plan_shards(job, 0).empty());
+  EXPECT_EQ(to_json(resolved(to_json(job).dump())), to_json(job));
+  EXPECT_THAT(pointers_of(R"({"scenario": "yard", "drones": [],
+                              "outputs": {"annotations": ["events", "semantic", "coco"],
+                                          "formats": ["mot"], "previews": 1}})"),
+              ElementsAre("/outputs/annotations/1", "/outputs/annotations/2", "/outputs/formats/0",
+                          "/outputs/previews"));
+  EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yard"], "runs": 4, "drones": []})"),
+              ElementsAre());
+}
+
 TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
   const std::string drones = R"("drones": [{"id": "view", "aim": {"height_m": 15}}])";
   const JobSpec job = resolved(R"({"scenario": ["yard", {"generate": {"kind": "plaza", "seed": 3}}],

@@ -199,7 +199,7 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "crowd": {"model": 3}})", "/crowd/model"},
       {R"({"scenario": "yard", "crowd": {"compat": "meng"}})", "/crowd/compat"},
       {R"({"scenario": "yard", "crowd": {"separation": true}})", "/crowd/separation"},
-      {R"({"scenario": "yard", "drones": []})", "/drones"},
+      {R"({"scenario": "yard", "drones": {}})", "/drones"},
       {R"({"scenario": "yard", "drones": [{}]})", "/drones/0/id"},
       {R"({"scenario": "yard", "drones": [{"id": "../x"}]})", "/drones/0/id"},
       {R"({"scenario": "yard", "drones": [{"id": "d1\n"}]})", "/drones/0/id"},
