@@ -111,7 +111,9 @@ bool move_outward(std::vector<Chord>& lines, bool fewer, ClosedGround& ground) {
       const double spared_m = length_m(lines) - (length_m(moved) - chord->length_m());
       if (chord->length_m() > kHardlyShorter * spared_m) continue;
       if (moved.size() + (fewer ? 1 : 0) > lines.size()) continue;
-      if (!fewer && !enclose_more(moved, lines, way.front(), ground)) continue;
+      // Between parallel walls many lines are equally short.
+      const bool is_as_short = chord->length_m() <= spared_m + ground.cell_m();
+      if (!fewer && !is_as_short && !enclose_more(moved, lines, way.front(), ground)) continue;
       lines = std::move(moved);
       return true;
     }

@@ -74,6 +74,12 @@ TEST_F(Outline, NamesAWallThatIsMissing) {
   expect_gap({20, {0, 11}});
 }
 
+TEST_F(Outline, AMissingWallIsAtItsPlaceAndNotWherePeopleEnd) {
+  yard.obstacles = three_walls() + Yard::box(10, 10, 11, 14) + Yard::box(-11, 10, -10, 14);
+  yard.scenario["inside"]["max"] = {12, 15};
+  expect_gap({20, {0, 14}});
+}
+
 TEST_F(Outline, NamesAGapInAWall) {
   yard.obstacles = three_walls() + Yard::box(-10, 10, 3, 11) + Yard::box(4.2, 10, 10, 11);
   expect_gap({1.2, {3.6, 10.5}});
