@@ -157,7 +157,9 @@ void shorten(Joint& joint, const Places& joined, const Places& piece) {
   }
 }
 
-Places joined(std::vector<Piece> pieces) {
+Places joined(std::vector<Piece> pieces, PolygonFit& fit) {
+  fit.pieces = static_cast<int>(pieces.size());
+  for (const Piece& piece : pieces) fit.mask_px += piece.area;
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.area > b.area; });
   Places all = pieces.front().places;
@@ -173,7 +175,11 @@ Places joined(std::vector<Piece> pieces) {
     const Joint joint = *nearest;
     pieces.erase(pieces.begin() + at);
     joints.erase(nearest);
-    if (joint.pixels > piece.area) continue;
+    if (joint.pixels > piece.area) {
+      fit.left_out_px += piece.area;
+      continue;
+    }
+    fit.line_px += joint.pixels;
     splice(all, joint.from, piece.places, joint.to);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       shorten(joints[i], piece.places, pieces[i].places);
@@ -203,10 +209,12 @@ Places straightened(const Places& ring) {
 
 }  // namespace
 
-std::vector<PixelPlace> polygon_of(const Bitmap& mask) {
+std::vector<PixelPlace> polygon_of(const Bitmap& mask, PolygonFit* fit) {
   std::vector<Piece> pieces = pieces_of(mask);
   if (pieces.empty()) return {};
-  Places polygon = straightened(joined(std::move(pieces)));
+  PolygonFit found;
+  Places polygon = straightened(joined(std::move(pieces), found));
+  if (fit != nullptr) *fit = found;
   constexpr std::size_t kMinPoints = 3;  // of a polygon: fewer are taken for a box
   while (polygon.size() < kMinPoints) polygon.push_back(polygon.back());
   return polygon;

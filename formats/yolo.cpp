@@ -38,14 +38,14 @@ class YoloExporter : public Exporter {
     const fs::path place = fs::path(name_of(image.split)) / image.stem();
     output_.link("images" / fs::path(place.string() + ".jpg"), info_.root / image.file);
     std::string text;
-    for (const Person& person : image.people) {
-      if (!person.is_ignored) append(text, image, person);
-    }
-    if (task_ != Task::pose) {
-      for (const Person& object : image.objects) {
-        if (!object.is_ignored) append(text, image, object);
+    int line = 0;
+    const auto append_all = [&](const std::vector<Person>& all) {
+      for (const Person& one : all) {
+        if (!one.is_ignored) append(text, image, one, ++line);
       }
-    }
+    };
+    append_all(image.people);
+    if (task_ != Task::pose) append_all(image.objects);
     output_.write("labels" / fs::path(place.string() + ".txt"), text);
   }
 
@@ -65,18 +65,27 @@ class YoloExporter : public Exporter {
                           nlohmann::json(kMirrored).dump());
     }
     output_.write("data.yaml", yaml);
+    if (task_ == Task::segment) {
+      output_.write("polygons.csv", "label,line,pieces,left_out_px,line_px,iou\n" + fits_);
+    }
   }
 
  private:
-  void append(std::string& text, const Image& image, const Person& person) const {
+  void append(std::string& text, const Image& image, const Person& person, int line) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "{}", person.category);
     if (task_ == Task::segment) {
       const auto pixels =
           static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-      for (const auto& [x, y] : polygon_of(bitmap_of(runs_of(person.mask, pixels), image.height))) {
+      PolygonFit fit;
+      const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+      for (const auto& [x, y] : polygon_of(mask, &fit)) {
         fmt::format_to(out, " {:.6f} {:.6f}", share(x + kInPixel, image.width),
                        share(y + kInPixel, image.height));
+      }
+      if (fit.pieces > 1) {
+        fits_ += fmt::format("{}/{}.txt,{},{},{},{},{:.4f}\n", name_of(image.split), image.stem(),
+                             line, fit.pieces, fit.left_out_px, fit.line_px, fit.iou());
       }
     } else {
       const Box& box = person.box;
@@ -96,6 +105,7 @@ class YoloExporter : public Exporter {
   const DatasetInfo& info_;
   Output output_;
   Task task_;
+  std::string fits_;  ///< rows of polygons.csv
 };
 
 }  // namespace

@@ -112,6 +112,30 @@ TEST(Polygon, PiecesAreJoinedByNoMoreThanTheyBring) {
   EXPECT_GT(sum / kMasks, 0.9);
 }
 
+TEST(Polygon, SaysHowWellItFitsAMaskOfSeveralPieces) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(4, Stream::crowd_generator, i);
+    cv::Mat image = cv::Mat::zeros(60, 80, CV_8U);
+    const int discs = 1 + static_cast<int>(random.uniform(0, 5));
+    for (int k = 0; k < discs; ++k) {
+      cv::circle(image,
+                 {static_cast<int>(random.uniform(0, 80)), static_cast<int>(random.uniform(0, 60))},
+                 static_cast<int>(random.uniform(0, 9)), cv::Scalar(1), cv::FILLED);
+    }
+    PolygonFit fit;
+    std::vector<cv::Point> polygon;
+    for (const auto& [x, y] : polygon_of(pixels_of(image), &fit)) polygon.emplace_back(x, y);
+    const cv::Mat again = filled(polygon, image.size());
+    cv::Mat labels;
+    EXPECT_EQ(fit.pieces, cv::connectedComponents(image, labels) - 1);
+    EXPECT_EQ(fit.mask_px, cv::countNonZero(image));
+    const double iou =
+        static_cast<double>(cv::countNonZero(image & again)) / cv::countNonZero(image | again);
+    EXPECT_GE(iou, fit.iou() - 1e-9);
+    EXPECT_LE(iou, fit.iou() + 0.03);
+  }
+}
+
 TEST(Polygon, NoMaskNoPolygon) { EXPECT_TRUE(polygon_of(Bitmap{}).empty()); }
 
 // As Ultralytics does: shares times the image's size, cut off to whole numbers; others round.

@@ -131,7 +131,10 @@ TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("keypoints", [](json& r) { r["num_keypoints"] = 18; });
   expect_change("position", [](json& r) { r["position"][0] = 500; });
   expect_change("box-3d", [](json& r) { r["box_3d"][1] = r["box_3d"][1].get<double>() + 2; });
-  expect_change("box-3d", [](json& r) { r["box_3d"][3] = r["box_3d"][4] = r["box_3d"][5] = 0.01; });
+  expect_change("box-3d", [](json& r) {
+    r["box_3d"][0] = r["box_3d"][0].get<double>() + 0.15;
+    r["box_3d"][3] = r["box_3d"][4] = r["box_3d"][5] = 0.01;
+  });
   expect_change("mask-runs", [](json& r) { r["segmentation"]["counts"] = "00"; });
   expect_change("mask-size", [](json& r) { r["segmentation"]["size"][0] = 7; });
   expect_change("category", [](json& r) { r["category_id"] = 2; });
