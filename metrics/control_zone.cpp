@@ -69,7 +69,10 @@ ControlZone::ControlZone(const world::Exit& exit, std::span<const world::Buildin
     : middle_(exit.middle()),
       outward_(exit.outward),
       radius_m_(std::max(exit.width_m(), 2.0) + 1.0) {
-  const Polygon whole = half_disc(middle_, outward_, radius_m_);
+  // Faces of walls lie on the line of a door, where differences of polygons fail: a little
+  // inward nothing does.
+  constexpr double kOffLineM = 1e-7;
+  const Polygon whole = half_disc(middle_ - kOffLineM * outward_, outward_, radius_m_);
   for (const Point& corner : whole.outer()) outline_.emplace_back(corner.x(), corner.y());
   outline_.pop_back();  // the first corner again
   MultiPolygon walkable{whole};

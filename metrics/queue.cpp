@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;      // of the desired speed
-constexpr double kMinLaneM = 0.8;  // one person walks through; narrower doors count whole
+constexpr double kMinLaneM = 0.8;  // one person walks through; narrower doors pass as many
 constexpr double kAboveRounding = 1 + 1e-9;
 
 /// Shortest paths over the links from everybody in the zone at once. Paths that end within 0.25 m

@@ -122,7 +122,7 @@ class DamagedTraces(unittest.TestCase):
         self.assertGreater(len(self.files), 25)
         self.assertGreater(len(refused), 0.3 * len(self.files))
         crashing = [(name, file) for name, file, done in results if CRASH in done.stderr]
-        self.assertGreater(len(crashing), 5)
+        self.assertGreater(len(crashing), 0)
         others = [named for named in refused if named not in crashing]
         for name, file in [crashing[0], crashing[-1], others[0], others[-1]]:
             self.check(name, file, throng("report", file, "-o", self.folder / "report.html"))

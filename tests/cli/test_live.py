@@ -246,7 +246,9 @@ class Live(WithServer):
                 )
             ],
         )
-        self.assertEqual(mistakes(lambda: self.client.live({**JOB, "drones": []}))[0][0], "/job/drones")
+        self.assertEqual(
+            mistakes(lambda: self.client.live({**JOB, "drones": [], "randomize": {}}))[0][0], "/job/drones"
+        )
         flight = self.live()
         found = mistakes(lambda: flight.command({"drones": [{"id": "d3", "velocity_mps": [1, 2]}], "fakt": 1}))
         self.assertEqual([m[0] for m in found], ["/fakt", "/drones/0/velocity_mps", "/drones/0/id"], found)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -26,6 +27,32 @@ TEST(ControlZone, IsHalfADiscOnTheInnerSide) {
   EXPECT_TRUE(narrow.contains({-0.1, 2.9}));
   EXPECT_FALSE(narrow.contains({0.1, 0}));
   EXPECT_FALSE(narrow.contains({-0.1, 3.1}));
+}
+
+TEST(ControlZone, WallsInLineWithTheDoorTakeNothingOfIt) {
+  Random random(7, Stream::crowd_generator);
+  for (int i = 0; i < 1500; ++i) {
+    const double turn_rad =
+        i % 2 == 0 ? 0.5 * std::numbers::pi * (i / 2 % 4) : random.uniform(0, 2 * std::numbers::pi);
+    const Vector2d outward(std::cos(turn_rad), std::sin(turn_rad));
+    const Vector2d along(-outward.y(), outward.x());
+    const double width_m = random.uniform(0.6, 2.5);
+    world::Exit exit;
+    const Vector2d middle(random.uniform(-30, 30), random.uniform(-30, 30));
+    exit.from = middle - 0.5 * width_m * along;
+    exit.to = middle + 0.5 * width_m * along;
+    exit.outward = outward;
+    std::vector<Building> walls;
+    for (const double side : {-1.0, 1.0}) {
+      const Vector2d jamb = middle + side * 0.5 * width_m * along;
+      const Vector2d end = jamb + side * 8 * along;
+      std::vector<Vector2d> corners = {jamb, jamb + 0.3 * outward, end + 0.3 * outward, end};
+      if (side < 0) std::reverse(corners.begin(), corners.end());
+      walls.push_back({"wall", corners, 3});
+    }
+    const ControlZone free(exit, {});
+    EXPECT_NEAR(ControlZone(exit, walls).area_m2(), free.area_m2(), 1e-6) << i;
+  }
 }
 
 TEST(ControlZone, TurnsWithTheExit) {

@@ -55,6 +55,7 @@ TEST(ExitQueue, OnlyThatPartOfTheDoorServesBeforeWhichPeopleStand) {
   const double radius_m = trace_of(walks, crowd).header.radius_m.front();
   EXPECT_NEAR(wait_s(10), 5 / (1.3 * (2 + 2 * radius_m)), 1e-6);
   EXPECT_NEAR(wait_s(1.5), 5 / (1.3 * 1.5), 1e-6) << "never more than the door";
+  EXPECT_NEAR(wait_s(0.5), 5 / (1.3 * 0.8), 1e-6) << "one lane passes whatever its width";
 }
 
 TEST(ExitQueue, AroundACornerIsAsLongAsTheWay) {

@@ -128,7 +128,8 @@ TABLE = {
         metrics_time_in_state_halved metrics_greatest_density_halved escape_curve_reversed crossings_one_more
         crossings_one_more_from_a_frame_on crossings_in_and_out_exchanged queues_one_more people_at_exits_one_more
         predicted_waits_halved pressure_of_exits_doubled exits_with_nan door_of_one_exit_3_px_off_in_all_pictures
-        mean_escape_time_10_s_more escape_percentiles_20_percent_less not_escaped_one_less net_out_one_more
+        mean_escape_time_10_s_more escape_percentiles_20_percent_less not_escaped_one_less
+        one_more_left_by_an_exit net_out_one_more
         shares_of_exits_moved_by_one metrics_in_one_place_only drones_of_metrics_flew_farther exposure_doubled""",
     exports: """
         formats_mot_ids_exchanged formats_yolo_box_moved formats_kitti_rotation_reversed formats_table_column
