@@ -17,7 +17,7 @@ if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
   say "about 14 minutes on two cores: 13 to install and build, one for the job"
-  echo "needs root or sudo, 3 GB of disk and 216 MB to download (about 430 Debian packages)"
+  echo "needs root or sudo, 7 GB of disk and 805 MB to download (about 1,300 Debian packages)"
 fi
 "$root/scripts/setup.sh"
 
