@@ -10,6 +10,7 @@
 
 #include "annotate/coco_records.h"
 #include "annotate/keypoints.h"
+#include "annotate/spec/ground_truth.h"
 #include "annotate/spec/license.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -252,7 +253,7 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
   const StagingFolder staging(output);
   const fs::path file = staging.path() / "merged.json";
   Output merged(file);
-  const nlohmann::json info = {{"description", description}, {"version", "1"}};
+  const nlohmann::json info = {{"description", description}, {"version", kLabelVersion}};
   nlohmann::json categories = {
       {{"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}}};
   if (wanted.keypoints) {

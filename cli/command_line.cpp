@@ -38,7 +38,8 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
 
 [[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const CLI::App* command :
+       app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); })) {
     names.push_back(command->get_name());
   }
   throw InputError(unknown_name("", "", "command", word,

@@ -32,6 +32,10 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string(throng::kGenerator));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return cli::exit_ok;
+  }
   const cli::CommandLine line(argc, argv);
   if (const auto help = cli::help_text(app, line.words())) {
     fmt::print("{}", *help);

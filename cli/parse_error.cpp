@@ -75,8 +75,8 @@ Problem parse_problem(const CLI::App& app, const CLI::ParseError& error) {
   const std::string text = error.what();
   if (text == "A subcommand is required") {
     std::string names;
-    for (const CLI::App* next :
-         command.app->get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* next : command.app->get_subcommands(
+             [](const CLI::App* one) { return !one->get_group().empty(); })) {
       names += (names.empty() ? "" : ", ") + next->get_name();
     }
     return {command.name, "", "no command", "one of: " + names};

@@ -3,8 +3,8 @@
 # Labels say how scripts/test.sh runs a test:
 #   computing   with the release build only: figures and images, which take five times as long with sanitizers
 #   sanitized   with AddressSanitizer only: modules that read, write and serve data
-#   slow        a script that runs with the release build only; scripts without it run with AddressSanitizer, too,
-#   asan_in_long  but those with this one only in the step long: tests of modules look at the same code
+#   slow        a script that runs with the release build only
+#   asan_in_long  a script that runs with AddressSanitizer, too, in the step long: tests of modules look at the same code
 #   samples     a sample by default, all with $THRONG_LONG, which the step long sets
 #   waits       it starts servers, browsers or workers and waits for them. scripts/run_ctest.py repeats it once, alone,
 #               if it fails (docs/contributing.md); no other test is ever repeated.

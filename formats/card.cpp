@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "annotate/spec/ground_truth.h"
 #include "annotate/spec/license.h"
 #include "formats/class_mappings.h"
 #include "world/semantic_class.h"
@@ -219,7 +220,8 @@ json DatasetCard::description() const {
       {"schema_version", kCardVersion},
       {"name", info_.name},
       {"generator", info_.generator},
-      {"schema_versions", {{"manifest", manifest_.at("schema_version")}, {"coco", "1"}}},
+      {"schema_versions",
+       {{"manifest", manifest_.at("schema_version")}, {"coco", annotate::kLabelVersion}}},
       {"files", places_here},
       {"classes", classes()},
       {"formats", formats},

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "annotate/keypoints.h"
+#include "annotate/spec/ground_truth.h"
 #include "annotate/spec/license.h"
 #include "formats/joints.h"
 #include "formats/makers.h"
@@ -58,8 +59,9 @@ class CocoFile {
         annotations_(output.folder() / (path + ".annotations")) {}
 
   void begin(const DatasetInfo& info, const json& categories) {
-    const json head = {
-        {"description", info.name}, {"version", "1"}, {"contributor", info.generator}};
+    const json head = {{"description", info.name},
+                       {"version", annotate::kLabelVersion},
+                       {"contributor", info.generator}};
     final_.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"images\":[",
                              head.dump(), annotate::kCocoLicenses, categories.dump()));
   }

@@ -124,7 +124,10 @@ step_soak() {
   run_parts soak_release soak_asan
 }
 soak_release() { run_ctest soak-release release -j4 -L '^waits$' -LE '^sanitized$' --repeat "until-fail:${THRONG_SOAK:-10}"; }
-soak_asan() { asan_ctest soak-asan -j4 -L '^waits$' -LE '^slow$' --repeat "until-fail:${THRONG_SOAK:-10}"; }
+soak_asan() {
+  THRONG_TEST_PROGRAM="$root/build/release/cli/throng" asan_ctest soak-asan -j4 -L '^waits$' -LE '^slow$' \
+    --repeat "until-fail:${THRONG_SOAK:-10}"
+}
 
 # Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
 # of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. A tree that passed once
@@ -145,14 +148,17 @@ step_tidy() {
   touch "$stamps/tidy/$state"
 }
 
+# asan_ctest STEP CTEST_ARGUMENT...: the server's tests start $THRONG_TEST_PROGRAM.
 asan_ctest() {
   LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" run_ctest "$1" asan "${@:2}"
 }
 
+# Libraries and the server, whose children are the release build's program. The step long has the program with sanitizers.
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
+  build release throng
   build asan throng_sanitized_tests throng_fuzz
-  asan_ctest asan --repeat-waits -j3 -LE '^(slow|computing|asan_in_long)$'
+  THRONG_TEST_PROGRAM="$root/build/release/cli/throng" asan_ctest asan --repeat-waits -j3 -L '^sanitized$'
 }
 
 # The crowd's tests are those that compare numbers of threads. None of these is ever repeated.

@@ -13,6 +13,10 @@
 
 namespace throng::annotate {
 
+/// Raised whenever the meaning of a label changes (docs/formats_coco.md): `info.version` of COCO
+/// files, and `schema_versions` of dataset.json.
+inline constexpr const char* kLabelVersion = "2";
+
 /// In the order of the table.
 enum class GroundTruth : std::uint8_t {
   coco,

@@ -160,6 +160,10 @@ class Messages(unittest.TestCase):
         self.refused("throng run: missing --output (`throng run --help`)", "run", job)
         self.refused("throng serve: --port: found 99999, expected 0 to 65535", "serve", "--port", "99999")
         self.refused('one more argument, "check"', "scenarios", "check")
+        alone = subprocess.run([THRONG], capture_output=True, text=True, timeout=100)
+        self.assertEqual((alone.returncode, alone.stderr), (0, ""))
+        self.assertIn("Subcommands:", alone.stdout)
+        self.assertNotIn("confined", alone.stdout)
         self.refused("throng keys: found no command, expected one of: ", "keys")
         self.refused("--classes: found x, expected one of: ", "export", "d", "--classes", "x")
 

@@ -69,6 +69,9 @@ class Package(unittest.TestCase):
         sources = (PACKAGE / "throng").rglob("*.py")
         modules = {str(path.relative_to(PACKAGE)) for path in sources} | {"throng/py.typed"}
         self.assertEqual({name for name in wheels["direct"] if name.startswith("throng/")}, modules)
+        license = (common.ROOT / "LICENSE").read_bytes()
+        self.assertIn(license, [text for name, text in wheels["direct"].items() if name.endswith("/LICENSE")])
+        self.assertEqual((again / "LICENSE").read_bytes(), license)
         done = call(
             "import sys; sys.path.insert(0, sys.argv[1]); import throng; print(throng.__file__, throng.__version__)",
             self.folder,

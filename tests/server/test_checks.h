@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,10 +22,13 @@
 
 namespace throng::server {
 
-/// The program of the same build folder; empty where it is not built.
+/// $THRONG_TEST_PROGRAM or the program of the same build folder; empty where it is not built.
 #ifdef THRONG_HAS_PROGRAM
-inline const std::string kProgram =
-    (program_path().parent_path().parent_path().parent_path() / "cli/throng").string();
+inline std::string test_program() {
+  if (const char* given = std::getenv("THRONG_TEST_PROGRAM")) return given;
+  return (program_path().parent_path().parent_path().parent_path() / "cli/throng").string();
+}
+inline const std::string kProgram = test_program();
 #else
 inline const std::string kProgram;
 #endif
