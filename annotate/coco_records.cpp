@@ -182,11 +182,12 @@ void append_track_record(std::string& text, const CocoImage& image, std::uint32_
 }
 
 void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels) {
-  append(text,
-         R"({{"id":{},"file_name":{},"license":1,"width":{},"height":{},"run":{},"camera_id":{},"frame":{},)",
-         image.id, quoted(image.file_name), image.camera.intrinsics.width,
-         image.camera.intrinsics.height, quoted(image.run), quoted(image.camera_id),
-         image.frame_index);
+  append(
+      text,
+      R"({{"id":{},"file_name":{},"license":1,"width":{},"height":{},"run":{},"camera_id":{},"frame":{},)",
+      image.id, quoted(image.file_name), image.camera.intrinsics.width,
+      image.camera.intrinsics.height, quoted(image.run), quoted(image.camera_id),
+      image.frame_index);
   append(text, R"("time_s":{},"camera":{{"K":)", finite(image.time_s));
   append_exact(text, image.camera.intrinsics.matrix());
   text += R"(,"R":)";
