@@ -82,7 +82,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
     fmt::print(stderr, "throng: warning: {}\n", warnings[i]);
   }
   if (warnings.size() > kMaxPrinted) {
-    fmt::print(stderr, "throng: and {} more, in work/RUN/trace.h5.warnings.json\n",
+    fmt::print(stderr, "throng: and {} more, in work/RUN/*.warnings.json\n",
                counted(warnings.size() - kMaxPrinted, "warning"));
   }
 }

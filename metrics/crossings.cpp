@@ -29,7 +29,7 @@ double ExitLine::along_m(const Eigen::Vector2d& point) const {
 }
 
 int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position, double time_s,
-                          bool is_outside_of_place) {
+                          bool is_outside_place) {
   const double before_s = last_s_;
   last_s_ = time_s;
   const double beyond = line.beyond_m(position);
@@ -47,7 +47,7 @@ int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position,
     crossed_at_s_ = before_s + was_beyond / (was_beyond - beyond) * (time_s - before_s);
   }
   last_ = position;
-  const bool is_clear = std::abs(beyond) >= kHysteresisM || (is_outside && is_outside_of_place);
+  const bool is_clear = std::abs(beyond) >= kHysteresisM || (is_outside && is_outside_place);
   if (is_outside == outside_ || !is_clear) return 0;
   const bool counts = passed_;
   outside_ = is_outside;

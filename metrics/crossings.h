@@ -40,10 +40,10 @@ class CrossingCounter {
   static constexpr double kHysteresisM = 0.2;
 
   /// The person's next position. Returns +1 for a crossing outward, -1 inward, else 0.
-  /// `is_outside`: the position is outside of Scenario::inside, so a crossing outward counts at
-  /// once.
+  /// `is_outside_place`: the position is outside of Scenario::inside, so a crossing outward counts
+  /// at once.
   int step(const ExitLine& line, const Eigen::Vector2d& position, double time_s = 0,
-           bool is_outside = false);
+           bool is_outside_place = false);
   /// The person is gone. Returns +1 if that completes a crossing outward, else 0.
   int vanish();
   /// After step() returned a crossing: when the person was on the line, between two steps.

@@ -38,7 +38,7 @@ void check_outsiders(const Scenario& scenario, const LoadedCrowd& loaded, Findin
   }
   if (!outside.any()) return;
   findings.warning("/inside",
-                   fmt::format("{}, out of {} people: they count as escaped from their start",
+                   fmt::format("{}, out of {} people: no figure counts them until they are inside",
                                outside.text(), people),
                    "people who start and arrive inside",
                    "move their generators, or enlarge \"inside\"");

@@ -46,7 +46,7 @@ void check_people(const world::Scenario& scenario, const LoadedCrowd& loaded, co
 void check_walls(const world::Scenario& scenario, const Routes& routes, Findings& findings);
 /// Whether there is ground that people can stand on but not leave.
 void check_ground(const world::Scenario& scenario, const Routes& routes, Findings& findings);
-/// Whether people start or arrive outside of the place, where they count as escaped.
+/// Whether people start or arrive outside of the place, where no figure counts them.
 void check_outsiders(const world::Scenario& scenario, const LoadedCrowd& loaded,
                      Findings& findings);
 /// Whether people can get out of the place without passing an exit.

@@ -110,9 +110,8 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   const nlohmann::json figures = metrics::to_json(measured);
-  for (const std::string& warning : metrics::warnings_of(measured.counts)) {
-    fmt::print(stderr, "warning: {}: {}\n", run_name(run), warning);
-  }
+  keep_warnings(folder.output_of({Task::Kind::measure, run}),
+                metrics::warnings_of(measured.counts));
 
   Publication output(folder.output_of({Task::Kind::measure, run}));
   output.add("metrics/" + run_name(run) + ".json", figures.dump(kJsonIndent) + "\n");

@@ -140,8 +140,8 @@ void check_no_drones_are_meant(const JobSpec& job, const std::vector<world::Scen
                       "\"aim\" places it in each; or [] for figures without images"});
 }
 
-/// Of a job without drones: leaves out the ground truth that images hold, if the job does not say
-/// which it wants, and refuses it otherwise.
+/// Makes a job without drones one for figures: leaves out the ground truth that images hold if the
+/// job does not say which it wants, and refuses it otherwise.
 void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
   job.is_without_drones = true;
   OutputSpec& outputs = job.outputs;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path file_of(const fs::path& trace) { return trace.string() + ".warnings.json"; }
+fs::path file_of(const fs::path& output) { return output.string() + ".warnings.json"; }
 
 nlohmann::json read_kept(const fs::path& file) {
   try {
@@ -28,19 +28,21 @@ nlohmann::json read_kept(const fs::path& file) {
 
 }  // namespace
 
-void keep_warnings(const fs::path& trace, const std::vector<std::string>& texts) {
-  write_file_atomically(file_of(trace), nlohmann::json(texts).dump(1) + "\n");
+void keep_warnings(const fs::path& output, const std::vector<std::string>& texts) {
+  write_file_atomically(file_of(output), nlohmann::json(texts).dump(1) + "\n");
 }
 
 std::vector<std::string> kept_warnings(const JobFolder& folder, int runs) {
   std::vector<std::string> warnings;
   std::set<std::string> seen;
   for (int run = 0; run < runs; ++run) {
-    const nlohmann::json kept = read_kept(file_of(folder.output_of({Task::Kind::simulate, run})));
-    if (!kept.is_array()) continue;
-    for (const nlohmann::json& text : kept) {
-      if (!text.is_string() || !seen.insert(text.get<std::string>()).second) continue;
-      warnings.push_back(fmt::format("{}: {}", run_name(run), text.get<std::string>()));
+    for (const Task::Kind kind : {Task::Kind::simulate, Task::Kind::measure}) {
+      const nlohmann::json kept = read_kept(file_of(folder.output_of({kind, run})));
+      if (!kept.is_array()) continue;
+      for (const nlohmann::json& text : kept) {
+        if (!text.is_string() || !seen.insert(text.get<std::string>()).second) continue;
+        warnings.push_back(fmt::format("{}: {}", run_name(run), text.get<std::string>()));
+      }
     }
   }
   return warnings;

@@ -1,4 +1,4 @@
-// Warnings of a job's simulations, kept beside their traces for the end of the job.
+// Warnings of a job's runs, kept beside the outputs of their tasks for the end of the job.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,9 @@
 
 namespace throng::jobs {
 
-/// Keeps the texts of a run's warnings beside its trace. Throws EnvironmentError.
-void keep_warnings(const std::filesystem::path& trace, const std::vector<std::string>& texts);
+/// Keeps the texts of a task's warnings beside its output, a trace or figures. Throws
+/// EnvironmentError.
+void keep_warnings(const std::filesystem::path& output, const std::vector<std::string>& texts);
 
 /// The warnings of the first `runs` runs of a job, each text once: "run000: ...". Files that
 /// cannot be read are left out.

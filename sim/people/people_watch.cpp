@@ -65,9 +65,10 @@ void PeopleWatch::look_at(Person& person, const world::CrowdStep& step) {
     outside_ += is_inside ? 0 : 1;
   }
   if (!is_inside) {
-    person.escaped = true;
+    person.escaped = person.was_inside;
     return;
   }
+  person.was_inside = true;
   last_inside_s_ = step.time_s;
   const std::int8_t intent = step.exit_intent[person.agent];
   if (step.time_s < start_s() - world::kTimeSlackS) {
@@ -128,7 +129,7 @@ std::vector<Problem> PeopleWatch::idleness() const {
 
 void PeopleWatch::add_emptiness(std::vector<Problem>& warnings) const {
   const bool are_all_gone = std::all_of(people_.begin(), people_.end(),
-                                        [](const Person& p) { return !p.arrived || p.escaped; });
+                                        [](const Person& p) { return !p.was_inside || p.escaped; });
   if (arrived_ > 0 && are_all_gone && images_from_s_ && last_inside_s_ < *images_from_s_) {
     warnings.push_back(
         {"", "/capture/from_s",
@@ -143,7 +144,7 @@ std::vector<Problem> PeopleWatch::warnings() const {
   if (outside_ > 0) {
     warnings.push_back({"", kScenario,
                         fmt::format("{} of {} people who start outside of the scenario's "
-                                    "\"inside\" and count as escaped from then on",
+                                    "\"inside\", which no figure counts until they are there",
                                     outside_, arrived_),
                         "groups and sources inside of it, or a larger \"inside\""});
   }

@@ -37,6 +37,7 @@ class PeopleWatch {
   struct Person {
     std::size_t agent = 0;
     bool arrived = false;
+    bool was_inside = false;
     bool escaped = false;
     bool started = false;  ///< was inside at the alarm or arrived later
     bool noticed = false;
