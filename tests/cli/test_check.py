@@ -1,5 +1,6 @@
 """throng check: every mistake at once, estimates, and warnings for jobs that succeed without effect."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -127,6 +128,39 @@ class Check(unittest.TestCase):
         done = subprocess.run(validate, capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("exits/run000.csv: no such file", done.stdout)
+
+    def test_a_wall_left_out_is_said_before_and_after_the_run(self):
+        def wall(name, x0, y0, x1, y1):
+            return {"id": name, "box": [x0, y0, x1, y1], "height_m": 3}
+
+        walls = [
+            wall("north", -10, 7, 10, 7.3),
+            wall("south", -10, -7.3, 10, -7),
+            wall("west", -10.3, -7.3, -10, 7.3),
+            wall("south_east", 10, -7.3, 10.3, -1),  # and none north of the door
+        ]
+        hall = {
+            "name": "Hall",
+            "ground": {"min": [-30, -30], "max": [30, 30], "material": "concrete"},
+            "inside": {"min": [-13, -10], "max": [13, 10]},
+            "exits": [{"id": "east", "from": [10, -1], "to": [10, 1]}],
+            "buildings": walls,
+            "disasters": [{"kind": "fire", "position": [0, -4], "start_s": 2, "radius_m": 1}],
+            "people": {"groups": [{"doing": "stroll", "box": [-9, -6, 9, 6], "count": 60}]},
+        }
+        (self.folder / "hall.place.json").write_text(json.dumps(hall))
+        scenarios = self.folder / "places"
+        make = [THRONG, "scenario", "make", self.folder / "hall.place.json", "-o", scenarios]
+        subprocess.run(make, check=True, capture_output=True)
+        job = self.write({"scenario": "hall", "seed": 4, "drones": [], "capture": {"to_s": 40}})
+        environment = {**os.environ, "THRONG_SCENARIOS": str(scenarios)}
+        run = [THRONG, "run", job, "-o", self.folder / "hall"]
+        done = subprocess.run(run, capture_output=True, text=True, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('found a gap 6.0 m wide at [10, 4], nearest to exit "east"', done.stderr)
+        counts = json.loads((self.folder / "hall/dataset/metrics/run000.json").read_text())["people_counts"]
+        self.assertGreater(counts["left_by_no_exit"], 0)
+        self.assertIn(f"warning: run000: {counts['left_by_no_exit']} of 60 people left the place where", done.stderr)
 
     def test_an_alarm_that_nobody_notices(self):
         paper = {"scenario": "city_square/huang2016/second_nearest", "capture": {"to_s": 60}}
