@@ -33,7 +33,8 @@ void add_export(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
 void add_calibrate(CLI::App& app);
-void add_manual(CLI::App& app);  // completion, manual
+void add_completion(CLI::App& app);
+void add_manual(CLI::App& app);
 
 // Subcommands of `throng people` with files of their own.
 void add_people_import(CLI::App& people);

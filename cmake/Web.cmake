@@ -1,17 +1,22 @@
 # Scripts of web/, bundled by esbuild and embedded in the program: those of HTML reports while CMake configures, Studio (the
 # page of the service) while it builds.
 
-# Installs the packages of web/package-lock.json, once for all builds of this tree; needs npm's registry then only.
+# Installs the packages of web/package-lock.json, once for all builds of this tree; needs npm's registry then only. Packages that
+# only the checks need (devDependencies: linters, a browser's driver) come with the tests.
 function(throng_web_packages)
   set(folder "${PROJECT_SOURCE_DIR}/build/web")
   set(lock "${PROJECT_SOURCE_DIR}/web/package-lock.json")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${lock}")
   file(SHA256 "${lock}" wanted)
+  set(omitted "")
+  if(NOT BUILD_TESTING)
+    set(omitted --omit=dev)
+  endif()
   set(installed "")
   if(EXISTS "${folder}/installed.sha256")
     file(READ "${folder}/installed.sha256" installed)
   endif()
-  if(installed STREQUAL wanted)
+  if(installed STREQUAL "${wanted}" OR (omitted AND installed STREQUAL "${wanted} ${omitted}"))
     return()
   endif()
   find_program(NPM_PROGRAM npm)
@@ -20,12 +25,13 @@ function(throng_web_packages)
   endif()
   message(STATUS "Fetching the packages of web/package-lock.json")
   file(COPY "${PROJECT_SOURCE_DIR}/web/package.json" "${lock}" DESTINATION "${folder}")
-  execute_process(COMMAND "${NPM_PROGRAM}" ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  execute_process(COMMAND "${NPM_PROGRAM}" ci ${omitted} --ignore-scripts --no-audit --no-fund --loglevel=error
     WORKING_DIRECTORY "${folder}" RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "npm could not install the packages of web/package-lock.json (a first build needs npm's registry):\n${output}")
   endif()
-  file(WRITE "${folder}/installed.sha256" "${wanted}")
+  string(STRIP "${wanted} ${omitted}" installed)
+  file(WRITE "${folder}/installed.sha256" "${installed}")
 endfunction()
 
 # throng_bundle(TARGET SYMBOL FILE): FILE of web/, a script or a style sheet, and all that it imports, embedded like

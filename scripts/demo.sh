@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # The main job from nothing: installs, builds, starts a server on a free loopback port, submits
-# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents. Says how long it takes
-# before it starts; ends with the first image, the address of the job in Studio (the web page of the service) and three
-# commands to try next.
+# scenarios/city_square/demo.job.json over HTTP, downloads the archive, draws one frame with all of its labels and makes
+# the report of the evacuation. Says how long it takes before it starts, and at the end what to open next.
 # usage: scripts/demo.sh [--keep]   --keep: the server stays up until Ctrl-C
 set -euo pipefail
 keep=
@@ -16,8 +15,8 @@ esac
 if [ -x "$root/build/release/cli/throng" ]; then
   say "throng is built: about a minute for the job, more if sources have changed"
 else
-  say "about 14 minutes on two cores: 13 to install and build, one for the job"
-  echo "needs root or sudo, 7 GB of disk and 805 MB to download (about 1,300 Debian packages)"
+  say "about MINUTES minutes on two cores: NN to install and build, half a minute for the job"
+  echo "needs root or sudo, DISK GB of disk and DOWNLOAD MB to download (COUNT Debian packages)"
 fi
 "$root/scripts/setup.sh"
 
@@ -60,21 +59,28 @@ mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
 /usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"
 
-image="$(find "$out/dataset/previews" -name '*.jpg' | sort | head -1)"
+say "drawing a frame with its labels, and the report"
+PYTHONPATH="$root/python" MPLBACKEND=Agg /usr/bin/python3 - "$out" <<'PYTHON'
+import sys
+import throng
+
+frames = [frame for frame in throng.Dataset(f"{sys.argv[1]}/dataset") if frame.camera_id == "overview"]
+throng.show_labels(frames[len(frames) // 3]).savefig(f"{sys.argv[1]}/labels.jpg", dpi=128, pil_kwargs={"quality": 90})
+PYTHON
+THRONG_URL="$url" "$root/build/release/cli/throng" report "$job" -o "$out/report.html"
+
 if [ -n "$keep" ]; then
   page="$url/jobs/$job   (Ctrl-C ends the server)"
 else
-  page="http://127.0.0.1:8080/jobs/$job   after: $root/build/release/cli/throng serve --data $out/data"
+  page="http://127.0.0.1:8080/jobs/$job   after: build/release/cli/throng serve --data build/demo/data"
 fi
-say "done after $SECONDS s"
+say "done after $SECONDS s; open next:"
 cat <<END
-image with labels:  $image
-dataset:            $out/dataset
-web page:           $page
-try next:           export PATH=$root/build/release/cli:\$PATH
-                    throng check $root/scenarios/bridge/demo.job.json
-                    throng run $root/scenarios/bridge/demo.job.json -o out
-                    throng scenario plan city_square/emergency -o plan.svg
-documentation:      $root/docs/README.md
+a frame and its labels:  $out/labels.jpg
+the dataset:             $out/dataset   (README.md in it says what is where)
+the evacuation's report: $out/report.html
+Studio, the web page:    $page
+a job of your own:       export PATH=$root/build/release/cli:\$PATH; throng run scenarios/bridge/demo.job.json -o out
+documentation:           $root/docs/README.md
 END
 if [ -n "$keep" ]; then wait "$server"; fi

@@ -10,14 +10,15 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# Installs the Debian packages of scripts/packages.txt that are missing. npm is taken from wherever
-# it already comes.
+# install_packages program|checks: installs the Debian packages of scripts/packages.txt that are missing; "checks" are all,
+# "program" those before the line "only for the checks". npm is taken from wherever it already comes.
 install_packages() {
-  local missing=() package
+  local missing=() package last='/^# only for the checks/q'
+  [ "$1" != checks ] || last=
   while read -r package; do
     if [ "$package" = npm ] && command -v npm >/dev/null; then continue; fi
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
-  done < <(grep -Ev '^(#|$)' "$root/scripts/packages.txt")
+  done < <(sed "$last" "$root/scripts/packages.txt" | grep -Ev '^(#|$)')
   [ ${#missing[@]} = 0 ] && return
   say "installing ${#missing[@]} Debian packages"
   as_root apt-get update -q
@@ -36,16 +37,20 @@ fetch_assets() {
   cp "$lock" "$assets/installed-lock.json"
 }
 
-# build PRESET [target...]: with keep_going=1, goes on where one file cannot be compiled, so that all such files are named.
+# build PRESET [TARGET...] [-DOPTION=VALUE...]: with keep_going=1, goes on where one file cannot be compiled, so that all
+# such files are named.
 build() {
-  local preset="$1"
+  local preset="$1" argument targets=() options=()
   shift
+  for argument in "$@"; do
+    case "$argument" in -D*) options+=("$argument") ;; *) targets+=("$argument") ;; esac
+  done
   # The dependency check runs at configure time, so configure always (it takes seconds).
-  cmake -S "$root" --preset "$preset" >"$root/build/configure-$preset.log" 2>&1 || {
+  cmake -S "$root" --preset "$preset" ${options[@]+"${options[@]}"} >"$root/build/configure-$preset.log" 2>&1 || {
     cat "$root/build/configure-$preset.log"
     return 1
   }
-  cmake --build "$root/build/$preset" ${1:+--target "$@"} ${keep_going:+-- -k 0}
+  cmake --build "$root/build/$preset" ${targets[0]+--target "${targets[@]}"} ${keep_going:+-- -k 0}
 }
 
 # bake_people COUNT: builds the character library; the program itself sees when nothing has changed.

@@ -1,11 +1,20 @@
 #!/usr/bin/env bash
-# Installs what throng needs, builds it and the character library. Quick when nothing has changed.
+# Installs what throng needs, builds it and the character library. Quick when nothing has changed. Without the packages, tests
+# and benchmarks of scripts/test.sh, unless that has run here before.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 mkdir -p "$root/build"
-install_packages
-fetch_assets
+install_packages program
+
+# The data of the characters comes while the program is compiled.
+fetch_assets >"$root/build/assets.log" 2>&1 &
+assets=$!
 say "building"
-build release throng
+if grep -qs '^BUILD_TESTING:BOOL=ON' "$root/build/release/CMakeCache.txt"; then
+  build release throng
+else
+  build release throng -DBUILD_TESTING=OFF -DTHRONG_BENCHMARKS=OFF
+fi
+wait "$assets" || { cat "$root/build/assets.log" >&2; exit 1; }
 bake_people 96

@@ -23,7 +23,9 @@ def density_sum(path):
 
 def main(folder):
     coco = json.loads((folder / "annotations/instances.json").read_text())
-    images, annotations = coco["images"], coco["annotations"]
+    images = coco["images"]
+    people = {category["id"] for category in coco["categories"] if category["name"] == "person"}
+    annotations = [annotation for annotation in coco["annotations"] if annotation["category_id"] in people]
     print(f"frames               {len(images)}")
     print(f"annotated people     {len(annotations)} boxes of {len({a['track_id'] for a in annotations})} people")
 
@@ -45,24 +47,14 @@ def main(folder):
             f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"
             f" mean {metrics['mean_escape_time_censored_s']:.1f} s (who is still inside counts to the end)"
         )
-        times = metrics["escape_time_percentiles"]
-        print(
-            "  escape curve       "
-            + ", ".join(
-                f"{key[1:-2]} % at {times[key]:.1f} s" if times[key] is not None else f"{key[1:-2]} % not reached"
-                for key in sorted(times, key=lambda key: int(key[1:-2]))
-            )
-        )
+        times = sorted(metrics["escape_time_percentiles"].items(), key=lambda item: int(item[0][1:-2]))
+        reached = [f"{key[1:-2]} % at {time_s:.1f} s" for key, time_s in times if time_s is not None]
+        print(f"  escape curve       {', '.join(reached) or 'less than 25 % have escaped'}")
         for exit_ in metrics["exits"]:
             print(
                 f"  {exit_['id']:<18} {exit_['crossings']['out']:>3} out, {exit_['crossings']['in']:>3} in, mean clogging index"
                 f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s"
             )
-
-    print("annotated previews")
-    previews = sorted((folder / "previews").rglob("*.jpg"))
-    for index in sorted({0, len(previews) // 2, len(previews) - 1} if previews else ()):
-        print(f"  {previews[index]}")
 
 
 if __name__ == "__main__":

@@ -189,7 +189,7 @@ step_includes() {
   python3 scripts/check_includes.py build/asan
 }
 
-install_packages
+install_packages checks
 fetch_assets
 export keep_going=1  # build() of lib.sh
 rm -rf build/checks

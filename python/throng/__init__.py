@@ -35,7 +35,7 @@ from .errors import (
 from ._live import LiveFlight, LiveMessage, LiveImage, LiveState
 from ._trajectories import Trajectories
 from .frame import Frame
-from .plotting import animate, show
+from .plotting import animate, show, show_labels
 from .program import find_program, metrics, run, simulate, study
 from .real_sets import REAL_SETS, open_real_set
 from .scenario import Scenario
@@ -89,6 +89,7 @@ __all__ = [
     "run",
     "scores",
     "show",
+    "show_labels",
     "simulate",
     "study",
 ]

@@ -268,6 +268,14 @@ class Frame:
         """(height, width) values of `Dataset.semantic_classes`."""
         return self._png("semantic", np.uint8, 1)
 
+    def semantic_colors(self) -> NDArray[np.uint8]:
+        """(height, width, 3) the semantic classes in the colors of dataset.json."""
+        colors = np.zeros((256, 3), dtype=np.uint8)
+        for entry in self._source.description.get("semantic_classes", []):
+            colors[int(entry["id"])] = entry["color"]
+        picture: NDArray[np.uint8] = colors[self.semantic()]
+        return picture
+
     def normals(self) -> FloatArray:
         """(height, width, 3) unit normals in world axes; 0 for sky."""
         p = self._png("normals", np.uint8, 3)

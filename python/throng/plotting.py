@@ -105,6 +105,73 @@ def show(
     return ax
 
 
+def show_labels(frame: Frame, *, columns: int = 3, width_in: float = 15.0) -> Any:
+    """Draws the labels of one frame side by side and returns the matplotlib Figure.
+
+    Color, boxes and masks are always there; semantic classes, depth and the density of people where the dataset has
+    them. Depth is drawn from near (bright) to far (dark), the density over a gray image.
+    """
+    plt = require("matplotlib.pyplot", "show_labels()")
+    patches = require("matplotlib.patches", "show_labels()")
+    panels: list[tuple[str, NDArray[Any]]] = [
+        ("color", frame.image()),
+        (f"boxes: {len(frame.people)} people", frame.image()),
+        ("masks", overlay(frame, opacity=0.85)),
+    ]
+    if frame.has("semantic"):
+        panels.append(("classes", frame.semantic_colors()))
+    if frame.has("depth"):
+        panels.append(("depth", _depth_colors(frame, plt)))
+    if frame.has("density"):
+        panels.append(("density", _density_colors(frame, plt)))
+    columns = max(1, min(columns, len(panels)))
+    rows = -(-len(panels) // columns)
+    panel_in = width_in / columns
+    figure, axes = plt.subplots(
+        rows,
+        columns,
+        figsize=(width_in, rows * panel_in * frame.height / frame.width),
+        squeeze=False,
+        gridspec_kw={"left": 0, "right": 1, "bottom": 0, "top": 1, "wspace": 0.01, "hspace": 0.01},
+    )
+    for ax in axes.flat:
+        ax.set_axis_off()
+    for ax, (title, picture) in zip(axes.flat, panels):
+        ax.imshow(picture, extent=(0, frame.width, frame.height, 0))
+        ax.text(0.015, 0.975, title, transform=ax.transAxes, va="top", fontsize=11, color="white", bbox=_LABEL_BOX)
+    for (x, y, width, height), track in zip(frame.people.boxes, frame.people.track_ids):
+        color = color_of(int(track))
+        axes.flat[1].add_patch(patches.Rectangle((x, y), width, height, fill=False, edgecolor=color, linewidth=0.9))
+    return figure
+
+
+_LABEL_BOX = {"facecolor": "black", "alpha": 0.6, "edgecolor": "none", "boxstyle": "square,pad=0.25"}
+
+
+def _depth_colors(frame: Frame, plt: Any) -> NDArray[np.uint8]:
+    """(height, width, 3): the logarithm of depth; black where there is none."""
+    depth_m = frame.depth()
+    known = np.isfinite(depth_m)
+    shade = np.zeros(depth_m.shape)
+    if known.any():
+        near, far = np.log(np.quantile(depth_m[known], (0.01, 0.99)))
+        shade[known] = 1 - np.clip((np.log(depth_m[known]) - near) / max(far - near, 1e-6), 0, 1)
+    colors: NDArray[np.uint8] = (255 * plt.get_cmap("viridis")(shade)[..., :3]).astype(np.uint8)
+    colors[~known] = 0
+    return colors
+
+
+def _density_colors(frame: Frame, plt: Any) -> NDArray[np.uint8]:
+    """(height, width, 3): the density map over the darkened gray image; the most crowded place is brightest."""
+    density = frame.density()
+    share = np.sqrt(density / max(float(density.max()), 1e-12))
+    gray = 0.45 * frame.image().mean(axis=2, keepdims=True)
+    heat = 255 * plt.get_cmap("inferno")(0.15 + 0.85 * share)[..., :3]
+    weight = np.clip(2 * share, 0, 1)[..., None]
+    mixed: NDArray[np.uint8] = ((1 - weight) * gray + weight * heat).astype(np.uint8)
+    return mixed
+
+
 def _draw_keypoints(ax: Any, frame: Frame) -> None:
     people = frame.people
     for points, track in zip(people.keypoints, people.track_ids):

@@ -27,7 +27,8 @@ LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake"}
 
 # Page, how the block begins -> why it does not run here.
 NOT_RUN = {
-    ("README.md", "scripts/setup.sh"): "needs root, the network and ten minutes; scripts/fresh_debian.sh runs it",
+    ("README.md", "scripts/demo.sh"): "needs root, the network and ten minutes; scripts/fresh_debian.sh runs it",
+    ("README.md", "python3 -m venv"): "pip needs the network; tests/python/test_package.py installs the package",
     ("docs/api.md", "docker/make_certificate.sh"): "needs Docker",
     ("docs/blueprint.md", ""): "all blocks are run by tests/cli/test_places.py",
     ("docs/calibration.md", "throng calibrate selftest"): "26 s of CPU time; run by tests/cli/test_calibrate.py",
@@ -48,6 +49,7 @@ NOT_RUN = {
 
 # Page, how the block begins -> functions of doc_fixtures that make what it needs beforehand; "service": throng serve runs.
 NEEDS = {
+    ("README.md", "throng calibrate intrinsics"): ["boards"],
     ("docs/api.md", "key="): ["service"],
     ("docs/api.md", "curl -sf -H 'Content-Type: application/json'"): ["service"],
     ("docs/api.md", "throng scenarios upload"): ["bundle", "service"],
@@ -88,9 +90,9 @@ class Page:
         self.folder = folder
         self.port = free_port()
         fixtures.source_tree(folder, THRONG, people)
-        programs = folder / "programs"
-        programs.mkdir()
+        programs = folder / "build/release/cli"  # also where the pages say that the program is
         program = programs / "throng"
+        program.unlink()
         program.write_text(f'#!/bin/sh\n[ "$1" != serve ] || set -- "$@" --port {self.port}\nexec {THRONG} "$@"\n')
         program.chmod(0o755)
         self.environment = {

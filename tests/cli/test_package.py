@@ -48,6 +48,44 @@ class Package(unittest.TestCase):
         self.assertNotIn("confined", self.complete(""))
         self.assertEqual(set(self.complete("")) - {"--help", "--version"}, set(commands()))
 
+    def test_fish_completion(self):
+        script = self.folder / "throng.fish"
+        script.write_text(run(THRONG, "completion", "fish"))
+
+        def complete(line):
+            """Words that fish offers at the end of the line, with their descriptions."""
+            lines = run("fish", "--no-config", "-c", f"source {script}; complete -C '{line}'", cwd=self.folder)
+            return dict(line.partition("\t")[::2] for line in lines.splitlines())
+
+        self.assertEqual(list(complete("throng scen")), ["scenario", "scenarios"])
+        self.assertEqual(list(complete("throng scenario ch")), ["check"])
+        self.assertIn("--output", complete("throng run job.json --o"))
+        self.assertTrue(all(complete("throng scenario ").values()))
+        self.assertEqual(set(complete("throng ")), set(commands()))
+
+    def test_zsh_completion(self):
+        script = self.folder / "_throng"
+        script.write_text(run(THRONG, "completion", "zsh"))
+
+        def complete(*words):
+            """Words that the function offers, with their descriptions; zsh itself sorts out those that fit."""
+            line = " ".join(f"'{word}'" for word in ("throng", *words))
+            printing = "compdef() { :; }; _files() { :; }; _describe() { print -rl -- ${(P)3}; }"
+            output = run(
+                "zsh", "-f", "-c", f"{printing}; source {script}; words=({line}) CURRENT={len(words) + 1}; _throng"
+            )
+            return dict(re.split(r"(?<!\\):", line, maxsplit=1) for line in output.splitlines())
+
+        self.assertEqual(set(complete("")) - {"--help", "--version"}, set(commands()))
+        self.assertIn("check", complete("scenario", ""))
+        self.assertIn("--output", complete("run", "job.json", "--o"))
+        self.assertTrue(all(complete("scenario", "").values()))
+
+    def test_zsh_loads_the_completion_from_its_folder(self):
+        (self.folder / "_throng").write_text(run(THRONG, "completion", "zsh"))
+        loads = f"fpath=({self.folder} $fpath); autoload -Uz compinit; compinit -u -D; print -r -- $_comps[throng]"
+        self.assertEqual(run("zsh", "-f", "-c", loads).strip(), "_throng")
+
     def test_the_manual_page_has_every_command_and_is_sound(self):
         page = run(THRONG, "manual")
         for command in commands():
@@ -108,6 +146,8 @@ class Package(unittest.TestCase):
             "throng/schemas/scenario.schema.json",
             "man/man1/throng.1",
             "bash-completion/completions/throng",
+            "zsh/vendor-completions/_throng",
+            "fish/vendor_completions.d/throng.fish",
             "doc/throng/copyright",
             "doc/throng/NOTICE",
         ):

@@ -10,18 +10,15 @@ import { launch, TestService } from "./service.mjs";
 const [program, packages, output, ...names] = process.argv.slice(2);
 const isWanted = (list) => names.length === 0 || list.some((name) => names.includes(name));
 const kWithoutJobs = ["calibration", "place", "study", "fly"];
-const camera = { width: 1280, height: 720 };
+// The demo, so that the pages show what a new user sees.
+const kDemo = JSON.parse(readFileSync(new URL("../../scenarios/city_square/demo.job.json", import.meta.url), "utf8"));
 const kJobs = [
-  { name: "Square, 200 people", seed: 4, crowd: { agents: 200 } },
-  { name: "Square, 260 people", seed: 9, crowd: { agents: 260 } },
+  { name: "Square, evacuation at noon", seed: 7 },
+  { name: "Square, evacuation in the evening", seed: 9, environment: { time_of_day: "18:10", smoke: 1 } },
 ].map((job) => ({
-  scenario: "city_square/emergency",
+  ...kDemo,
   runs: 2,
-  drones: [
-    { id: "d1", camera },
-    { id: "d2", camera },
-  ],
-  capture: { from_s: 5, to_s: 45, rate_hz: 0.25 },
+  capture: { from_s: 3, to_s: 17, rate_hz: 1 },
   outputs: { annotations: ["coco", "keypoints", "exits", "depth"], formats: ["mot"], previews: 2 },
   ...job,
 }));
@@ -109,23 +106,23 @@ try {
   const study = isWanted(["study"]) ? await studied() : "";
   const flight = isWanted(["fly"]) ? await begunFlight() : "";
   const kScreens = [
-    { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=2`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
+    { name: "run", address: `/jobs/${ids[0]}/runs/0?frame=10`, height: 980, ready: 'canvas.overlay[data-drawn$=" boxes"]' },
     {
       name: "image",
-      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`,
+      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000008.jpg`,
       height: 800,
       ready: 'canvas.overlay[data-drawn$=" boxes,masks"]',
     },
     {
       name: "depth",
-      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000002.jpg`,
+      address: `/jobs/${ids[0]}/images?image=images/run000/d1/000008.jpg`,
       height: 800,
       keys: "bmx3",
       ready: 'canvas.overlay[data-drawn$=" depth,boxes3d"][data-rasters="depth"]',
     },
     { name: "downloads", address: `/jobs/${ids[0]}/downloads?include=images,coco`, height: 900, ready: ".parts .size:not(:empty)" },
     { name: "form", address: `/new?clone=${ids[0]}`, height: 900, ready: ".plan-sheet img" },
-    { name: "compare", address: `/compare?job=${ids[0]}&job=${ids[1]}&t=13`, height: 980, ready: ".swipe .upper" },
+    { name: "compare", address: `/compare?job=${ids[0]}&job=${ids[1]}&t=11`, height: 980, ready: ".swipe .upper" },
     {
       name: "filters",
       address: `/jobs/${ids[0]}/images?filters=all&state=panicking`,
