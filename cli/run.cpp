@@ -4,6 +4,8 @@
 
 #include "cli/commands.h"
 #include "cli/job_runner.h"
+#include "skinning/population.h"
+#include "skinning/population_files.h"
 
 namespace throng::cli {
 
@@ -14,6 +16,8 @@ void add_run(CLI::App& app) {
   add_job_options(*command, *arguments);
   command->callback([arguments] {
     const jobs::ResolvedJob job = read_job_file(arguments->job_file);
+    // Before anything is simulated or written: images need people.
+    if (!job.spec().drones.empty()) skinning::read_index(skinning::population_folder());
     finish_job(jobs::JobFolder::create(arguments->output, job), job, *arguments);
   });
 }

@@ -68,6 +68,17 @@ class Messages(unittest.TestCase):
             self.folder / "out",
         )
 
+    def test_a_missing_character_library_is_noticed_before_anything_is_written(self):
+        job, out = self.job(capture={"to_s": 1}), self.folder / "out"
+        missing = {"THRONG_PEOPLE": str(self.folder / "nobody")}
+        self.refused(
+            "nobody/population.json: found no such file, expected a character library", "run", job, "-o", out, **missing
+        )
+        self.assertFalse(out.exists())
+        # No camera, no need.
+        done = throng("run", self.job(capture={"to_s": 1}, drones=[]), "-o", out, **missing)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_a_missing_field_is_named(self):
         study = self.folder / "my.study.json"
         study.write_text("{}")
