@@ -83,9 +83,12 @@ foreach(package IN ITEMS pluginlib class_loader ament_index_cpp rcutils rcpputil
   target_include_directories(throng_rosbag SYSTEM INTERFACE "${ROS_INCLUDE}/${package}")
 endforeach()
 
-# OpenCV's modules for the detection of calibration boards, for the one module that uses them.
+# OpenCV's modules for the detection of calibration boards, for the one module that uses them. ArUco is linked statically:
+# Debian's shared one is a part of libopencv-contrib, which comes with GDAL, Qt and Tesseract (150 packages).
 add_library(throng_opencv_calib INTERFACE)
-foreach(module IN ITEMS calib3d features2d aruco)
+find_library(OPENCV_aruco libopencv_aruco.a REQUIRED)
+target_link_libraries(throng_opencv_calib INTERFACE "${OPENCV_aruco}")
+foreach(module IN ITEMS calib3d features2d flann)
   find_library(OPENCV_${module} opencv_${module} REQUIRED)
   target_link_libraries(throng_opencv_calib INTERFACE "${OPENCV_${module}}")
 endforeach()

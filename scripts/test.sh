@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test. Every step runs, whatever failed before; a table
 # at the end names each step with its times, each failed test and the slowest ones.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), long, soak, includes
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz image (default: all of these), long, soak, includes
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$root"
 steps=("$@")
-[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz)
+[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz image)
 for step in "${steps[@]}"; do
   case "$step" in
-    format | release | tidy | asan | tsan | fuzz | long | soak | includes) ;;
-    *) echo "unknown step $step; steps: format release tidy asan tsan fuzz long soak includes" >&2; exit 2 ;;
+    format | release | tidy | asan | tsan | fuzz | image | long | soak | includes) ;;
+    *) echo "unknown step $step; steps: format release tidy asan tsan fuzz image long soak includes" >&2; exit 2 ;;
   esac
 done
 mkdir -p build/tmp
@@ -93,7 +93,7 @@ run_ctest() { /usr/bin/python3 scripts/run_ctest.py "$@"; }
 # more crashes, all recipes, the notebooks).
 step_long() {
   say "testing what lasts"
-  run_parts long_sanitized_with_release long_samples long_with_asan long_fuzz
+  run_parts long_sanitized_with_release long_samples long_with_asan long_fuzz long_image
   touch "$stamps/long"
 }
 long_sanitized_with_release() {
@@ -109,6 +109,7 @@ long_with_asan() {
   asan_ctest long-asan -j3 -L '^(computing|asan_in_long)$'
 }
 long_fuzz() { step_fuzz 60; }
+long_image() { rm -rf "$stamps/image" && step_image; }
 
 # Not among the default steps: tests that wait, ten times each (or $THRONG_SOAK times), beside two busy loops. None may fail.
 step_soak() {
@@ -180,6 +181,24 @@ step_fuzz() {
       build/fuzz/corpus/TARGET tests/fuzz/corpus/TARGET >build/fuzz/TARGET.log 2>&1 ||
       { grep -v "# Uses" build/fuzz/TARGET.log | tail -60; echo "fuzz_TARGET failed: build/fuzz/TARGET-*"; exit 1; }
     echo "fuzz_TARGET: $(grep number_of_executed_units build/fuzz/TARGET.log | tr -dc 0-9) inputs"'
+}
+# The container's image, built and used; again only once what it is built by has changed since it passed, for it takes long.
+step_image() {
+  say "building and using the container's image"
+  local state
+  state="$(git ls-files -z -- docker tests/docker scripts/packages.txt scripts/lib.sh scripts/setup.sh cmake CMakeLists.txt '*/CMakeLists.txt' |
+    grep -zv '^tests/[^d]' | xargs -0 sha256sum | sha256sum | cut -d' ' -f1)"
+  if [ -e "$stamps/image/$state" ]; then
+    echo "passed before, on $(date -r "$stamps/image/$state" '+%F %R')"
+    return
+  fi
+  if ! command -v buildah >/dev/null || [ "$(id -u)" != 0 ]; then
+    echo "not run: it needs root and buildah"
+    return
+  fi
+  /usr/bin/python3 tests/docker/test_image.py "$root/build/image" || return 1
+  mkdir -p "$stamps/image"
+  touch "$stamps/image/$state"
 }
 
 # Not among the default steps: it parses every file by itself, which takes longer than the joined builds together.

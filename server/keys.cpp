@@ -37,6 +37,17 @@ CREATE TABLE IF NOT EXISTS key (
 ) WITHOUT ROWID
 )";
 
+bool is_made_here(std::string_view token) {
+  return token.starts_with(kPrefix) &&
+         token.size() == kPrefix.size() + kIdLength + 1 + kSecretLength;
+}
+
+/// The id is a part of the keys that are made here; that of others comes from their hash.
+std::string id_of(std::string_view token, const std::string& hash) {
+  return is_made_here(token) ? std::string(token.substr(kPrefix.size(), kIdLength))
+                             : hash.substr(0, kIdLength);
+}
+
 /// Takes as long whatever the difference.
 bool equals_in_constant_time(const std::string& a, const std::string& b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
@@ -70,6 +81,25 @@ void set_up(SQLite::Database& database) {
 
 struct Keys::File : PrivateDatabase {
   using PrivateDatabase::PrivateDatabase;
+
+  /// The row's id and time follow from the token and the clock.
+  void insert(const KeyRow& row, const std::string& token) {
+    const std::string hash = sha256_hex(token);
+    with([&](SQLite::Database& database) {
+      SQLite::Statement insert(database,
+                               "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
+                               "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+      insert.bind(1, id_of(token, hash));
+      insert.bind(2, row.name);
+      insert.bind(3, hash);
+      insert.bind(4, std::string(name_of(row.scope)));
+      insert.bind(5, row.max_active);
+      insert.bind(6, unix_ms_now());
+      insert.bind(7, row.max_bytes);
+      insert.bind(8, row.max_priority);
+      insert.exec();
+    });
+  }
 };
 
 std::string_view name_of(Scope scope) {
@@ -82,6 +112,15 @@ std::optional<Scope> scope_named(std::string_view name) {
     if (name_of(scope) == name) return scope;
   }
   return std::nullopt;
+}
+
+bool is_own_key(std::string_view text) {
+  constexpr std::size_t kMinLength = 32;
+  constexpr std::size_t kMaxLength = 128;
+  constexpr std::string_view kCharacters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=";
+  return text.size() >= kMinLength && text.size() <= kMaxLength &&
+         text.find_first_not_of(kCharacters) == std::string_view::npos;
 }
 
 Keys::Keys(const fs::path& data) {
@@ -97,23 +136,15 @@ Keys::~Keys() = default;
 
 std::string Keys::create(const std::string& name, Scope scope, int max_active,
                          std::int64_t max_bytes, int max_priority) {
-  const std::string id = random_text(kIdLength);
-  std::string token = fmt::format("{}{}_{}", kPrefix, id, random_text(kSecretLength));
-  file_->with([&](SQLite::Database& database) {
-    SQLite::Statement insert(database,
-                             "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
-                             "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-    insert.bind(1, id);
-    insert.bind(2, name);
-    insert.bind(3, sha256_hex(token));
-    insert.bind(4, std::string(name_of(scope)));
-    insert.bind(5, max_active);
-    insert.bind(6, unix_ms_now());
-    insert.bind(7, max_bytes);
-    insert.bind(8, max_priority);
-    insert.exec();
-  });
+  std::string token =
+      fmt::format("{}{}_{}", kPrefix, random_text(kIdLength), random_text(kSecretLength));
+  file_->insert({"", name, scope, max_active, max_bytes, max_priority}, token);
   return token;
+}
+
+void Keys::add(const std::string& name, Scope scope, const std::string& token) {
+  check(is_own_key(token), "the caller has checked the key");
+  file_->insert({"", name, scope}, token);
 }
 
 std::vector<KeyRow> Keys::list() const {
@@ -151,17 +182,14 @@ bool Keys::are_needed() const {
 
 std::optional<Caller> Keys::caller_of(std::string_view token) const {
   if (!are_needed()) return Caller{"", Scope::admin, 0, 0, kMaxPriority};
-  if (!token.starts_with(kPrefix) ||
-      token.size() != kPrefix.size() + kIdLength + 1 + kSecretLength) {
-    return std::nullopt;
-  }
+  if (!is_made_here(token) && !is_own_key(token)) return std::nullopt;
   const std::string hash = sha256_hex(token);
   return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
     SQLite::Statement query(
         database,
         "SELECT id, hash, scope, max_active, max_bytes, max_priority FROM key WHERE id = ? AND "
         "revoked_ms = 0");
-    query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
+    query.bind(1, id_of(token, hash));
     if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
       return std::nullopt;
     }

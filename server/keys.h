@@ -47,6 +47,10 @@ struct KeyRow {
   std::int64_t revoked_ms = 0;  ///< 0: it is good
 };
 
+/// Whether somebody may use this text as a key of their own making: 32 to 128 characters of a
+/// bearer token (RFC 6750).
+bool is_own_key(std::string_view text);
+
 /// Safe to use from many threads, and by many processes at once. Throws EnvironmentError.
 class Keys {
  public:
@@ -59,6 +63,8 @@ class Keys {
   /// Makes a key and returns what the caller has to send: it can never be asked for again.
   std::string create(const std::string& name, Scope scope, int max_active = 0,
                      std::int64_t max_bytes = 0, int max_priority = 0);
+  /// Adds a key that the caller has chosen, for which is_own_key() holds.
+  void add(const std::string& name, Scope scope, const std::string& token);
   std::vector<KeyRow> list() const;
   /// False when there is no good key of this id.
   bool revoke(const std::string& id);

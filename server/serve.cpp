@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -24,6 +25,7 @@
 #include "jobs/queue/machine_memory.h"
 #include "jobs/queue/worker_limits.h"
 #include "server/api.h"
+#include "server/first_key.h"
 #include "server/json_log.h"
 #include "server/keys.h"
 #include "server/service.h"
@@ -70,9 +72,10 @@ class SignalWatch {
 };
 
 // A line per message; as JSON for log collectors. Ids and events are logged, never keys, bodies or
-// headers.
-void set_up_log(bool as_json) {
-  const auto logger = spdlog::stderr_logger_mt("throng");
+// headers. Runtimes of containers collect standard output.
+void set_up_log(bool as_json, bool to_stdout) {
+  const auto logger =
+      to_stdout ? spdlog::stdout_logger_mt("throng") : spdlog::stderr_logger_mt("throng");
   if (as_json) {
     logger->set_formatter(std::make_unique<JsonLogFormatter>());
   } else {
@@ -134,13 +137,17 @@ std::string url_of(const std::string& host, int port) {
 int serve(const ServeOptions& options) {
   const fs::path database = options.database.empty() ? options.data : options.database;
   Keys keys(database);
-  if (!options.insecure && !is_loopback(options.host) && !keys.are_needed()) {
+  const bool is_reachable = !options.insecure && !is_loopback(options.host);
+  if (is_reachable) fmt::print(stderr, "{}", make_first_key(keys, options.port));
+  if (is_reachable && !keys.are_needed()) {
     throw InputError(Problem{"--host", "", options.host,
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
   jobs::protect_this_process();
-  set_up_log(options.log_json);
+  const bool is_container = is_in_container();
+  const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
+  set_up_log(logs_json, is_container);
   std::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
@@ -175,8 +182,14 @@ int serve(const ServeOptions& options) {
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }
-  fmt::print("throng serving on {}\n", url_of(options.host, api.port()));
-  std::fflush(stdout);
+  const std::string url = url_of(options.host, api.port());
+  if (logs_json && is_container) {
+    spdlog::info("serving on {}", url);
+    spdlog::default_logger()->flush();
+  } else {
+    fmt::print("throng serving on {}\n", url);
+    std::fflush(stdout);
+  }
   const SignalWatch watch([&] {
     spdlog::info("ending");
     executor->leave_tasks();

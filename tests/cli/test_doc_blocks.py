@@ -28,6 +28,8 @@ LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake"}
 # Page, how the block begins -> why it does not run here.
 NOT_RUN = {
     ("README.md", "scripts/demo.sh"): "needs root, the network and ten minutes; scripts/fresh_debian.sh runs it",
+    ("README.md", "docker build"): "needs Docker; tests/docker/test_image.py builds and uses the image",
+    ("docs/container.md", ""): "needs Docker; tests/docker/test_image.py builds and uses the image",
     ("README.md", "python3 -m venv"): "pip needs the network; tests/python/test_package.py installs the package",
     ("docs/api.md", "docker/make_certificate.sh"): "needs Docker",
     ("docs/blueprint.md", ""): "all blocks are run by tests/cli/test_places.py",

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Builds docker/Dockerfile without a daemon and without pulling anything: the base image is made by debootstrap as Debian's
+# slim one is. Prints how long it took and what each layer takes. Run as root; the image is localhost/throng-test in STORE.
+# usage: tests/docker/build_image.sh STORE
+set -euo pipefail
+root="$(cd "$(dirname "$0")/../.." && pwd)"
+store="$(mkdir -p "$1" && cd "$1" && pwd)"
+base=docker.io/library/debian:bookworm-slim
+export TMPDIR="$store/tmp" BUILDAH_ISOLATION=chroot STORAGE_DRIVER=overlay
+mkdir -p "$TMPDIR"
+buildah() { command buildah --root "$store/storage" --runroot "$store/run" "$@"; }
+
+make_base() {
+  local system="$store/base" mirror path container
+  mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
+  [ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
+  rm -rf "$system"
+  debootstrap --variant=minbase --include=ca-certificates bookworm "$system" "$mirror" >"$store/debootstrap.log"
+  cat >"$system/etc/dpkg/dpkg.cfg.d/docker" <<'END'
+path-exclude /usr/share/doc/*
+path-include /usr/share/doc/*/copyright
+path-exclude /usr/share/man/*
+path-exclude /usr/share/locale/*
+path-exclude /usr/share/info/*
+path-exclude /usr/share/lintian/*
+END
+  rm -rf "$system"/usr/share/{man,locale,info,lintian}/* "$system"/var/cache/apt/archives/*.deb "$system"/var/lib/apt/lists/*
+  find "$system/usr/share/doc" -type f ! -name copyright -delete
+  # How this machine reaches its registries.
+  rm -f "$system/etc/apt/sources.list"
+  for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* "$HOME/.npmrc" /etc/npmrc /usr/etc/npmrc; do
+    [ -e "$path" ] || continue
+    mkdir -p "$system$(dirname "$path")"
+    cp -L "$path" "$system$path"
+  done
+  cp -L /etc/ssl/certs/ca-certificates.crt "$system/etc/host-certificates.crt"
+  container="$(buildah from scratch)"
+  buildah add -q "$container" "$system" / >/dev/null
+  buildah config --cmd '["bash"]' \
+    --env PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin --env npm_config_cafile=/etc/host-certificates.crt "$container"
+  buildah commit -q "$container" "$base" >/dev/null
+  buildah rm "$container" >/dev/null
+  rm -rf "$system"
+}
+
+start=$SECONDS
+buildah inspect --type image "$base" >/dev/null 2>&1 || make_base
+echo "base image: $((SECONDS - start)) s"
+start=$SECONDS
+# What this machine has compiled before is not compiled again: the cache of docker/Dockerfile's build step.
+cache="$TMPDIR/buildah-cache-$(id -u)"
+mkdir -p "$cache" "${CCACHE_DIR:-$HOME/.cache/ccache}"
+[ -e "$cache/throng-ccache" ] || ln -s "${CCACHE_DIR:-$HOME/.cache/ccache}" "$cache/throng-ccache"
+git -C "$root" ls-files -z --cached --others --exclude-standard >"$store/files"
+rm -rf "$store/context"
+mkdir -p "$store/context"
+tar -C "$root" --null --files-from="$store/files" --ignore-failed-read -cf - 2>/dev/null | tar -C "$store/context" -xf -
+cp "$root/.dockerignore" "$store/context/"
+buildah bud --format docker --network host --pull-never --layers \
+  -t localhost/throng-test -f "$store/context/docker/Dockerfile" "$store/context"
+echo "image: $((SECONDS - start)) s"
