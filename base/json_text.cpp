@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/json_fault.h"
 
 namespace throng {
 
@@ -30,19 +31,13 @@ std::string shown(std::string_view text, std::size_t max_bytes = kMaxShownBytes)
   return std::string(text.substr(0, end)) + "...";
 }
 
-std::string position_of(std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, std::min(byte, text.size()));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 = 0: the first line
-  return fmt::format("line {}, column {}", line, before.size() - line_start + 1);
-}
-
 /// Builds the value from the parser's events as long as they are within the limits.
 class ValueBuilder final : public nlohmann::json_sax<json> {
  public:
   ValueBuilder(std::string_view text, const JsonLimits& limits, std::string list_key = {},
-               OnElement on_element = {})
+               OnElement on_element = {}, std::string_view what = "text")
       : text_(text),
+        what_(what),
         limits_(limits),
         list_key_(std::move(list_key)),
         on_element_(std::move(on_element)) {}
@@ -88,19 +83,18 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&,
+  bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& error) override {
-    // The byte is counted from 1 and is the last one read.
-    const std::size_t byte = position > 0 ? position - 1 : 0;
-    std::string_view what = error.what();
-    if (const auto start = what.find("syntax error"); start != std::string_view::npos) {
-      what.remove_prefix(start);
-    } else if (const auto id_end = what.find("] "); id_end != std::string_view::npos) {
-      what.remove_prefix(id_end + 2);
+    problem_ = json_fault(text_, what_);
+    if (!problem_->found.empty()) return false;
+    // The grammar is kept, but a number or half of a character has no value.
+    if (dynamic_cast<const json::out_of_range*>(&error) != nullptr) {
+      problem_ = Problem{"", pointer(), "the number " + shown(token),
+                         "a number within the range of a double, 1.8e308"};
+    } else {
+      problem_ = Problem{"", position_of(text_, position > 0 ? position - 1 : 0),
+                         "half of a character, a lone surrogate", "\\u escapes in pairs"};
     }
-    // A message quotes the token, which may be as long as the text.
-    constexpr std::size_t kMaxMessageBytes = 300;
-    problem_ = Problem{"", position_of(text_, byte), shown(what, kMaxMessageBytes), "valid JSON"};
     return false;
   }
 
@@ -170,6 +164,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   }
 
   std::string_view text_;
+  std::string_view what_;  ///< "file" or "body"
   const JsonLimits& limits_;
   std::string list_key_;
   OnElement on_element_;
@@ -202,7 +197,7 @@ json own_value(std::string_view text, const std::string& what, ValueBuilder& bui
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& source, const JsonLimits& limits) {
-  ValueBuilder builder(text, limits);
+  ValueBuilder builder(text, limits, {}, {}, source.empty() ? "body" : "file");
   if (auto problem = read(text, limits, builder)) {
     problem->source = source;
     throw InputError(std::move(*problem));

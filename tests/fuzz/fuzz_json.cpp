@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/utf8.h"
 
 namespace {
 
@@ -38,7 +39,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (error.problems().size() != 1 || error.problems().front().found.size() > 500) std::abort();
     if (!throng::parse_json_or_discard(text, limits).is_discarded()) std::abort();
     // The rest is beyond the limits, holds a key twice, or has a number that no double can hold.
-    const bool is_malformed = error.problems().front().expected == "valid JSON";
+    const throng::Problem& problem = error.problems().front();
+    const bool is_malformed =
+        problem.where.starts_with("line ") || problem.expected.starts_with("valid JSON");
+    if (!throng::is_utf8(problem.found)) std::abort();
     if (is_malformed && !json::parse(text, nullptr, false).is_discarded()) std::abort();
   }
   return 0;
