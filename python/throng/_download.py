@@ -6,11 +6,12 @@ import json
 import os
 import re
 import time
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Callable, Mapping
+from typing import Callable, Iterator, Mapping
 
-from ._http import BROKEN, Http, pauses
-from .errors import ConnectionFailedError, DatasetError, ServiceError
+from ._http import BROKEN, Http, pauses, what
+from .errors import ConnectionFailedError, DatasetError, OutputFileError, ServiceError
 from .source import verify_files
 from .storage import open_storage
 
@@ -26,9 +27,28 @@ def file_name_of(headers: Mapping[str, str], fallback: str) -> str:
     return name if name not in ("", ".", "..") and "\0" not in name and not name.startswith(".") else fallback
 
 
+def check_output(path: Path, *, overwrite: bool) -> None:
+    """Refuses a file that could not be written in the end, or that another program wrote, before anything is sent."""
+    folder = path.parent
+    if not folder.is_dir():
+        raise OutputFileError(f"{folder}: found no such folder, expected one for {path.name}")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputFileError(f"{folder}: found a folder that cannot be written to, expected one for {path.name}")
+    part_file, note = _files_of(path)
+    others = [path] if note.exists() else [path, part_file]
+    for other in others:
+        if not overwrite and os.path.lexists(other):
+            raise OutputFileError(f"{other}: found a file that is there already, expected a new one, or overwrite=True")
+
+
+def _files_of(path: Path) -> tuple[Path, Path]:
+    """The part of a download, and the note on what it is a part of."""
+    return Path(f"{path}.part"), Path(f"{path}.part.json")
+
+
 def fetch(http: Http, target: str, path: Path, report: Report | None) -> None:
     """Writes the answer to GET target to path, by way of path.part, which a later call goes on with."""
-    part_file, note = Path(f"{path}.part"), Path(f"{path}.part.json")
+    part_file, note = _files_of(path)
     lost_since: float | None = None
     attempts = pauses()
     while True:
@@ -53,26 +73,45 @@ def fetch(http: Http, target: str, path: Path, report: Report | None) -> None:
                         raise ServiceError(206, "Wrong range", "the service sent another part of the file")
                 else:
                     done = 0
-                    note.write_text(json.dumps({"etag": response.headers.get("ETag"), "target": target}))
+                    with _writing(note):
+                        note.write_text(json.dumps({"etag": response.headers.get("ETag"), "target": target}))
                 total = done + int(response.headers.get("Content-Length") or 0)
-                with open(part_file, "ab" if response.status == 206 else "wb") as file:
+                with _writing(part_file):
+                    file = open(part_file, "ab" if response.status == 206 else "wb")
+                with file:
                     while chunk := response.read(_CHUNK):
-                        file.write(chunk)
+                        with _writing(part_file):
+                            file.write(chunk)
+                            file.flush()
                         done += len(chunk)
                         if report is not None:
                             report(done, total)
                 if done == total:
                     break
                 raise ConnectionFailedError(f"{http.url}: the connection ended after {done} of {total} bytes")
+        except OutputFileError:  # no fault of the connection: another attempt would not help
+            raise
         except (*BROKEN, ConnectionFailedError) as error:
+            if http.is_not_there(error):
+                raise ConnectionFailedError(f"{http.url}: {what(error)}") from error
             if done > have:
                 lost_since, attempts = None, pauses()
             lost_since = time.monotonic() if lost_since is None else lost_since
             if time.monotonic() - lost_since > http.patience_s:
                 raise ConnectionFailedError(f"{http.url}: {error}; the same call goes on where it broke off") from error
             time.sleep(next(attempts))
-    os.replace(part_file, path)
+    with _writing(path):
+        os.replace(part_file, path)
     note.unlink(missing_ok=True)
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Errors of files apart from those of connections, which are of the same kind."""
+    try:
+        yield
+    except OSError as error:
+        raise OutputFileError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
 def _state(part_file: Path, note: Path, target: str) -> tuple[int, str | None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import logging
 import secrets
 import socket
 import ssl
@@ -38,6 +39,7 @@ _ERRORS: dict[int, type[ServiceError]] = {
     507: UnavailableError,
 }
 BROKEN = (OSError, http.client.HTTPException)
+_LOG = logging.getLogger("throng")
 _MAX_PROBLEM_BYTES = 1 << 20
 
 
@@ -70,6 +72,7 @@ class Http:
         self._key = key
         self._timeout_s = timeout_s
         self.patience_s = patience_s
+        self._was_reached = False
         self._context = context
 
     def _connect(self, timeout_s: float) -> http.client.HTTPConnection:
@@ -109,7 +112,9 @@ class Http:
         connection = self._connect(self._timeout_s if timeout_s is None else min(timeout_s, self._timeout_s))
         try:
             connection.request(method, self.path_of(path), body=body, headers=self.headers(headers))
-            yield connection.getresponse()
+            response = connection.getresponse()
+            self._was_reached = True
+            yield response
         finally:
             connection.close()
 
@@ -128,7 +133,8 @@ class Http:
         """The answer with a status below 400; others are raised.
 
         Requests that change nothing, or that are `repeatable`, are sent again while the connection fails or the service
-        answers 503, for at most patience_s.
+        answers 503, for at most patience_s; a warning is logged. A service that was never reached and refuses the
+        connection is not there: that is raised at once.
         """
         sent = dict(headers or {})
         if json_body is not None:
@@ -138,6 +144,7 @@ class Http:
         target = path + query_of(query)
         again = method in ("GET", "DELETE") if repeatable is None else repeatable
         deadline = time.monotonic() + self.patience_s
+        is_said = False
         for pause in pauses():
             try:
                 with self.open(method, target, body=body, headers=sent) as response:
@@ -148,12 +155,21 @@ class Http:
                     if response.status != 503 or not again:
                         raise error
             except BROKEN as broken:
-                error = ConnectionFailedError(f"{self.url}: {_what(broken)}")
+                error = ConnectionFailedError(f"{self.url}: {what(broken)}")
                 error.__cause__ = broken
+                if self.is_not_there(broken):
+                    raise error
             if not again or time.monotonic() + pause > deadline:
                 raise error
+            if not is_said:
+                _LOG.warning("%s; trying again for at most %g s", error, self.patience_s)
+                is_said = True
             time.sleep(pause)
         raise AssertionError
+
+    def is_not_there(self, error: BaseException) -> bool:
+        """Whether nothing listens at the address, or it has none: a service that restarts has answered before."""
+        return not self._was_reached and isinstance(error, (ConnectionRefusedError, socket.gaierror))
 
     def read_problem(self, response: http.client.HTTPResponse) -> ServiceError:
         return problem(response.status, response.reason, response.read(_MAX_PROBLEM_BYTES))
@@ -220,7 +236,7 @@ def multipart(fields: Sequence[tuple[str, str | None, str, bytes]]) -> tuple[byt
     return bytes(body), f"multipart/form-data; boundary={boundary}"
 
 
-def _what(error: BaseException) -> str:
+def what(error: BaseException) -> str:
     if isinstance(error, ConnectionRefusedError):
         return "the connection was refused: is the service running?"
     if isinstance(error, socket.gaierror):

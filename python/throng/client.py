@@ -208,8 +208,11 @@ class Client(CatalogClient):
         split: str | None = None,
         verify: bool = True,
         progress: bool = True,
+        overwrite: bool = False,
     ) -> Path:
         """Downloads the dataset's archive, going on where an earlier call broke off; returns its path.
+
+        A file that is there already is only written over with overwrite.
 
         path is a file, or a folder (made where it ends with "/") for the name that the service proposes. include, runs
         and split choose a part, for example include=["images", "coco"], runs="0-3,7". With verify every file is
@@ -228,6 +231,7 @@ class Client(CatalogClient):
         if out.is_dir():
             head = self._http.request("HEAD", target, repeatable=True)
             out = out / _download.file_name_of(head.headers, f"{job_id}.{format}")
+        _download.check_output(out, overwrite=overwrite)
         bar = ProgressBar(f"downloading {out.name}") if progress else None
 
         def report(done: int, total: int) -> None:

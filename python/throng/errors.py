@@ -36,6 +36,10 @@ class ProgramError(ThrongError, RuntimeError):
         self.exit_code = exit_code
 
 
+class OutputFileError(ThrongError, OSError):
+    """A file cannot be written where it was asked for, or something else is there already."""
+
+
 class MissingPackageError(ThrongError, ImportError):
     """An optional package is needed for what was called; the message says how to install it."""
 
