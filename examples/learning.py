@@ -1,6 +1,7 @@
 """Shared by train_detector.py, train_counter.py and evaluate.py: datasets, tiles, training, files of models."""
 
 import argparse
+import os
 import pathlib
 import sys
 import time
@@ -38,7 +39,19 @@ def arguments(description, width):
     given = parser.parse_args()
     if given.tile % networks.MULTIPLE:
         parser.error(f"--tile: found {given.tile}, expected a multiple of {networks.MULTIPLE}")
+    check_output(given.output)
+    device_of(given)
     return given
+
+
+def check_output(path):
+    """Refuses a file of the model that could not be written after the training."""
+    folder = pathlib.Path(path).absolute().parent
+    if not folder.is_dir():
+        raise throng.OutputFileError(f"--output: found {path}, whose folder does not exist, expected a file to write")
+    target = path if os.path.exists(path) else folder
+    if os.path.isdir(path) or not os.access(target, os.W_OK):
+        raise throng.OutputFileError(f"--output: found {path}, which cannot be written, expected a file to write")
 
 
 def add_machine(parser):
@@ -65,6 +78,13 @@ def device_of(given):
     name = given.device
     if name == "auto":
         name = "cuda" if torch.cuda.is_available() else "cpu"
+    try:
+        torch.zeros(1, device=name)
+    except (RuntimeError, AssertionError, NotImplementedError) as error:  # by the kind of device
+        reason = str(error).split("\n")[0]
+        raise ValueError(
+            f"--device: found {name}, expected a device of this machine, such as cpu ({reason})"
+        ) from error
     return torch.device(name)
 
 
@@ -78,6 +98,16 @@ def open_datasets(paths, split):
     if split not in splits:
         raise throng.DatasetError(f"--split: found {split!r}, expected all{''.join(f', {name}' for name in splits)}")
     return splits[split]
+
+
+def check_tile(dataset, given):
+    """Refuses tiles that are larger than every image: the rest would be padding."""
+    longest = max((max(frame.width, frame.height) for frame in dataset), default=0)
+    limit = -(-longest // networks.MULTIPLE) * networks.MULTIPLE
+    if given.tile > limit:
+        raise ValueError(
+            f"--tile: found {given.tile}, expected at most {limit}: the images have up to {longest} pixels"
+        )
 
 
 def cut_tile(image, side):
@@ -169,3 +199,8 @@ def finish(main):
     except (throng.ThrongError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(2)
+    except (MemoryError, RuntimeError) as error:
+        if "memory" not in str(error):
+            raise
+        print("error: out of memory; a smaller --tile, --batch or --width needs less", file=sys.stderr)
+        sys.exit(3)

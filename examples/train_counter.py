@@ -40,6 +40,7 @@ def main():
     dataset = learning.open_datasets(given.datasets, given.split)
     if given.images:
         dataset = dataset.sample(given.images, seed=given.seed)
+    learning.check_tile(dataset, given)
     visible = dataset.filter_annotations(min_visibility=learning.MIN_VISIBILITY, min_height_px=learning.MIN_HEIGHT_PX)
     counts = throng.CountingDataset(visible, transform=tile_of(given.tile))
     # evaluate.py compares with a counter that always says the mean count of the images trained on.

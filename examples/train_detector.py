@@ -29,6 +29,7 @@ def main():
     dataset = learning.open_datasets(given.datasets, given.split)
     if given.images:
         dataset = dataset.sample(given.images, seed=given.seed)
+    learning.check_tile(dataset, given)
     people = dataset.filter_annotations(min_visibility=learning.MIN_VISIBILITY, min_height_px=learning.MIN_HEIGHT_PX)
     samples = throng.DetectionDataset(people, transform=tile_of(given.tile))
     learning.train("detector", samples, networks.detector_loss, given, {"images": len(dataset)})
