@@ -6,7 +6,7 @@
 
 namespace throng {
 
-/// Short enough for a message: "an array of 3", "-1", "\"red\"".
+/// Short enough for a message: "[4, 2, 1]", "an array of 300", "-1", "\"red\"".
 std::string describe(const nlohmann::json& value);
 
 }  // namespace throng

@@ -1,8 +1,10 @@
 #include "base/resource_exhaustion.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <system_error>
@@ -21,6 +23,19 @@ void throw_environment_error(const std::string& message, int error) {
   const std::string text = fmt::format("{}: {}", message, std::strerror(error));
   if (is_exhaustion(error)) throw ResourcesExhausted(text);
   throw EnvironmentError(text);
+}
+
+void throw_write_error(const std::filesystem::path& file, int error) {
+  if (error != 0) throw_environment_error(fmt::format("cannot write {}", file.string()), error);
+  constexpr std::uintmax_t kFullBytes = 64 << 10;
+  std::error_code unknown;
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw_environment_error(fmt::format("cannot write {}", file.string()), errno);
+  }
+  const std::filesystem::space_info space = std::filesystem::space(folder, unknown);
+  const bool is_full = !unknown && space.available < kFullBytes;
+  throw_environment_error(fmt::format("cannot write {}", file.string()), is_full ? ENOSPC : EIO);
 }
 
 bool is_resource_exhaustion(const std::exception& error) {

@@ -15,12 +15,12 @@ constexpr std::size_t kMaxWordLength = 40;  // letters; longer words are not tak
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// The shortest candidate that has the word as its first part.
+/// The first candidate that has the word as its first part.
 std::optional<std::string_view> longer_by_a_part(std::string_view word,
                                                  std::span<const std::string_view> candidates) {
   std::optional<std::string_view> best;
   for (const std::string_view candidate : candidates) {
-    if (candidate.size() <= word.size() || (best && candidate.size() >= best->size())) continue;
+    if (candidate.size() <= word.size() || best) continue;
     const bool ends_there =
         std::string_view("-_/.").find(candidate[word.size()]) != std::string_view::npos;
     const bool is_start = std::equal(word.begin(), word.end(), candidate.begin(),

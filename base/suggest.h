@@ -17,7 +17,7 @@ namespace throng {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate with the smallest edit_distance() to `word`, the first of equals. If more than a
-/// third of the letters differ, the shortest of those that begin with the word and go on behind a
+/// third of the letters differ, the first of those that begin with the word and go on behind a
 /// '-', '_', '/' or '.' ("yolo" for "yolo-detect"), else nothing.
 std::optional<std::string_view> closest(std::string_view word,
                                         std::span<const std::string_view> candidates);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng {
 
@@ -216,14 +217,13 @@ class Unpacking {
   }
 
   void write(const std::string& name, const fs::path& place) {
+    errno = 0;
     std::ofstream file(place, std::ios::binary | std::ios::trunc);
     pass_on(name, [&](std::string_view bytes) {
       file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     });
     file.close();
-    if (!file) {
-      throw EnvironmentError(fmt::format("cannot write {}: is the disk full?", place.string()));
-    }
+    if (!file) throw_write_error(place, errno);
     ++result_.files;
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/problem_json.h"
+#include "base/words.h"
 #include "calibrate/spec/camera_file.h"
 #include "calibrate/warnings.h"
 #include "camera/files.h"
@@ -157,11 +158,12 @@ std::string ros_yaml(const Calibration& calibration, const std::string& camera_n
 }
 
 std::string summary(const Calibration& calibration) {
-  std::string text =
-      fmt::format("{}: {} views, {} points ({} outliers), RMS {:.4f} px, {} x {} px, lens {}\n",
-                  calibration.kind, calibration.views.size(), calibration.points,
-                  calibration.rejected, calibration.rms_px, calibration.size.width,
-                  calibration.size.height, name_of(calibration.lens));
+  std::string text = fmt::format(
+      "{}: {}, {} ({}), RMS {:.4f} px, {} x {} px, lens {}\n", calibration.kind,
+      counted(static_cast<std::int64_t>(calibration.views.size()), "view"),
+      counted(static_cast<std::int64_t>(calibration.points), "point"),
+      counted(static_cast<std::int64_t>(calibration.rejected), "outlier"), calibration.rms_px,
+      calibration.size.width, calibration.size.height, name_of(calibration.lens));
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(calibration.lens, i);
     if (name.empty() || (calibration.sd.at(i) == 0 && calibration.parameters.at(i) == 0)) continue;
@@ -169,8 +171,9 @@ std::string summary(const Calibration& calibration) {
                         calibration.sd.at(i));
   }
   for (const ViewResult& view : calibration.views) {
-    text += fmt::format("  {}: {} of {} points, RMS {:.4f} px\n", view.name, view.used(),
-                        view.points.size(), view.rms_px);
+    text +=
+        fmt::format("  {}: {} of {}, RMS {:.4f} px\n", view.name, view.used(),
+                    counted(static_cast<std::int64_t>(view.points.size()), "point"), view.rms_px);
     if (calibration.kind == "intrinsics") continue;
     const Eigen::Vector3d at = view.pose.pose().center();
     text += fmt::format("    camera at {:.4f} {:.4f} {:.4f}\n", at.x(), at.y(), at.z());

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/resource_exhaustion.h"
 #include "server/http.h"
 
 namespace throng::cli {
@@ -199,7 +201,7 @@ bool ApiClient::download(const std::string& path, const fs::path& file, const On
     total = done + std::stoll(response.get_header_value("Content-Length"));
     write_file_atomically(tag_file, response.get_header_value("ETag"));
     out.open(part, std::ios::binary | (done > 0 ? std::ios::app : std::ios::trunc));
-    if (!out) throw EnvironmentError(fmt::format("cannot write {}", part.string()));
+    if (!out) throw_write_error(part, errno);
     return true;
   };
   const auto add = [&](const char* data, std::size_t count) {
@@ -208,14 +210,16 @@ bool ApiClient::download(const std::string& path, const fs::path& file, const On
       return true;
     }
     out.write(data, static_cast<std::streamsize>(count));
-    if (!out)
-      throw EnvironmentError(fmt::format("cannot write {}: is the disk full?", part.string()));
+    if (!out) throw_write_error(part, errno);
     done += static_cast<std::int64_t>(count);
     goes_on = on_bytes(done, total);
     return goes_on;
   };
   httplib::Result result = connection_->client.Get(path, headers, begin, add);
-  out.close();
+  if (out.is_open()) {
+    out.close();
+    if (!out) throw_write_error(part, errno);
+  }
   if (!goes_on) return false;
   if (result && result->status == 416) {
     // The part is complete, or belongs to another file: start again.

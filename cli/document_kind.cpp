@@ -30,6 +30,8 @@ const KindWords& words_of(DocumentKind kind) { return kWords.at(static_cast<std:
 
 }  // namespace
 
+std::string_view name_of(DocumentKind kind) { return words_of(kind).name; }
+
 DocumentKind document_kind(std::string_view text, const std::string& file) {
   const nlohmann::json value = parse_json_or_discard(text);
   if (!value.is_object()) return DocumentKind::unknown;

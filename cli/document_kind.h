@@ -18,4 +18,7 @@ DocumentKind document_kind(std::string_view text, const std::string& file);
 /// file.
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file);
 
+/// "a job", for messages.
+std::string_view name_of(DocumentKind kind);
+
 }  // namespace throng::cli

@@ -10,13 +10,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/words.h"
 #include "calibrate/spec/camera_file.h"
 #include "cli/document_kind.h"
 #include "cli/executor_options.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "cli/words.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/queue/executors.h"
 #include "jobs/queue/profile.h"
@@ -114,7 +114,15 @@ std::string read_job_text(const std::string& path) {
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
     return calibrate::to_json(calibrate::read_camera_file(file));
   };
-  return jobs::with_calibrations(text, camera_in);
+  try {
+    return jobs::with_calibrations(text, camera_in);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.source.empty()) problem.source = path;
+    }
+    throw InputError(std::move(problems));
+  }
 }
 
 jobs::ResolvedJob read_job_file(const std::string& path, jobs::DefaultDrones default_drones) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "cli/words.h"
+#include "base/words.h"
 
 namespace throng::cli {
 

@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::RuntimeError& error) {  // of a command that has reported it
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    throw InputError(cli::parse_problem(app, error));
+    throw InputError(cli::parse_problem(app, error, line.words()));
   }
   return cli::exit_ok;
 }

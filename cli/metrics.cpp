@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "cli/file_kind.h"
 #include "cli/input_file.h"
 #include "cli/scenario_named.h"
 #include "cli/trace_file.h"
@@ -84,7 +85,8 @@ void measure(const MetricsArguments& arguments) {
         option, *output,
         {arguments.trace, arguments.trajectory, arguments.without_guides, arguments.scenario});
   }
-  if (recorded) check_input_file(arguments.trajectory, "a file of trajectories");
+  check_ending("--csv", arguments.csv, {".csv"});
+  if (recorded) refuse_as_trajectory(arguments.trajectory);
   const world::Trace trace =
       recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
                : read_trace_file(arguments.trace);

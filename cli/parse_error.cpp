@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <optional>
 #include <regex>
 #include <string_view>
 #include <vector>
@@ -40,19 +41,49 @@ std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
   return names;
 }
 
-Problem unexpected(const NamedCommand& command, const std::string& word) {
+/// The long option that "--out" or "-out" begins, if there is one alone.
+std::optional<std::string> longer_option(std::span<const std::string> known,
+                                         const std::string& word) {
+  const std::size_t dashes = word.find_first_not_of('-');
+  constexpr std::size_t kShortest = 2;
+  if (dashes == std::string::npos || word.size() - dashes < kShortest) return std::nullopt;
+  const std::string start = "--" + word.substr(dashes);
+  std::optional<std::string> found;
+  for (const std::string& name : known) {
+    if (!name.starts_with(start)) continue;
+    if (found) return std::nullopt;
+    found = name;
+  }
+  return found;
+}
+
+/// A word such as "-out", which is read as the option -o with the value "ut".
+std::optional<std::string> option_with_one_dash(std::span<const std::string> known,
+                                                std::span<const std::string> words) {
+  for (const std::string& word : words) {
+    if (!word.starts_with('-') || word.starts_with("--")) continue;
+    if (longer_option(known, word)) return word;
+  }
+  return std::nullopt;
+}
+
+Problem unexpected(const NamedCommand& command, std::string word,
+                   std::span<const std::string> words) {
+  const std::vector<std::string> known = option_names(*command.app);
+  if (const auto option = option_with_one_dash(known, words)) word = *option;
   if (!word.starts_with('-')) {
     return {command.name, "", fmt::format("one more argument, \"{}\"", word),
             fmt::format("what `{} --help` lists", command.name)};
   }
-  const std::vector<std::string> known = option_names(*command.app);
   const std::string name = word.substr(0, word.find('='));
   Problem problem = unknown_name(command.name, "", "option", name,
                                  std::vector<std::string_view>(known.begin(), known.end()));
+  if (const auto longer = longer_option(known, name)) problem.expected = '"' + *longer + '"';
   return problem;
 }
 
@@ -67,10 +98,11 @@ constexpr double kOpen = 1e308;
 
 }  // namespace
 
-Problem parse_problem(const CLI::App& app, const CLI::ParseError& error) {
+Problem parse_problem(const CLI::App& app, const CLI::ParseError& error,
+                      std::span<const std::string> words) {
   const NamedCommand command = command_given(app);
   if (const auto extra = app.remaining(true); !extra.empty()) {
-    return unexpected(command, extra.front());
+    return unexpected(command, extra.front(), words);
   }
   const std::string text = error.what();
   if (text == "A subcommand is required") {

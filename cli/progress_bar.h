@@ -7,6 +7,10 @@
 
 namespace throng::cli {
 
+/// A line of a bar of at most `columns` - 1 characters.
+std::string progress_line(std::string_view title, double fraction, std::string_view note,
+                          std::size_t columns);
+
 class ProgressBar {
  public:
   explicit ProgressBar(std::string title);

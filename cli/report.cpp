@@ -13,6 +13,7 @@
 #include "cli/api_client.h"
 #include "cli/bundle.h"
 #include "cli/commands.h"
+#include "cli/file_kind.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/job_report.h"
@@ -96,6 +97,7 @@ std::string report_of_traces(const ReportArguments& arguments) {
 
 void report(const ReportArguments& arguments) {
   check_output_file("--output", arguments.output, arguments.inputs);
+  check_ending("--output", arguments.output, {".html", ".htm"});
   if (is_on_server(arguments)) {
     fetch_report(arguments.inputs[0], arguments.output);
   } else {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
@@ -21,7 +23,6 @@
 #include "cli/scenario_named.h"
 #include "cli/spec/exit_code.h"
 #include "cli/trace_file.h"
-#include "cli/words.h"
 #include "drawing/drawing.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
@@ -29,6 +30,7 @@
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "places/generate.h"
+#include "places/generated.h"
 #include "places/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "world/drone_path.h"
@@ -46,7 +48,7 @@ fs::path scenario_path(const std::string& name) {
   }
   if (fs::exists(name)) return name;
   if (fs::path(name).extension() == ".json") {
-    throw InputError({name, "", "no such file", "a scenario file, a folder or a scenario id"});
+    refuse_missing_scenario(name);
   }
   return world::scenario_file(world::scenarios_folder(), name);
 }
@@ -121,8 +123,7 @@ void add_make(CLI::App& scenario) {
   command->callback([file, folder] {
     require_kind(DocumentKind::blueprint, read_input_file(*file, "a blueprint"), *file);
     const std::string id = file->stem().stem().string();
-    const fs::path made =
-        places::make_scenario(places::load_blueprint(*file), file->string(), *folder, id);
+    const fs::path made = places::make_scenario(*file, *folder, id);
     fmt::print("{}\n", made.string());
   });
 }
@@ -133,7 +134,19 @@ struct GenerateArguments {
   int seed = 1;
   int count = 1;
   fs::path folder = ".";
+  /// Options that give a field, by its pointer.
+  std::map<std::string, std::string> options = {{"/kind", "--kind"}, {"/seed", "--seed"}};
 };
+
+/// Problems of a spec as those of the options that gave it.
+[[noreturn]] void refuse(const GenerateArguments& arguments, std::vector<Problem> problems) {
+  for (Problem& problem : problems) {
+    const auto option = arguments.options.find(problem.where);
+    problem.source = "throng scenario generate";
+    problem.where = option != arguments.options.end() ? option->second : "";
+  }
+  throw InputError(std::move(problems));
+}
 
 void generate(const GenerateArguments& arguments) {
   for (int i = 0; i < arguments.count; ++i) {
@@ -142,11 +155,15 @@ void generate(const GenerateArguments& arguments) {
     spec["seed"] = arguments.seed + i;
     std::vector<Problem> problems;
     const places::PlaceSpec place = places::read_place_spec(spec, "", problems);
-    if (!problems.empty()) throw InputError(std::move(problems));
+    if (!problems.empty()) refuse(arguments, std::move(problems));
     const std::string id = places::id_of(place);
-    const fs::path made =
-        places::make_scenario(places::generate_place(place), id, arguments.folder, id);
-    fmt::print("{}\n", made.string());
+    try {
+      const fs::path made =
+          places::make_scenario(places::generate_place(place), id, arguments.folder, id);
+      fmt::print("{}\n", made.string());
+    } catch (const InputError& error) {
+      refuse(arguments, places::problems_of_spec(error.problems()));
+    }
   }
 }
 
@@ -159,10 +176,12 @@ void add_generate(CLI::App& scenario) {
       ->check(CLI::Range(1, 100'000));
   command->add_option("-o,--output", arguments->folder, "Folder for the scenarios");
   const auto number = [&](const char* option, const char* field, const char* help) {
+    arguments->options[std::string("/") + field] = option;
     command->add_option_function<double>(
         option, [arguments, field](double value) { arguments->spec[field] = value; }, help);
   };
   const auto integer = [&](const char* option, const char* field, const char* help) {
+    arguments->options[std::string("/") + field] = option;
     command->add_option_function<int>(
         option, [arguments, field](int value) { arguments->spec[field] = value; }, help);
   };

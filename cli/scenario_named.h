@@ -7,15 +7,24 @@
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
 #include "world/scenario.h"
+#include "world/scenario_id.h"
 #include "world/trace_scenario.h"
 
 namespace throng::cli {
+
+/// Throws InputError for a file that is not there; its path may end with the id of a scenario.
+[[noreturn]] inline void refuse_missing_scenario(const std::string& name) {
+  const auto id = world::scenario_id_in(world::scenarios_folder(), name);
+  throw InputError({name, "", "no such file",
+                    id ? "a scenario file, or its id: \"" + *id + '"' : "a scenario file"});
+}
 
 /// A file where the name ends like one (.json), else the id of a shipped scenario. Throws
 /// InputError.
 inline world::Scenario scenario_named(const std::string& name) {
   const std::filesystem::path file(name);
   if (file.extension() != ".json") return world::find_scenario(world::scenarios_folder(), name);
+  if (!std::filesystem::exists(file)) refuse_missing_scenario(name);
   require_kind(DocumentKind::scenario, read_input_file(name, "a scenario file"), name);
   return world::load_scenario(file, file.stem().string());
 }

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
+#include "base/error.h"
 #include "cli/api_client.h"
 #include "cli/bundle.h"
 #include "cli/commands.h"
@@ -17,9 +19,15 @@ namespace {
 
 void list() {
   const auto folder = world::scenarios_folder();
+  std::vector<Problem> problems;  // one broken file hides no other
   for (const std::string& id : world::list_scenarios(folder)) {
-    fmt::print("{:<32} {}\n", id, world::find_scenario(folder, id).name);
+    try {
+      fmt::print("{:<32} {}\n", id, world::find_scenario(folder, id).name);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
   }
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 struct UploadArguments {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/file_kind.h"
 #include "cli/input_file.h"
 #include "cli/interrupt.h"
 #include "cli/job_runner.h"
@@ -31,6 +32,7 @@ struct SimulateArguments {
 
 void simulate(const SimulateArguments& arguments) {
   check_output_file("--output", arguments.trace_file, {arguments.job_file});
+  check_ending("--output", arguments.trace_file, {".h5", ".hdf5"});
   const jobs::JobSpec job = read_job_file(arguments.job_file).spec();
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),

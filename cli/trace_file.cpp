@@ -15,7 +15,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "cli/input_file.h"
+#include "cli/file_kind.h"
 
 namespace throng::cli {
 
@@ -64,11 +64,7 @@ bool has_crashed(int status) {
 }  // namespace
 
 world::Trace read_trace_file(const fs::path& path) {
-  constexpr const char* kExpected = "a trace (HDF5)";
-  check_input_file(path.string(), kExpected);
-  if (!fs::is_regular_file(path)) {
-    throw InputError({path.string(), "", "a folder or a device", kExpected});
-  }
+  require_trace(path);
   const pid_t child = ::fork();
   if (child < 0) throw EnvironmentError(fmt::format("cannot start a process: errno {}", errno));
   if (child == 0) read_in_child(path);
@@ -76,7 +72,8 @@ world::Trace read_trace_file(const fs::path& path) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (has_crashed(status)) {
-    throw InputError({path.string(), "", "a damaged HDF5 file, which cannot be read", kExpected});
+    throw InputError(
+        {path.string(), "", "a damaged HDF5 file, which cannot be read", "a trace (HDF5)"});
   }
   return world::read_trace(path);
 }

@@ -4,17 +4,25 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "cli/commands.h"
+#include "cli/input_file.h"
 
 namespace throng::cli {
 
 namespace {
 
 void validate(const std::string& dataset) {
+  check_input_file(dataset, "the folder of a finished dataset");
+  if (!std::filesystem::is_directory(dataset)) {
+    throw InputError(
+        {dataset, "", "a file", "the folder of a finished dataset; an archive is unpacked first"});
+  }
   const formats::Validation validation = formats::validate_dataset(dataset);
   for (const formats::Finding& finding : validation.findings) {
     fmt::print("{}: {}{}{} [{}]\n", finding.file, finding.record,
@@ -24,10 +32,12 @@ void validate(const std::string& dataset) {
     fmt::print("... and {} more\n", validation.found - validation.findings.size());
   }
   if (validation.found > 0) {
-    throw InputError({dataset, "", fmt::format("{} faults", validation.found), "none"});
+    throw InputError(
+        {dataset, "", counted(static_cast<std::int64_t>(validation.found), "fault"), "none"});
   }
-  fmt::print("{}: {} images with {} annotations, no faults\n", dataset, validation.images,
-             validation.annotations);
+  fmt::print("{}: {} with {}, no faults\n", dataset,
+             counted(static_cast<std::int64_t>(validation.images), "image"),
+             counted(static_cast<std::int64_t>(validation.annotations), "annotation"));
 }
 
 }  // namespace

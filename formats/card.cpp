@@ -1,4 +1,5 @@
 #include "formats/card.h"
+#include "base/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -247,11 +248,11 @@ json DatasetCard::description() const {
 
 std::string DatasetCard::readme() const {
   std::string text = fmt::format(
-      "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, of "
-      "{} "
-      "distinct characters, in {}.\n`dataset.json` describes it, `manifest.json` lists every file "
+      "# {}\n\nA synthetic crowd dataset made by {}: {} with {} of people, of {}, in "
+      "{}.\n`dataset.json` describes it, `manifest.json` lists every file "
       "with its SHA-256. `throng validate` checks it.\n\n",
-      info_.name, info_.generator, images_, people_, characters_.size(),
+      info_.name, info_.generator, counted(images_, "image"), counted(people_, "annotation"),
+      counted(static_cast<std::int64_t>(characters_.size()), "distinct character"),
       info_.runs.size() == 1 ? "one run" : fmt::format("{} runs", info_.runs.size()));
   text += "| what | where |\n|---|---|\n";
   const json card = description();

@@ -9,6 +9,7 @@
 
 #include "annotate/density.h"
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 #include "formats/heads.h"
 #include "formats/image_camera.h"
 #include "formats/makers.h"
@@ -99,8 +100,8 @@ void write_h5(const fs::path& path, const annotate::DensityMap& map) {
       rows.append(map.value.data(), static_cast<hsize_t>(map.height));
     }
     file.close(path.string());
-  } catch (const hdf5::Failure& failure) {
-    throw EnvironmentError(fmt::format("cannot write {}: {}", path.string(), failure.what()));
+  } catch (const hdf5::Failure&) {
+    throw_write_error(path, 0);
   }
 }
 

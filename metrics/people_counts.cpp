@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/words.h"
 
 namespace throng::metrics {
 
@@ -51,7 +52,8 @@ std::vector<std::string> warnings_of(const PeopleCounts& counts) {
   std::vector<std::string> warnings;
   const auto say = [&](int number, const char* text) {
     if (number > 0)
-      warnings.push_back(fmt::format("{} of {} people {}", number, counts.people, text));
+      warnings.push_back(
+          fmt::format("{} of {} {}", number, counted(counts.people, "person", "people"), text));
   };
   say(counts.left_by_no_exit,
       "left the place where there is no exit: they are among the escape times, but no exit counts "

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "base/json_text.h"
 #include "crowd/menge_files/write.h"
 #include "places/blocked.h"
 #include "places/crowd_scene.h"
 #include "places/people.h"
 #include "places/shorthand.h"
 #include "schemas/schemas.h"
+#include "world/extended_document.h"
 #include "world/json_reader.h"
 #include "world/scenario.h"
 
@@ -90,26 +90,14 @@ void add_emergency(const world::Scenario& place, const People& people, json& doc
 }  // namespace
 
 json load_blueprint(const fs::path& file) {
-  json document = parse_json(read_file(file), file.string());
-  if (!document.is_object() || !document.contains("extends")) return document;
-  std::vector<Problem> problems;
-  const world::JsonValue name = world::JsonValue(document, file.string(), problems)["extends"];
-  const fs::path base_file = file.parent_path() / fs::path(name.text()).filename();
-  if (problems.empty() && (base_file.filename() != name.text() || !fs::exists(base_file))) {
-    name.reject("the name of a file in the same folder");
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  json base = parse_json(read_file(base_file), base_file.string());
-  document.erase("extends");
-  base.merge_patch(document);
-  return base;
+  return world::read_extended(file, file.string()).whole;
 }
 
-BuiltScenario build_scenario(const json& said, const std::string& source, const std::string& id) {
+namespace {
+
+BuiltScenario built_of(const json& blueprint, const json& said, const std::string& source,
+                       const std::string& id) {
   std::vector<Problem> problems;
-  json blueprint = said;
-  expand_shorthand(blueprint, source, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
   const world::JsonValue root(blueprint, source, problems);
   root.fields({"name", "ground", "inside", "exits", "people"},
               {"description", "buildings", "drones", "disasters", "meshes", "props", "scatter"});
@@ -124,6 +112,17 @@ BuiltScenario build_scenario(const json& said, const std::string& source, const 
   if (!problems.empty()) throw InputError(std::move(problems));
   add_emergency(place, people, built.document);
   return built;
+}
+
+}  // namespace
+
+BuiltScenario build_scenario(const json& said, const std::string& source, const std::string& id) {
+  const Expanded expanded = expand_shorthand(said, source);
+  try {
+    return built_of(expanded.blueprint, said, source, id);
+  } catch (const InputError& error) {
+    throw InputError(expanded.as_said(error.problems(), said));
+  }
 }
 
 std::map<std::string, std::string> scenario_files(const json& blueprint, const std::string& source,
@@ -141,6 +140,13 @@ fs::path make_scenario(const json& blueprint, const std::string& source, const f
     write_file_atomically(folder / name, text);
   }
   return folder / file_name(id);
+}
+
+fs::path make_scenario(const fs::path& blueprint, const fs::path& folder, const std::string& id) {
+  const std::string source = blueprint.string();
+  const world::ExtendedDocument document = world::read_extended(blueprint, source);
+  return world::with_files_of(document,
+                              [&] { return make_scenario(document.whole, source, folder, id); });
 }
 
 }  // namespace throng::places

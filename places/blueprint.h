@@ -36,5 +36,9 @@ std::map<std::string, std::string> scenario_files(const nlohmann::json& blueprin
 /// first. Throws like build_scenario, and EnvironmentError when the folder cannot be written.
 std::filesystem::path make_scenario(const nlohmann::json& blueprint, const std::string& source,
                                     const std::filesystem::path& folder, const std::string& id);
+/// The same of a blueprint's file; messages name the file that a fault is in, which may be the one
+/// that the blueprint extends.
+std::filesystem::path make_scenario(const std::filesystem::path& blueprint,
+                                    const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace throng::places

@@ -128,7 +128,9 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
     source.table.emplace_back(pair[0].number(0, kMaxDurationS), pair[1].integer(1, kMaxPeople));
   }
   if (item["table"].exists() == item["per_minute"].exists()) {
-    item.reject("both or none of \"per_minute\" and \"table\"", "one of them");
+    item.reject(
+        fmt::format("{} of \"per_minute\" and \"table\"", item["table"].exists() ? "both" : "none"),
+        "one of them");
   } else if (item["per_minute"].exists()) {
     source.per_minute = item["per_minute"].number(0.01, 10'000);
   }

@@ -1,7 +1,10 @@
 #include "places/shorthand.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -29,7 +32,18 @@ json* list_at(json& document, const char* pointer) {
   return &document[place];
 }
 
-void expand_boxes(const JsonValue& said, json& items, const char* outline) {
+/// A list whose items may have a box instead of an outline.
+struct BoxList {
+  const char* pointer;
+  const char* outline;  ///< the field that a box stands for
+};
+constexpr std::array kBoxLists = {BoxList{"/buildings", "footprint"},
+                                  BoxList{"/ground/areas", "corners"}, BoxList{"/scatter", "area"},
+                                  BoxList{"/people/groups", "area"}};
+
+void expand_boxes(const JsonValue& said, const BoxList& list, Expanded& expanded) {
+  json* const items = list_at(expanded.blueprint, list.pointer);
+  if (items == nullptr) return;
   const std::vector<JsonValue> values = said.items();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!values[i]["box"].exists()) continue;
@@ -44,15 +58,16 @@ void expand_boxes(const JsonValue& said, json& items, const char* outline) {
       values[i]["box"].reject("x0 < x1 and y0 < y1");
       continue;
     }
-    items[i].erase("box");
-    items[i][outline] = outline_json(low, high);
+    (*items)[i].erase("box");
+    (*items)[i][list.outline] = outline_json(low, high);
+    const std::string item = fmt::format("{}/{}", list.pointer, i);
+    expanded.origins.emplace_back(item + "/" + list.outline, item + "/box");
   }
 }
 
-/// How much of a row one of its props takes, m; 0 of an unknown kind, which is refused elsewhere.
-double own_length_m(const JsonValue& row, double turn_rad) {
-  const double scale = row["scale"].exists() ? row["scale"].number(0.2, 5) : 1;
-  const std::string kind = row["kind"].text();
+/// How much of a row one prop of the kind takes, m; 0 of an unknown kind, which is refused
+/// elsewhere.
+double own_length_m(const std::string& kind, double scale, double turn_rad) {
   for (const world::PropType& type : world::prop_types()) {
     if (kind != type.name) continue;
     return 2 * scale *
@@ -72,41 +87,78 @@ void add_row(const JsonValue& row, json& props) {
   int steps = static_cast<int>(std::lround(length_m / apart_m));
   const double along_deg =
       std::atan2(to.y() - from.y(), to.x() - from.x()) * 180 / std::numbers::pi;
+  const std::string kind = row["kind"].text();
+  const double scale = row["scale"].exists() ? row["scale"].number(0.2, 5) : 1;
   const double more_deg = row["yaw_deg"].exists() ? row["yaw_deg"].number(-180, 180) : 0;
   // One more than fits would push props that touch each other into each other.
-  if (length_m < steps * own_length_m(row, more_deg * kDegree)) {
+  if (length_m < steps * own_length_m(kind, scale, more_deg * kDegree)) {
     steps = std::min(steps, static_cast<int>(length_m / apart_m + 1e-9));
   }
   for (int i = 0; i <= steps; ++i) {
     const double share = steps > 0 ? static_cast<double>(i) / steps : 0;
-    json prop = {{"kind", row["kind"].text()},
+    json prop = {{"kind", kind},
                  {"position", point_json(from + share * (to - from))},
                  {"yaw_deg", std::remainder(along_deg + more_deg, 360.0)}};
-    if (row["scale"].exists()) prop["scale"] = row["scale"].number(0.2, 5);
+    if (row["scale"].exists()) prop["scale"] = scale;
     props.push_back(std::move(prop));
   }
 }
 
+/// The deepest part of a pointer that the document has.
+std::string existing_part(json::json_pointer pointer, const json& document) {
+  while (!pointer.empty() && !document.contains(pointer)) pointer.pop_back();
+  return pointer.to_string();
+}
+
 }  // namespace
 
-void expand_shorthand(json& blueprint, const std::string& source, std::vector<Problem>& problems) {
-  const json as_said = blueprint;
-  const JsonValue root(as_said, source, problems);
-  if (json* list = list_at(blueprint, "/buildings")) {
-    expand_boxes(root["buildings"], *list, "footprint");
+std::vector<Problem> Expanded::as_said(std::vector<Problem> problems, const json& said) const {
+  std::vector<Problem> renamed;
+  for (Problem& problem : problems) {
+    for (const auto& [part, origin] : origins) {
+      if (problem.where != part && !problem.where.starts_with(part + "/")) continue;
+      const std::string rest = problem.where.substr(part.size());
+      problem.where = existing_part(json::json_pointer(origin + rest), said);
+      break;
+    }
+    for (const BoxList& list : kBoxLists) {
+      const std::string missing = fmt::format("missing required field \"{}\"", list.outline);
+      if (problem.found == missing && problem.where.starts_with(list.pointer)) {
+        problem.found += " or \"box\"";
+      }
+    }
+    const bool is_said = std::any_of(renamed.begin(), renamed.end(), [&](const Problem& other) {
+      return other.text() == problem.text();
+    });
+    if (!is_said) renamed.push_back(std::move(problem));
   }
-  if (json* list = list_at(blueprint, "/ground/areas")) {
-    expand_boxes(root["ground"]["areas"], *list, "corners");
+  return renamed;
+}
+
+Expanded expand_shorthand(const json& said, const std::string& source) {
+  std::vector<Problem> problems;
+  Expanded expanded{said, {}};
+  const JsonValue root(said, source, problems);
+  expand_boxes(root["buildings"], kBoxLists[0], expanded);
+  expand_boxes(root["ground"]["areas"], kBoxLists[1], expanded);
+  expand_boxes(root["scatter"], kBoxLists[2], expanded);
+  expand_boxes(root["people"]["groups"], kBoxLists[3], expanded);
+  if (root["rows"].exists()) {
+    json& props = expanded.blueprint["props"];
+    if (props.is_null()) props = json::array();
+    if (!props.is_array()) root["props"].reject("an array");
+    const std::vector<JsonValue> rows = root["rows"].items();
+    for (std::size_t i = 0; props.is_array() && i < rows.size(); ++i) {
+      const std::size_t first = props.size();
+      add_row(rows[i], props);
+      for (std::size_t k = first; k < props.size(); ++k) {
+        expanded.origins.emplace_back(fmt::format("/props/{}", k), fmt::format("/rows/{}", i));
+      }
+    }
+    expanded.blueprint.erase("rows");
   }
-  if (json* list = list_at(blueprint, "/scatter")) expand_boxes(root["scatter"], *list, "area");
-  if (json* list = list_at(blueprint, "/people/groups")) {
-    expand_boxes(root["people"]["groups"], *list, "area");
-  }
-  if (!root["rows"].exists()) return;
-  if (!blueprint.contains("props")) blueprint["props"] = json::array();
-  if (!blueprint["props"].is_array()) return root["props"].reject("an array");
-  for (const JsonValue& row : root["rows"].items()) add_row(row, blueprint["props"]);
-  blueprint.erase("rows");
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return expanded;
 }
 
 }  // namespace throng::places

@@ -44,8 +44,7 @@ JsonValue::JsonValue(const json* value, std::string pointer, const std::string* 
     : value_(value), pointer_(std::move(pointer)), source_(source), problems_(problems) {}
 
 void JsonValue::reject(std::string found, std::string expected) const {
-  problems_->push_back(
-      {*source_, pointer_.empty() ? "/" : pointer_, std::move(found), std::move(expected)});
+  problems_->push_back({*source_, pointer_, std::move(found), std::move(expected)});
 }
 
 void JsonValue::reject(std::string expected) const {
@@ -97,6 +96,10 @@ JsonValue JsonValue::renamed(std::string_view key, std::string_view deprecated) 
 bool JsonValue::is_number() const { return value_ != nullptr && value_->is_number(); }
 
 bool JsonValue::is_text() const { return value_ != nullptr && value_->is_string(); }
+
+bool JsonValue::is_list_of(std::size_t count) const {
+  return value_ != nullptr && value_->is_array() && value_->size() == count;
+}
 
 double JsonValue::number(double low, double high) const {
   if (value_ == nullptr) return low;
@@ -160,7 +163,7 @@ std::vector<JsonValue> JsonValue::items(std::size_t at_least) const {
 
 std::vector<JsonValue> JsonValue::tuple(std::size_t count, std::string_view expected) const {
   if (value_ == nullptr) return {};
-  if (value_->is_array() && value_->size() == count) return items();
+  if (is_list_of(count)) return items();
   reject(std::string(expected));
   return {};
 }

@@ -36,6 +36,7 @@ class JsonValue {
   bool exists() const { return value_ != nullptr; }
   bool is_number() const;
   bool is_text() const;
+  bool is_list_of(std::size_t count) const;
 
   double number(double low, double high) const;
   int integer(int low, int high) const;

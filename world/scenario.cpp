@@ -21,6 +21,7 @@
 #include "geometry/polygon.h"
 #include "schemas/schemas.h"
 #include "world/exit_overlap.h"
+#include "world/extended_document.h"
 #include "world/json_reader.h"
 
 namespace throng::world {
@@ -82,7 +83,9 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   std::vector<Exit> exits;
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
-  for (const JsonValue& item : list.items()) {
+  const std::vector<JsonValue> items = list.items();
+  if (list.is_list_of(0)) list.reject("a list of at least one exit");
+  for (const JsonValue& item : items) {
     item.fields({"id", "from", "to"}, {"goals", "outward", "open", "closes_at_s"}, {"shuts_s"});
     Exit exit;
     exit.id = ids.read(item["id"]);
@@ -160,6 +163,18 @@ std::vector<Building> read_buildings(const JsonValue& list) {
   return buildings;
 }
 
+void check_start(const JsonValue& start, const Eigen::Vector3d& position,
+                 const std::vector<Building>& buildings) {
+  if (position.z() <= 0) start.reject("a point above the ground (z > 0)");
+  for (const Building& building : buildings) {
+    if (building.footprint.size() >= 3 && position.z() <= building.height_m &&
+        geometry::distance_to(building.footprint, position.head<2>()) == 0) {
+      start.reject(fmt::format("a point in building \"{}\"", building.id),
+                   "a point outside every building");
+    }
+  }
+}
+
 std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Building>& buildings) {
   std::vector<DroneStart> drones;
   UniqueNames ids;
@@ -168,16 +183,7 @@ std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Bui
     DroneStart drone;
     drone.id = ids.read(item["id"]);
     drone.position = item["start"].vector3(kMaxCoordinateM);
-    if (item["start"].exists() && drone.position.z() <= 0) {
-      item["start"].reject("a point above the ground (z > 0)");
-    }
-    for (const Building& building : buildings) {
-      if (building.footprint.size() >= 3 && drone.position.z() <= building.height_m &&
-          geometry::distance_to(building.footprint, drone.position.head<2>()) == 0) {
-        item["start"].reject(fmt::format("a point in building \"{}\"", building.id),
-                             "a point outside every building");
-      }
-    }
+    if (item["start"].is_list_of(3)) check_start(item["start"], drone.position, buildings);
     if (item["yaw_deg"].exists()) {
       drone.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
     }
@@ -251,45 +257,12 @@ std::vector<int> read_disaster_agents(const JsonValue& list) {
   return agents;
 }
 
-bool is_scenario_id(std::string_view id) {
-  const auto in_word = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  char previous = '/';
-  for (const char c : id) {
-    if (!in_word(c) && (c != '/' || previous == '/')) return false;
-    previous = c;
-  }
-  return previous != '/';
-}
-
-// A file's content; where it extends another file, that one's with this one's changes.
-nlohmann::json read_document(const fs::path& file, const std::string& source) {
-  nlohmann::json document = parse_json(read_file(file), source);
-  if (!document.is_object() || !document.contains("extends")) return document;
-  std::vector<Problem> problems;
-  const JsonValue name = JsonValue(document, source, problems)["extends"];
-  const fs::path base_file = read_companion(name, file);
-  const fs::path file_folder = fs::absolute(file).lexically_normal().parent_path();
-  if (problems.empty() && (name.text().empty() || base_file.parent_path() != file_folder)) {
-    name.reject("the name of a file in the same folder");
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  nlohmann::json base = parse_json(read_file(base_file), base_file.string());
-  if (base.is_object() && base.contains("extends")) {
-    name.reject(fmt::format("\"{}\", which extends another file itself", name.text()),
-                "a file that stands for itself");
-    throw InputError(std::move(problems));
-  }
-  document.erase("extends");
-  base.merge_patch(document);
-  return base;
-}
-
 }  // namespace
 
 Scenario load_scenario(const fs::path& file, std::string id) {
-  return parse_scenario(read_document(file, file.string()), file, std::move(id));
+  const ExtendedDocument document = read_extended(file, file.string());
+  return with_files_of(document,
+                       [&] { return parse_scenario(document.whole, file, std::move(id)); });
 }
 
 Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, std::string id) {
@@ -341,58 +314,6 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   for (const char* field : {"crowd", "$schema"}) kept.erase(field);
   scenario.document = kept.dump();
   return scenario;
-}
-
-fs::path scenarios_folder() {
-  return resource_folder("THRONG_SCENARIOS", "scenarios", "scenarios");
-}
-
-std::vector<std::string> list_scenarios(const fs::path& folder) {
-  std::vector<std::string> ids;
-  std::error_code error;
-  // A server's folder holds links to shipped scenarios and to uploads.
-  fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink,
-                                           error);
-  if (error == std::errc::no_such_file_or_directory) {
-    throw InputError({folder.string(), "", "no such folder",
-                      "the folder of scenarios (environment variable THRONG_SCENARIOS)"});
-  }
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
-  }
-  constexpr int kDeepest = 8;  // links may lead in circles
-  for (; entries != fs::recursive_directory_iterator(); entries.increment(error)) {
-    const fs::directory_entry& entry = *entries;
-    if (entries.depth() >= kDeepest) entries.disable_recursion_pending();
-    if (entry.path().extension() != ".json" || !entry.is_regular_file(error)) continue;
-    if (entry.path().filename() == "study.json") continue;
-    // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
-    std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
-    if (is_scenario_id(id)) ids.push_back(std::move(id));
-  }
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
-
-fs::path scenario_file(const fs::path& folder, const std::string& id) {
-  fs::path file = folder / (id + ".json");
-  if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
-  constexpr std::size_t kMaxNamed = 50;
-  const std::vector<std::string> ids = list_scenarios(folder);
-  const std::vector<std::string_view> known(ids.begin(), ids.end());
-  Problem problem = unknown_name("", "", "scenario", id, known);
-  if (!closest(id, known)) {
-    problem.expected =
-        fmt::format("one of: {}{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
-                    fmt::join(std::span(known).first(std::min(known.size(), kMaxNamed)), ", "),
-                    known.size() > kMaxNamed ? " and others" : "", folder.string());
-  }
-  throw InputError(std::move(problem));
-}
-
-Scenario find_scenario(const fs::path& folder, const std::string& id) {
-  return load_scenario(scenario_file(folder, id), id);
 }
 
 }  // namespace throng::world

@@ -143,7 +143,8 @@ std::filesystem::path scenario_file(const std::filesystem::path& folder, const s
 /// Loads the file of a scenario's id.
 Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
 
-/// Every scenario id in the folder, sorted. Files named study.json are studies, not scenarios.
+/// Every scenario id in the folder, sorted. Sound JSON files without any part of a scenario (jobs,
+/// studies) are none.
 std::vector<std::string> list_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::world

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 #include "base/staging.h"
 #include "world/hdf5_file.h"
 #include "world/trace.h"
@@ -323,9 +324,8 @@ auto writing(const fs::path& path, const Work& work) {
   const hdf5::QuietErrors quiet;
   try {
     return work();
-  } catch (const hdf5::Failure& failure) {
-    throw EnvironmentError(
-        fmt::format("cannot write {} (at \"{}\")", path.string(), failure.what()));
+  } catch (const hdf5::Failure&) {  // names a table, which is nothing to the user
+    throw_write_error(path, 0);
   }
 }
 

@@ -10,16 +10,16 @@
 namespace throng::jobs {
 
 world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
-                            const std::string& source) {
-  if (job.generate) return places::load_generated(*job.generate);
+                            const std::string& source, const std::string& pointer) {
   try {
-    return world::find_scenario(scenarios, job.scenario);
+    return job.generate ? places::load_generated(*job.generate)
+                        : world::find_scenario(scenarios, job.scenario);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
       if (!problem.source.empty()) continue;
       problem.source = source;
-      problem.where = "/scenario";
+      problem.where = job.generate ? pointer + "/generate" + problem.where : pointer;
     }
     throw InputError(std::move(problems));
   }

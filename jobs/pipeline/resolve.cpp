@@ -371,9 +371,12 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
   JobSpec job = parse_job(text, source, problems);
   std::vector<world::Scenario> places;
   std::vector<Problem> of_places;
+  const std::vector<std::size_t> shares = shares_of_runs(job);
   for (const int run : first_runs(job)) {
+    const std::size_t share = shares[static_cast<std::size_t>(run)];
+    const std::string pointer = job.mix.empty() ? "/scenario" : fmt::format("/scenario/{}", share);
     try {
-      places.push_back(scenario_of(in_scenario_of_run(job, run), scenarios, source));
+      places.push_back(scenario_of(in_scenario_of_run(job, run), scenarios, source, pointer));
     } catch (const InputError& error) {
       add(error, of_places);
     }

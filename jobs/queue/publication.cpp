@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/json_text.h"
+#include "base/resource_exhaustion.h"
 
 namespace throng::jobs {
 
@@ -65,10 +67,11 @@ void from_json(const json& value, FileEntry& file) {
 void write_new_file(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
+  errno = 0;
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw EnvironmentError(fmt::format("cannot write {}", path.string()));
+  if (!file) throw_write_error(path, errno);
 }
 
 Publication::Publication(const fs::path& output) : staging_(output) {}

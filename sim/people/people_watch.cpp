@@ -1,4 +1,5 @@
 #include "sim/people/people_watch.h"
+#include "base/words.h"
 
 #include <fmt/core.h>
 
@@ -14,8 +15,9 @@ constexpr float kMovedM = 1;       // more than shuffling on the spot
 constexpr const char* kScenario = "/scenario";
 
 std::string share_text(std::size_t some, std::size_t all) {
-  return some == 0 ? fmt::format("none of {} people", all)
-                   : fmt::format("only {} of {} people", some, all);
+  return some == 0 ? "none of " + counted(static_cast<std::int64_t>(all), "person", "people")
+                   : fmt::format("only {} of {}", some,
+                                 counted(static_cast<std::int64_t>(all), "person", "people"));
 }
 
 bool is_hardly_any(std::size_t some, std::size_t all) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <string>
 #include <thread>
 
 #include "base/error.h"
+#include "base/resource_exhaustion.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng {
@@ -49,6 +52,24 @@ TEST(Files, FailedWriteLeavesTheOldContentAndNothingElse) {
   EXPECT_THROW(write_file_atomically(folder.path() / "taken", "x"), EnvironmentError);
   EXPECT_TRUE(fs::is_directory(folder.path() / "taken" / "by"));
   EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(Files, AFullDiskIsSaid) {
+  for (const std::size_t size : {1U, 10'000'000U}) {
+    try {
+      write_temporary_file("/dev/full", std::string(size, 'x'));
+      ADD_FAILURE() << size;
+    } catch (const EnvironmentError& error) {
+      EXPECT_STREQ(error.what(), "cannot write /dev/full: No space left on device");
+    }
+  }
+  // A library that keeps the reason to itself.
+  EXPECT_THROW(throw_write_error("/proc/nowhere/file", 0), EnvironmentError);
+  try {
+    throw_write_error("a/file", ENOSPC);
+  } catch (const EnvironmentError& error) {
+    EXPECT_STREQ(error.what(), "cannot write a/file: No space left on device");
+  }
 }
 
 TEST(Files, ReaderNeverSeesAPartOfAFile) {

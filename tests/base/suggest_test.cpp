@@ -34,7 +34,7 @@ TEST(UnknownName, FindsSwappedAndUpperCaseLetters) {
 }
 
 TEST(UnknownName, NamesOneThatGoesOnBehindTheWord) {
-  constexpr std::array<std::string_view, 4> kFormats = {"yolo-segment", "yolo-detect", "yolos",
+  constexpr std::array<std::string_view, 4> kFormats = {"yolo-detect", "yolo-pose", "yolos",
                                                         "coco"};
   EXPECT_EQ(unknown_name("", "", "format", "yolo", kFormats).expected, "\"yolos\"")
       << "a letter too many is nearer";

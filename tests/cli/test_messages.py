@@ -1,17 +1,24 @@
 """Messages for wrong commands, options, names and files: exit code 2 and the nearest valid name."""
+import contextlib
+import fcntl
 import json
 import os
 import pathlib
+import pty
 import re
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import unittest
 
 from free_ports import free_port
 from service import start_service
 
 THRONG = sys.argv.pop(1)
+SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
 
 
 def throng(*arguments, **environment):
@@ -111,6 +118,10 @@ class Messages(unittest.TestCase):
     def test_a_missing_file_is_wrong_input(self):
         missing = self.folder / "nothing.json"
         self.refused(f"{missing}: found no such file, expected a scenario file", "scenario", "check", missing)
+        path = "here/city_square/everyday.json"
+        for command in (["check", path], ["plan", path, "-o", self.folder / "plan.svg"]):
+            expected = f'{path}: found no such file, expected a scenario file, or its id: "city_square/everyday"'
+            self.refused(expected, "scenario", *command)
         self.refused("nowhere.h5: found no such file, expected a trace", "metrics", "nowhere.h5")
         self.refused(
             "found no such folder, expected the folder of scenarios",
@@ -131,7 +142,7 @@ class Messages(unittest.TestCase):
         )
         self.run_job('/outputs/formats/0: unknown format "xyz"; expected one of: coco,', outputs={"formats": ["xyz"]})
         self.run_job(
-            '/outputs/formats/0: unknown format "yolo"; did you mean "yolo-pose"?', outputs={"formats": ["yolo"]}
+            '/outputs/formats/0: unknown format "yolo"; did you mean "yolo-detect"?', outputs={"formats": ["yolo"]}
         )
         self.run_job(
             '/outputs/annotations/1: unknown value "densty"; did you mean "density"?',
@@ -145,6 +156,11 @@ class Messages(unittest.TestCase):
         self.run_job(
             'unknown path "crowd"; did you mean "crowd.agents"?', randomize={"crowd": {"agents": {"uniform": [1, 2]}}}
         )
+
+    def test_the_file_of_a_calibration_is_named_with_the_job_s(self):
+        camera = {"calibration": "nowhere.json"}
+        expected = 'my.job.json: /drones/0/camera/calibration: found "nowhere.json"'
+        self.run_job(expected, drones=[{"id": "a", "start": [0, 0, 20], "camera": camera}])
 
     def test_limits_are_named(self):
         self.run_job("/capture/to_s: found 5, expected at least from_s, which is 10", capture={"from_s": 10, "to_s": 5})
@@ -192,6 +208,102 @@ class Messages(unittest.TestCase):
         self.refused("--csv: found", "metrics", job, "--csv", job)
         self.refused("which is an input", "calibrate", "intrinsics", "--points", job, "-o", job)
         self.assertEqual(job.read_text(), text)
+
+    def test_options_that_are_cut_short_find_their_whole_names(self):
+        job = self.job()
+        for option in ("--out", "-out", "--outp=x"):
+            self.refused(f'unknown option "{option.split("=")[0]}"; did you mean "--output"?', "run", job, option, "x")
+        self.refused('unknown option "-O"; did you mean "-o"?', "run", job, "-O", "x")
+
+    def test_a_trace_is_expected(self):
+        job = self.job()
+        table = self.folder / "people.csv"
+        table.write_text("id,frame,x,y\n1,0,0,0\n")
+        for command in (["metrics"], ["report", "-o", self.folder / "r.html"], ["render", job, "-o", "x", "--trace"]):
+            self.refused("my.job.json: found a job, expected a trace (HDF5); `throng simulate ", *command, job)
+            self.refused("found a table, expected a trace (HDF5); `throng metrics --trajectory ", *command, table)
+        (self.folder / "out/work/run000").mkdir(parents=True)
+        (self.folder / "out/work/run000/trace.h5").touch()
+        self.refused("out: found the folder of a job, expected a trace", "metrics", self.folder / "out")
+        (self.folder / "d").mkdir()
+        (self.folder / "d/manifest.json").touch()
+        self.refused("d: found a dataset, expected a trace (HDF5); its figures are in ", "metrics", self.folder / "d")
+        trace = self.folder / "run.h5"
+        trace.write_bytes(b"\x89HDF\r\n\x1a\n")
+        self.refused("run.h5: found a trace, expected a file of trajectories", "metrics", "--trajectory", trace)
+        self.refused("found a job, expected a file of trajectories", "metrics", "--trajectory", job)
+
+    def test_endings_of_files_to_write_are_checked_first(self):
+        job = self.job(capture={"to_s": 7000})
+        self.refused("--output: found r.csv, expected a file whose name ends with .h5", "simulate", job, "-o", "r.csv")
+        self.refused("--output: found r.pdf, expected a file whose name ends with .html", "report", "x", "-o", "r.pdf")
+        self.refused(
+            "--csv: found x.json, expected a file whose name ends with .csv", "metrics", "x", "--csv", "x.json"
+        )
+
+    def test_validate_says_that_there_is_no_dataset(self):
+        self.refused("nowhere: found no such file, expected the folder of a finished dataset", "validate", "nowhere")
+        self.refused("found a file, expected the folder of a finished dataset", "validate", self.job())
+
+    def test_faults_of_json_are_in_words_wherever_it_is_read(self):
+        bad = self.folder / "bad.json"
+        for command in (
+            ["check"],
+            ["scenario", "make"],
+            ["scenario", "plan", "-o", self.folder / "x.svg"],
+            ["study", "-o", self.folder / "x"],
+        ):
+            bad.write_text('{\n  "name": "x",\n}\n')
+            expected = f"{bad}: line 2, column 14: found a comma too many before }}, expected no comma after the last"
+            self.refused(expected, *command, bad)
+            bad.write_bytes('{"name": "x"}'.encode("utf-16"))
+            self.refused(f"{bad}: found a file in UTF-16, expected valid JSON in UTF-8", *command, bad)
+            bad.write_text("")
+            self.refused(f"{bad}: found an empty file, expected valid JSON", *command, bad)
+
+    def test_a_full_disk_is_said(self):
+        for command in (["schema", "job"], ["--help"], ["scenarios"], ["manual"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([THRONG, *command], stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+            self.assertEqual(done.returncode, 3, command)
+            self.assertIn("No space left on device", done.stderr)
+
+    def test_a_job_among_the_scenarios_breaks_nothing(self):
+        folder = self.folder / "scenarios"
+        shutil.copytree(SCENARIOS / "bridge", folder / "bridge")
+        (folder / "job.json").write_text('{"scenario": "bridge/everyday"}')
+        (folder / "bridge/job.json").write_text('{"scenario": "bridge/everyday"}')
+        done = throng("scenarios", THRONG_SCENARIOS=str(folder))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(
+            [line.split()[0] for line in done.stdout.splitlines()], ["bridge/emergency", "bridge/everyday"]
+        )
+        self.assertEqual(throng("scenario", "check", folder).returncode, 0)
+        # One that is broken hides no other.
+        (folder / "broken.json").write_text('{"ground": 5}')
+        done = throng("scenarios", THRONG_SCENARIOS=str(folder))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bridge/everyday", done.stdout)
+        self.assertIn("broken.json: ", done.stderr)
+
+    def test_the_progress_bar_keeps_to_the_terminal(self):
+        job = self.job(name="a job with a name that is long", capture={"to_s": 3}, crowd={"agents": 20})
+        for columns in (20, 47, 200):
+            master, slave = pty.openpty()
+            fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 20, columns, 0, 0))
+            command = [THRONG, "simulate", job, "-o", self.folder / "run.h5"]
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=slave)
+            os.close(slave)
+            shown = b""
+            with contextlib.suppress(OSError):  # the end of a terminal
+                while part := os.read(master, 4096):
+                    shown += part
+            os.close(master)
+            self.assertEqual(process.wait(timeout=100), 0, shown)
+            lines = [line for line in shown.decode().replace("\n", "\r").split("\r") if line]
+            bars = [line for line in lines if "%" in line]
+            self.assertTrue(bars, lines)
+            self.assertLess(max(map(len, bars)), columns, bars)
 
     def test_a_job_s_folder_is_not_its_dataset(self):
         (self.folder / "out/dataset").mkdir(parents=True)

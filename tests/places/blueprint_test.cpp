@@ -273,6 +273,60 @@ TEST_F(Blueprint, MayExtendAnother) {
   EXPECT_EQ(scenario.disasters.front().start_s, 5);
 }
 
+std::vector<Problem> problems_of_blueprint(const json& blueprint) {
+  try {
+    build_scenario(blueprint, "mine.place.json", "mine");
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+TEST_F(Blueprint, FaultsOfARowAreAtTheRowOnce) {
+  const json row = {{"kind", "tree"}, {"from", {-8, -6}}, {"to", {8, -6}}, {"apart_m", 4}};
+  for (const auto& [field, value] :
+       {std::pair<const char*, json>{"kind", "treee"}, std::pair<const char*, json>{"scale", 100},
+        std::pair<const char*, json>{"apart_m", 0}}) {
+    blueprint["rows"] = {row, row};
+    blueprint["rows"][1][field] = value;
+    const std::vector<Problem> problems = problems_of_blueprint(blueprint);
+    ASSERT_EQ(problems.size(), 1U) << field;
+    EXPECT_EQ(problems[0].where, std::string("/rows/1/") + field);
+    EXPECT_TRUE(blueprint.contains(json::json_pointer(problems[0].where)));
+  }
+}
+
+TEST_F(Blueprint, FaultsOfPropsOfARowAreAtTheRow) {
+  blueprint["rows"] = {{{"kind", "bin"}, {"from", {0, 21}}, {"to", {6, 21}}, {"apart_m", 2}}};
+  const std::vector<Problem> problems = problems_of_blueprint(blueprint);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/rows/0");
+  EXPECT_THAT(problems[0].found, HasSubstr("building \"north\""));
+}
+
+TEST_F(Blueprint, FaultsOfABoxAreAtTheBox) {
+  blueprint["buildings"].push_back({{"id", "flat"}, {"box", {1, 1, 2}}, {"height_m", 3}});
+  EXPECT_EQ(problems_of_blueprint(blueprint).at(0).where, "/buildings/6/box");
+  blueprint["buildings"].back().erase("box");
+  EXPECT_EQ(problems_of_blueprint(blueprint).at(0).text(),
+            "mine.place.json: /buildings/6: missing required field \"footprint\" or \"box\"");
+}
+
+TEST_F(Blueprint, FaultsAreOfTheFileThatHoldsThem) {
+  json base = blueprint;
+  base["exits"] = json::array();
+  const auto base_file = folder.write("base.place.json", base.dump());
+  const auto file =
+      folder.write("more.place.json", R"({"extends": "base.place.json", "name": "More"})");
+  try {
+    make_scenario(file, folder.path(), "more");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).text(),
+              base_file.string() + ": /exits: found [], expected a list of at least one exit");
+  }
+}
+
 struct Mistake {
   const char* name;
   const char* pointer;

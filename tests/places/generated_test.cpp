@@ -93,5 +93,20 @@ TEST(BlueprintProblems, NameTheBlueprintOnly) {
   }
 }
 
+TEST(Generated, PeopleWithoutRoomAreAFaultOfTheSpec) {
+  PlaceSpec spec;
+  spec.size_m = 30;
+  spec.people = 5000;
+  try {
+    load_generated(spec);
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1U);
+    EXPECT_EQ(error.problems()[0].where, "/people");
+    EXPECT_EQ(error.problems()[0].source, "");
+    EXPECT_EQ(error.problems()[0].found, "5000");
+  }
+}
+
 }  // namespace
 }  // namespace throng::places

@@ -453,7 +453,7 @@ TEST_F(ImportTest, EverythingThatIsWrongInADescriptionIsSaidAtOnce) {
   write_file_atomically(file, R"({"name": "a", "model": "a.glb", "height_m": 1.7, "bones": [],
       "license": "MIT", "licence": "MIT", "clips": 3})");
   const std::string more = complaint(file);
-  EXPECT_THAT(more, HasSubstr(R"(/bones: found an array of 0, expected an object such as {"left)"));
+  EXPECT_THAT(more, HasSubstr(R"(/bones: found [], expected an object such as {"left)"));
   EXPECT_THAT(more, HasSubstr("/clips: found 3, expected an object such as {\"walk\""));
   EXPECT_THAT(more, HasSubstr("bad.json: /licence: found both"));
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <ostream>
@@ -162,9 +164,8 @@ TEST_F(ScenarioFile, OutwardIsAUnitNormalAsGivenOrAwayFromTheMiddle) {
 TEST_F(ScenarioFile, OptionalPartsMayBeAbsent) {
   json document = valid_scenario();
   for (const char* key : {"buildings", "drones", "disaster_agents"}) document.erase(key);
-  document["exits"] = json::array();
   const Scenario s = load(document);
-  EXPECT_TRUE(s.exits.empty() && s.buildings.empty() && s.drones.empty());
+  EXPECT_TRUE(s.buildings.empty() && s.drones.empty());
 }
 
 TEST_F(ScenarioFile, AnExtendingFileSaysOnlyWhatDiffers) {
@@ -320,6 +321,59 @@ TEST_F(ScenarioFile, ScenariosAreFoundById) {
   folder.write("alone.json", "{}");
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("alone", "town/yard_2"));
   EXPECT_EQ(find_scenario(folder.path(), "town/yard_2").id, "town/yard_2");
+}
+
+TEST_F(ScenarioFile, OtherFilesInTheFolderAreNoScenarios) {
+  folder.write("yard.json", valid_scenario().dump());
+  folder.write("job.json", R"({"scenario": "yard", "capture": {"to_s": 5}})");
+  folder.write("mine.json", R"({"cases": {}, "policies": {}})");
+  folder.write("list.json", "[1, 2]");
+  folder.write("broken.json", "{\"ground\": ");  // its reader says what is wrong
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("broken", "yard"));
+}
+
+std::string suggested(const std::filesystem::path& folder, const std::string& name) {
+  try {
+    scenario_file(folder, name);
+  } catch (const InputError& error) {
+    return error.problems()[0].expected;
+  }
+  return "found";
+}
+
+TEST_F(ScenarioFile, PathsFoldersAndLastPartsFindTheirIds) {
+  for (const char* id : {"park/day", "park/night", "town/day"}) {
+    folder.write(std::string(id) + ".json", R"({"ground": {}})");
+  }
+  for (const char* name : {"scenarios/park/day.json", "./park/day", "/a/b/park/day.place.json",
+                           "park/day.json", "park/dya"}) {
+    EXPECT_EQ(suggested(folder.path(), name), "\"park/day\"") << name;
+  }
+  EXPECT_EQ(suggested(folder.path(), "night"), "\"park/night\"");
+  EXPECT_EQ(suggested(folder.path(), "day"), "one of: park/day, town/day");
+  EXPECT_EQ(suggested(folder.path(), "park/"), "one of: park/day, park/night");
+  EXPECT_THAT(suggested(folder.path(), "elsewhere"), HasSubstr("THRONG_SCENARIOS"));
+}
+
+TEST_F(ScenarioFile, FaultsAreOfTheFileThatHoldsThem) {
+  json base = valid_scenario();
+  base["exits"][0]["from"] = 5;
+  folder.write("base.json", base.dump());
+  const std::vector<Problem> problems = problems_of(R"({"extends": "base.json", "name": 7})");
+  std::map<std::string, std::string> sources;
+  for (const Problem& problem : problems) sources[problem.where] = problem.source;
+  EXPECT_EQ(sources["/name"], (folder.path() / "yard.json").string());
+  EXPECT_EQ(sources["/exits/0/from"], (folder.path() / "base.json").string());
+}
+
+TEST_F(ScenarioFile, AScenarioHasAnExit) {
+  json scenario = valid_scenario();
+  scenario["exits"] = json::array();
+  const std::vector<Problem> problems = problems_of(scenario.dump());
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/exits");
+  EXPECT_EQ(problems[0].found, "[]");
+  EXPECT_EQ(problems[0].expected, "a list of at least one exit");
 }
 
 TEST_F(ScenarioFile, IdsNameNothingOutsideTheFolder) {

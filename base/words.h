@@ -1,0 +1,19 @@
+// Counted nouns.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace throng {
+
+/// "1 image", "2 images", "0 images"; "1 person", "2 people" with a plural of its own.
+inline std::string counted(std::int64_t count, std::string_view noun,
+                           std::string_view plural = {}) {
+  if (count == 1) return fmt::format("1 {}", noun);
+  return plural.empty() ? fmt::format("{} {}s", count, noun) : fmt::format("{} {}", count, plural);
+}
+
+}  // namespace throng

@@ -1,0 +1,143 @@
+// The scenarios of a folder, by their ids.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
+#include "base/resources.h"
+#include "base/suggest.h"
+#include "world/scenario.h"
+#include "world/scenario_id.h"
+
+namespace throng::world {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array kScenarioParts = {"ground", "inside", "exits", "crowd", "extends"};
+
+bool is_scenario_id(std::string_view id) {
+  const auto in_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  char previous = '/';
+  for (const char c : id) {
+    if (!in_word(c) && (c != '/' || previous == '/')) return false;
+    previous = c;
+  }
+  return previous != '/';
+}
+
+/// Whether the file is sound JSON without any part of a scenario: a job or a study, for example.
+bool is_something_else(const fs::path& file) {
+  nlohmann::json value;
+  try {
+    value = parse_json_or_discard(read_file(file));
+  } catch (const EnvironmentError&) {
+    return false;  // its reader reports it
+  }
+  if (value.is_discarded() || value.empty()) return false;
+  return !value.is_object() || std::none_of(kScenarioParts.begin(), kScenarioParts.end(),
+                                            [&](const char* part) { return value.contains(part); });
+}
+
+std::string_view last_part(std::string_view id) { return id.substr(id.rfind('/') + 1); }
+
+/// Ids that a name means beside misspelled ones: the end of a path is an id
+/// ("scenarios/campus/everyday.json"), the name is a folder of ids or the last part of some.
+std::vector<std::string_view> meant_by(std::string_view name,
+                                       std::span<const std::string_view> known) {
+  for (const std::string_view ending : {".place.json", ".json", "/"}) {
+    if (name.ends_with(ending)) name.remove_suffix(ending.size());
+  }
+  std::vector<std::string_view> meant;
+  for (const std::string_view id : known) {
+    if (name == id || name.ends_with("/" + std::string(id))) return {id};
+    if (id.starts_with(std::string(name) + "/") || last_part(id) == name) meant.push_back(id);
+  }
+  return meant;
+}
+
+std::string listed(std::span<const std::string_view> ids) {
+  constexpr std::size_t kMaxNamed = 50;
+  return fmt::format("one of: {}{}", fmt::join(ids.first(std::min(ids.size(), kMaxNamed)), ", "),
+                     ids.size() > kMaxNamed ? " and others" : "");
+}
+
+}  // namespace
+
+fs::path scenarios_folder() {
+  return resource_folder("THRONG_SCENARIOS", "scenarios", "scenarios");
+}
+
+std::vector<std::string> list_scenarios(const fs::path& folder) {
+  std::vector<std::string> ids;
+  std::error_code error;
+  // A server's folder holds links to shipped scenarios and to uploads.
+  fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink,
+                                           error);
+  if (error == std::errc::no_such_file_or_directory) {
+    throw InputError({folder.string(), "", "no such folder",
+                      "the folder of scenarios (environment variable THRONG_SCENARIOS)"});
+  }
+  if (error == std::errc::not_a_directory) {
+    throw InputError({folder.string(), "", "a file",
+                      "the folder of scenarios (environment variable THRONG_SCENARIOS)"});
+  }
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
+  }
+  constexpr int kDeepest = 8;  // links may lead in circles
+  for (; entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    const fs::directory_entry& entry = *entries;
+    if (entries.depth() >= kDeepest) entries.disable_recursion_pending();
+    if (entry.path().extension() != ".json" || !entry.is_regular_file(error)) continue;
+    // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
+    std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
+    if (is_scenario_id(id) && !is_something_else(entry.path())) ids.push_back(std::move(id));
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+fs::path scenario_file(const fs::path& folder, const std::string& id) {
+  fs::path file = folder / (id + ".json");
+  if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
+  const std::vector<std::string> ids = list_scenarios(folder);
+  const std::vector<std::string_view> known(ids.begin(), ids.end());
+  Problem problem = unknown_name("", "", "scenario", id, known);
+  const std::vector<std::string_view> meant = meant_by(id, known);
+  if (meant.size() == 1) {
+    problem.expected = fmt::format("\"{}\"", meant.front());
+  } else if (!meant.empty()) {
+    problem.expected = listed(meant);
+  } else if (!closest(id, known)) {
+    problem.expected =
+        fmt::format("{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
+                    listed(known), folder.string());
+  }
+  throw InputError(std::move(problem));
+}
+
+std::optional<std::string> scenario_id_in(const fs::path& folder, const std::string& path) {
+  const std::vector<std::string> ids = list_scenarios(folder);
+  const std::vector<std::string_view> known(ids.begin(), ids.end());
+  const std::vector<std::string_view> meant = meant_by(path, known);
+  return meant.size() == 1 ? std::optional<std::string>(meant.front()) : std::nullopt;
+}
+
+Scenario find_scenario(const fs::path& folder, const std::string& id) {
+  return load_scenario(scenario_file(folder, id), id);
+}
+
+}  // namespace throng::world
