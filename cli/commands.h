@@ -30,6 +30,7 @@ void add_airframes(CLI::App& app);
 void add_metrics(CLI::App& app);
 void add_report(CLI::App& app);
 void add_export(CLI::App& app);
+void add_merge(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
 void add_calibrate(CLI::App& app);

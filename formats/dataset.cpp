@@ -245,6 +245,34 @@ InputError bad_manifest(const fs::path& root, const json::exception& error) {
                      "the manifest that throng wrote"});
 }
 
+ExportOptions export_options(const json& manifest) {
+  ExportOptions options;
+  const json& outputs = manifest.at("job").at("outputs");
+  const json filters = outputs.value("filters", json::object());
+  options.filters.min_visibility = filters.value("min_visibility", 0.0);
+  options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  options.filters.min_contrast = filters.value("min_contrast", 0.0);
+  if (filters.contains("max_truncation")) {
+    options.filters.max_truncation = filters["max_truncation"].get<double>();
+  }
+  options.webdataset.shard_mb =
+      outputs.value("webdataset", json::object()).value("shard_mb", options.webdataset.shard_mb);
+  const json splits = outputs.value("splits", json::object());
+  for (std::size_t i = 0; i < kSplitNames.size(); ++i) {
+    const std::string name(kSplitNames.at(i));
+    options.splits.share.at(i) = splits.value(name, options.splits.share.at(i));
+    for (const int run : splits.value(name + "_runs", std::vector<int>{})) {
+      options.splits.runs[fmt::format("run{:03}", run)] = static_cast<Split>(i);
+    }
+  }
+  const json classes = outputs.value("classes", json::object());
+  options.classes.by = classes.value("by", options.classes.by);
+  for (const std::string& name : classes.value("names", std::vector<std::string>{})) {
+    add_class_name(name, "", options.classes);
+  }
+  return options;
+}
+
 DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
                              const ExportOptions& options) {
   DatasetInfo info;

@@ -133,6 +133,9 @@ struct DatasetInfo {
 /// everything about an image in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
 
+/// The splits, filters and classes that the dataset's other formats were written with.
+ExportOptions export_options(const nlohmann::json& manifest);
+
 /// Describes a dataset by its manifest. Throws InputError when it has no COCO annotations, or when
 /// the options name runs that it does not have.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
