@@ -86,6 +86,8 @@ struct FetchArguments {
   std::string runs = {};
   std::string split = {};
   int trace = -1;  ///< number of the run whose trace is fetched instead of the dataset; -1: none
+  bool force = false;
+  const char* option = "--output";  ///< that names the file
 };
 
 std::string fetched_path(const FetchArguments& arguments) {
@@ -106,13 +108,31 @@ std::string fetched_path(const FetchArguments& arguments) {
   return path;
 }
 
-void fetch(ApiClient& api, const FetchArguments& arguments) {
-  constexpr int kMaxAttempts = 20;
+/// The file to write; its folder is there, and it is new.
+fs::path checked_output(const FetchArguments& arguments) {
   const std::string suffix = arguments.trace >= 0 ? fmt::format("_run{:03}.h5", arguments.trace)
                              : arguments.zip      ? ".zip"
                                                   : ".tar";
   fs::path file = arguments.file;
   if (file.empty() || fs::is_directory(file)) file /= arguments.id + suffix;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!fs::is_directory(folder)) {
+    throw InputError(
+        {arguments.option, "", file.string() + ", whose folder does not exist", "a file to write"});
+  }
+  const fs::path part = file.string() + ".part";
+  const bool is_ours = fs::exists(part.string() + ".etag");
+  for (const fs::path& other : {file, part}) {
+    if (arguments.force || !fs::exists(other) || (other == part && is_ours)) continue;
+    throw InputError({arguments.option, "", other.string() + ", which is there already",
+                      "a new file; --force writes over it"});
+  }
+  return file;
+}
+
+void fetch(ApiClient& api, const FetchArguments& arguments) {
+  constexpr int kMaxAttempts = 20;
+  const fs::path file = checked_output(arguments);
   const Interrupt interrupt;
   ProgressBar bar(file.filename().string());
   constexpr double kMegabyte = 1e6;
@@ -143,6 +163,7 @@ struct SubmitArguments {
   bool watch = false;
   std::string fetch_to;
   std::string scenario;  ///< a bundle of the job's own; "" for none
+  bool force = false;
 };
 
 void submit(const SubmitArguments& arguments) {
@@ -160,6 +181,11 @@ void submit(const SubmitArguments& arguments) {
          {"scenario", "bundle", "application/octet-stream", read_bundle(arguments.scenario).bytes}},
         header);
   };
+  // Before the job is sent: at its end nobody may be there to choose another file.
+  FetchArguments fetched{"", arguments.fetch_to};
+  fetched.force = arguments.force;
+  fetched.option = "--fetch";
+  if (!arguments.fetch_to.empty()) checked_output(fetched);
   if (arguments.dry_run) {
     return print_job_summary(post("/v1/jobs?dry_run"), arguments.job_file, 1);
   }
@@ -171,7 +197,8 @@ void submit(const SubmitArguments& arguments) {
   std::fflush(stdout);
   if (!arguments.watch && arguments.fetch_to.empty()) return;
   require_success(watched(api, id));
-  if (!arguments.fetch_to.empty()) fetch(api, {id, arguments.fetch_to});
+  fetched.id = id;
+  if (!arguments.fetch_to.empty()) fetch(api, fetched);
 }
 
 void print_jobs(const json& list) {
@@ -240,6 +267,7 @@ void add_submit(CLI::App& app) {
   command->add_flag("--watch", arguments->watch, "Follow the job to its end");
   command->add_option("--fetch", arguments->fetch_to,
                       "Download the job's archive to this file at the end");
+  command->add_flag("--force", arguments->force, "Write over a file that is there already");
   command->callback([arguments] { submit(*arguments); });
 }
 
@@ -262,6 +290,7 @@ void add_fetch(CLI::App& app) {
   command->add_option("id", arguments->id, "The job's id (throng jobs)")->required();
   command->add_option("-o,--output", arguments->file,
                       "File or folder to write; default: named by the id");
+  command->add_flag("--force", arguments->force, "Write over a file that is there already");
   command->add_flag("--zip", arguments->zip, "As a zip file instead of a tar file");
   command->add_option("--include", arguments->include,
                       "Only these top-level folders and files, formats, coco");

@@ -68,6 +68,13 @@ class Client(unittest.TestCase):
         again = self.base / "again.tar"
         self.throng("fetch", id_, "-o", again)
         self.assertEqual(again.read_bytes(), whole)
+        again.write_text("mine")
+        self.assertIn("again.tar, which is there already", self.throng("fetch", id_, "-o", again, code=2))
+        self.assertEqual(again.read_text(), "mine")
+        self.throng("fetch", id_, "-o", again, "--force")
+        self.assertEqual(again.read_bytes(), whole)
+        self.assertIn("whose folder does not exist", self.throng("fetch", id_, "-o", self.base / "no/x.tar", code=2))
+        self.assertIn("--fetch: found", self.throng("submit", self.job, "--fetch", archive, code=2))
         part = self.base / "again.tar.part"
         tag = self.base / "again.tar.part.etag"
         manifest = [name for name in names if name.endswith("/manifest.json")][0]
@@ -86,11 +93,11 @@ class Client(unittest.TestCase):
             self.assertIsNone(part_zip.testzip())
             tops = {name.split("/")[1] for name in part_zip.namelist()}
         self.assertEqual(tops, {"images", "annotations", "manifest.json"})
-        self.assertIn("?runs", self.throng("fetch", id_, "-o", zipped, "--runs", "7", code=2))
+        self.assertIn("?runs", self.throng("fetch", id_, "-o", zipped, "--force", "--runs", "7", code=2))
         trace = self.base / "run.h5"
         self.throng("fetch", id_, "--trace", "0", "-o", trace)
         self.assertIn("people", json.loads(self.throng("metrics", trace)))
-        self.assertIn("no run 7", self.throng("fetch", id_, "--trace", "7", "-o", trace, code=2))
+        self.assertIn("no run 7", self.throng("fetch", id_, "--trace", "7", "--force", "-o", trace, code=2))
         self.throng("remove", id_)
         self.assertIn(id_, self.throng("watch", id_, code=2))
 
