@@ -58,32 +58,53 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
 
 /// A job in one of its scenarios.
 struct InPlace {
-  std::int64_t people = 0;
+  ExpectedRun expected;
   std::vector<CameraView> views;
   std::vector<Problem> warnings;
 };
+
+/// How many more people than at the start are there on average: sources of blueprints bring people
+/// for ten minutes if nothing else is said, while others leave.
+double growth_of(double all, double at_start, double duration_s) {
+  constexpr double kArrivalsS = 600;
+  constexpr double kShareThere = 0.45;
+  return kShareThere * std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
+}
 
 InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int run) {
   InPlace checked;
   StartingCrowd crowd;
   if (job.recorded) {
     const world::Trace recording = read_recording(*job.recorded);
-    checked.people = static_cast<std::int64_t>(recording.agents());
+    checked.expected.people = static_cast<std::int64_t>(recording.agents());
     crowd = recorded_crowd(recording);
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
     const crowd::Simulation simulation =
         sim::load_crowd(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
-    checked.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
+    checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
     crowd = starting_crowd(job, simulation, hazards);
   }
-  if (job.agents) checked.people = *job.agents;
+  const world::Rectangle& ground = scenario.ground;
+  checked.expected.ground_m2 = (ground.max - ground.min).prod();
+  checked.expected.is_fled = !scenario.disasters.empty();
+  // People who take part are drawn from all with equal chances.
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, checked.expected.people));
+  if (job.agents) checked.expected.people = *job.agents;
+  const double taking_part = static_cast<double>(checked.expected.people) / all;
+  const double at_start = taking_part * static_cast<double>(crowd.places.size());
+  const double growth =
+      growth_of(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
+  checked.expected.at_a_time = at_start + growth;
+  const double scale = taking_part * checked.expected.at_a_time / std::max(1.0, at_start);
   for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
+    checked.expected.in_view.push_back(view ? std::optional(scale * view->mean_people)
+                                            : std::nullopt);
     if (view) checked.views.push_back(std::move(*view));
   }
   checked.warnings = warnings_of_place(job, scenario, crowd, run);
   for (Problem& warning : figure_warnings(scenario)) checked.warnings.push_back(std::move(warning));
-  for (Problem& warning : rehearse(job, scenario, run, checked.people)) {
+  for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {
     checked.warnings.push_back(std::move(warning));
   }
   return checked;
@@ -100,12 +121,14 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
   const std::vector<std::size_t> shares = shares_of_runs(job);
   std::int64_t people_of_runs = 0;
+  std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
   for (const int run : first_runs(job)) {
     const JobSpec one = in_scenario_of_run(job, run);
     InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
-    people_of_runs += runs * place.people;
+    people_of_runs += runs * place.expected.people;
+    of_shares[shares[static_cast<std::size_t>(run)]] = place.expected;
     for (Problem& warning : place.warnings) {
       if (!job.mix.empty()) warning.found += " in " + one.scenario;
       checked.warnings.push_back(std::move(warning));
@@ -113,7 +136,9 @@ CheckedJob check_job(std::string_view text, const std::string& source,
     if (run == 0) checked.views = std::move(place.views);
   }
   checked.people = people_of_runs / job.runs;
-  checked.cost = estimate_cost(job, checked.people);
+  std::vector<ExpectedRun> of_runs;
+  for (const std::size_t share : shares) of_runs.push_back(of_shares[share]);
+  checked.cost = estimate_cost(job, of_runs);
   for (Problem& warning : checked.warnings) warning.source = source;
   return checked;
 }

@@ -30,6 +30,7 @@ struct Cell {
   Vector2d place;
   double reached_s = 0;
   bool is_inside = false;
+  bool is_person = false;  ///< somebody is here at the start
 };
 
 double reached_s(const Vector2d& place, const StartingCrowd& crowd, double half_cell_m) {
@@ -54,7 +55,7 @@ std::vector<Cell> cells_of(const world::Scenario& scenario, const StartingCrowd&
     }
   }
   // The places where people are: cells are large.
-  for (const Vector2d& person : crowd.places) cells.push_back({person, 0, false});
+  for (const Vector2d& person : crowd.places) cells.push_back({person, 0, false, true});
   return cells;
 }
 
@@ -75,6 +76,7 @@ void add_image(const camera::Camera& camera, double time_s, const std::vector<Ce
         is_in_image(camera, head) || is_in_image(camera, {cell.place.x(), cell.place.y(), 0});
     inside += cell.is_inside ? 1 : 0;
     shown += cell.is_inside && is_shown ? 1 : 0;
+    view.mean_people += is_shown && cell.is_person ? 1 : 0;  // summed up, until all images are in
     if (!is_shown || cell.reached_s > time_s) continue;
     const double distance_m = (head - camera.pose.center()).norm();
     view.max_person_px =
@@ -114,6 +116,7 @@ std::vector<std::optional<CameraView>> views_of_run(const JobSpec& whole_job,
       drone.orientation = Eigen::AngleAxisd(poses[i][k].yaw_rad, Vector3d::UnitZ());
       add_image(camera_on(drone, spec.drones[i].camera), times[k], cells, *view);
     }
+    view->mean_people /= static_cast<double>(times.size());
   }
   return views;
 }

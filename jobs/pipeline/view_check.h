@@ -26,6 +26,7 @@ struct CameraView {
   std::string drone;
   double max_area_share = 0;  ///< largest share of the scenario's `inside` in one image, 0 to 1
   double max_person_px = 0;   ///< largest height of a person in an image, pixels; 0: nobody
+  double mean_people = 0;     ///< of those at the start who would be in an image, over the images
 };
 
 /// The views of a run's cameras. Nothing of drones whose path depends on the people they see.

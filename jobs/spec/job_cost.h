@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
 
 #include "jobs/spec/job_spec.h"
 
@@ -20,7 +22,20 @@ struct JobCost {
 };
 
 /// `people` is how many the scenario has, or the job asks for.
+/// A run, as far as it is known before it.
+struct ExpectedRun {
+  std::int64_t people = 0;  ///< also those who come later
+  double at_a_time = 0;     ///< in the scenario
+  /// In an image of each drone's camera; nothing where its path depends on the people.
+  std::vector<std::optional<double>> in_view;
+  double ground_m2 = 0;  ///< of the scenario
+  bool is_fled = false;  ///< people run from something, and their places are less alike
+};
+
+/// As if all people were there at once, and half of them in view.
 JobCost estimate_cost(const JobSpec& job, std::int64_t people);
+/// `expected` has each run.
+JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected);
 
 /// {"cpu_s", "disk_bytes", "memory_mib"}; the rest is plain fact and stands beside it in answers.
 nlohmann::json estimate_json(const JobCost& cost);

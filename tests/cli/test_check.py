@@ -38,6 +38,32 @@ class Check(unittest.TestCase):
     def warned(self, **fields):
         return {warning["pointer"]: warning["found"] for warning in self.answer(**fields)["warnings"]}
 
+    def test_disk_is_estimated_within_a_factor(self):
+        """Of jobs of several kinds; bench/estimates.py measures time, too, and more jobs."""
+        small = {"id": "a", "start": [8, -3, 15], "camera": {"width": 320, "height": 240, "yaw_deg": 90}}
+        camera = {**small["camera"], "pitch_deg": -40}
+        drones = [{**small, "camera": camera}]
+        kinds = ["coco", "keypoints", "depth", "normals", "flow", "instances", "fields"]
+        everyday = {"scenario": "city_square/everyday", "quality": "draft", "drones": drones}
+        for number, job in enumerate(
+            (
+                {**everyday, "capture": {"rate_hz": 2, "to_s": 4}},
+                {**everyday, "crowd": {"agents": 50}, "capture": {"rate_hz": 2, "to_s": 4}},
+                {**everyday, "capture": {"to_s": 2}, "outputs": {"annotations": kinds, "previews": 0}},
+                {**everyday, "drones": [], "capture": {"to_s": 60}, "runs": 2},
+                {"scenario": "city_square/emergency", "drones": [], "capture": {"to_s": 30}},
+            )
+        ):
+            estimate = self.answer(**{**job, "scenario": job["scenario"]})["estimate"]["disk_bytes"]
+            out = self.folder / f"out{number}"
+            done = subprocess.run(
+                [THRONG, "run", self.folder / "my.job.json", "-o", out], capture_output=True, text=True, timeout=300
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            files = {file.stat().st_ino: file.stat().st_size for file in out.rglob("*") if file.is_file()}
+            quotient = estimate / sum(files.values())
+            self.assertTrue(1 / 1.5 <= quotient <= 1.5, (job, quotient))
+
     def test_all_mistakes_at_once(self):
         done = self.check(
             {
