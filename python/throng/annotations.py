@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import masks as _masks
+from ._words import counted
 from .errors import DatasetError
 
 FloatArray = NDArray[np.float64]
@@ -89,7 +90,12 @@ class Annotations(Sequence[Mapping[str, Any]]):
         return iter(self.records)
 
     def __repr__(self) -> str:
-        return f"Annotations({len(self.people)} people, {len(self.drones)} drones, {len(self.vehicles)} vehicles)"
+        counts = (
+            counted(len(self.people), "person", "people"),
+            counted(len(self.drones), "drone"),
+            counted(len(self.vehicles), "vehicle"),
+        )
+        return f"Annotations({', '.join(counts)})"
 
     def _with(self, records: Collection[Mapping[str, Any]]) -> Annotations:
         return Annotations(records, self._height, self._width, self._where, self._tracks, self._track_offset)

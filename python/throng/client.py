@@ -19,6 +19,7 @@ from ._job_base import Part, plain
 from ._live import LiveFlight
 from ._progress import ProgressBar
 from ._trajectories import Trajectories, trajectories_of
+from ._words import counted
 from .api_types import DryRun, Event, EventList, ImageList, Job, JobList
 from .api_types import LiveFlight as LiveFlightAnswer
 from .api_types import LogList, PreviewList, Progress
@@ -334,5 +335,5 @@ class Client(CatalogClient):
 def _draw(bar: ProgressBar, data: Mapping[str, Any]) -> None:
     done, total = data.get("frames_done", 0), data.get("frames_total", 0)
     left = data.get("remaining_s")
-    text = f"{data.get('stage', '')}, {done} of {total} frames" + (f", {left:.0f} s left" if left else "")
+    text = f"{data.get('stage', '')}, {done} of {counted(total, 'frame')}" + (f", {left:.0f} s left" if left else "")
     bar.update(done / total if total else 0.0, text, str(data.get("stage", "")))

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ._npy import read_npy
 from ._optional import require
+from ._words import counted
 from .annotations import NAMES, AnnotationFilter
 from .errors import DatasetError
 from .frame import Frame
@@ -64,7 +65,7 @@ class Dataset(Sequence[Frame]):
             yield self[i]
 
     def __repr__(self) -> str:
-        return f"Dataset({self.name!r}: {len(self)} frames of {len(self.sequences)} sequences)"
+        return f"Dataset({self.name!r}: {counted(len(self), 'frame')} of {counted(len(self.sequences), 'sequence')})"
 
     def _view(self, frames: Sequence[tuple[int, int]]) -> Dataset:
         view = copy.copy(self)

@@ -26,6 +26,7 @@ import numpy as np
 from . import program as _program
 from ._geometry import Points, along, contains, line_of, offset, point_of, polygon_of, right_normals, signed_area
 from ._job_base import plain
+from ._words import counted
 from .dataset import Dataset
 from .errors import ScenarioError
 from .trace import Trace
@@ -89,10 +90,8 @@ class Scenario:
             self._block(f"hole{i + 1}", hole, wall_height_m)
 
     def __repr__(self) -> str:
-        return (
-            f"Scenario({self.name}: {len(self._exits)} exits, "
-            f"{sum(group['count'] for group in self._lists['groups'])} people)"
-        )
+        people = sum(group["count"] for group in self._lists["groups"])
+        return f"Scenario({self.name}: {counted(len(self._exits), 'exit')}, {counted(people, 'person', 'people')})"
 
     def exit(self, exit_id: str, start: Any, end: Any = None, *, open: bool = True) -> Scenario:
         """A door from one point to another on the edge of the walkable area; also a line: exit("a", "LINESTRING

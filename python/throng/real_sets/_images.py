@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._optional import require
+from .._words import counted
 from ..errors import DatasetError
 
 FloatArray = NDArray[np.float64]
@@ -74,7 +75,8 @@ class RealSet(Sequence[RealImage]):
 
     def __repr__(self) -> str:
         people = sum(image.count for image in self._images)
-        return f"RealSet({self.kind!r}, {str(self.folder)!r}: {len(self)} images, {people} people)"
+        counts = f"{counted(len(self), 'image')}, {counted(people, 'person', 'people')}"
+        return f"RealSet({self.kind!r}, {str(self.folder)!r}: {counts})"
 
     @property
     def has_boxes(self) -> bool:
