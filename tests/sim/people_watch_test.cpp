@@ -161,7 +161,7 @@ TEST_F(Watched, DangersAndPeopleWhoAreAbsentAreNobody) {
   header.role[3] = world::AgentRole::person;
   header.role[4] = world::AgentRole::person;
   now.flags[4] = 0;
-  EXPECT_THAT(said(60), ElementsAre(HasSubstr("none of 1 people noticed")));
+  EXPECT_THAT(said(60), ElementsAre(HasSubstr("none of 1 person noticed")));
   now.flags[3] = 0;
   EXPECT_THAT(said(60), IsEmpty());
 }
