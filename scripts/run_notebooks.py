@@ -61,6 +61,9 @@ def outputs_of(printed, text, figures, count):
 def run_notebook(path):
     """The notebook with the outputs of this run, and the namespace of its cells."""
     notebook = json.loads(path.read_text())
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
     namespace, count = {}, 0
     for cell in notebook["cells"]:
         if cell["cell_type"] != "code":

@@ -84,11 +84,8 @@ class Examples(unittest.TestCase):
 
 
 def kinds_of(cell):
-    """Kinds of a cell's outputs, with the text of those that no machine changes."""
-    kinds = []
-    for output in cell.get("outputs", []):
-        kinds.append("".join(output["text"]) if output["output_type"] == "stream" else list(output["data"])[0])
-    return kinds
+    """Kinds of a cell's outputs. What they say depends on the character library."""
+    return [output.get("name") or list(output["data"])[0] for output in cell.get("outputs", [])]
 
 
 if __name__ == "__main__":
