@@ -84,7 +84,7 @@ class Examples(unittest.TestCase):
 
 
 def kinds_of(cell):
-    """Kinds of a cell's outputs. What they say depends on the character library."""
+    """Kinds of a cell's outputs. Their texts depend on the character library."""
     return [output.get("name") or list(output["data"])[0] for output in cell.get("outputs", [])]
 
 
