@@ -4,6 +4,7 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/resource_exhaustion.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -65,9 +67,7 @@ class TarFile {
  private:
   void require(int result) const {
     if (result == ARCHIVE_OK) return;
-    const char* reason = archive_error_string(tar_.get());
-    throw EnvironmentError(fmt::format("cannot write {}: {}", path_.string(),
-                                       reason == nullptr ? "unknown reason" : reason));
+    throw_write_error(path_, std::max(0, archive_errno(tar_.get())));
   }
 
   fs::path path_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -15,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/resource_exhaustion.h"
 #include "metrics/number_in.h"
 #include "metrics/trajectory_words.h"
 
@@ -346,6 +348,8 @@ void write_trajectory(const world::Trace& trace, const fs::path& file) {
     }
     staged.commit();
   } catch (const SQLite::Exception& error) {
+    constexpr int kFull = 13;  // SQLITE_FULL
+    if (error.getErrorCode() == kFull) throw_write_error(file, ENOSPC);
     throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
   }
 }

@@ -64,6 +64,15 @@ void Handle::close(const std::string& what) {
   if (id_ >= 0) require(close_(std::exchange(id_, H5I_INVALID_HID)), what);
 }
 
+namespace {
+
+/// Files are closed by their handles. At the end of the program the library would try again to
+/// write a file that a full disk has refused, and print that it cannot. To be called first, so
+/// before main() begins.
+const herr_t kEndIsLeftAlone = H5dont_atexit();  // NOLINT(cert-err58-cpp): cannot throw
+
+}  // namespace
+
 QuietErrors::QuietErrors() {
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

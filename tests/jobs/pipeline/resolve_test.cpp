@@ -200,7 +200,7 @@ TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
   EXPECT_EQ(job.mix.size(), 2U);
   EXPECT_EQ(to_json(resolved(to_json(job).dump())), to_json(job));
   EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yrad"], "runs": 4, )" + drones + "}"),
-              ElementsAre("/scenario"));
+              ElementsAre("/scenario/1"));
   EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yard"], "runs": 4})"), ElementsAre("/drones"))
       << "the scenarios' own drones are not taken";
   const auto crowded = problems_of(
