@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <opencv2/aruco/charuco.hpp>
@@ -193,6 +194,9 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
 
 std::variant<View, Problem> view_in(const std::filesystem::path& file, const Board& board,
                                     ImageSize& size) {
+  if (std::filesystem::is_directory(file)) {
+    return Problem{file.string(), "", "a folder", "images, such as " + (file / "*.jpg").string()};
+  }
   try {
     const images::GrayImage image = images::read_gray_image(file);
     size = {image.width, image.height};

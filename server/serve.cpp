@@ -16,6 +16,7 @@
 #include <optional>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -135,6 +136,12 @@ std::string url_of(const std::string& host, int port) {
 }  // namespace
 
 int serve(const ServeOptions& options) {
+  for (const auto& [option, folder] :
+       {std::pair{"--data", options.data}, std::pair{"--database", options.database}}) {
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+      throw InputError(Problem{option, "", folder.string() + ", which is a file", "a folder"});
+    }
+  }
   const fs::path database = options.database.empty() ? options.data : options.database;
   Keys keys(database);
   const bool is_reachable = !options.insecure && !is_loopback(options.host);

@@ -1,6 +1,7 @@
 #include "jobs/pipeline/job_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -59,16 +60,16 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
 /// A job in one of its scenarios.
 struct InPlace {
   ExpectedRun expected;
+  double taking_part = 0;  ///< people at the start, and those who come while it lasts
   std::vector<CameraView> views;
   std::vector<Problem> warnings;
 };
 
-/// How many more people than at the start are there on average: sources of blueprints bring people
-/// for ten minutes if nothing else is said, while others leave.
-double growth_of(double all, double at_start, double duration_s) {
+/// People who come while the run lasts: sources of blueprints bring people for ten minutes if
+/// nothing else is said.
+double arrivals_of(double all, double at_start, double duration_s) {
   constexpr double kArrivalsS = 600;
-  constexpr double kShareThere = 0.45;
-  return kShareThere * std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
+  return std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
 }
 
 InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int run) {
@@ -93,9 +94,12 @@ InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int 
   if (job.agents) checked.expected.people = *job.agents;
   const double taking_part = static_cast<double>(checked.expected.people) / all;
   const double at_start = taking_part * static_cast<double>(crowd.places.size());
-  const double growth =
-      growth_of(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
-  checked.expected.at_a_time = at_start + growth;
+  const double arrivals =
+      arrivals_of(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
+  checked.taking_part = at_start + arrivals;
+  // Others leave meanwhile.
+  constexpr double kShareThere = 0.45;
+  checked.expected.at_a_time = at_start + kShareThere * arrivals;
   const double scale = taking_part * checked.expected.at_a_time / std::max(1.0, at_start);
   for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
     checked.expected.in_view.push_back(view ? std::optional(scale * view->mean_people)
@@ -120,14 +124,14 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   const std::vector<Problem> settings = warnings_of_settings(job);
   checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
   const std::vector<std::size_t> shares = shares_of_runs(job);
-  std::int64_t people_of_runs = 0;
+  double people_of_runs = 0;
   std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
   for (const int run : first_runs(job)) {
     const JobSpec one = in_scenario_of_run(job, run);
     InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
-    people_of_runs += runs * place.expected.people;
+    people_of_runs += static_cast<double>(runs) * place.taking_part;
     of_shares[shares[static_cast<std::size_t>(run)]] = place.expected;
     for (Problem& warning : place.warnings) {
       if (!job.mix.empty()) warning.found += " in " + one.scenario;
@@ -135,7 +139,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
     }
     if (run == 0) checked.views = std::move(place.views);
   }
-  checked.people = people_of_runs / job.runs;
+  checked.people = std::llround(people_of_runs / job.runs);
   std::vector<ExpectedRun> of_runs;
   for (const std::size_t share : shares) of_runs.push_back(of_shares[share]);
   checked.cost = estimate_cost(job, of_runs);

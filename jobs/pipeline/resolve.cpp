@@ -371,17 +371,21 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
   JobSpec job = parse_job(text, source, problems);
   std::vector<world::Scenario> places;
   std::vector<Problem> of_places;
+  bool is_named = true;
   const std::vector<std::size_t> shares = shares_of_runs(job);
   for (const int run : first_runs(job)) {
     const std::size_t share = shares[static_cast<std::size_t>(run)];
     const std::string pointer = job.mix.empty() ? "/scenario" : fmt::format("/scenario/{}", share);
+    const JobSpec one = in_scenario_of_run(job, run);
+    is_named = is_named && (!one.scenario.empty() || one.generate);
+    if (!is_named) continue;  // a problem of the share, which is known
     try {
-      places.push_back(scenario_of(in_scenario_of_run(job, run), scenarios, source, pointer));
+      places.push_back(scenario_of(one, scenarios, source, pointer));
     } catch (const InputError& error) {
       add(error, of_places);
     }
   }
-  if (!of_places.empty()) {
+  if (!is_named || !of_places.empty()) {
     check_formats(job.outputs, problems);
     for (Problem& problem : problems) problem.source = source;
     problems.insert(problems.end(), of_places.begin(), of_places.end());

@@ -55,6 +55,15 @@ class Demo(unittest.TestCase):
         self.assertGreater(len(left), 30)
         self.assertLess(self.metrics["alarm_s"], last_s / 2 + 2)
 
+    def test_check_says_how_many_people_take_part(self):
+        done = subprocess.run(
+            [THRONG, "check", "--json", ROOT / "scenarios/city_square/demo.job.json"],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        self.assertAlmostEqual(json.loads(done.stdout)["people"] / self.metrics["people"], 1, delta=0.1)
+
     def test_it_ends_without_a_warning(self):
         self.assertNotIn("warning", self.messages)
 

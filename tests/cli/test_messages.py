@@ -86,6 +86,25 @@ class Messages(unittest.TestCase):
         done = throng("run", self.job(capture={"to_s": 1}, drones=[]), "-o", out, **missing)
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_file_is_no_data_folder_and_a_folder_is_no_image(self):
+        file = self.folder / "data"
+        file.write_text("")
+        self.refused(
+            f"--data: found {file}, which is a file, expected a folder", "serve", "--data", file, "--port", "0"
+        )
+        boards = ["--columns", "9", "--rows", "6", "--square", "1", "-o", self.folder / "camera.json"]
+        expected = f"{self.folder}: found a folder, expected images, such as {self.folder}/*.jpg"
+        self.refused(expected, "calibrate", "intrinsics", self.folder, *boards)
+
+    def test_one_mistake_gives_one_message(self):
+        done = throng("check", self.job(scenario=[{"weight": 2}]))
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_ages_that_leave_nobody_are_refused(self):
+        job = self.job(appearance={"youngest_years": 70, "oldest_years": 20})
+        self.refused("/appearance/oldest_years: found 20, expected an age of at least youngest_years, 70", "check", job)
+
     def test_a_missing_field_is_named(self):
         study = self.folder / "my.study.json"
         study.write_text("{}")

@@ -47,7 +47,7 @@ start=$SECONDS
 buildah inspect --type image "$base" >/dev/null 2>&1 || make_base
 echo "base image: $((SECONDS - start)) s"
 start=$SECONDS
-# What this machine has compiled before is not compiled again: the cache of docker/Dockerfile's build step.
+# Files that this machine has compiled before are not compiled again: the cache of docker/Dockerfile's build step.
 cache="$TMPDIR/buildah-cache-$(id -u)"
 mkdir -p "$cache" "${CCACHE_DIR:-$HOME/.cache/ccache}"
 [ -e "$cache/throng-ccache" ] || ln -s "${CCACHE_DIR:-$HOME/.cache/ccache}" "$cache/throng-ccache"
