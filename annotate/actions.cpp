@@ -114,12 +114,15 @@ std::string actions_csv(const world::Trace& trace, const render::Animator& anima
                         const ActionFacts& facts, double from_s, double to_s,
                         std::int64_t run_index) {
   std::string text = "track_id,action,other,from_s,to_s\n";
+  if (trace.steps() == 0) return text;
+  // Frames lie between steps, whose poses they show.
+  const std::size_t first = trace.steps_around(from_s).before;
+  const world::BetweenSteps end = trace.steps_around(to_s);
+  const std::size_t last = end.share > 0 ? end.after : end.before;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const auto number = static_cast<std::uint32_t>(agent);
     StretchMaker stretches;
-    for (std::size_t step = 0; step < trace.steps(); ++step) {
-      const double time_s = trace.time_s[step];
-      if (time_s < from_s - world::kTimeSlackS || time_s > to_s + world::kTimeSlackS) continue;
+    for (std::size_t step = first; step <= last; ++step) {
       if (!trace.present(step, agent)) continue;
       const skinning::Actions actions = animator.actions_at(agent, step);
       if (actions.empty()) continue;

@@ -44,7 +44,8 @@ void add_actions(const ActionFacts& facts, double time_s, FrameLabels& labels);
 
 /// actions/RUN.csv: `track_id,action,other,from_s,to_s`, a row per stretch of time in which
 /// somebody does something, seen or not, by track and time. `other` is the track id of whom they
-/// are "together" with, and else empty. Times are steps of the trace within [from_s, to_s].
+/// are "together" with, and else empty. Times are steps of the trace, from the last one that is not
+/// after from_s to the first one that is not before to_s.
 std::string actions_csv(const world::Trace& trace, const render::Animator& animator,
                         const ActionFacts& facts, double from_s, double to_s,
                         std::int64_t run_index);

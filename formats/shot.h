@@ -62,6 +62,10 @@ void check_last_flow(const Shot& shot, Findings& findings);
 void check_whole_bodies(const Shot& shot, Findings& findings);
 /// Contrasts against the image; occluders against instances.
 void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findings);
+/// By how much the colors of a few pixels may differ from those before compression, CIELAB: what is
+/// less than half a step of JPEG's quantization (steps of quality 50 are 10 to 100 of 255 levels)
+/// is lost, or becomes a step.
+double compression_slack(const Image& image);
 /// People who are said to look alike do in the image, and no others nearby.
 void check_lookalikes(const Shot& shot, Findings& findings);
 /// Boxes of heads against heads, bodies and masks.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -26,6 +27,11 @@ constexpr int kSide = 2 * kReachPx + 1;
 constexpr int kNearPx = 1;  ///< a maximum so near is where it should be
 constexpr std::size_t kMaxBorders = 6000;
 constexpr std::size_t kMinBorders = 150;
+/// The contrast of each person or object to what is around it is a sample of one: a few may have
+/// the color of the ground, and the edge of a single roof looks alike wherever it is moved along
+/// itself.
+constexpr std::size_t kMinObjects = 6;
+constexpr std::size_t kMinBordersOfObject = 15;
 /// Sound images reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
 constexpr double kMinScore = 2.5;
 constexpr double kTellingScore = 5;
@@ -74,16 +80,23 @@ std::vector<std::uint32_t> labels_of(const Shot& shot) {
   return labels;
 }
 
-std::vector<Border> borders_of(const Shot& shot, const std::vector<std::uint32_t>& labels,
-                               bool of_people) {
+struct Borders {
+  std::vector<Border> borders;  ///< some, if there are many
+  std::size_t objects = 0;      ///< people or objects that they are of
+};
+
+Borders borders_of(const Shot& shot, const std::vector<std::uint32_t>& labels, bool of_people) {
   const Pixels& pixels = shot.pixels;
   std::vector<Border> borders;
+  std::map<std::uint32_t, std::size_t> count;  // by label
   constexpr int kMargin = kReachPx + 1;
   const auto add = [&](int x, int y, bool is_right) {
     const std::uint32_t a = labels[pixels.at(x, y)];
     const std::uint32_t b = labels[pixels.at(x + (is_right ? 1 : 0), y + (is_right ? 0 : 1))];
     if (a == b || (is_person(a) || is_person(b)) != of_people) return;
     borders.push_back({x, y, is_right});
+    ++count[a];
+    ++count[b];
   };
   for (int y = kMargin; y < pixels.height - kMargin; ++y) {
     for (int x = kMargin; x < pixels.width - kMargin; ++x) {
@@ -91,11 +104,16 @@ std::vector<Border> borders_of(const Shot& shot, const std::vector<std::uint32_t
       add(x, y, false);
     }
   }
-  if (borders.size() <= kMaxBorders) return borders;
+  const auto objects = std::count_if(count.begin(), count.end(), [&](const auto& entry) {
+    const auto& [label, borders_of_label] = entry;
+    return borders_of_label >= kMinBordersOfObject && is_person(label) == of_people &&
+           label != kGround && label != 0;
+  });
+  if (borders.size() <= kMaxBorders) return {borders, static_cast<std::size_t>(objects)};
   std::vector<Border> some;
   const std::size_t step = borders.size() / kMaxBorders + 1;
   for (std::size_t i = 0; i < borders.size(); i += step) some.push_back(borders[i]);
-  return some;
+  return {some, static_cast<std::size_t>(objects)};
 }
 
 struct Alignment {
@@ -162,8 +180,8 @@ void AlignmentCheck::add(const Shot& shot) {
   if (shot.pixels.rgb.empty()) return;
   const std::vector<std::uint32_t> labels = labels_of(shot);
   for (const bool of_people : {true, false}) {
-    const std::vector<Border> borders = borders_of(shot, labels, of_people);
-    if (borders.size() < kMinBorders) continue;
+    const auto& [borders, objects] = borders_of(shot, labels, of_people);
+    if (borders.size() < kMinBorders || objects < kMinObjects) continue;
     const Alignment found = align(shot, borders);
     scores_[{shot.image.run, shot.image.camera, of_people}].push_back(
         {shot.image.file, shot.record(), found.score(), found.best_score(), found.best_x,
@@ -184,7 +202,9 @@ void AlignmentCheck::finish(Findings& findings) const {
   for (const auto& [series, scores] : scores_) {
     std::vector<double> scores_here;
     for (const Score& score : scores) scores_here.push_back(score.here);
-    const bool others_tell = median(std::move(scores_here)) >= kTellingScore;
+    constexpr std::size_t kMinImages = 3;
+    const bool others_tell =
+        scores.size() >= kMinImages && median(std::move(scores_here)) >= kTellingScore;
     for (const Score& score : scores) {
       if (!others_tell && (!score.can_tell || confirmed.contains(score.file))) continue;
       const int away = std::max(std::abs(score.best_x), std::abs(score.best_y));

@@ -33,7 +33,15 @@ bool check_mask_fills_box(const Shot& shot, const Person& person, const Bitmap& 
   const double max_value = *std::max_element(off.begin(), off.end());
   // Small bodies lose whole limbs between the pixels.
   constexpr std::uint64_t kMinPixels = 60;
-  const double slack_px = kOutlineSlackPx + 0.05 * std::max(box.width, box.height);
+  constexpr double kArmM = 0.08;
+  constexpr double kArmLengthM = 0.7;
+  constexpr double kThinPx = 2;
+  const auto across_px = [&](double size_m) {
+    return pixels_across(shot.camera, person.box_middle, size_m);
+  };
+  const double limb_px = across_px(kArmM) < kThinPx ? across_px(kArmLengthM) : 0;
+  const double slack_px =
+      kOutlineSlackPx + std::max(0.05 * std::max(box.width, box.height), limb_px);
   if (!is_inside || whole.area() < kMinPixels || max_value <= slack_px) return true;
   findings.add("amodal-mask-fills-box", person,
                fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_value));
@@ -66,7 +74,7 @@ void check_hidden_by_nearer(const Shot& shot, const Person& person, const Bitmap
                             Findings& findings) {
   const Pixels& pixels = shot.pixels;
   if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
-  const double far_m = max_distance_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
+  const double far_m = max_distance_m(shot, person) + 0.1;
   const std::uint32_t own = instance_of(person);
   std::size_t hidden = 0;
   std::size_t open = 0;
@@ -89,7 +97,8 @@ void check_hidden_by_nearer(const Shot& shot, const Person& person, const Bitmap
 
 void check_whole_mask_place(const Shot& shot, const Person& person, Findings& findings) {
   const auto found = person.record.find("amodal_segmentation");
-  if (found == person.record.end()) return;
+  // The rows of a rolling shutter see parts of a body at other times than its box.
+  if (found == person.record.end() || !shot.at_once) return;
   const auto runs = runs_of(found->at("counts").get<std::string>(), shot.pixels.count());
   const Bitmap whole = bitmap_of(runs, shot.image.height);
   if (check_mask_fills_box(shot, person, whole, findings) &&

@@ -92,6 +92,14 @@ void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& 
   }
 }
 
+/// Sound runs have correlations above 0.7. That of a few people is less by chance: three standard
+/// errors below, by Fisher's transformation.
+double min_correlation(double people) {
+  constexpr double kSound = 0.7;
+  constexpr double kMaxMinimum = 0.35;
+  return std::min(kMaxMinimum, std::tanh(std::atanh(kSound) - 3 / std::sqrt(people - 3)));
+}
+
 }  // namespace
 
 void ClothesCheck::add(const Shot& shot) {
@@ -160,8 +168,11 @@ void ClothesCheck::finish(Findings& findings) const {
     const double correlation = both / std::max(1e-9, std::sqrt(labels * images));
     // Gray shirts, and images without color by night, say nothing.
     constexpr double kColorful = 0.4;
-    constexpr double kMinCorrelation = 0.35;
-    if (std::sqrt(labels / count) < kColorful || correlation >= kMinCorrelation) continue;
+    constexpr double kColorfulImage = 0.1;
+    if (std::sqrt(labels / count) < kColorful || std::sqrt(images / count) < kColorfulImage ||
+        correlation >= min_correlation(count)) {
+      continue;
+    }
     findings.add("colors-are-clothes", kCocoFile, run,
                  fmt::format("top_colour of {} people and the colors of their torsos in the "
                              "images have a correlation of {:.2f}",

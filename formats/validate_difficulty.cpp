@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "annotate/contrast.h"
+#include "formats/json_vectors.h"
 #include "formats/mask.h"
 #include "formats/shot.h"
 
@@ -25,12 +26,12 @@ void check_contrast(const Shot& shot, const Person& person, const json& difficul
   const annotate::Contrast seen =
       annotate::contrast_of({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
                             pixel_mask_of(shot.mask_of(person)));
+  const double slack = compression_slack(shot.image);
   const auto compare = [&](const char* key, double expected, double high_share) {
-    constexpr double kSlack = 2.5;
     constexpr double kLowShare = 0.15;
     const double found = difficulty.at(key).get<double>();
-    if (found >= (1 - kLowShare) * expected - kSlack &&
-        found <= (1 + high_share) * expected + kSlack) {
+    if (found >= (1 - kLowShare) * expected - slack &&
+        found <= (1 + high_share) * expected + slack) {
       return;
     }
     findings.add("difficulty", person,
@@ -41,10 +42,27 @@ void check_contrast(const Shot& shot, const Person& person, const json& difficul
   compare("edge_contrast", seen.edge, 1);
 }
 
+/// How far the middle of a body moves in the image during the exposure, but for the camera's turn.
+double blur_by_motion_px(const Shot& shot, const Person& person, const json& sensor) {
+  Eigen::Vector3d motion_mps(person.velocity.x(), person.velocity.y(), 0);
+  if (const auto flight = shot.image.record.find("flight"); flight != shot.image.record.end()) {
+    motion_mps -= numbers_at<3>(flight->at("true").at("velocity"));
+  }
+  const Eigen::Vector3d at = shot.camera.pose.R * person.box_middle + shot.camera.pose.t;
+  // Bodies reach a meter beyond their middles.
+  constexpr double kNearM = 0.1;
+  const double nearest_m = std::max(at.z() - 1, kNearM);
+  const double slant = at.norm() / std::max(at.z(), kNearM);
+  return shot.camera.intrinsics.fx_px * sensor.value("exposure_s", 0.0) * motion_mps.norm() *
+         slant / nearest_m;
+}
+
 void check_blur(const Shot& shot, const Person& person, double blur_px, Findings& findings) {
   const json sensor = shot.image.record.value("sensor", json::object());
-  // That of the image is measured at people's feet and at some places of the background.
-  const double max_px = 1.5 * sensor.value("blur_px", blur_px) + 0.5;
+  // That of the image is measured at people's feet and at some places of the background, from
+  // where bodies may come much nearer to the camera and so move farther in the image.
+  const double max_px =
+      1.5 * (sensor.value("blur_px", blur_px) + blur_by_motion_px(shot, person, sensor)) + 0.5;
   const bool is_open = sensor.value("exposure_s", 1.0) > 0;
   if (blur_px >= 0 && blur_px <= max_px && (is_open || blur_px == 0)) return;
   findings.add(
@@ -120,6 +138,15 @@ void check_occluders(const Shot& shot, const Person& person, const json& occlude
 }
 
 }  // namespace
+
+double compression_slack(const Image& image) {
+  // libjpeg's factor on the steps of quality 50.
+  const double quality = image.record.value("sensor", json::object()).value("jpeg_quality", 95);
+  const double factor = quality < 50 ? 50 / std::max(quality, 1.0) : 2 - quality / 50;
+  constexpr double kRounding = 2.5;
+  constexpr double kHalfStep = 8;
+  return kRounding + kHalfStep * factor;
+}
 
 void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findings) {
   for (const Person& person : shot.image.people) {

@@ -12,6 +12,7 @@
 #include "base/json_text.h"
 #include "formats/image_camera.h"
 #include "formats/run_checks.h"
+#include "formats/shares.h"
 #include "geometry/polygon.h"
 
 namespace throng::formats {
@@ -302,8 +303,8 @@ void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
     const json people = figures.value("by_person", json::object());
     const json agents = people.value("agent", json::array());
     const json used = people.value("exit", json::array());
-    int left = 0;
-    int as_wanted = 0;
+    std::size_t left = 0;
+    std::size_t as_wanted = 0;
     for (std::size_t i = 0; i < std::min(agents.size(), used.size()); ++i) {
       if (!used[i].is_string()) continue;
       const std::int64_t number = agents[i].get<std::int64_t>() + 1;
@@ -314,9 +315,8 @@ void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
       ++left;
       as_wanted += used[i] == wanted->second ? 1 : 0;
     }
-    constexpr int kMinLeft = 12;
-    constexpr double kMinShare = 0.4;  // plans change
-    if (left < kMinLeft || as_wanted >= kMinShare * left) continue;
+    constexpr double kMaxOthers = 0.6;  // plans change
+    if (!is_above_share(left - as_wanted, left, kMaxOthers)) continue;
     findings.add(
         "exits", kCocoFile, name,
         fmt::format("{} of {} people go out by the exit that their records say", as_wanted, left));

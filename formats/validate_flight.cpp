@@ -45,17 +45,28 @@ Vector3d field_at(double latitude_deg) {
 
 bool are_alike(double a, double b, double slack) { return std::abs(a - b) <= slack; }
 
-/// The heading and the angle above the horizon of where a camera looks, and how far it is turned
-/// clockwise about that, degrees.
-Vector3d view_of(const Eigen::Matrix3d& R) {
-  const Vector3d ahead = R.row(2);
-  const double pitch = std::asin(std::clamp(ahead.z(), -1.0, 1.0));
-  const double yaw = std::atan2(ahead.y(), ahead.x());
+/// World to camera, of a camera that looks at a heading and an angle above the horizon and is
+/// turned clockwise about that. Angles are not compared: close to straight down there are two sets
+/// of them for one view, a pitch beyond -90 degrees among these.
+Eigen::Matrix3d rotation_of(const json& gimbal) {
+  const auto angle = [&](const char* key) { return gimbal.at(key).get<double>() * kDegree; };
+  const double yaw = angle("yaw_deg");
+  const double pitch = angle("pitch_deg");
+  const double roll = angle("roll_deg");
+  const Vector3d ahead(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
+                       std::sin(pitch));
   const Vector3d level_right(std::sin(yaw), -std::cos(yaw), 0);
   const Vector3d level_down = ahead.cross(level_right);
-  const Vector3d right = R.row(0);
-  const double roll = std::atan2(right.dot(level_down), right.dot(level_right));
-  return Vector3d(yaw, pitch, roll) / kDegree;
+  Eigen::Matrix3d R;
+  R.row(0) = std::cos(roll) * level_right + std::sin(roll) * level_down;
+  R.row(1) = std::cos(roll) * level_down - std::sin(roll) * level_right;
+  R.row(2) = ahead;
+  return R;
+}
+
+/// The angle between two orientations, degrees.
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return Quaterniond(a).angularDistance(Quaterniond(b)) / kDegree;
 }
 
 class FlightRecord {
@@ -118,16 +129,8 @@ class FlightRecord {
   }
 
   void check_gimbal() const {
-    const Vector3d seen = view_of(image_.R);
     const auto off = [&](const json& gimbal) {
-      const Vector3d stated(gimbal.at("yaw_deg").get<double>(),
-                            gimbal.at("pitch_deg").get<double>(),
-                            gimbal.at("roll_deg").get<double>());
-      Vector3d off_deg = (stated - seen).unaryExpr([](double d) { return std::remainder(d, 360); });
-      // Straight down, heading and roll are one.
-      constexpr double kSteepDeg = 89;
-      if (std::abs(seen[1]) > kSteepDeg) off_deg[0] = off_deg[2] = 0;
-      return off_deg.cwiseAbs().maxCoeff();
+      return angle_between(rotation_of(gimbal), image_.R);
     };
     const double truth = off(flight_.at("true").at("gimbal"));
     if (truth > 0.01) {

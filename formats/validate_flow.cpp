@@ -10,6 +10,7 @@
 
 #include "formats/mask.h"
 #include "formats/median.h"
+#include "formats/shares.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -88,18 +89,15 @@ void check_still_flow(const FlowPlane& plane, const Shot& before, const Shot& af
     }
   }
   for (const auto& [is_ground, tally] : tallies) {
-    constexpr std::size_t kMinCount = 20;
     constexpr double kMaxWrong = 0.03;
-    if (tally.looked_at < kMinCount) continue;
-    const double max_value = kMaxWrong * static_cast<double>(tally.looked_at);
-    if (static_cast<double>(tally.wrong) > max_value) {
+    if (is_above_share(tally.wrong, tally.looked_at, kMaxWrong)) {
       findings.add("flow-of-still", plane.file(before), before.record(),
                    fmt::format("{} of {} still pixels do not move as depth and cameras say: "
                                "({:.2f}, {:.2f}), expected ({:.2f}, {:.2f})",
                                tally.wrong, tally.looked_at, tally.found.x(), tally.found.y(),
                                tally.expected.x(), tally.expected.y()));
     }
-    if (static_cast<double>(tally.unknown) > max_value) {
+    if (is_above_share(tally.unknown, tally.looked_at, kMaxWrong)) {
       findings.add(
           "flow-of-still", plane.file(before), before.record(),
           fmt::format("flow of {} of {} still pixels is unknown", tally.unknown, tally.looked_at));

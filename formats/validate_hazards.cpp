@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "formats/image_camera.h"
@@ -46,7 +47,12 @@ bool is_circle(const Image& image, const json& hazard) {
     const double px_m = (range_m * range_m + height_m * height_m) /
                         (std::max(height_m, 1.0) * camera.intrinsics.fx_px);
     ++corners;
-    off += std::abs((*ground - center).norm() - radius_m) > 0.03 + 0.05 * px_m ? 1 : 0;
+    // A polygon stands for the circle: the middles of its sides are within it.
+    constexpr int kSides = 48;
+    const double sagitta_m = radius_m * (1 - std::cos(std::numbers::pi / kSides));
+    const double beyond_m = (*ground - center).norm() - radius_m;
+    const double slack_m = 0.03 + 0.05 * px_m;
+    off += beyond_m > slack_m || beyond_m < -slack_m - sagitta_m ? 1 : 0;
   }
   return off <= kMaxOffShare * corners;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/median.h"
+#include "formats/shares.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -109,35 +110,31 @@ std::map<Kind, NormalTally> tally_normals(const Shot& shot) {
 }
 
 void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& findings) {
-  constexpr std::size_t kMinCount = 30;
   const char* name = kKindNames.at(static_cast<std::size_t>(kind));
   const std::string file = raster_name("normals", shot.image);
   const double max_away = kind == Kind::person ? 0.25 : 0.05;
-  if (tally.looked_at >= kMinCount &&
-      static_cast<double>(tally.away) > max_away * static_cast<double>(tally.looked_at)) {
+  if (is_above_share(tally.away, tally.looked_at, max_away)) {
     findings.add("normals-face-camera", file, shot.record(),
                  fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
                              tally.looked_at, name));
   }
   // At the edge of something nearer, a pixel of the ground may have another normal.
-  if (kind == Kind::ground && tally.looked_at >= 10 * kMinCount &&
-      static_cast<double>(tally.not_up) > 0.04 * static_cast<double>(tally.looked_at)) {
+  if (kind == Kind::ground && is_above_share(tally.not_up, tally.looked_at, 0.04)) {
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} of {} pixels of the ground do not point up",
                              tally.not_up, tally.looked_at));
   }
   // Bodies are round: what is exactly flat is the ground of another image.
-  if (kind == Kind::person && tally.looked_at >= 2 * kMinCount &&
-      static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
+  if (kind == Kind::person && is_above_share(tally.flat, tally.looked_at, 0.15)) {
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} of {} pixels of people are those of flat ground",
                              tally.flat, tally.looked_at));
   }
-  if (tally.angles_rad.size() < kMinCount) return;
+  if (tally.angles_rad.empty()) return;
   const double angle_rad = median(tally.angles_rad);
-  // People are round, and props have many small faces.
-  const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
-  if (angle_rad > max_rad) {
+  // People are round, and props have many small faces: the leaves of trees face anywhere.
+  const double max_rad = kind == Kind::prop ? 1.1 : kind == Kind::person ? 0.6 : 0.09;
+  if (angle_rad > max_rad + median_error(tally.angles_rad)) {
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
                              "shows (median of {})",

@@ -172,10 +172,15 @@ void check_visible_keypoints(const Image& image, const Person& person, Findings&
 
 void check_keypoints(const Image& image, const Person& person, Findings& findings) {
   if (person.keypoints.empty()) return;
-  // Joints of the skeleton may lie outside of the coarsest meshes, which have 64 triangles.
+  // Joints of the skeleton may lie outside of the coarse meshes of small people, the coarsest of
+  // which have 64 triangles and no forearms.
   constexpr double kCoarseShare = 0.1;
-  const double slack_px =
-      kBoxSlackPx + kCoarseShare * std::max(person.amodal.width, person.amodal.height);
+  constexpr double kSmallPx = 120;
+  constexpr double kForearmM = 0.5;
+  const double size_px = std::max(person.amodal.width, person.amodal.height);
+  const double limb_px =
+      size_px < kSmallPx ? pixels_across(camera_of(image), person.box_middle, kForearmM) : 0;
+  const double slack_px = kBoxSlackPx + std::max(kCoarseShare * size_px, limb_px);
   int labeled = 0;
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility == 0) {

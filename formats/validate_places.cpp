@@ -8,6 +8,7 @@
 #include "annotate/density.h"
 #include "formats/findings.h"
 #include "formats/npy.h"
+#include "formats/shares.h"
 
 namespace throng::formats {
 
@@ -60,6 +61,7 @@ void check_ground_depth(const Image& image, const std::string& path,
   constexpr std::size_t kStep = 97;  // every so many pixels; coprime to usual widths
   constexpr double kRelative = 0.005;
   constexpr double kAbsoluteM = 0.03;
+  constexpr double kReliefM = 0.003;  // pavement and paint lie on the plane
   constexpr double kMaxWrong = 0.02;  // pixels at the edge of something nearer
   const Eigen::Matrix3d to_world = image.R.transpose() * image.camera_matrix.inverse();
   const double height = (image.R.transpose() * -image.t).z();
@@ -78,13 +80,14 @@ void check_ground_depth(const Image& image, const std::string& path,
     ++looked_at;
     const double z = -height / ray.z();
     const double shown = centimeters[i] / 100.0;
-    if (std::abs(shown - z) <= kAbsoluteM + kRelative * z) continue;
+    const double relief_m = kReliefM * z / std::max(height, kReliefM);
+    if (std::abs(shown - z) <= kAbsoluteM + kRelative * z + relief_m) continue;
     if (wrong++ == 0) {
       found_m = shown;
       expected_m = z;
     }
   }
-  if (static_cast<double>(wrong) <= kMaxWrong * static_cast<double>(looked_at)) return;
+  if (!is_above_share(wrong, looked_at, kMaxWrong)) return;
   findings.add("depth-of-ground", path, fmt::format("image {}", image.id),
                fmt::format("{} of {} looked at are off: {:.2f} m, but the camera is {:.2f} m from "
                            "the ground there",

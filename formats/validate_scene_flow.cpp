@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "formats/shares.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -17,7 +18,8 @@ namespace {
 /// Values of flow_occlusion/ (docs/formats_pixels.md).
 enum class FlowTarget : std::uint16_t { unknown, visible, hidden, outside };
 
-constexpr std::size_t kMinLookedAt = 20;
+/// Stands for depths beyond 655.35 m, which are written as 0.
+constexpr double kTooFarM = 1e9;
 
 /// Meters.
 std::optional<Eigen::Vector3d> motion_at(const Pixels& pixels, std::size_t pixel) {
@@ -40,10 +42,7 @@ struct Verdict {
     if (is_right) return;
     if (wrong++ == 0) first = fmt::format("({}, {})", x, y);
   }
-  bool is_bad() const {
-    return looked_at >= kMinLookedAt &&
-           static_cast<double>(wrong) > max_wrong_share * static_cast<double>(looked_at);
-  }
+  bool is_bad() const { return is_above_share(wrong, looked_at, max_wrong_share); }
 };
 
 /// Every pixel of a grid of about 10 000.
@@ -178,7 +177,8 @@ std::optional<FlowTarget> expected_target(const Shot& before, const Shot& after,
       if (!next.holds(x_next, y_next)) return {};
       const std::size_t pixel = next.at(x_next, y_next);
       shows_sky |= next.ids[pixel] == 0;
-      max_m = std::max(max_m, next.depth_m(pixel));
+      const bool is_too_far = next.ids[pixel] != 0 && next.depth_cm[pixel] == 0;
+      max_m = std::max(max_m, is_too_far ? kTooFarM : next.depth_m(pixel));
     }
   }
   if (*depth == 0) return shows_sky ? FlowTarget::visible : FlowTarget::hidden;

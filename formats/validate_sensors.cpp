@@ -155,8 +155,22 @@ std::string other_figure(const json& figures, const std::vector<Row>& rows) {
 
 /// Contact lasts less than the time between two rows: velocity jumps, and no row has the force.
 bool is_contact(const Row& a, const Row& b) {
-  constexpr double kJumpMps = 0.1;  // collisions are of 0.3 m/s and more (docs/trace.md)
+  // Collisions are of 0.3 m/s and more (docs/trace.md), of which glancing ones change a part.
+  constexpr double kJumpMps = 0.02;
   return (at(b, kVelocity) - at(a, kVelocity)).norm() > kJumpMps && !break_of_motion(a, b).empty();
+}
+
+/// Whether a drone may stand on the ground there: touching down slowly is no collision.
+bool is_near_ground(const Row& row) {
+  constexpr double kHalfHeightM = 0.5;  // of large airframes
+  return row[kPosition + 2] < kHalfHeightM;
+}
+
+/// Whether the drone's figures say that it may have touched something: collisions are of 0.3 m/s
+/// and more, and slower touches near misses.
+bool may_have_touched(const json& figures) {
+  return !figures.value("collisions", json::object()).empty() ||
+         figures.value("near_misses", 0) > 0 || figures.value("landed_s", json()).is_number();
 }
 
 /// The row at or before a time.
@@ -249,7 +263,7 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
     const json figures = figures_of(info, image.run, image.camera);
-    const bool may_touch = !figures.value("collisions", json::object()).empty();
+    const bool may_touch = may_have_touched(figures);
     const std::string figure = table.rows.empty() ? "" : other_figure(figures, table.rows);
     if (!figure.empty()) findings.add("sensors", name, "", figure);
     bool in_contact = false;
@@ -257,7 +271,9 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
       // From then on it may lie there or slide.
       in_contact =
           in_contact || (may_touch && i > 0 && is_contact(table.rows[i - 1], table.rows[i]));
-      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i], in_contact);
+      const bool touches = in_contact || is_near_ground(table.rows[i]) ||
+                           (i > 0 && is_near_ground(table.rows[i - 1]));
+      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i], touches);
       constexpr double kGpsAgeS = 0.45;
       if (what.empty()) {
         what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAgeS);

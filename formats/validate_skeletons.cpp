@@ -119,12 +119,18 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
   return sides;
 }
 
+/// Whether parts of a body are less than the two pixels wide that places and neighbors are off.
+bool is_small(const Person& person) {
+  constexpr double kMinSizePx = 20;
+  return std::max(person.amodal.width, person.amodal.height) < kMinSizePx;
+}
+
 void check_sides(const Shot& shot, Findings& findings) {
   if (shot.pixels.parts.empty()) return;
   Sides all;
   constexpr int kMinCount = 4;
   for (const Person& person : shot.image.people) {
-    if (person.keypoints.size() <= kLimbs.back().left_keypoint + 1) continue;
+    if (person.keypoints.size() <= kLimbs.back().left_keypoint + 1 || is_small(person)) continue;
     const Sides sides = sides_of(shot.pixels, person);
     all.own += sides.own;
     all.opposite += sides.opposite;
@@ -190,7 +196,7 @@ void check_heads_are_heads(const Shot& shot, Findings& findings) {
   int looked_at = 0;
   int heads = 0;
   for (const Person& person : shot.image.people) {
-    if (!person.head) continue;
+    if (!person.head || is_small(person)) continue;
     const int x = static_cast<int>(person.head->x());
     const int y = static_cast<int>(person.head->y());
     if (!pixels.holds(x, y, 1) || pixels.ids[pixels.at(x, y)] != instance_of(person)) continue;

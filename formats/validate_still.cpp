@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/srgb.h"
+#include "formats/shares.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -69,8 +70,10 @@ void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallie
   Tally& tally = tallies[id];
   ++tally.seen;
   if (there.near_m > seen.depth_m + slack_m) ++tally.seen_through;
-  const bool is_there =
-      there.near_m <= seen.depth_m + slack_m && there.far_m >= seen.depth_m - slack_m;
+  const std::size_t pixel_there = to.pixels.at(u, v);
+  const bool is_there = to.pixels.depth_cm[pixel_there] != 0 &&
+                        std::abs(to.pixels.depth_m(pixel_there) - seen.depth_m) <= slack_m &&
+                        there.far_m - there.near_m <= kSmooth * seen.depth_m;
   if (!is_there) return;
   ++tally.same_place;
   if (!there.has_id) ++tally.other_id;
@@ -96,21 +99,21 @@ std::string name_of_still(std::uint32_t id) {
 }
 
 void judge(const Shot& from, const Shot& to, Findings& findings) {
-  constexpr std::size_t kMinCount = 12;
   // Rounded pixels meet edges: a few in a hundred are off in sound images.
   constexpr double kMaxThrough = 0.25;
   constexpr double kMaxOtherId = 0.25;
   for (const auto& [id, tally] : tally(from, to)) {
-    if (tally.seen < kMinCount) continue;
-    const auto through = static_cast<double>(tally.seen_through);
-    if (through > kMaxThrough * static_cast<double>(tally.seen)) {
+    if (is_above_share(tally.seen_through, tally.seen, kMaxThrough)) {
       findings.add(
           "depth-agrees", raster_name("depth", to.image), to.record(),
           fmt::format("{} of {} points of {} that {} shows are seen through", tally.seen_through,
                       tally.seen, name_of_still(id), raster_name("depth", from.image)));
     }
-    if (tally.same_place >= kMinCount &&
-        static_cast<double>(tally.other_id) > kMaxOtherId * static_cast<double>(tally.same_place)) {
+    // Of a place that is hidden nearly everywhere only that remains where it is as far as what
+    // hides it.
+    constexpr double kMaxHiding = 0.15;
+    if (is_above_share(tally.other_id, tally.same_place, kMaxOtherId) &&
+        is_above_share(tally.other_id, tally.seen, kMaxHiding)) {
       findings.add(
           "ids-agree", raster_name("instances", to.image), to.record(),
           fmt::format("{} of {} points that are {} in {} have another id", tally.other_id,
@@ -181,11 +184,15 @@ double luminance(const std::uint8_t* rgb) {
          0.0722 * linear_of_srgb(rgb[2]);
 }
 
-/// Equal exposure, and no vignette that makes it a matter of the place.
+/// Equal exposure, and no vignette that makes it a matter of the place. Metered exposures of what
+/// stays the same are nearly equal.
 bool have_one_exposure(const Image& a, const Image& b) {
   const nlohmann::json one = a.record.value("sensor", nlohmann::json::object());
   const nlohmann::json two = b.record.value("sensor", nlohmann::json::object());
-  return one.value("ev", 0.0) == two.value("ev", 0.0) && one.value("vignette", 0.0) == 0;
+  constexpr double kMaxGainRatio = 1.1;
+  const double gain_ratio = one.value("exposure_gain", 1.0) / two.value("exposure_gain", 1.0);
+  return one.value("ev", 0.0) == two.value("ev", 0.0) && one.value("vignette", 0.0) == 0 &&
+         gain_ratio < kMaxGainRatio && gain_ratio > 1 / kMaxGainRatio;
 }
 
 /// A still point in two consecutive images of one camera.
@@ -306,20 +313,20 @@ void check_buildings(const Shot& shot, Findings& findings) {
       }
     }
   }
-  constexpr std::size_t kMinCount = 40;
   Foot all;
   for (const auto& [id, foot] : feet) {
     all.looked_at += foot.looked_at;
     all.touching += foot.touching;
-    if (foot.points >= kMinCount && foot.below > 1 + foot.points / 50) {
+    constexpr double kMaxBelow = 0.02;
+    if (is_above_share(foot.below, foot.points, kMaxBelow)) {
       findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
                    fmt::format("{} of {} pixels of {} are below the ground", foot.below,
                                foot.points, name_of_still(id)));
     }
   }
   // Doorways and steps have other feet; most of an image's walls do not.
-  if (all.looked_at >= kMinCount &&
-      static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
+  constexpr double kMaxAway = 0.6;
+  if (is_above_share(all.looked_at - all.touching, all.looked_at, kMaxAway)) {
     findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
                  fmt::format("buildings stand on the ground at {} of {} pixels of their feet only",
                              all.touching, all.looked_at));

@@ -90,6 +90,19 @@ class ActionsTest : public ::testing::Test {
   ActionFacts facts_{trace_, people_, {}};
 };
 
+TEST_F(ActionsTest, OfASingleFrameBetweenStepsAreThoseOfBoth) {
+  const double step_s = trace_.time_s.at(1);
+  const double time_s = 5.5 * step_s;
+  int walks = 0;
+  for (const ActionRow& row : rows(time_s, time_s)) {
+    if (row.track != "2000001" || row.action != "walk") continue;
+    ++walks;
+    EXPECT_NEAR(row.from_s, 5 * step_s, 1e-9);
+    EXPECT_NEAR(row.to_s, 6 * step_s, 1e-9);
+  }
+  EXPECT_EQ(walks, 1);
+}
+
 TEST_F(ActionsTest, OfTheRunHaveTimes) {
   bool walks = false;
   double lies_from_s = 0;
