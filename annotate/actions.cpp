@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "annotate/coco.h"
+#include "annotate/spec/table_columns.h"
 #include "skinning/items.h"
 
 namespace throng::annotate {
@@ -113,7 +114,7 @@ void add_actions(const ActionFacts& facts, double time_s, FrameLabels& labels) {
 std::string actions_csv(const world::Trace& trace, const render::Animator& animator,
                         const ActionFacts& facts, double from_s, double to_s,
                         std::int64_t run_index) {
-  std::string text = "track_id,action,other,from_s,to_s\n";
+  std::string text = fmt::format("{}\n", kActionColumns);
   if (trace.steps() == 0) return text;
   // Frames lie between steps, whose poses they show.
   const std::size_t first = trace.steps_around(from_s).before;

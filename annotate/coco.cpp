@@ -245,14 +245,7 @@ std::vector<ObjectCategory> object_categories(bool drones, bool vehicles) {
   return categories;
 }
 
-void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
-                const std::string& description, const CocoCategories& wanted) {
-  std::vector<ShardCounts> counts;
-  counts.reserve(shard_folders.size());
-  for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
-  const StagingFolder staging(output);
-  const fs::path file = staging.path() / "merged.json";
-  Output merged(file);
+std::string coco_head(const std::string& description, const CocoCategories& wanted) {
   const nlohmann::json info = {{"description", description}, {"version", kLabelVersion}};
   nlohmann::json categories = {
       {{"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}}};
@@ -268,8 +261,19 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
     categories.push_back(
         {{"id", category.id}, {"name", category.name}, {"supercategory", "vehicle"}});
   }
-  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{},\n\"tracks\":[",
-                           info.dump(), kCocoLicenses, categories.dump()));
+  return fmt::format("{{\"info\":{},\n\"licenses\":{},\n\"categories\":{}", info.dump(),
+                     kCocoLicenses, categories.dump());
+}
+
+void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
+                const std::string& description, const CocoCategories& wanted) {
+  std::vector<ShardCounts> counts;
+  counts.reserve(shard_folders.size());
+  for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
+  const StagingFolder staging(output);
+  const fs::path file = staging.path() / "merged.json";
+  Output merged(file);
+  merged.write(coco_head(description, wanted) + ",\n\"tracks\":[");
   merge_tracks(merged, shard_folders, counts);
   merged.write("\n],\n\"images\":[");
   merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);

@@ -107,6 +107,10 @@ struct CocoCategories {
   bool skeletons = false;  ///< that of people names joints and bones
 };
 
+/// Everything of the COCO file before its records: `info`, `licenses` and `categories`.
+/// `description` becomes info.description. With "}" it is a JSON object.
+std::string coco_head(const std::string& description, const CocoCategories& categories);
+
 /// One linear pass over shard folders, in the given order, which is by run, into one COCO file
 /// (written beside and renamed). `description` becomes info.description. Throws EnvironmentError
 /// naming file and line when a shard is unfinished, truncated or damaged, or when the disk refuses.

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "annotate/exit_view.h"
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -27,11 +28,7 @@ std::string csv_field(const std::string& text) {
 
 std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
                       std::span<const double> step_times_s, std::span<const FrameTime> frames) {
-  std::string text =
-      "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,"
-      "flow,"
-      "since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
-      "queue_length,predicted_wait,pressure,state_offline\n";
+  std::string text = fmt::format("{}\n", kExitColumns);
   if (step_times_s.empty()) return text;
   for (const FrameTime& frame : frames) {
     const std::size_t step = step_at(step_times_s, frame.time_s);

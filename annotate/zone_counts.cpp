@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "annotate/coco.h"
+#include "annotate/spec/table_columns.h"
 #include "annotate/trajectories.h"
 #include "base/error.h"
 #include "geometry/polygon.h"
@@ -116,7 +117,7 @@ std::string counts_csv(const world::Trace& trace, const CountAreas& areas,
     crossers.push_back(crossers_of(trace, line, people.agents, times_s, run_index));
   }
   std::vector<std::set<std::int64_t>> before(areas.zones.size());
-  std::string text = "frame,time_s,kind,id,inside,inflow,outflow,entered,left\n";
+  std::string text = fmt::format("{}\n", kCountColumns);
   for (std::size_t frame = 0; frame < times_s.size(); ++frame) {
     for (std::size_t i = 0; i < areas.zones.size(); ++i) {
       std::set<std::int64_t> now;

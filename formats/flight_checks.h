@@ -28,18 +28,25 @@ struct SensorSample {
   double height_m;
   Eigen::Vector3d gps_position;
   Eigen::Vector3d gps_velocity;
+  double max_jump_mps = 0;  ///< by which contact may have changed the velocity at once
 };
+
+/// Whether the drone's figures in metrics/RUN.json say that it may have touched something:
+/// collisions are of 0.3 m/s and more, slower touches near misses. A drone without figures may not.
+bool may_have_touched(const DatasetInfo& info, const std::string& run, const std::string& drone);
 
 /// Names a reading beyond six standard deviations of the sensors' errors; "" if there is none. The
 /// readings are at most `age_s` older than the truth, the GPS fix `gps_age_s`.
 std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
                                 double gps_age_s);
 
-/// An image's flight record: camera, gimbal, sensors.
-void check_flight(const Image& image, Findings& findings);
+/// An image's flight record: camera, gimbal, sensors. Of a drone that may have touched something,
+/// velocity may jump.
+void check_flight(const Image& image, Findings& findings, bool may_touch = false);
 
 /// Flight records of consecutive frames of one camera.
-void check_flight_between(const Image& before, const Image& after, Findings& findings);
+void check_flight_between(const Image& before, const Image& after, Findings& findings,
+                          bool may_touch = false);
 
 /// sensors/RUN/DRONE.csv: rows follow from each other, readings from the truth, and the flight
 /// records of the images are between the rows.

@@ -46,6 +46,8 @@ inline bool is_building(std::uint32_t id) { return id >= kFirstBuilding && id < 
 void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings);
 /// Buildings stand on the ground and not below it.
 void check_buildings(const Shot& shot, Findings& findings);
+/// Classes of roofs, facades, doors, markings and grass go with their shape, place and color.
+void check_surface_classes(const Shot& shot, Findings& findings);
 /// Normals face the camera and are those of the surface that the depth shows.
 void check_normals(const Shot& shot, Findings& findings);
 /// Flow of all kinds against depth, cameras and people, between a frame and the next of its camera.

@@ -130,6 +130,7 @@ class ShotChecks {
     kinds.add_pixels(info, image, shot.pixels, findings);
     check_buildings(shot, findings);
     check_normals(shot, findings);
+    check_surface_classes(shot, findings);
     alignment_.add(shot);
     clothes_.add(shot);
     check_whole_bodies(shot, findings);
@@ -182,11 +183,13 @@ class RecordChecks {
   explicit RecordChecks(const json& manifest) : constancy_(manifest) {}
 
   void add(const DatasetInfo& info, const Image& image, Findings& findings) {
-    check_flight(image, findings);
+    const auto [touch, is_new] = may_touch_.try_emplace({image.run, image.camera}, false);
+    if (is_new) touch->second = may_have_touched(info, image.run, image.camera);
+    check_flight(image, findings, touch->second);
     const auto before = last_.find(image.camera);
     if (before != last_.end() && before->second.run == image.run &&
         before->second.frame + 1 == image.frame) {
-      check_flight_between(before->second, image, findings);
+      check_flight_between(before->second, image, findings, touch->second);
     }
     Image light = image;
     light.people.clear();
@@ -201,6 +204,7 @@ class RecordChecks {
 
  private:
   std::map<std::string, Image> last_;  ///< each camera's, without people
+  std::map<std::pair<std::string, std::string>, bool> may_touch_;  ///< by run and drone
   ConstancyCheck constancy_;
   PresenceCheck presence_;
   VehicleCheck vehicles_;

@@ -1,10 +1,12 @@
 // Actions of people in images against the run's table, their state, groups and places.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
 #include "annotate/actions.h"
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "formats/csv_table.h"
@@ -119,8 +121,9 @@ void ActionsCheck::finish(const DatasetInfo& info, Findings& findings) {
 
 void ActionsCheck::check_table(const CsvTable& table, const std::string& file,
                                const std::vector<Seen>& seen, Findings& findings) {
-  const std::vector<std::string> kColumns = {"track_id", "action", "other", "from_s", "to_s"};
-  if (table.columns != kColumns) return findings.add("actions", file, "", "other columns");
+  if (fmt::format("{}", fmt::join(table.columns, ",")) != annotate::kActionColumns) {
+    return findings.add("actions", file, "line 1", "other columns");
+  }
   struct Stretch {
     std::string action;
     double from_s = 0;

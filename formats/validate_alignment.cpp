@@ -31,7 +31,7 @@ constexpr std::size_t kMinBorders = 150;
 /// the color of the ground, and the edge of a single roof looks alike wherever it is moved along
 /// itself.
 constexpr std::size_t kMinObjects = 6;
-constexpr std::size_t kMinBordersOfObject = 15;
+constexpr std::size_t kMinBordersOfObject = 40;
 /// Sound images reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
 constexpr double kMinScore = 2.5;
 constexpr double kTellingScore = 5;

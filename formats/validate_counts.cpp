@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "formats/run_checks.h"
+#include "formats/run_trajectories.h"
 #include "geometry/polygon.h"
 
 namespace throng::formats {
@@ -133,7 +134,7 @@ class AreaRows {
     for (const auto& [track, place] : *now) {
       const double outside_m = geometry::signed_distance_to(area_.corners, place);
       if (std::abs(outside_m) < kBorderM || (outside_m < 0) == inside_.contains(track)) continue;
-      fault(fmt::format("track {} is {}, but an image shows the opposite", track,
+      fault(fmt::format("track {} is {}, but images or trajectories show the opposite", track,
                         outside_m < 0 ? "outside" : "inside"));
     }
   }
@@ -201,6 +202,21 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
   }
 }
 
+/// Places by frame of all people of a run, seen or not.
+std::map<std::int64_t, Places> places_of_everybody(const DatasetInfo& info,
+                                                   const std::string& run) {
+  const RunTrajectories recorded = read_run_trajectories(info.root, run);
+  std::map<std::int64_t, Places> frames;
+  for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
+    Places& places = frames[static_cast<std::int64_t>(frame)];
+    for (std::size_t person = 0; person < recorded.tracks.size(); ++person) {
+      if (!recorded.present(frame, person)) continue;
+      places[recorded.tracks[person]] = recorded.place(frame, person);
+    }
+  }
+  return frames;
+}
+
 }  // namespace
 
 void CountsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings& findings) {
@@ -228,7 +244,9 @@ void CountsCheck::finish(const DatasetInfo& info, Findings& findings) {
       const json record = parse_own_json(read_file(info.root / places), places);
       check_places(info.count_areas, record, places, findings);
       const std::vector<Area> areas = areas_of(record);
-      check_table(read_csv(info.root / file), areas, file, info, seen_[run], findings);
+      const bool has_everybody = info.has(GroundTruth::trajectories);
+      const auto places_of_frames = has_everybody ? places_of_everybody(info, run) : seen_[run];
+      check_table(read_csv(info.root / file), areas, file, info, places_of_frames, findings);
       for (const Visible& image : images_[run]) {
         std::size_t zone = 0;
         for (const Area& area : areas) {

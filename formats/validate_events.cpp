@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "formats/run_checks.h"
+#include "formats/run_events.h"
 
 namespace throng::formats {
 
@@ -27,24 +28,6 @@ constexpr double kMaxOffM = 0.05;
 constexpr double kEventSlackS = 1e-4;
 
 using Frames = EventsCheck::Frames;
-
-struct Event {
-  double time_s = 0;
-  std::string type;
-  json record;
-};
-
-std::vector<Event> read_events(const fs::path& file) {
-  std::vector<Event> events;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    json record = parse_own_json(line, file.string());
-    const double time_s = record.at("time_s");
-    const std::string type = record.at("type");
-    events.push_back({time_s, type, std::move(record)});
-  }
-  return events;
-}
 
 /// Times of frames, ascending, with their numbers.
 using FrameTimes = std::vector<std::pair<double, std::int64_t>>;
@@ -66,7 +49,7 @@ std::optional<std::int64_t> frame_at(const FrameTimes& times, double time_s) {
 }
 
 /// A fault of an event's place, seen from a frame near to it, or "".
-std::string fault_of_place(const Event& event, const EventsCheck::Frame& frame) {
+std::string fault_of_place(const RunEvent& event, const EventsCheck::Frame& frame) {
   const auto track = event.record.find("track_id");
   const auto position = event.record.find("position");
   if (track == event.record.end() || position == event.record.end()) return "";
@@ -81,11 +64,11 @@ std::string fault_of_place(const Event& event, const EventsCheck::Frame& frame) 
 }
 
 template <typename Report>
-void check_order(const std::vector<Event>& events, const Frames& frames, const Report& report) {
+void check_order(const std::vector<RunEvent>& events, const Frames& frames, const Report& report) {
   const FrameTimes times = times_of(frames);
   double before_s = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const Event& event = events[i];
+    const RunEvent& event = events[i];
     if (event.time_s < before_s)
       report(i, fmt::format("at {} s, after {} s", event.time_s, before_s));
     before_s = event.time_s;
@@ -107,7 +90,8 @@ void check_order(const std::vector<Event>& events, const Frames& frames, const R
 
 /// Nobody is seen who has departed or has not arrived.
 template <typename Report>
-void check_presence(const std::vector<Event>& events, const Frames& frames, const Report& report) {
+void check_presence(const std::vector<RunEvent>& events, const Frames& frames,
+                    const Report& report) {
   std::map<std::int64_t, std::vector<std::size_t>> changes;  // by track
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (events[i].type != "arrives" && events[i].type != "departs") continue;
@@ -151,10 +135,17 @@ void EventsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
     const std::string file = file_of(annotate::GroundTruth::events, run);
     try {
-      const std::vector<Event> events = read_events(info.root / file);
+      const std::vector<RunEvent> events = read_run_events(info.root, run);
       const auto report = [&](std::size_t event, const std::string& fault) {
-        findings.add(kRule, file, fmt::format("line {}", event + 1), fault);
+        const std::string line = event == kNoEvent ? "" : fmt::format("line {}", event + 1);
+        findings.add(kRule, file, line, fault);
       };
+      check_event_records(events, report);
+      check_events_against_figures(events, run_figures(info.root, run), first_track_of(info, run),
+                                   report);
+      if (info.has(annotate::GroundTruth::trajectories)) {
+        check_events_against_trajectories(events, read_run_trajectories(info.root, run), report);
+      }
       check_order(events, runs_[run], report);
       check_presence(events, runs_[run], report);
     } catch (const InputError& error) {

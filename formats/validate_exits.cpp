@@ -1,5 +1,6 @@
 // Exits: table, records of images and polygons. Definitions: docs/metrics.md.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <optional>
 
 #include "annotate/coco.h"
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
@@ -101,6 +103,9 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
   const std::string file = "exits/" + name + ".csv";
   if (!is_new || !std::filesystem::is_regular_file(info.root / file)) return run;
   const CsvTable table = read_csv(info.root / file);
+  if (fmt::format("{}", fmt::join(table.columns, ",")) != annotate::kExitColumns) {
+    findings.add("exits", file, "line 1", "other columns than docs/formats_pixels.md has");
+  }
   const auto column = [&](const char* wanted) {
     const std::size_t found = table.find(wanted);
     if (found == table.columns.size()) {

@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "formats/npy.h"
 #include "formats/run_checks.h"
+#include "formats/run_events.h"
+#include "formats/run_trajectories.h"
 
 namespace throng::formats {
 
@@ -152,6 +157,29 @@ class FieldFile {
     }
   }
 
+  /// The density is that of everybody: each person's own cell has their density and that of their
+  /// neighbors, or more where a building beside takes a part of neither. Cells of a building's edge
+  /// have none.
+  template <typename People>
+  void check_everybody(const People& people, double count) const {
+    const Share share = share_of(people, grid_);
+    std::size_t on_grid = 0;
+    for (const auto& [track, person] : people) {
+      const Vector2d at = (person.position - grid_.origin_m) / grid_.cell_m;
+      if (at.minCoeff() < 0 || at.x() >= grid_.columns || at.y() >= grid_.rows) continue;
+      ++on_grid;
+      const std::size_t cell = cell_at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+      constexpr double kRounding = 0.98;
+      if (field_.density(cell) >= kRounding * share.density[cell] || is_at_building(at)) continue;
+      return fault(
+          fmt::format("{:.3f} people per m2 where track {} is by the trajectories, "
+                      "expected {:.3f}",
+                      field_.density(cell), track, share.density[cell]));
+    }
+    if (static_cast<double>(on_grid) == count) return;
+    fault(fmt::format("{} people, but {} on the grid by the trajectories", count, on_grid));
+  }
+
   template <typename People>
   void check_people(const People& people) const {
     if (people.empty()) return;
@@ -204,6 +232,23 @@ class FieldFile {
 
  private:
   void fault(const std::string& what) const { findings_.add("fields", path_, "", what); }
+  std::size_t cell_at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.columns) +
+           static_cast<std::size_t>(x);
+  }
+  /// Whether the place's cell has nobody, as of a building, but one within half a meter has.
+  bool is_at_building(const Vector2d& at) const {
+    const int x = static_cast<int>(at.x());
+    const int y = static_cast<int>(at.y());
+    if (field_.density(cell_at(x, y)) > 0) return false;
+    const int reach = std::max(1, static_cast<int>(std::ceil(0.5 / grid_.cell_m)));
+    for (int v = std::max(0, y - reach); v <= std::min(grid_.rows - 1, y + reach); ++v) {
+      for (int u = std::max(0, x - reach); u <= std::min(grid_.columns - 1, x + reach); ++u) {
+        if (field_.density(cell_at(u, v)) > 0) return true;
+      }
+    }
+    return false;
+  }
 
   std::string path_;
   const Grid& grid_;
@@ -215,6 +260,36 @@ struct Level {
   Grid grid;
   std::string folder;
 };
+
+/// Somebody on the ground.
+struct Standing {
+  Vector2d position;
+  Vector2d velocity;  ///< not known from trajectories
+};
+
+/// Tracks of the people in a run's figures, in which attackers are not, as in fields; empty without
+/// figures.
+std::set<std::int64_t> tracks_of_figures(const DatasetInfo& info, const std::string& run) {
+  std::set<std::int64_t> tracks;
+  const json people = run_figures(info.root, run).value("by_person", json::object());
+  for (const json& agent : people.value("agent", json::array())) {
+    tracks.insert(first_track_of(info, run) + agent.get<std::int64_t>());
+  }
+  return tracks;
+}
+
+/// Those of them who are there at a frame, seen or not.
+std::map<std::int64_t, Standing> people_at(const RunTrajectories& recorded, std::size_t frame,
+                                           const std::set<std::int64_t>& tracks) {
+  std::map<std::int64_t, Standing> people;
+  for (std::size_t person = 0; frame < recorded.times_s.size() && person < recorded.tracks.size();
+       ++person) {
+    const std::int64_t track = recorded.tracks[person];
+    if (!recorded.present(frame, person) || !tracks.contains(track)) continue;
+    people[track] = {recorded.place(frame, person), Vector2d::Zero()};
+  }
+  return people;
+}
 
 std::vector<Level> levels_of(const json& record, const Grid& grid) {
   std::vector<Level> levels;
@@ -257,6 +332,11 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
       if (static_cast<std::int64_t>(people.size()) != info.frames_per_camera) {
         findings.add("fields", description, "", "people of another number of frames");
       }
+      std::optional<RunTrajectories> everybody;
+      const std::set<std::int64_t> tracks = tracks_of_figures(info, run);
+      if (info.has(annotate::GroundTruth::trajectories) && !tracks.empty()) {
+        everybody = read_run_trajectories(info.root, run);
+      }
       for (std::size_t frame = 0; frame < people.size(); ++frame) {
         const std::string path =
             file_of(annotate::GroundTruth::fields, run, "", static_cast<std::int64_t>(frame));
@@ -269,6 +349,10 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
           const FieldFile level_file(place, level.grid, coarse, findings);
           level_file.check_sums(people.at(frame).get<double>());
           level_file.check_level(grid, field, people.at(frame).get<double>());
+        }
+        if (everybody) {
+          file.check_everybody(people_at(*everybody, frame, tracks),
+                               people.at(frame).get<double>());
         }
         const auto seen = runs_.find(run);
         if (seen == runs_.end()) continue;

@@ -138,6 +138,11 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
   const std::string path = raster_name("depth", image);
   const std::vector<std::uint32_t>& ids = pixels.ids;
   if (is_plain(image)) check_ground_depth(image, path, ids, pixels.depth_cm, findings);
+  std::size_t in_sky = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) in_sky += ids[i] == 0 && pixels.depth_cm[i] != 0;
+  if (in_sky > 0) {
+    findings.add("depth", path, "", fmt::format("{} pixels of the sky have a depth", in_sky));
+  }
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
   const LabeledIds labeled(image);
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -25,6 +25,8 @@ constexpr double kFieldShare = 0.013;
 constexpr double kWeatherShare = 0.0018;
 constexpr double kGpsVerticalMps = 0.18;
 
+constexpr double kMaxImpactMps = 25;  ///< that drones fall or fly with
+
 /// ISO 2533, and the height that a pressure stands for.
 constexpr double kSeaLevelPa = 101'325;
 constexpr double kLapsePerM = 2.25577e-5;
@@ -71,8 +73,11 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 class FlightRecord {
  public:
-  FlightRecord(const Image& image, Findings& findings)
-      : image_(image), flight_(image.record.at("flight")), findings_(findings) {}
+  FlightRecord(const Image& image, Findings& findings, bool may_touch)
+      : image_(image),
+        flight_(image.record.at("flight")),
+        findings_(findings),
+        may_touch_(may_touch) {}
 
   void check() const {
     check_camera();
@@ -166,7 +171,8 @@ class FlightRecord {
                               measured.at("pressure_pa").get<double>(),
                               measured.at("height_m").get<double>(),
                               numbers_at<3>(measured.at("gps").at("position")),
-                              numbers_at<3>(measured.at("gps").at("velocity"))};
+                              numbers_at<3>(measured.at("gps").at("velocity")),
+                              may_touch_ ? kMaxImpactMps : 0};
     const double gps_age_s = image_.time_s - measured.at("gps").at("time_s").get<double>();
     if (!(gps_age_s >= -1e-6 && gps_age_s <= kMaxGpsAgeS)) {
       fault(fmt::format("the GPS fix is {:.3f} s old", gps_age_s));
@@ -181,6 +187,7 @@ class FlightRecord {
   const Image& image_;
   const json& flight_;
   Findings& findings_;
+  bool may_touch_;
 };
 
 }  // namespace
@@ -219,8 +226,9 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
     return fmt::format("pressure_pa is {:.0f}, expected about {:.0f}", sample.pressure_pa,
                        pressure_at(sample.position.z()));
   }
-  const Vector3d drift = sample.velocity.cwiseAbs() * gps_age_s +
-                         Vector3d::Constant(kMaxAccelerationMps2 * gps_age_s * gps_age_s / 2);
+  const Vector3d drift =
+      (sample.velocity.cwiseAbs().array() + sample.max_jump_mps).matrix() * gps_age_s +
+      Vector3d::Constant(kMaxAccelerationMps2 * gps_age_s * gps_age_s / 2);
   const Vector3d wander(1, 1, 2);
   const Vector3d gps = (sample.gps_position - sample.position).cwiseAbs();
   if (((gps - kSigmas * wander - drift).array() > 0).any()) {
@@ -228,7 +236,8 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
                        gps.z());
   }
   const Vector3d speed = (sample.gps_velocity - sample.velocity).cwiseAbs();
-  const double max_speed = kSigmas * kGpsVerticalMps + kMaxAccelerationMps2 * gps_age_s / 2;
+  const double max_speed =
+      kSigmas * kGpsVerticalMps + kMaxAccelerationMps2 * gps_age_s / 2 + sample.max_jump_mps;
   if (speed.maxCoeff() > max_speed) {
     return fmt::format("the GPS's velocity is ({:.2f}, {:.2f}, {:.2f}) m/s off", speed.x(),
                        speed.y(), speed.z());
@@ -236,11 +245,12 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
   return "";
 }
 
-void check_flight(const Image& image, Findings& findings) {
-  if (image.record.contains("flight")) FlightRecord(image, findings).check();
+void check_flight(const Image& image, Findings& findings, bool may_touch) {
+  if (image.record.contains("flight")) FlightRecord(image, findings, may_touch).check();
 }
 
-void check_flight_between(const Image& before, const Image& after, Findings& findings) {
+void check_flight_between(const Image& before, const Image& after, Findings& findings,
+                          bool may_touch) {
   if (!before.record.contains("flight") || !after.record.contains("flight")) return;
   const json& then = before.record.at("flight").at("true");
   const json& now = after.record.at("flight").at("true");
@@ -255,7 +265,7 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
   const double slack_m = 0.02 + kMaxAccelerationMps2 * dt_s * dt_s / 8;
   constexpr double kMaxDurationS = 1.1;
   const double off_m = (moved - mean * dt_s).norm();
-  if (dt_s <= kMaxDurationS && off_m > slack_m) {
+  if (dt_s <= kMaxDurationS && off_m > slack_m + (may_touch ? kMaxImpactMps * dt_s : 0)) {
     findings.add("flight", kCocoFile, record,
                  fmt::format("the drone moved ({:.2f}, {:.2f}, {:.2f}) m since the last frame, but "
                              "its velocity was ({:.2f}, {:.2f}, {:.2f}) m/s",

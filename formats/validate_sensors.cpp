@@ -1,5 +1,6 @@
 // The tables of drones' sensors against themselves and against the images' flight records.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <fstream>
 #include <string>
 
+#include "annotate/spec/table_columns.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "formats/csv_table.h"
@@ -53,9 +55,19 @@ Quaterniond orientation_of(const Row& row) {
 }
 
 SensorSample sample_of_row(const Row& row) {
-  return {at(row, kPosition), at(row, kVelocity), orientation_of(row),     at(row, kRates),
-          at(row, kForce),    at(row, kGyro),     at(row, kAccelerometer), at(row, kMagnetometer),
-          row[kPressure],     row[kHeight],       at(row, kGpsPosition),   at(row, kGpsVelocity)};
+  return {at(row, kPosition),
+          at(row, kVelocity),
+          orientation_of(row),
+          at(row, kRates),
+          at(row, kForce),
+          at(row, kGyro),
+          at(row, kAccelerometer),
+          at(row, kMagnetometer),
+          row[kPressure],
+          row[kHeight],
+          at(row, kGpsPosition),
+          at(row, kGpsVelocity),
+          0};
 }
 
 /// Names motion between two rows that does not follow from velocity, force and rates; "" if all
@@ -160,17 +172,27 @@ bool is_contact(const Row& a, const Row& b) {
   return (at(b, kVelocity) - at(a, kVelocity)).norm() > kJumpMps && !break_of_motion(a, b).empty();
 }
 
+/// Names a place where rows are missing: they begin with the run, are as far apart as the first two
+/// and reach the last frame. "" if none are.
+std::string missing_rows(const std::vector<Row>& rows, double end_s) {
+  if (rows.size() < 2) return "fewer than two rows";
+  constexpr double kRoundingS = 2e-4;  // nine digits are written of up to two hours
+  const double step_s = rows[1][kTime] - rows[0][kTime];
+  if (rows.front()[kTime] > kRoundingS) return fmt::format("begins at {} s", rows.front()[kTime]);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double passed_s = rows[i][kTime] - rows[i - 1][kTime];
+    if (std::abs(passed_s - step_s) <= kRoundingS) continue;
+    return fmt::format("line {} is {:.4f} s after the one before, others {:.4f} s", i + 2, passed_s,
+                       step_s);
+  }
+  if (rows.back()[kTime] + step_s + kRoundingS >= end_s) return "";
+  return fmt::format("ends at {} s, before the last frame", rows.back()[kTime]);
+}
+
 /// Whether a drone may stand on the ground there: touching down slowly is no collision.
 bool is_near_ground(const Row& row) {
   constexpr double kHalfHeightM = 0.5;  // of large airframes
   return row[kPosition + 2] < kHalfHeightM;
-}
-
-/// Whether the drone's figures say that it may have touched something: collisions are of 0.3 m/s
-/// and more, and slower touches near misses.
-bool may_have_touched(const json& figures) {
-  return !figures.value("collisions", json::object()).empty() ||
-         figures.value("near_misses", 0) > 0 || figures.value("landed_s", json()).is_number();
 }
 
 /// The row at or before a time.
@@ -242,6 +264,12 @@ std::string other_truth(const json& truth, const Row& a, const Row& b) {
 
 }  // namespace
 
+bool may_have_touched(const DatasetInfo& info, const std::string& run, const std::string& drone) {
+  const json figures = figures_of(info, run, drone);
+  return !figures.value("collisions", json::object()).empty() ||
+         figures.value("near_misses", 0) > 0 || figures.value("landed_s", json()).is_number();
+}
+
 void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
   if (!image.record.contains("flight")) return;
   const std::string name = file_of(annotate::GroundTruth::sensors, image.run, image.camera);
@@ -249,6 +277,10 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
   if (!table.is_read) {
     table.is_read = true;
     const CsvTable csv = read_csv(info.root / name);
+    if (fmt::format("{}", fmt::join(csv.columns, ",")) != annotate::kSensorColumns) {
+      findings.add("sensors", name, "line 1", "other columns than docs/formats_coco.md has");
+      return;
+    }
     for (std::size_t i = 0; i < csv.rows.size(); ++i) {
       Row row;
       for (const std::string& cell : csv.rows[i]) row.push_back(number_of(cell));
@@ -263,7 +295,11 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
     const json figures = figures_of(info, image.run, image.camera);
-    const bool may_touch = may_have_touched(figures);
+    const bool may_touch = may_have_touched(info, image.run, image.camera);
+    const double end_s =
+        info.from_s + static_cast<double>(info.frames_per_camera - 1) / info.rate_hz;
+    const std::string gap = missing_rows(table.rows, end_s);
+    if (!gap.empty()) findings.add("sensors", name, "", gap);
     const std::string figure = table.rows.empty() ? "" : other_figure(figures, table.rows);
     if (!figure.empty()) findings.add("sensors", name, "", figure);
     bool in_contact = false;
@@ -276,7 +312,10 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
       std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i], touches);
       constexpr double kGpsAgeS = 0.45;
       if (what.empty()) {
-        what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAgeS);
+        SensorSample sample = sample_of_row(table.rows[i]);
+        constexpr double kMaxImpactMps = 25;
+        if (in_contact) sample.max_jump_mps = kMaxImpactMps;
+        what = implausible_reading(sample, latitude_deg, 0, kGpsAgeS);
       }
       if (what.empty()) continue;
       findings.add("sensors", name, fmt::format("line {}", i + 2), what);

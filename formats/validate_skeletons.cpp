@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "formats/json_vectors.h"
+#include "formats/shares.h"
 #include "formats/shot.h"
 #include "geometry/angle.h"
 
@@ -80,6 +81,8 @@ struct Sides {
   int opposite = 0;
   int kind = 0;        ///< arms at elbows and wrists, legs at knees and ankles
   int other_kind = 0;  ///< the other way round
+  std::size_t looked_at = 0;
+  std::size_t no_limb = 0;  ///< of these, without any limb within a pixel
 };
 
 Sides sides_of(const Pixels& pixels, const Person& person) {
@@ -110,6 +113,8 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
           has_other_kind |= limb.left_part == 3 ? is_leg : is_arm;
         }
       }
+      ++sides.looked_at;
+      sides.no_limb += has_own || has_opposite || has_other_kind ? 0 : 1;
       sides.own += has_own && !has_opposite ? 1 : 0;
       sides.opposite += has_opposite && !has_own ? 1 : 0;
       sides.kind += (has_own || has_opposite) && !has_other_kind ? 1 : 0;
@@ -136,6 +141,8 @@ void check_sides(const Shot& shot, Findings& findings) {
     all.opposite += sides.opposite;
     all.kind += sides.kind;
     all.other_kind += sides.other_kind;
+    all.looked_at += sides.looked_at;
+    all.no_limb += sides.no_limb;
     if (sides.opposite >= kMinCount && sides.opposite > 4 * sides.own) {
       findings.add("parts-at-keypoints", person,
                    fmt::format("{} shows the other side's limbs at {} of {} visible keypoints",
@@ -151,6 +158,12 @@ void check_sides(const Shot& shot, Findings& findings) {
         fmt::format("{} of {} visible keypoints of limbs are on {}", wrong, right + wrong, what));
   };
   judge(all.own, all.opposite, "the other side's");
+  constexpr double kMaxNoLimb = 0.2;  // sound images: 0.02
+  if (is_above_share(all.no_limb, all.looked_at, kMaxNoLimb)) {
+    findings.add(
+        "parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
+        fmt::format("{} of {} visible keypoints of limbs are on none", all.no_limb, all.looked_at));
+  }
   judge(all.kind, all.other_kind, "arms instead of legs or legs instead of arms");
 }
 

@@ -22,9 +22,10 @@ struct Patch {
   double near_m = 1e9;
   double far_m = 0;  ///< infinite where one of them is sky
   bool has_id = false;
+  bool has_class = false;
 };
 
-Patch patch_at(const Pixels& pixels, int x, int y, std::uint32_t id) {
+Patch patch_at(const Pixels& pixels, int x, int y, std::uint32_t id, std::uint16_t surface) {
   Patch patch;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
@@ -33,6 +34,7 @@ Patch patch_at(const Pixels& pixels, int x, int y, std::uint32_t id) {
       patch.near_m = std::min(patch.near_m, depth);
       patch.far_m = std::max(patch.far_m, depth);
       patch.has_id |= pixels.ids.empty() || pixels.ids[pixel] == id;
+      patch.has_class |= pixels.semantic.empty() || pixels.semantic[pixel] == surface;
     }
   }
   return patch;
@@ -44,6 +46,7 @@ struct Tally {
   std::size_t seen_through = 0;  ///< where it shows something farther
   std::size_t same_place = 0;    ///< where it shows that depth
   std::size_t other_id = 0;      ///< of these, with another id
+  std::size_t other_class = 0;   ///< of these, with another class
 };
 
 using Tallies = std::map<std::uint32_t, Tally>;
@@ -54,7 +57,8 @@ void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallie
   const std::uint32_t id = pixels.ids[pixel];
   if (!is_still(id) || pixels.depth_cm[pixel] == 0) return;
   const double z = pixels.depth_m(pixel);
-  const Patch here = patch_at(pixels, x, y, id);
+  const std::uint16_t surface = pixels.semantic.empty() ? 0 : pixels.semantic[pixel];
+  const Patch here = patch_at(pixels, x, y, id, surface);
   // At an edge, or where the surface is seen from its side, a pixel says little.
   constexpr double kSmooth = 0.03;
   if (here.far_m - here.near_m > kSmooth * z) return;
@@ -65,7 +69,7 @@ void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallie
   const int u = static_cast<int>(std::lround(seen.pixel.x()));
   const int v = static_cast<int>(std::lround(seen.pixel.y()));
   if (!to.pixels.holds(u, v, 1)) return;
-  const Patch there = patch_at(to.pixels, u, v, id);
+  const Patch there = patch_at(to.pixels, u, v, id, surface);
   const double slack_m = 0.03 + 0.004 * seen.depth_m + (here.far_m - here.near_m);
   Tally& tally = tallies[id];
   ++tally.seen;
@@ -77,6 +81,8 @@ void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallie
   if (!is_there) return;
   ++tally.same_place;
   if (!there.has_id) ++tally.other_id;
+  const bool have_classes = !pixels.semantic.empty() && !to.pixels.semantic.empty();
+  if (have_classes && there.has_id && !there.has_class) ++tally.other_class;
 }
 
 Tallies tally(const Shot& from, const Shot& to) {
@@ -118,6 +124,12 @@ void judge(const Shot& from, const Shot& to, Findings& findings) {
           "ids-agree", raster_name("instances", to.image), to.record(),
           fmt::format("{} of {} points that are {} in {} have another id", tally.other_id,
                       tally.same_place, name_of_still(id), raster_name("instances", from.image)));
+    }
+    if (is_above_share(tally.other_class, tally.same_place, kMaxOtherId)) {
+      findings.add(
+          "semantic", raster_name("semantic", to.image), to.record(),
+          fmt::format("{} of {} points of {} have another class than in {}", tally.other_class,
+                      tally.same_place, name_of_still(id), raster_name("semantic", from.image)));
     }
   }
 }
@@ -325,8 +337,9 @@ void check_buildings(const Shot& shot, Findings& findings) {
     }
   }
   // Doorways and steps have other feet; most of an image's walls do not.
-  constexpr double kMaxAway = 0.6;
-  if (is_above_share(all.looked_at - all.touching, all.looked_at, kMaxAway)) {
+  constexpr std::size_t kMinCount = 40;
+  if (all.looked_at >= kMinCount &&
+      static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
     findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
                  fmt::format("buildings stand on the ground at {} of {} pixels of their feet only",
                              all.touching, all.looked_at));

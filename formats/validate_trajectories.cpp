@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "formats/run_checks.h"
+#include "formats/run_events.h"
 #include "formats/run_trajectories.h"
 #include "geometry/angle.h"
 
@@ -20,6 +21,7 @@ constexpr double kMaxSpeedMps = 15;
 constexpr double kMaxOffM = 0.01;
 constexpr double kMaxOffRad = 0.01;
 constexpr double kMaxOffS = 1e-3;
+constexpr double kStepS = 0.51;  ///< of the crowd, at most
 
 using Recorded = RunTrajectories;
 
@@ -48,6 +50,51 @@ std::string fault_of_values(const Recorded& recorded) {
       if (way_m > kMaxSpeedMps * passed_s) {
         return where + fmt::format("{:.2f} m in {:g} s", way_m, passed_s);
       }
+    }
+  }
+  return "";
+}
+
+/// A frame that is missing or of another time, or "".
+std::string fault_of_times(const Recorded& recorded, const DatasetInfo& info) {
+  if (static_cast<std::int64_t>(recorded.times_s.size()) != info.frames_per_camera) {
+    return fmt::format("{} frames, expected {}", recorded.times_s.size(), info.frames_per_camera);
+  }
+  for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
+    const double expected_s = info.from_s + static_cast<double>(frame) / info.rate_hz;
+    if (std::abs(recorded.times_s[frame] - expected_s) <= kMaxOffS) continue;
+    return fmt::format("frame {} at {:g} s, expected {:g} s", frame, recorded.times_s[frame],
+                       expected_s);
+  }
+  return "";
+}
+
+/// People of the figures are in the trajectories while they are inside; "" if all are.
+std::string fault_of_people(const Recorded& recorded, const nlohmann::json& figures,
+                            std::int64_t first_track) {
+  const nlohmann::json people = figures.value("by_person", nlohmann::json::object());
+  const nlohmann::json agents = people.value("agent", nlohmann::json::array());
+  const auto time_of = [&](const char* key, std::size_t i, double otherwise) {
+    const auto column = people.find(key);
+    const bool is_known = column != people.end() && i < column->size() && (*column)[i].is_number();
+    return is_known ? (*column)[i].get<double>() : otherwise;
+  };
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const std::int64_t track = first_track + agents[i].get<std::int64_t>();
+    const auto found = std::lower_bound(recorded.tracks.begin(), recorded.tracks.end(), track);
+    if (found == recorded.tracks.end() || *found != track) {
+      return fmt::format("no track {}, who is in metrics", track);
+    }
+    const auto person = static_cast<std::size_t>(found - recorded.tracks.begin());
+    const double arrived_s = time_of("arrived_s", i, 0);
+    constexpr double kNever = 1e9;
+    const double left_s =
+        std::min(time_of("escaped_s", i, kNever), time_of("vanished_s", i, kNever));
+    for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
+      const double time_s = recorded.times_s[frame];
+      if (time_s < arrived_s + kMaxOffS || time_s > left_s - kStepS) continue;
+      if (recorded.present(frame, person)) continue;
+      return fmt::format("track {} is absent at {:g} s, but inside by metrics", track, time_s);
     }
   }
   return "";
@@ -107,6 +154,11 @@ void TrajectoriesCheck::finish(const DatasetInfo& info, Findings& findings) {
     const std::string file = file_of(annotate::GroundTruth::trajectories, run);
     try {
       const Recorded recorded = read_run_trajectories(info.root, run);
+      const std::string wrong_people =
+          fault_of_people(recorded, run_figures(info.root, run), first_track_of(info, run));
+      if (!wrong_people.empty()) findings.add(kRule, file, "", wrong_people);
+      const std::string wrong_times = fault_of_times(recorded, info);
+      if (!wrong_times.empty()) findings.add(kRule, file, "", wrong_times);
       const std::string what = fault_of_values(recorded);
       if (!what.empty()) findings.add(kRule, file, "", what);
       for (const auto& entry : runs_[run]) {

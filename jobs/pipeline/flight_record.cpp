@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 #include "geometry/angle.h"
 #include "jobs/spec/environment.h"
@@ -83,13 +84,7 @@ json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise) {
 
 std::string sensors_csv(const std::vector<world::DroneSample>& truth, const sim::SensorLog& log) {
   check(truth.size() == log.readings().size(), "a sensor log has a reading per sample");
-  std::string text =
-      "time_s,true_x_m,true_y_m,true_z_m,true_vx_mps,true_vy_mps,true_vz_mps,true_qw,true_qx,"
-      "true_qy,true_qz,true_wx_rad_s,true_wy_rad_s,true_wz_rad_s,true_fx_mps2,true_fy_mps2,"
-      "true_fz_mps2,air_vx_mps,air_vy_mps,air_vz_mps,energy_j,gyro_x_rad_s,gyro_y_rad_s,"
-      "gyro_z_rad_s,accelerometer_x_mps2,accelerometer_y_mps2,accelerometer_z_mps2,"
-      "magnetometer_x_ut,magnetometer_y_ut,magnetometer_z_ut,pressure_pa,height_m,gps_time_s,"
-      "gps_x_m,gps_y_m,gps_z_m,gps_vx_mps,gps_vy_mps,gps_vz_mps\n";
+  std::string text = fmt::format("{}\n", annotate::kSensorColumns);
   const auto append = [&](const Eigen::Vector3d& v) {
     fmt::format_to(std::back_inserter(text), ",{:.9g},{:.9g},{:.9g}", v.x(), v.y(), v.z());
   };

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -141,12 +142,13 @@ class SmallDataset : public ::testing::Test {
     person.position = person.box_middle.cast<double>();
   }
 
-  /// People are 9 m away; the ground is where it is.
+  /// People are 9 m away; the ground is where it is, the sky nowhere.
   static std::vector<float> depth_of(const render::Frame& rendered) {
     std::vector<float> depth_m(rendered.id.size(), 9.0F);
     const camera::Camera& camera = rendered.camera;
     const Eigen::Vector3d center = camera.pose.center();
     for (std::size_t i = 0; i < depth_m.size(); ++i) {
+      if (rendered.id[i] == render::kIdNothing) depth_m[i] = std::numeric_limits<float>::infinity();
       if (rendered.id[i] != render::kIdGround) continue;
       const auto column = static_cast<double>(static_cast<int>(i) % rendered.width());
       const auto row = static_cast<double>(static_cast<int>(i) / rendered.width());

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 #include "formats/run_checks.h"
 #include "tests/formats/hand_made.h"
@@ -19,12 +20,6 @@ using hand_made::found_by;
 using nlohmann::json;
 using ::testing::IsEmpty;
 using Values = std::map<std::string, double>;
-
-constexpr std::array<const char*, 14> kExitColumns = {
-    "in_zone",       "density",        "normalised_density", "flow",
-    "specific_flow", "approach_speed", "clogging_index",     "demand",
-    "queue",         "queue_length",   "predicted_wait",     "since_crossing",
-    "crossed_out",   "crossed_in"};
 
 struct ExitRow {
   std::string state = "flowing";
@@ -58,6 +53,12 @@ std::vector<ExitRow> exit_rows() {
   return rows;
 }
 
+/// A column that no rule reads is 0.
+std::string value_of(const ExitRow& row, const std::string& column) {
+  const auto found = row.value.find(column);
+  return fmt::format("{}", found == row.value.end() ? 0 : found->second);
+}
+
 class ExitTable {
  public:
   ExitTable() : info_(hand_made::info(folder_.path())) {
@@ -70,15 +71,19 @@ class ExitTable {
   double time_offset_s = 0;
 
   std::vector<std::string> faults(const Image& image = hand_made::image()) const {
-    std::string text = "frame,time_s,exit,state,state_offline";
-    for (const char* column : kExitColumns) text += std::string(",") + column;
-    text += "\n";
+    std::string text = fmt::format("{}\n", annotate::kExitColumns);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto frame = first_frame + static_cast<std::int64_t>(i);
-      text +=
-          fmt::format("{},{},north,{},{}", frame, 0.5 * static_cast<double>(frame) + time_offset_s,
-                      rows[i].state, rows[i].offline);
-      for (const char* column : kExitColumns) text += fmt::format(",{}", rows[i].value.at(column));
+      std::istringstream columns{std::string(annotate::kExitColumns)};
+      for (std::string column; std::getline(columns, column, ',');) {
+        text += column == "frame" ? fmt::format("{}", frame)
+                : column == "time_s"
+                    ? fmt::format(",{}", 0.5 * static_cast<double>(frame) + time_offset_s)
+                : column == "exit"          ? ",north"
+                : column == "state"         ? "," + rows[i].state
+                : column == "state_offline" ? "," + rows[i].offline
+                                            : "," + value_of(rows[i], column);
+      }
       text += "\n";
     }
     write_file_atomically(info_.root / "exits/run002.csv", text);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "annotate/spec/table_columns.h"
 #include "base/error.h"
 #include "formats/flight_checks.h"
 #include "formats/run_checks.h"
@@ -193,8 +194,7 @@ std::vector<std::string> sensor_faults(
   const throng::testing::TemporaryFolder folder;
   auto rows = sensor_rows();
   damage(rows);
-  std::string text = "t";
-  for (int i = 1; i < 39; ++i) text += fmt::format(",c{}", i);
+  std::string text(annotate::kSensorColumns);
   for (const auto& row : rows) {
     text += "\n";
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -212,7 +212,9 @@ std::vector<std::string> sensor_faults(
   if (flight) flight(record);
   return found_by([&](Findings& findings) {
     SensorTableCheck check;
-    check.add(hand_made::info(folder.path()), image, findings);
+    DatasetInfo info = hand_made::info(folder.path());
+    info.frames_per_camera = 6;  // to 2.5 s
+    check.add(info, image, findings);
   });
 }
 
@@ -236,6 +238,15 @@ TEST(SensorTables, RowsFollowFromEachOther) {
   expect("air velocity jumps", 17, 9);
   expect("gyro is", 21, 1);
   expect("height_m is 30.00, but", 30, 95'000);
+}
+
+TEST(SensorTables, HaveTheirRows) {
+  EXPECT_TRUE(any_with(sensor_faults([](auto& rows) { rows.erase(rows.begin() + 60); }),
+                       "line 62 is 0.0333 s after the one before"));
+  EXPECT_TRUE(
+      any_with(sensor_faults([](auto& rows) { rows.erase(rows.begin(), rows.begin() + 9); }),
+               "begins at 0.15 s"));
+  EXPECT_TRUE(any_with(sensor_faults([](auto& rows) { rows.resize(130); }), "ends at 2.15 s"));
 }
 
 TEST(SensorTables, AreNumbers) {

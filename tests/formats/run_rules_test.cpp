@@ -206,7 +206,12 @@ TEST(FieldRules, HaveTheirShape) {
 /// Two frames of three people, of whom an image shows the second; the third comes late.
 class TrajectoriesOfRun {
  public:
-  TrajectoriesOfRun() : info_(hand_made::info(folder_.path())) { info_.runs = {"run002"}; }
+  TrajectoriesOfRun() : info_(hand_made::info(folder_.path())) {
+    info_.runs = {"run002"};
+    info_.frames_per_camera = 2;
+    info_.from_s = 1;
+    info_.rate_hz = 1;
+  }
 
   std::vector<float> values = {0, 0, 0, 0, 3,    2.5F, 1, 1, kNaN, kNaN, kNaN, kNaN,
                                1, 0, 0, 0, 3.5F, 2.5F, 1, 1, 9,    9,    0,    0};

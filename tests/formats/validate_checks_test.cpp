@@ -11,7 +11,11 @@
 #include "camera/camera.h"
 #include "formats/csv_table.h"
 #include "formats/flight_checks.h"
+#include "formats/ground_truth_checks.h"
+#include "formats/median.h"
+#include "formats/shares.h"
 #include "formats/shot.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 namespace {
@@ -160,6 +164,47 @@ TEST(ValidateChecks, StillPixelsFlowAsDepthAndCamerasSay) {
   };
   EXPECT_TRUE(rules(1).empty());
   for (const double factor : {0.0, -1.0, 1.05}) EXPECT_TRUE(has(rules(factor), "flow-of-still"));
+}
+
+TEST(ValidateChecks, TheSkyHasNoDepth) {
+  Shot shot = scene(0);
+  shot.image.record["camera"] = {{"model", "fisheye"}};  // the ground is not looked at
+  const auto rules = [&] {
+    return rules_of(
+        [&](Findings& findings) { check_depth({}, shot.image, shot.pixels, findings); });
+  };
+  EXPECT_TRUE(rules().empty());
+  const auto sky = std::find(shot.pixels.ids.begin(), shot.pixels.ids.end(), 0U);
+  ASSERT_NE(sky, shot.pixels.ids.end());
+  shot.pixels.depth_cm.at(static_cast<std::size_t>(sky - shot.pixels.ids.begin())) = 10000;
+  EXPECT_TRUE(has(rules(), "depth"));
+}
+
+TEST(ValidateChecks, SurfacesAreUprightOrNotByTheirClass) {
+  using world::SemanticClass;
+  Shot shot = scene(0);
+  const auto rules = [&](SemanticClass of_wall, SemanticClass of_ground) {
+    shot.pixels.semantic.clear();
+    for (const std::uint32_t id : shot.pixels.ids) {
+      const SemanticClass surface = id == kWall ? of_wall
+                                    : id == 0   ? SemanticClass::sky
+                                                : of_ground;
+      shot.pixels.semantic.push_back(static_cast<std::uint16_t>(surface));
+    }
+    return rules_of([&](Findings& findings) { check_surface_classes(shot, findings); });
+  };
+  EXPECT_TRUE(rules(SemanticClass::building, SemanticClass::road).empty());
+  EXPECT_TRUE(has(rules(SemanticClass::roof, SemanticClass::road), "semantic"));
+  EXPECT_TRUE(has(rules(SemanticClass::door, SemanticClass::building), "semantic"));
+}
+
+TEST(ValidateChecks, FewSamplesSayNothing) {
+  EXPECT_FALSE(is_above_share(39, 39, 0.03));
+  EXPECT_TRUE(is_above_share(40, 40, 0.03));
+  EXPECT_FALSE(is_above_share(30, 500, 0.03));  // 15 are expected at most, and 23 more by chance
+  EXPECT_TRUE(is_above_share(40, 500, 0.03));
+  EXPECT_TRUE(std::isinf(median_error({1, 2, 3})));
+  EXPECT_LT(median_error({1, 1.1, 0.9, 1, 1.05, 0.95, 1, 1.1, 0.9, 1}), 0.15);
 }
 
 TEST(ValidateChecks, DepthIsOneInAllImages) {

@@ -20,6 +20,7 @@ from . import (
     motion,
     pixels,
     poses,
+    runs,
     shapes,
     trajectories,
     vehicles,
@@ -148,6 +149,16 @@ TABLE = {
     heads: """
         head_boxes_moved_by_their_width head_box_twice_as_large head_boxes_are_those_of_the_bodies
         head_boxes_of_a_tenth head_box_left_out head_visibility_inverted head_visibility_is_the_bodys""",
+    runs: """
+        sensor_columns_renamed one_sensor_column_renamed sensor_names_exchanged sensor_rows_left_out
+        one_sensor_row_left_out sensor_rows_from_the_middle_on sensor_rows_end_early exit_columns_renamed
+        keypoint_names_reversed skeleton_from_zero skeleton_without_a_limb joint_names_exchanged bone_name_left_out
+        category_left_out notices_left_out one_notice_left_out escapes_left_out events_left_out
+        notices_half_a_second_early escapes_called_notices notices_of_others somebody_departs_twice
+        event_of_unknown_type unseen_people_2_m_off unseen_people_mirrored somebody_unseen_left_out
+        somebody_unseen_absent_for_a_frame unseen_people_in_other_frames parts_all_head
+        semantic_roofs_and_facades_exchanged semantic_doors_and_facades_exchanged
+        semantic_road_and_pavement_exchanged_in_one_image""",
     hazards: """
         hazard_left_out hazard_3_m_off hazard_areas_10_px_off hazards_twice_as_large hazard_of_another_kind
         hazard_begins_later danger_from_the_middle danger_left_out time_in_danger_is_a_minute
@@ -156,10 +167,13 @@ TABLE = {
         vehicle_left_out vehicles_of_one_image_left_out vehicle_count_one_more vehicle_box_2_px_wider
         vehicle_category_exchanged vehicle_track_and_category_exchanged vehicle_tracks_exchanged_in_one_image
         vehicle_mask_moved vehicle_box_3d_1_m_off vehicle_boxes_3d_turned_by_90_degrees vehicle_boxes_3d_twice_as_high
-        vehicle_in_motion vehicle_place_jumps vehicle_visibility_is_a_half vehicle_amodal_box_is_5_px_off""",
+        vehicle_in_motion vehicle_place_jumps vehicle_visibility_is_a_half vehicle_amodal_box_is_5_px_off
+        semantic_road_and_pavement_exchanged semantic_grass_and_road_exchanged""",
 }
 #: Damages that need a dataset with cars, or one in which a disaster has begun.
 OF_VEHICLES = {name.replace("_", " ") for name in TABLE[vehicles].split()}
+#: Of what is said twice of a whole run.
+OF_RUNS = {name.replace("_", " ") for name in TABLE[runs].split()}
 OF_HAZARDS = {name.replace("_", " ") for name in TABLE[hazards].split()}
 KINDS = {name.replace("_", " "): getattr(module, name) for module, names in TABLE.items() for name in names.split()}
 

@@ -2,6 +2,7 @@
 import numpy
 
 from .dataset import damage
+from .runs import GRASS, PAVEMENT, ROAD, exchange_classes
 from .rasters import mask_of, segmentation_of
 from .shapes import shifted
 
@@ -130,3 +131,13 @@ def vehicle_visibility_is_a_half(d):
 def vehicle_amodal_box_is_5_px_off(d):
     largest(d)["bbox_amodal"][0] -= 5
     d.save_coco()
+
+
+@damage
+def semantic_road_and_pavement_exchanged(d):
+    exchange_classes(d, d.images, ROAD, PAVEMENT)
+
+
+@damage
+def semantic_grass_and_road_exchanged(d):
+    exchange_classes(d, d.images, GRASS, ROAD)

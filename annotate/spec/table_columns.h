@@ -1,0 +1,30 @@
+// First lines of a dataset's tables, for those who write and those who check them.
+#pragma once
+
+#include <string_view>
+
+namespace throng::annotate {
+
+/// actions/RUN.csv
+inline constexpr std::string_view kActionColumns = "track_id,action,other,from_s,to_s";
+
+/// counts/RUN.csv
+inline constexpr std::string_view kCountColumns =
+    "frame,time_s,kind,id,inside,inflow,outflow,entered,left";
+
+/// exits/RUN.csv
+inline constexpr std::string_view kExitColumns =
+    "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,"
+    "flow,since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
+    "queue_length,predicted_wait,pressure,state_offline";
+
+/// sensors/RUN/DRONE.csv: the truth, then what the sensors read.
+inline constexpr std::string_view kSensorColumns =
+    "time_s,true_x_m,true_y_m,true_z_m,true_vx_mps,true_vy_mps,true_vz_mps,true_qw,true_qx,"
+    "true_qy,true_qz,true_wx_rad_s,true_wy_rad_s,true_wz_rad_s,true_fx_mps2,true_fy_mps2,"
+    "true_fz_mps2,air_vx_mps,air_vy_mps,air_vz_mps,energy_j,gyro_x_rad_s,gyro_y_rad_s,"
+    "gyro_z_rad_s,accelerometer_x_mps2,accelerometer_y_mps2,accelerometer_z_mps2,"
+    "magnetometer_x_ut,magnetometer_y_ut,magnetometer_z_ut,pressure_pa,height_m,gps_time_s,"
+    "gps_x_m,gps_y_m,gps_z_m,gps_vx_mps,gps_vy_mps,gps_vz_mps";
+
+}  // namespace throng::annotate

@@ -1,0 +1,277 @@
+"""Damages to what is said twice of a whole run: tables, events, trajectories of people whom no camera sees, names in the COCO
+file's head, and classes of still surfaces."""
+import io
+import json
+
+import numpy
+
+from .dataset import damage
+
+
+def sensor_table(d):
+    name = f"sensors/{d.runs[0]}/{d.cameras[0]}.csv"
+    return name, *d.table(name)
+
+
+@damage
+def sensor_columns_renamed(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, [f"column_{i}" for i in range(len(head))], rows)
+
+
+@damage
+def one_sensor_column_renamed(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, [column.replace("gps_x_m", "gps_east_m") for column in head], rows)
+
+
+@damage
+def sensor_names_exchanged(d):
+    name, head, rows = sensor_table(d)
+    head[1], head[2] = head[2], head[1]
+    d.save_table(name, head, rows)
+
+
+@damage
+def sensor_rows_left_out(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, head, rows[:500] + rows[520:])
+
+
+@damage
+def one_sensor_row_left_out(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, head, rows[:700] + rows[701:])
+
+
+@damage
+def sensor_rows_from_the_middle_on(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, head, rows[300:])
+
+
+@damage
+def sensor_rows_end_early(d):
+    name, head, rows = sensor_table(d)
+    d.save_table(name, head, rows[:-70])
+
+
+@damage
+def exit_columns_renamed(d):
+    name = f"exits/{d.runs[0]}.csv"
+    head, rows = d.table(name)
+    d.save_table(name, [column.replace("voronoi_density", "density_of_voronoi") for column in head], rows)
+
+
+def change_head(d, change):
+    """Changes the first category of the COCO file, which is people's."""
+    name = "annotations/instances.json"
+    lines = d.path(name).read_text().split("\n")
+    at = next(i for i, line in enumerate(lines) if line.startswith('"categories":'))
+    categories = json.loads(lines[at].removeprefix('"categories":').rstrip(","))
+    change(categories)
+    lines[at] = '"categories":' + json.dumps(categories, separators=(",", ":")) + ","
+    d.write(name, "\n".join(lines))
+
+
+@damage
+def keypoint_names_reversed(d):
+    change_head(d, lambda categories: categories[0]["keypoints"].reverse())
+
+
+@damage
+def skeleton_from_zero(d):
+    change_head(
+        d, lambda categories: categories[0].update(skeleton=[[a - 1, b - 1] for a, b in categories[0]["skeleton"]])
+    )
+
+
+@damage
+def skeleton_without_a_limb(d):
+    change_head(d, lambda categories: categories[0]["skeleton"].pop())
+
+
+@damage
+def joint_names_exchanged(d):
+    def change(categories):
+        joints = categories[0]["joints"]
+        joints[17], joints[18] = joints[18], joints[17]
+
+    change_head(d, change)
+
+
+@damage
+def bone_name_left_out(d):
+    change_head(d, lambda categories: categories[0]["bones"].pop())
+
+
+@damage
+def category_left_out(d):
+    change_head(d, lambda categories: categories.pop())
+
+
+def change_events(d, change):
+    name = f"events/{d.runs[0]}.jsonl"
+    events = [json.loads(line) for line in d.path(name).read_text().splitlines()]
+    changed = change(events)
+    assert changed != events, "nothing changed"
+    d.write(name, "".join(json.dumps(event) + "\n" for event in changed))
+
+
+def without(kind, count=None):
+    def change(events):
+        chosen = [event for event in events if event["type"] == kind][:count]
+        assert chosen, f"no {kind}"
+        return [event for event in events if event not in chosen]
+
+    return change
+
+
+@damage
+def notices_left_out(d):
+    change_events(d, without("notices"))
+
+
+@damage
+def one_notice_left_out(d):
+    change_events(d, without("notices", 1))
+
+
+@damage
+def escapes_left_out(d):
+    change_events(d, without("escapes"))
+
+
+@damage
+def events_left_out(d):
+    change_events(d, lambda events: [])
+
+
+@damage
+def notices_half_a_second_early(d):
+    def change(events):
+        return [{**e, "time_s": round(e["time_s"] - 0.5, 6)} if e["type"] == "notices" else e for e in events]
+
+    change_events(d, change)
+
+
+@damage
+def escapes_called_notices(d):
+    change_events(d, lambda events: [{**e, "type": "notices"} if e["type"] == "escapes" else e for e in events])
+
+
+@damage
+def notices_of_others(d):
+    def change(events):
+        tracks = [e["track_id"] for e in events if e["type"] == "notices"]
+        moved = iter(tracks[1:] + tracks[:1])
+        return [{**e, "track_id": next(moved)} if e["type"] == "notices" else e for e in events]
+
+    change_events(d, change)
+
+
+@damage
+def somebody_departs_twice(d):
+    def change(events):
+        gone = {"time_s": 1.0, "type": "departs", "track_id": events[0]["track_id"]}
+        return [gone, gone, *events]
+
+    change_events(d, change)
+
+
+@damage
+def event_of_unknown_type(d):
+    change_events(d, lambda events: [{**events[0], "type": "sneezes"}, *events[1:]])
+
+
+def change_unseen(d, change):
+    """Changes trajectories of people whom no image of the run shows."""
+    run = d.runs[0]
+    tracks = json.loads(d.path(f"trajectories/{run}.json").read_text())["track_ids"]
+    images = {image["id"] for image in d.images if image["run"] == run}
+    seen = {a["track_id"] for a in d.coco["annotations"] if a["image_id"] in images}
+    unseen = [i for i, track in enumerate(tracks) if track not in seen]
+    name = f"trajectories/{run}.npy"
+    values = numpy.load(d.path(name))
+    unseen = [i for i in unseen if numpy.isfinite(values[:, i]).all()]
+    assert len(unseen) >= 2, "everybody is seen"
+    changed = values.copy()
+    change(changed, unseen)
+    buffer = io.BytesIO()
+    numpy.save(buffer, changed)
+    d.write(name, buffer.getvalue())
+
+
+@damage
+def unseen_people_2_m_off(d):
+    def change(values, unseen):
+        values[:, unseen, 0] += 2
+
+    change_unseen(d, change)
+
+
+@damage
+def unseen_people_mirrored(d):
+    def change(values, unseen):
+        values[:, unseen, 1] *= -1
+
+    change_unseen(d, change)
+
+
+@damage
+def somebody_unseen_left_out(d):
+    def change(values, unseen):
+        values[:, unseen[0]] = numpy.nan
+
+    change_unseen(d, change)
+
+
+@damage
+def somebody_unseen_absent_for_a_frame(d):
+    def change(values, unseen):
+        values[1, unseen[0]] = numpy.nan
+
+    change_unseen(d, change)
+
+
+@damage
+def unseen_people_in_other_frames(d):
+    def change(values, unseen):
+        values[:, unseen] = values[::-1, unseen]
+
+    change_unseen(d, change)
+
+
+@damage
+def parts_all_head(d):
+    for image in d.images:
+        d.change_raster("parts", image, lambda parts: numpy.where(parts > 0, 1, 0).astype(parts.dtype))
+
+
+def exchange_classes(d, images, a, b):
+    changed = 0
+    for image in images:
+        name, classes = d.raster("semantic", image)
+        if not ((classes == a).any() or (classes == b).any()):
+            continue
+        d.change_raster("semantic", image, lambda v: numpy.where(v == a, b, numpy.where(v == b, a, v)).astype(v.dtype))
+        changed += 1
+    assert changed, "neither class shows"
+
+
+ROOF, BUILDING, DOOR, PAVEMENT, ROAD, GRASS = 7, 2, 8, 11, 12, 13
+
+
+@damage
+def semantic_roofs_and_facades_exchanged(d):
+    exchange_classes(d, d.images, ROOF, BUILDING)
+
+
+@damage
+def semantic_doors_and_facades_exchanged(d):
+    exchange_classes(d, d.images, DOOR, BUILDING)
+
+
+@damage
+def semantic_road_and_pavement_exchanged_in_one_image(d):
+    exchange_classes(d, [d.image()], ROAD, PAVEMENT)
