@@ -23,7 +23,7 @@ using nlohmann::json;
 namespace {
 
 /// Times are written to a microsecond, steps are a twentieth of a second and longer.
-constexpr double kSlackS = 1e-3;
+constexpr double kEventSlackS = 1e-3;
 
 struct EventType {
   std::string_view name;
@@ -90,8 +90,9 @@ Times times_of(const std::vector<RunEvent>& events, std::string_view type) {
 bool has_at(const Times& times, std::int64_t track, double time_s) {
   const auto found = times.find(track);
   return found != times.end() &&
-         std::any_of(found->second.begin(), found->second.end(),
-                     [&](const auto& event) { return std::abs(event.first - time_s) <= kSlackS; });
+         std::any_of(found->second.begin(), found->second.end(), [&](const auto& event) {
+           return std::abs(event.first - time_s) <= kEventSlackS;
+         });
 }
 
 /// A column of by_person as times by track; what is null is left out.
@@ -115,7 +116,7 @@ void check_notices(const std::vector<RunEvent>& events, const json& people,
   for (const auto& [track, times] : notices) {
     const auto known = noticed.find(track);
     if (times.size() == 1 && known != noticed.end() &&
-        std::abs(known->second - times.front().first) <= kSlackS) {
+        std::abs(known->second - times.front().first) <= kEventSlackS) {
       continue;
     }
     report(times.front().second,
@@ -142,12 +143,12 @@ void check_escapes(const std::vector<RunEvent>& events, const json& people,
     const auto own = escapes.find(track);
     const auto arrival = arrived.find(track);
     return own != escapes.end() && arrival != arrived.end() &&
-           own->second.front().first <= arrival->second + kSlackS;
+           own->second.front().first <= arrival->second + kEventSlackS;
   };
   for (const auto& [track, times] : escapes) {
     const auto known = escaped.find(track);
     const bool is_there =
-        known != escaped.end() && std::abs(known->second - times.front().first) <= kSlackS;
+        known != escaped.end() && std::abs(known->second - times.front().first) <= kEventSlackS;
     if (is_there || was_outside(track) || !arrived.contains(track)) continue;
     report(times.front().second,
            known == escaped.end()
@@ -223,9 +224,10 @@ void check_drones(const std::vector<RunEvent>& events, const json& drones,
     for (const char* key : {"landed_s", "battery_flat_s", "falling_s"}) {
       const json found = counts.times[key];
       const json expected = figures.value(key, json());
-      const bool is_same = found.is_number() && expected.is_number()
-                               ? std::abs(found.get<double>() - expected.get<double>()) <= kSlackS
-                               : found.is_number() == expected.is_number();
+      const bool is_same =
+          found.is_number() && expected.is_number()
+              ? std::abs(found.get<double>() - expected.get<double>()) <= kEventSlackS
+              : found.is_number() == expected.is_number();
       if (!is_same) fault(key, found, expected);
     }
     const json collisions = counts.collisions;
@@ -332,7 +334,7 @@ void check_events_against_trajectories(const std::vector<RunEvent>& events,
       bool is_expected = was_present;
       std::size_t last = own.empty() ? kNoEvent : own.front().second;
       for (const auto& [time_s, event] : own) {
-        if (time_s > trajectories.times_s[frame] + kSlackS / 10) break;
+        if (time_s > trajectories.times_s[frame] + kEventSlackS / 10) break;
         is_expected = events[event].type == "arrives";
         last = event;
       }
