@@ -66,6 +66,19 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
   return normal;
 }
 
+/// Whether normals along both axes of a patch are those of its middle: between the steps of stands
+/// and the leaves of trees, depth has another slope than any of them.
+bool is_one_face(const Pixels& pixels, int x, int y, int reach) {
+  constexpr double kAlike = 0.95;
+  const Eigen::Vector3d middle = normal_at(pixels, pixels.at(x, y)).normalized();
+  for (int off = -reach; off <= reach; ++off) {
+    for (const std::size_t pixel : {pixels.at(x + off, y), pixels.at(x, y + off)}) {
+      if (normal_at(pixels, pixel).normalized().dot(middle) < kAlike) return false;
+    }
+  }
+  return true;
+}
+
 struct NormalTally {
   std::size_t looked_at = 0;
   std::size_t away = 0;    ///< from the camera
@@ -100,7 +113,7 @@ std::map<Kind, NormalTally> tally_normals(const Shot& shot) {
       if (written[0] == 128 && written[1] == 128 && written[2] == 255) ++tally.flat;
       const int reach = *kind == Kind::person ? 2 : 4;
       const auto by_depth = normal_by_depth(shot, x, y, reach);
-      if (by_depth) {
+      if (by_depth && (*kind != Kind::prop || is_one_face(pixels, x, y, reach))) {
         tally.angles_rad.push_back(
             std::acos(std::clamp(by_depth->dot(normal.normalized()), -1.0, 1.0)));
       }
@@ -130,10 +143,11 @@ void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& fi
                  fmt::format("normals of {} of {} pixels of people are those of flat ground",
                              tally.flat, tally.looked_at));
   }
-  if (tally.angles_rad.empty()) return;
+  constexpr std::size_t kMinCount = 40;  // fewer may be of one body
+  if (tally.angles_rad.size() < kMinCount) return;
   const double angle_rad = median(tally.angles_rad);
-  // People are round, and props have many small faces: the leaves of trees face anywhere.
-  const double max_rad = kind == Kind::prop ? 1.1 : kind == Kind::person ? 0.6 : 0.09;
+  // People are round, and props have small faces.
+  const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
   if (angle_rad > max_rad + median_error(tally.angles_rad)) {
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
