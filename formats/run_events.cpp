@@ -123,11 +123,13 @@ void check_notices(const std::vector<RunEvent>& events, const json& people,
            known == noticed.end()
                ? fmt::format("track {} notices, but noticed_s of metrics is null", track)
                : fmt::format("track {} notices, by metrics at {} s", track, known->second));
+    return;  // the rest is often the same
   }
   for (const auto& [track, time_s] : noticed) {
     if (notices.contains(track)) continue;
     report(kNoEvent,
            fmt::format("no notice of track {}, who noticed at {} s by metrics", track, time_s));
+    return;
   }
 }
 
@@ -154,6 +156,7 @@ void check_escapes(const std::vector<RunEvent>& events, const json& people,
            known == escaped.end()
                ? fmt::format("track {} escapes, but escaped_s of metrics is null", track)
                : fmt::format("track {} escapes, by metrics at {} s", track, known->second));
+    return;
   }
   for (const auto& [track, time_s] : escaped) {
     if (has_at(escapes, track, time_s) || has_at(departures, track, time_s) || was_outside(track)) {
@@ -161,6 +164,7 @@ void check_escapes(const std::vector<RunEvent>& events, const json& people,
     }
     report(kNoEvent,
            fmt::format("no escape of track {}, who escaped at {} s by metrics", track, time_s));
+    return;
   }
 }
 

@@ -35,6 +35,10 @@ struct Shot {
   Eigen::Vector3d point_at(int x, int y, double depth_m) const;
 };
 
+/// How far apart two points are in the next image, at most, that are at one depth in neighboring
+/// pixels of this one; at least 1.
+double pixels_per_pixel(const Shot& from, const Shot& to, int x, int y, double depth_m);
+
 /// Whether a pixel shows something that never moves: the ground, a building or a prop.
 inline bool is_still(std::uint32_t id) {
   return (id >= kFirstBuilding && id < kFirstDrone) || id == kGround;

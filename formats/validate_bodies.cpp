@@ -194,6 +194,17 @@ Eigen::Vector3d Shot::point_at(int x, int y, double depth_m) const {
   return camera.pose.R.transpose() * (point - camera.pose.t);
 }
 
+double pixels_per_pixel(const Shot& from, const Shot& to, int x, int y, double depth_m) {
+  const auto here = to.camera.project(from.point_at(x, y, depth_m));
+  double apart_px = 1;
+  for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)}) {
+    if (!from.pixels.holds(x + dx, y + dy)) continue;
+    const auto there = to.camera.project(from.point_at(x + dx, y + dy, depth_m));
+    if (there.visible) apart_px = std::max(apart_px, (there.pixel - here.pixel).norm());
+  }
+  return apart_px;
+}
+
 void check_whole_bodies(const Shot& shot, Findings& findings) {
   for (const Person& person : shot.image.people) {
     check_whole_mask_place(shot, person, findings);

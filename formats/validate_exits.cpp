@@ -321,7 +321,7 @@ void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
       as_wanted += used[i] == wanted->second ? 1 : 0;
     }
     constexpr double kMaxOthers = 0.6;  // plans change
-    if (!is_above_share(left - as_wanted, left, kMaxOthers)) continue;
+    if (!is_above_share(left - as_wanted, left, kMaxOthers, 1)) continue;
     findings.add(
         "exits", kCocoFile, name,
         fmt::format("{} of {} people go out by the exit that their records say", as_wanted, left));

@@ -196,7 +196,7 @@ class FieldFile {
       const double found = field_.density(i);
       // The share that falls on buildings is elsewhere.
       if (found > 0) missing += std::max(0.0, share.density[i] - found);
-      if (found <= 0 || found > 1.02 * share.density[i] || share.density[i] < 0.02) continue;
+      if (found <= 0 || found > 1.05 * share.density[i] || share.density[i] < 0.02) continue;
       const Vector2d mean = share.momentum[i] / share.density[i];
       ++explained;
       dot += mean.dot(field_.velocity(i));
@@ -217,12 +217,12 @@ class FieldFile {
                       expected, missing, on_nothing));
       return;
     }
-    constexpr std::size_t kMinCount = 300;  // that of three people
+    constexpr std::size_t kMinCount = 120;  // that of a person and more
     if (explained < kMinCount) return;
     const double mean_off = off / static_cast<double>(explained);
     const double mean_speed = std::sqrt(squares / static_cast<double>(explained));
     if (mean_off > 0.05 + 0.12 * mean_speed ||
-        (mean_speed > 0.3 && std::abs(dot / squares - 1) > 0.06)) {
+        (mean_speed > 0.3 && std::abs(dot / squares - 1) > 0.1)) {
       fault(
           fmt::format("velocities are {:.2f} m/s off those of the people there, {:.3f} times as "
                       "large ({} cells)",

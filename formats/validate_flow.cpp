@@ -68,7 +68,8 @@ void look_at_still(const FlowPlane& plane, const Shot& before, const Shot& after
     return;
   }
   // A lens is looked up at the nearest pixel of a pinhole image.
-  const double slack_px = (before.is_plain ? 0.1 : 1.2) + (beside.pixel - seen.pixel).norm();
+  const double slack_px = (before.is_plain ? 0.1 : 1.2 * pixels_per_pixel(before, after, x, y, z)) +
+                          (beside.pixel - seen.pixel).norm();
   if ((*flow - expected).norm() <= slack_px + 0.01 * expected.norm()) return;
   if (tally.wrong++ == 0) {
     tally.found = *flow;

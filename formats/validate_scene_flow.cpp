@@ -79,7 +79,10 @@ std::optional<bool> leads_like_flow(const Shot& before, const Shot& after, int x
   const auto beside =
       after.camera.project(before.point_at(x, y, pixels.depth_m(pixel) + 0.01) + motion);
   if (!seen.visible || !beside.visible || !(seen.depth_m > 0.5)) return {};
-  const double slack_px = (before.is_plain ? 0.3 : 1.5) + (beside.pixel - seen.pixel).norm();
+  const double spread =
+      before.is_plain ? 1 : pixels_per_pixel(before, after, x, y, pixels.depth_m(pixel));
+  const double slack_px =
+      (before.is_plain ? 0.3 : 1.5 * spread) + (beside.pixel - seen.pixel).norm();
   return (seen.pixel - Eigen::Vector2d(x, y) - *flow).norm() <= slack_px + 0.01 * flow->norm();
 }
 

@@ -126,7 +126,7 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
 
 /// Whether parts of a body are less than the two pixels wide that places and neighbors are off.
 bool is_small(const Person& person) {
-  constexpr double kMinSizePx = 20;
+  constexpr double kMinSizePx = 12;
   return std::max(person.amodal.width, person.amodal.height) < kMinSizePx;
 }
 
