@@ -141,7 +141,7 @@ class Image(unittest.TestCase):
                 (self.root / "var/lib/dpkg/status.d" / package["name"]).read_text(),
             )
         names = {package["name"] for package in listed}
-        self.assertLess({"libceres3", "libgl1-mesa-dri", "fonts-dejavu-core"}, names)
+        self.assertLess({"libassimp5", "libgl1-mesa-dri", "fonts-dejavu-core"}, names)
         self.assertEqual({name for name in names if re.search(r"qt5|gdal|contrib|-dev$", name)}, set())
 
     def test_the_demo_runs_and_validates(self):
@@ -151,7 +151,7 @@ class Image(unittest.TestCase):
         characters = json.loads((self.data / "out/dataset/dataset.json").read_text())["statistics"][
             "distinct_characters"
         ]
-        self.assertGreater(characters, 80)
+        self.assertGreater(characters, 60)
 
     def test_a_job_on_mounted_files_with_any_user(self):
         job = {"scenario": "bridge/everyday", "capture": {"to_s": 1}, "quality": "draft"}
@@ -161,8 +161,8 @@ class Image(unittest.TestCase):
         self.assertEqual(owners, {23456})
 
     def test_a_study_a_plan_and_a_calibration(self):
-        study = {"cases": [{"scenario": "city_square/emergency", "duration_s": 30, "agents": 40}],
-                 "policies": [{"id": "none"}], "runs": 2}  # fmt: skip
+        case = {"id": "square", "scenario": "city_square/emergency", "duration_s": 30}
+        study = {"cases": [case], "policies": [{"id": "none"}], "runs": 2}
         (self.data / "a.study.json").write_text(json.dumps(study))
         self.run_in_it("throng", "study", "a.study.json", "-o", "study")
         self.run_in_it("throng", "scenario", "plan", "city_square/emergency", "-o", "plan.svg")
