@@ -34,6 +34,9 @@ class ExitsCheck : public GroundTruthCheck {
     std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
     std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
     std::map<std::int64_t, std::string> wanted;  ///< the last exit in records, by track
+    /// Exits in the records of a frame by track, "" without one.
+    std::map<std::int64_t, std::map<std::int64_t, std::string>> headed;
+    std::string scenario;
   };
   /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
   /// 0.01 px, which is meters on ground far away.
@@ -55,6 +58,8 @@ class ExitsCheck : public GroundTruthCheck {
   static std::string shape_fault(const std::string& id, const Place& place);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);
+  void count_everybody(const DatasetInfo& info, const std::string& name, const Run& run,
+                       Findings& findings) const;
   void count_people(const std::string& file, const Image& image, Run& run,
                     Findings& findings) const;
 

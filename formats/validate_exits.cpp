@@ -14,6 +14,7 @@
 #include "base/json_text.h"
 #include "formats/image_camera.h"
 #include "formats/run_checks.h"
+#include "formats/run_trajectories.h"
 #include "formats/shares.h"
 #include "geometry/polygon.h"
 
@@ -249,8 +250,10 @@ std::string ExitsCheck::shape_fault(const std::string& id, const Place& place) {
 void ExitsCheck::count_people(const std::string& file, const Image& image, Run& run,
                               Findings& findings) const {
   std::set<std::int64_t>& counted = run.counted[image.frame];
+  run.scenario = image.scenario();
   for (const Person& person : image.people) {
     const auto exit = person.record.find("exit");
+    run.headed[image.frame][person.track_id] = person.record.value("exit", "");
     if (exit == person.record.end()) continue;
     const std::string id = *exit;
     if (!run.exits.contains(id)) {
@@ -283,6 +286,40 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
   }
 }
 
+/// As many people as the table has in a zone may be there: those who head for the exit by their
+/// records, and those whom no image shows.
+void ExitsCheck::count_everybody(const DatasetInfo& info, const std::string& name, const Run& run,
+                                 Findings& findings) const {
+  const RunTrajectories recorded = read_run_trajectories(info.root, name);
+  for (const auto& [id, series] : run.exits) {
+    const auto place = places_.find({run.scenario, id});
+    if (place == places_.end() || place->second.zone.corners.size() < 3) continue;
+    // The table is of the last crowd step before the frame, half a second at most.
+    const double margin_m = 1.5 + place->second.zone.rounding_m;
+    for (const auto& [frame, row] : series) {
+      const auto number = static_cast<std::size_t>(frame);
+      const auto headed = run.headed.find(frame);
+      int may_be = 0;
+      for (std::size_t i = 0; number < recorded.times_s.size() && i < recorded.tracks.size(); ++i) {
+        if (!recorded.present(number, i) ||
+            geometry::signed_distance_to(place->second.zone.corners, recorded.place(number, i)) >
+                margin_m) {
+          continue;
+        }
+        const auto* records = headed == run.headed.end() ? nullptr : &headed->second;
+        const bool is_seen = records != nullptr && records->contains(recorded.tracks[i]);
+        may_be += !is_seen || records->at(recorded.tracks[i]) == id ? 1 : 0;
+      }
+      if (row["in_zone"] <= may_be) continue;
+      findings.add("exits", file_of(annotate::GroundTruth::exits, name),
+                   fmt::format("line {}", row.line),
+                   fmt::format("{}: in_zone {}, but {} people are there who may head for it", id,
+                               row["in_zone"], may_be));
+      break;
+    }
+  }
+}
+
 void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
   const std::string file = file_of(annotate::GroundTruth::exits, image.run);
   Run& run = read(info, image.run, findings);
@@ -301,6 +338,13 @@ void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& find
 
 void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const auto& [name, run] : runs_) {
+    if (info.has(annotate::GroundTruth::trajectories)) {
+      try {
+        count_everybody(info, name, run, findings);
+      } catch (const std::exception& error) {
+        findings.add("exits", file_of(annotate::GroundTruth::trajectories, name), "", error.what());
+      }
+    }
     const std::filesystem::path file = info.root / "metrics" / (name + ".json");
     if (run.wanted.empty() || !std::filesystem::is_regular_file(file)) continue;
     const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
