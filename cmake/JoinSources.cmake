@@ -3,16 +3,17 @@
 # checkout only; here they are named relative to the source folder. Files with SKIP_UNITY_BUILD_INCLUSION or options of
 # their own stay apart.
 option(THRONG_JOIN_SOURCES "Compile several files of a target as one" OFF)
-set(THRONG_JOINED_SOURCES 16 CACHE STRING "How many files of a target are compiled as one at most")
+set(THRONG_JOINED_SOURCES 16 CACHE STRING "How many files of a module are compiled as one at most")
 
-# throng_join_sources(TARGET): at the end of this folder's CMakeLists.txt, when the files' properties are known.
-function(throng_join_sources target)
+# throng_join_sources(TARGET MAX): at the end of this folder's CMakeLists.txt, when the files' properties are known; at most MAX
+# files as one.
+function(throng_join_sources target max_files)
   if(THRONG_JOIN_SOURCES)
-    cmake_language(EVAL CODE "cmake_language(DEFER CALL throng_join_sources_now [[${target}]])")
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL throng_join_sources_now [[${target}]] ${max_files})")
   endif()
 endfunction()
 
-function(throng_join_sources_now target)
+function(throng_join_sources_now target max_files)
   get_target_property(sources ${target} SOURCES)
   set(kept "")
   set(joined "")
@@ -31,7 +32,7 @@ function(throng_join_sources_now target)
   if(count LESS 2)
     return()
   endif()
-  math(EXPR units "(${count} + ${THRONG_JOINED_SOURCES} - 1) / ${THRONG_JOINED_SOURCES}")
+  math(EXPR units "(${count} + ${max_files} - 1) / ${max_files}")
   math(EXPR size "(${count} + ${units} - 1) / ${units}")
   math(EXPR last "${units} - 1")
   foreach(unit RANGE 0 ${last})

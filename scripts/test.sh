@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test. Every step runs, whatever failed before; a table
 # at the end names each step with its times, each failed test and the slowest ones.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz image (default: all of these), long, soak, includes
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), image, long, soak, includes
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$root"
 steps=("$@")
-[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz image)
+[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz)
 for step in "${steps[@]}"; do
   case "$step" in
     format | release | tidy | asan | tsan | fuzz | image | long | soak | includes) ;;

@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr jobs::Task kReport{jobs::Task::Kind::report};
+constexpr jobs::Task kReportTask{jobs::Task::Kind::report};
 
-fs::path report_file(const fs::path& job) { return jobs::JobFolder(job).output_of(kReport); }
+fs::path report_file(const fs::path& job) { return jobs::JobFolder(job).output_of(kReportTask); }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void ReportMaker::work(const std::stop_token& stop) {
 
 std::string ReportMaker::failure_of(const Order& order, const std::stop_token& stop) const {
   try {
-    const std::array tasks = {kReport};
+    const std::array tasks = {kReportTask};
     const jobs::TaskResult result =
         executor_.run(jobs::JobFolder(order.job), tasks, {}, stop, order.share).at(0);
     if (result.outcome == jobs::Outcome::succeeded) return "";

@@ -20,7 +20,7 @@ constexpr double kPeopleMib = 256;  // of the character library
 constexpr double kImageBytes = 42;
 constexpr double kSampleBytes = 28;  // each further sample of color
 constexpr double kTruthBytes = 48;   // ground truth per pixel
-constexpr double kPixelsPerMegapixel = 1e6;
+constexpr double kMegapixel = 1e6;
 
 bool has_pixel_truth(const OutputSpec& outputs) {
   return std::any_of(outputs.annotations.begin(), outputs.annotations.end(), [](const auto& name) {
@@ -31,7 +31,7 @@ bool has_pixel_truth(const OutputSpec& outputs) {
 
 /// Pixels of the flat image from which a lens that distorts takes its own, about; else the image's.
 double rendered_megapixels(const camera::CameraSpec& camera) {
-  const double image = static_cast<double>(camera.width) * camera.height / kPixelsPerMegapixel;
+  const double image = static_cast<double>(camera.width) * camera.height / kMegapixel;
   const std::optional<camera::Intrinsics> lens = camera.intrinsics();
   if (!lens || !lens->distortion) return image;
   constexpr int kSteps = 32;
@@ -46,7 +46,7 @@ double rendered_megapixels(const camera::CameraSpec& camera) {
   if (field.isEmpty()) return image;
   const Eigen::Vector2d size =
       field.sizes().cwiseProduct(Eigen::Vector2d(lens->fx_px, lens->fy_px));
-  return std::max(image, size.prod() / kPixelsPerMegapixel);
+  return std::max(image, size.prod() / kMegapixel);
 }
 
 double render_mib(const JobSpec& job, std::uint64_t run_seed) {
@@ -55,7 +55,7 @@ double render_mib(const JobSpec& job, std::uint64_t run_seed) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const auto camera = camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i));
     megapixels = std::max(megapixels, rendered_megapixels(camera));
-    kept += static_cast<double>(camera.width) * camera.height / kPixelsPerMegapixel;
+    kept += static_cast<double>(camera.width) * camera.height / kMegapixel;
   }
   const int side = render::settings_of(job.quality).supersampling;
   const double bytes = kImageBytes + (side * side - 1) * kSampleBytes +
@@ -98,7 +98,7 @@ std::int64_t calibration_memory_mib(std::int64_t max_image_pixels) {
   constexpr double kBaseMib = 192;
   constexpr double kBytesPerPixel = 8;
   return static_cast<std::int64_t>(kBaseMib + static_cast<double>(max_image_pixels) *
-                                                  kBytesPerPixel / kPixelsPerMegapixel);
+                                                  kBytesPerPixel / kMegapixel);
 }
 
 }  // namespace throng::jobs

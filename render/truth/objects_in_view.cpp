@@ -24,9 +24,9 @@ constexpr float kUnknownFlow = std::numeric_limits<float>::quiet_NaN();
 using Corners = std::array<Vector2d, 3>;
 
 /// Splits triangles until their edges are straight in the image and in front of the camera.
-class Projector {
+class PropProjector {
  public:
-  explicit Projector(const camera::Camera& camera)
+  explicit PropProjector(const camera::Camera& camera)
       : camera_(&camera),
         is_straight_(!camera.intrinsics.distortion),
         around_(Vector2d(-camera.intrinsics.width, -camera.intrinsics.height),
@@ -102,8 +102,8 @@ class Projector {
   Eigen::AlignedBox2d box_;
 };
 
-Projector projected(const PropMesh& mesh, const camera::Camera& camera) {
-  Projector projector(camera);
+PropProjector projected(const PropMesh& mesh, const camera::Camera& camera) {
+  PropProjector projector(camera);
   const auto at = [&](std::size_t index) -> Vector3d {
     return Eigen::Map<const Eigen::Vector3f>(mesh.vertices[index].position.data()).cast<double>();
   };
@@ -138,7 +138,7 @@ void fill(const Corners& corners, PixelMask& mask) {
 }
 
 /// Pixels covered by an object in these rows and, at the image's borders, beyond them.
-PixelMask covered(const Projector& seen, const Rows& rows, const Frame& frame) {
+PixelMask covered(const PropProjector& seen, const Rows& rows, const Frame& frame) {
   const int width = frame.width();
   const int height = frame.camera.intrinsics.height;
   const Eigen::AlignedBox2i domain(
@@ -212,7 +212,7 @@ void set_box(const PropMesh& mesh, ObjectInView& object) {
 bool measure_object(const PropMesh& mesh, const Rows& rows, const Frame& frame,
                     ObjectInView& object) {
   const Eigen::AlignedBox2d image(Vector2d(0, rows.first), Vector2d(frame.width(), rows.end));
-  const Projector seen = projected(mesh, frame.camera);
+  const PropProjector seen = projected(mesh, frame.camera);
   if (seen.box().isEmpty() || !seen.box().intersects(image)) return false;
   PixelMask mask = covered(seen, rows, frame);
   add_shown(frame, object.id, rows, mask);
