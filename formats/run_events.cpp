@@ -307,9 +307,10 @@ void check_events_against_figures(const std::vector<RunEvent>& events, const jso
   }
   if (const json falls = figures.value("falls", json()); falls.is_object()) {
     for (const auto& [key, cause] : {std::pair("struck", "drone"), std::pair("crushed", "crowd")}) {
-      const auto found = std::count_if(events.begin(), events.end(), [&](const RunEvent& event) {
-        return event.type == "falls" && event.record.value("cause", "") == cause;
-      });
+      const auto found = std::count_if(
+          events.begin(), events.end(), [&, wanted = std::string(cause)](const RunEvent& event) {
+            return event.type == "falls" && event.record.value("cause", "") == wanted;
+          });
       if (falls.value(key, found) == found) continue;
       report(kNoEvent, fmt::format("{} falls by a {}, but falls.{} of metrics is {}", found, cause,
                                    key, falls.value(key, found)));
