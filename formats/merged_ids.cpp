@@ -204,6 +204,7 @@ std::optional<std::string> with_shifted_tracks(const fs::path& file, const std::
 void join_coco_files(const std::vector<CocoPart>& parts, const std::string& description,
                      const fs::path& output) {
   std::vector<Lines> lines;
+  lines.reserve(parts.size());
   for (const CocoPart& part : parts) lines.emplace_back(part.file);
   StagedFile joined(output);
   std::string header;

@@ -141,6 +141,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   }
   checked.people = std::llround(people_of_runs / job.runs);
   std::vector<ExpectedRun> of_runs;
+  of_runs.reserve(shares.size());
   for (const std::size_t share : shares) of_runs.push_back(of_shares[share]);
   checked.cost = estimate_cost(job, of_runs);
   for (Problem& warning : checked.warnings) warning.source = source;
