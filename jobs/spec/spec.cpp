@@ -39,13 +39,6 @@ void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
 }
 
 // A drone begins at its start or where it aims at somebody.
-void check_ages(const skinning::Styling& styling, std::vector<Problem>& problems) {
-  if (styling.youngest_years <= styling.oldest_years) return;
-  problems.push_back(
-      {"", "/appearance/oldest_years", fmt::format("{}", styling.oldest_years),
-       fmt::format("an age of at least youngest_years, {}", styling.youngest_years)});
-}
-
 void check_starts(const JobSpec& job, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     if (!job.drones[i].mission.start) continue;
@@ -99,7 +92,6 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   const std::size_t before = problems.size();
   JobSpec job = job_from_json(std::move(value), source, problems);
   check_times(job.capture, problems);
-  check_ages(job.styling, problems);
   check_starts(job, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {
     if (problems[i].source.empty()) problems[i].source = source;
