@@ -146,7 +146,9 @@ TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
       errors_of({{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});
   EXPECT_EQ(errors[0]["source"], "behavior.xml");
   EXPECT_THAT(errors[0]["pointer"].get<std::string>(), HasSubstr("line 3"));
-  errors = errors_of({{"yard.json", R"({"name": 3})"}});
+  testing::Yard unnamed;
+  unnamed.scenario["name"] = 3;
+  errors = errors_of({{"yard.json", unnamed.scenario.dump()}});
   EXPECT_EQ(errors[0]["source"], "yard.json");
   errors = errors_of({{"a.xml", "", AE_IFLNK, "/etc/passwd"}});
   EXPECT_EQ(errors[0]["source"], "bundle");
