@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/utf8.h"
+#include "base/words.h"
 
 namespace throng {
 
@@ -59,14 +60,6 @@ bool is_escape(std::string_view text) {
     if (!take_one_of(text, "0123456789abcdefABCDEF")) return false;
   }
   return true;
-}
-
-std::string in_small_letters(std::string_view word) {
-  std::string text(word);
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
 }
 
 std::string beginning_of(std::string_view text, std::size_t count = kMaxShownCharacters) {
@@ -287,7 +280,7 @@ class FaultFinder {
 
   /// The word of JSON that is meant, or the form that is expected.
   static std::string meant_by(std::string_view word) {
-    const std::string small = in_small_letters(word);
+    const std::string small = lower_case(word);
     if (small == "true" || small == "false" || small == "null") return small;
     if (small == "none" || small == "nil" || small == "undefined") return "null";
     if (small == "yes" || small == "on") return "true";

@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "base/words.h"
 
 namespace throng {
 
@@ -42,12 +43,6 @@ std::string printable(std::string_view text) {
 [[noreturn]] void refuse(std::string_view entry, std::string found, std::string expected) {
   throw InputError(Problem{kSource, entry.empty() ? "" : fmt::format("\"{}\"", printable(entry)),
                            std::move(found), std::move(expected)});
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
 }
 
 // Names that stand for devices on other systems, with or without a suffix.

@@ -1,4 +1,4 @@
-// Counted nouns.
+// Words of messages: counted nouns, and words of any case.
 #pragma once
 
 #include <fmt/core.h>
@@ -14,6 +14,15 @@ inline std::string counted(std::int64_t count, std::string_view noun,
                            std::string_view plural = {}) {
   if (count == 1) return fmt::format("1 {}", noun);
   return plural.empty() ? fmt::format("{} {}s", count, noun) : fmt::format("{} {}", count, plural);
+}
+
+/// The text with its ASCII letters in lower case.
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
 }
 
 }  // namespace throng

@@ -8,8 +8,6 @@ option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
 option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset asan)" OFF)
 set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
 
-set(THRONG_COLD_OPTIMIZATION "-O2" CACHE STRING "Optimization of modules that do not compute, in a release build")
-
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Paths below the source folder become relative to the build folder: what one checkout compiled holds for all others.

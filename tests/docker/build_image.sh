@@ -3,7 +3,8 @@
 # slim one is. Prints how long it took and what each layer takes. Run as root; the image is localhost/throng-test in STORE.
 # usage: tests/docker/build_image.sh STORE
 set -euo pipefail
-root="$(cd "$(dirname "$0")/../.." && pwd)"
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/../../scripts/lib.sh"
 store="$(mkdir -p "$1" && cd "$1" && pwd)"
 base=docker.io/library/debian:bookworm-slim
 export TMPDIR="$store/tmp" BUILDAH_ISOLATION=chroot STORAGE_DRIVER=overlay
@@ -11,11 +12,9 @@ mkdir -p "$TMPDIR"
 buildah() { command buildah --root "$store/storage" --runroot "$store/run" "$@"; }
 
 make_base() {
-  local system="$store/base" mirror path container
-  mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
-  [ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
+  local system="$store/base" container
   rm -rf "$system"
-  debootstrap --variant=minbase --include=ca-certificates bookworm "$system" "$mirror" >"$store/debootstrap.log"
+  debootstrap --variant=minbase --include=ca-certificates bookworm "$system" "$(debian_mirror)" >"$store/debootstrap.log"
   cat >"$system/etc/dpkg/dpkg.cfg.d/docker" <<'END'
 path-exclude /usr/share/doc/*
 path-include /usr/share/doc/*/copyright
@@ -26,14 +25,7 @@ path-exclude /usr/share/lintian/*
 END
   rm -rf "$system"/usr/share/{man,locale,info,lintian}/* "$system"/var/cache/apt/archives/*.deb "$system"/var/lib/apt/lists/*
   find "$system/usr/share/doc" -type f ! -name copyright -delete
-  # How this machine reaches its registries.
-  rm -f "$system/etc/apt/sources.list"
-  for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* "$HOME/.npmrc" /etc/npmrc /usr/etc/npmrc; do
-    [ -e "$path" ] || continue
-    mkdir -p "$system$(dirname "$path")"
-    cp -L "$path" "$system$path"
-  done
-  cp -L /etc/ssl/certs/ca-certificates.crt "$system/etc/host-certificates.crt"
+  copy_registries "$system"
   container="$(buildah from scratch)"
   buildah add -q "$container" "$system" / >/dev/null
   buildah config --cmd '["bash"]' \
