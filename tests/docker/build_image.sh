@@ -50,4 +50,6 @@ tar -C "$root" --null --files-from="$store/files" --ignore-failed-read -cf - 2>/
 cp "$root/.dockerignore" "$store/context/"
 buildah bud --format docker --network host --pull-never --layers \
   -t localhost/throng-test -f "$store/context/docker/Dockerfile" "$store/context"
+# The layers of this build and of the one before stay; those of older ones would fill the disk.
+buildah images -q --filter dangling=true | tail -n +3 | while read -r old; do buildah rmi "$old" >/dev/null 2>&1 || true; done
 echo "image: $((SECONDS - start)) s"

@@ -1,121 +1,39 @@
 #!/usr/bin/env python3
-"""The image of docker/Dockerfile, built whole and used as its users do: without rights, with a read-only root, a tmpfs and one
-folder that may be written. Needs root, buildah and debootstrap; no daemon, and nothing is pulled.
+"""Contents and uses of the image that docker/Dockerfile describes.
 
 usage: test_image.py STORE    STORE: folder that keeps the base image and the layers, so that a second build is quick
 """
+import io
 import json
-import os
-import pathlib
 import re
 import shutil
-import signal
 import subprocess
 import sys
-import tempfile
+import tarfile
 import unittest
-import urllib.error
-import urllib.request
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/cli")]
-from free_ports import free_port  # noqa: E402
-from service import wait_until  # noqa: E402
+from built_image import ROOT, ImageTest
+from service import wait_until
 
-STORE = pathlib.Path(sys.argv.pop(1)).resolve()
-IMAGE = "localhost/throng-test"
 MAX_MB = 550
-USER = 10001
-# The image's file system is mounted read-only; only /data and /tmp can be written.
-ISOLATED = """set -e
-root="$1"; data="$2"; user="$3"; shift 3
-mount --bind "$root" "$root"
-for folder in proc dev; do mount --rbind /$folder "$root/$folder"; done
-mount -o remount,bind,ro "$root"
-mount -t tmpfs tmpfs "$root/tmp"
-mount --bind "$data" "$root/data"
-cd "$root"
-exec chroot --userspec="$user:$user" "$root" /usr/bin/env -i -C /data PATH=/opt/throng/bin:/usr/bin:/bin "$@"
-"""
 
 
-def buildah(*words):
-    command = ["buildah", "--root", STORE / "storage", "--runroot", STORE / "run", *words]
-    environment = {**os.environ, "STORAGE_DRIVER": "overlay", "TMPDIR": str(STORE / "tmp")}
-    return subprocess.run(
-        [*map(str, command)], check=True, capture_output=True, text=True, env=environment
-    ).stdout.strip()
+def grid_table():
+    """Three views of a flat grid through a pinhole of 800 px, turned about x, y and both: control points of a calibration."""
+    from math import cos, sin
+
+    lines = ["image,i,X,Y,Z,u,v"]
+    for view, (lean_x, lean_y) in enumerate(((0.5, 0.6), (0, 0.6), (0.5, 0))):
+        for i in range(30):
+            x, y = 0.1 * (i % 6 - 2.5), 0.1 * (i // 6 - 2)
+            y, z = cos(lean_x) * y, sin(lean_x) * y
+            x_c, z_c = cos(lean_y) * x + sin(lean_y) * z, cos(lean_y) * z - sin(lean_y) * x + 1.5
+            point = f"{0.1 * (i % 6 - 2.5)},{0.1 * (i // 6 - 2)},0"
+            lines.append(f"v{view},{i},{point},{800 * x_c / z_c + 322},{800 * y / z_c + 237}")
+    return "\n".join(lines) + "\n"
 
 
-class Image(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        log = STORE / "build.log"
-        STORE.mkdir(parents=True, exist_ok=True)
-        with log.open("w") as output:
-            done = subprocess.run(
-                [ROOT / "tests/docker/build_image.sh", STORE], stdout=output, stderr=subprocess.STDOUT
-            )
-        if done.returncode != 0:
-            raise AssertionError(f"the image was not built: {log}\n{log.read_text()[-3000:]}")
-        cls.container = buildah("from", "--pull-never", IMAGE)
-        cls.addClassCleanup(buildah, "rm", cls.container)
-        cls.root = pathlib.Path(buildah("mount", cls.container))
-        cls.addClassCleanup(buildah, "umount", cls.container)
-        inspected = json.loads(buildah("inspect", "--type", "image", IMAGE))
-        cls.config = inspected["Docker"]["config"]
-        cls.environment = [word for word in cls.config["Env"] if word.startswith("THRONG_")]
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.data = pathlib.Path(folder.name)
-
-    def command(self, *words, user=USER, environment=()):
-        """The command line of a program in the image."""
-        os.chown(self.data, user, user)
-        return ["unshare", "--mount", "bash", "-c", ISOLATED, "bash", self.root, self.data, user, *self.environment,
-                *environment, *words]  # fmt: skip
-
-    def run_in_it(self, *words, code=0, **options):
-        done = subprocess.run(
-            [str(word) for word in self.command(*words, **options)], capture_output=True, text=True, timeout=600
-        )
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout
-
-    def serve(self, **options):
-        """The address of the service, as the image's CMD starts it, on a free port."""
-        port = free_port()
-        words = [word if word != "8080" else port for word in self.config["Cmd"]]
-        self.output, self.errors = self.data / "stdout", self.data / "stderr"
-        with self.output.open("w") as output, self.errors.open("w") as errors:
-            self.server = subprocess.Popen(
-                [str(word) for word in self.command(*words, **options)], stdout=output, stderr=errors
-            )
-        self.addCleanup(self.server.kill)
-        address = f"http://127.0.0.1:{port}"
-
-        def is_ready():
-            if self.server.poll() is not None:
-                raise AssertionError(self.errors.read_text())
-            try:
-                return urllib.request.urlopen(address + "/readyz", timeout=60).status == 200
-            except (urllib.error.URLError, ConnectionError):
-                return False
-
-        wait_until(is_ready, what="the service in the image")
-        return address
-
-    def asked(self, address, path, key=None, body=None, kind="application/json"):
-        request = urllib.request.Request(address + path, data=body)
-        if key:
-            request.add_header("Authorization", f"Bearer {key}")
-        if body is not None:
-            request.add_header("Content-Type", kind)
-        with urllib.request.urlopen(request, timeout=300) as answer:
-            return answer.read()
-
+class Image(ImageTest):
     def test_it_is_small(self):
         size_mb = (
             sum(
@@ -160,40 +78,67 @@ class Image(unittest.TestCase):
         owners = {file.stat().st_uid for file in (self.data / "out").rglob("*")}
         self.assertEqual(owners, {23456})
 
-    def test_a_study_a_plan_and_a_calibration(self):
+    def test_a_study_a_plan_an_import_and_calibrations(self):
         case = {"id": "square", "scenario": "city_square/emergency", "duration_s": 30}
-        study = {"cases": [case], "policies": [{"id": "none"}], "runs": 2}
+        study = {"name": "square", "cases": [case], "policies": [{"id": "none"}], "runs": 2}
         (self.data / "a.study.json").write_text(json.dumps(study))
         self.run_in_it("throng", "study", "a.study.json", "-o", "study")
         self.run_in_it("throng", "scenario", "plan", "city_square/emergency", "-o", "plan.svg")
         self.run_in_it("throng", "calibrate", "selftest", "--views", "12", "-o", "selftest.json")
+        (self.data / "points.csv").write_text(grid_table())
+        self.run_in_it(
+            "throng",
+            "calibrate",
+            "intrinsics",
+            "--points",
+            "points.csv",
+            "--size",
+            "640x480",
+            "--lens",
+            "pinhole",
+            "-o",
+            "camera.json",
+        )
+        self.assertAlmostEqual(json.loads((self.data / "camera.json").read_text())["fx"], 800, 2)
         shutil.copy(ROOT / "tests/imports/data/yard.sdf", self.data)
         shutil.copytree(ROOT / "tests/imports/data/models", self.data / "models")
         self.run_in_it("throng", "scenario", "import", "yard.sdf", "-o", "mine", "--models", "models")
 
-    def test_the_service_from_its_first_start_to_its_end(self):
-        address = self.serve()
-        [key] = set(re.findall(r"throng_[a-z0-9]{8}_[a-z0-9]+", self.errors.read_text()))
-        self.assertEqual(json.loads(self.asked(address, "/healthz"))["status"], "ok")
-        self.assertIn(b"<title>", self.asked(address, "/"))
+    def test_the_service_makes_datasets_and_calibrations(self):
+        self.serve()
+        key = self.first_key()
+        self.assertEqual(self.asked("/healthz")["status"], "ok")
+        health_check = self.config["Healthcheck"]["Test"]
+        self.assertEqual(health_check[0], "CMD-SHELL")
+        self.run_in_it("sh", "-c", health_check[1].replace("8080", str(self.port)))
+        self.assertIn(b"<title>", self.asked("/"))
         job = {"scenario": "bridge/everyday", "capture": {"to_s": 2}, "quality": "draft"}
-        made = json.loads(self.asked(address, "/v1/jobs", key, json.dumps(job).encode()))
-
-        def is_done():
-            state = json.loads(self.asked(address, f"/v1/jobs/{made['id']}", key))
-            self.assertNotIn(state["state"], ("failed", "cancelled"), state)
-            return state["state"] == "succeeded"
-
-        wait_until(is_done, what="the job in the image")
-        (self.data / "archive.tar").write_bytes(self.asked(address, f"/v1/jobs/{made['id']}/archive", key))
-        self.assertIn(
-            "instances.json",
-            subprocess.run(["tar", "-tf", self.data / "archive.tar"], capture_output=True, text=True).stdout,
-        )
+        made = self.asked("/v1/jobs", key, job)
+        request = {"name": "wide", "points": "points.csv", "size": "640x480", "lens": "pinhole"}
+        calibration = self.asked("/v1/calibrations", key, {**request, "files": {"points.csv": grid_table()}})
+        self.finished(made["links"]["self"], key)
+        with tarfile.open(fileobj=io.BytesIO(self.asked(f"/v1/jobs/{made['id']}/archive", key))) as archive:
+            archive.extractall(self.data / "archive")
+        [dataset] = (file.parent for file in (self.data / "archive").rglob("manifest.json"))
+        self.assertIn("no faults", self.run_in_it("throng", "validate", dataset.relative_to(self.data)))
+        camera = self.finished(calibration["links"]["self"], key)["camera"]
+        self.assertAlmostEqual(camera["fx"], 800, 2)
         for line in self.output.read_text().splitlines():
             json.loads(line)
-        self.server.send_signal(signal.SIGTERM)
-        self.assertEqual(self.server.wait(60), 0)
+        self.end_service()
+
+    def test_a_job_goes_on_after_a_stop(self):
+        self.serve()
+        key = self.first_key()
+        job = {"scenario": "bridge/everyday", "capture": {"to_s": 60}, "quality": "draft"}
+        made = self.asked("/v1/jobs", key, job)["links"]["self"]
+        wait_until(lambda: self.asked(made, key)["progress"].get("frames_done", 0) > 0, what="the job's first images")
+        self.end_service()
+        self.serve()
+        state = self.asked(made, key)["state"]
+        self.assertIn(state, ("queued", "running"))
+        self.finished(made, key)
+        self.end_service()
 
 
 if __name__ == "__main__":
