@@ -31,6 +31,7 @@ void add_metrics(CLI::App& app);
 void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_merge(CLI::App& app);
+void add_publish(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
 void add_calibrate(CLI::App& app);

@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/words.h"
+#include "bucket/publish.h"
+#include "bucket/spec/address.h"
 #include "calibrate/spec/camera_file.h"
 #include "cli/document_kind.h"
 #include "cli/executor_options.h"
@@ -18,6 +20,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "jobs/pipeline/resolve.h"
+#include "jobs/queue/delivery.h"
 #include "jobs/queue/executors.h"
 #include "jobs/queue/profile.h"
 #include "jobs/queue/run_warnings.h"
@@ -41,6 +44,12 @@ double fraction_of(const jobs::RunProgress& run) {
 }
 
 void show_job(ProgressBar& bar, const jobs::JobProgress& progress) {
+  if (progress.delivery && progress.delivery->bytes_total > 0) {
+    const jobs::DeliveryProgress& delivery = *progress.delivery;
+    return bar.show(
+        static_cast<double>(delivery.bytes_done) / static_cast<double>(delivery.bytes_total),
+        "publishing " + megabytes_of(delivery.bytes_done, delivery.bytes_total));
+  }
   double fraction = 0;
   std::int64_t done = 0;
   std::int64_t total = 0;
@@ -103,6 +112,10 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
       ->capture_default_str();
   command.add_flag("--profile", arguments.profile,
                    "Print a profile of rendering, labeling and writing");
+  command.add_option(
+      "--publish", arguments.publish,
+      "Bring the finished dataset to an object store, s3://BUCKET/PREFIX, instead of "
+      "where outputs.publish of the job says");
   add_executor_options(command, arguments.executor);
 }
 
@@ -129,6 +142,18 @@ jobs::ResolvedJob read_job_file(const std::string& path, jobs::DefaultDrones def
   return jobs::resolve_job(read_job_text(path), path, world::scenarios_folder(), default_drones);
 }
 
+jobs::ResolvedJob with_target(const jobs::ResolvedJob& resolved, const JobArguments& arguments) {
+  jobs::JobSpec job = resolved.spec();
+  if (!arguments.publish.empty()) {
+    job.outputs.publish = bucket::parse_address(arguments.publish, "--publish", "").text();
+  }
+  const bool has_dataset = std::filesystem::exists(jobs::JobFolder(arguments.output).dataset());
+  if (!job.outputs.publish.empty() && !has_dataset) {
+    bucket::check_target(bucket::parse_address(job.outputs.publish, "", "/outputs/publish"));
+  }
+  return jobs::ResolvedJob(std::move(job), resolved.people());
+}
+
 void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,
                 const JobArguments& arguments) {
   const jobs::JobSpec& job = resolved.spec();
@@ -145,6 +170,9 @@ void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved
   }
   print_warnings(jobs::kept_warnings(folder, job.runs));
   fmt::print("{}\n", folder.dataset().string());
+  if (const auto delivery = jobs::read_delivery(folder)) {
+    fmt::print("{}: {} objects, {} bytes\n", delivery->address, delivery->objects, delivery->bytes);
+  }
   if (failures.empty()) {
     if (arguments.profile) fmt::print("{}", jobs::profile_table(folder, job));
     return;

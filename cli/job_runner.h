@@ -18,9 +18,10 @@ struct JobArguments {
   int workers = 0;
   jobs::ExecutorOptions executor = {};
   bool profile = false;
+  std::string publish;  ///< instead of the job's outputs.publish; "": that
 };
 
-/// The options JOB, --output, --workers, --profile, and those of executors.
+/// The options JOB, --output, --workers, --profile, --publish, and those of executors.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
 /// The job file's text, with the cameras of the calibration files that it names. Throws InputError
@@ -30,6 +31,11 @@ std::string read_job_text(const std::string& path);
 /// Reads the job file and resolves the job. Throws InputError (also when there is no such file).
 jobs::ResolvedJob read_job_file(
     const std::string& path, jobs::DefaultDrones default_drones = jobs::DefaultDrones::of_scenario);
+
+/// The job with the address of --publish, if that is given. Before anything is written or
+/// simulated, it looks whether a dataset can be brought there, unless the output folder holds it
+/// already. Throws InputError and EnvironmentError.
+jobs::ResolvedJob with_target(const jobs::ResolvedJob& resolved, const JobArguments& arguments);
 
 /// Works the folder's job off, then prints where the dataset is, and where the time went if asked
 /// for. Throws like jobs::run_job.

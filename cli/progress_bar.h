@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,9 @@ namespace throng::cli {
 /// A line of a bar of at most `columns` - 1 characters.
 std::string progress_line(std::string_view title, double fraction, std::string_view note,
                           std::size_t columns);
+
+/// Note of a transfer: "12 of 340 MB".
+std::string megabytes_of(std::int64_t done_bytes, std::int64_t total_bytes);
 
 class ProgressBar {
  public:

@@ -78,7 +78,7 @@ void render(const RenderArguments& arguments) {
   std::erase_if(job.outputs.exports.splits.runs,
                 [](const auto& named) { return named.first != jobs::run_name(0); });
   check_fits(trace, job, arguments);
-  const jobs::ResolvedJob one_run(std::move(job));
+  const jobs::ResolvedJob one_run = with_target(jobs::ResolvedJob(std::move(job)), arguments);
   const auto folder = jobs::JobFolder::create(arguments.output, one_run);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});
   write_file_atomically(place, read_file(arguments.trace_file));

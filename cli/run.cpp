@@ -18,7 +18,8 @@ void add_run(CLI::App& app) {
     const jobs::ResolvedJob job = read_job_file(arguments->job_file);
     // Before anything is simulated or written: images need people.
     if (!job.spec().drones.empty()) skinning::read_index(skinning::population_folder());
-    finish_job(jobs::JobFolder::create(arguments->output, job), job, *arguments);
+    const jobs::ResolvedJob targeted = with_target(job, *arguments);
+    finish_job(jobs::JobFolder::create(arguments->output, targeted), targeted, *arguments);
   });
 }
 

@@ -72,6 +72,11 @@ void add_serve(CLI::App& app) {
       ->add_option("--memory", options->memory_mib,
                    "MiB of memory for all workers together (0: 7/8 of the machine's)")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--publish-to", options->publish_to,
+                   "Address that jobs may publish their datasets to, and below it: "
+                   "s3://BUCKET/PREFIX; repeatable (docs/publishing.md)")
+      ->allow_extra_args(false);
   command->add_flag("--webhook-private", options->webhook_private,
                     "Let webhooks call addresses that are not public (this machine, its network)");
   command->add_flag("--log-json", options->log_json, "Log lines as JSON");

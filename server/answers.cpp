@@ -153,13 +153,21 @@ json progress_json(const jobs::JobProgress& progress) {
                      {"failed", work.failed},
                      {"busy_s", work.busy_s}});
   }
-  return with_pace({{"stage", name_of(stage_of(progress))},
-                    {"frames_done", done},
-                    {"frames_total", total},
-                    {"runs", std::move(runs)},
-                    {"shards", std::move(shards)},
-                    {"nodes", std::move(nodes)}},
-                   progress.pace);
+  json value = with_pace({{"stage", name_of(stage_of(progress))},
+                          {"frames_done", done},
+                          {"frames_total", total},
+                          {"runs", std::move(runs)},
+                          {"shards", std::move(shards)},
+                          {"nodes", std::move(nodes)}},
+                         progress.pace);
+  if (progress.delivery) {
+    const jobs::DeliveryProgress& delivery = *progress.delivery;
+    value["publishing"] = {{"address", delivery.address},
+                           {"bytes_done", delivery.bytes_done},
+                           {"bytes_total", delivery.bytes_total},
+                           {"objects", delivery.objects ? json(*delivery.objects) : json(nullptr)}};
+  }
+  return value;
 }
 
 json stages_json(const jobs::JobProgress& progress) {

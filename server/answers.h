@@ -16,7 +16,7 @@ namespace throng::server {
 /// RFC 3339 in UTC with milliseconds; null for 0, which is "not yet".
 nlohmann::json time_json(std::int64_t unix_ms);
 
-/// {"stage", "frames_done", "frames_total", "runs": [...]}
+/// {"stage", "frames_done", "frames_total", "runs": [...]}; "publishing" of a job that asks for it
 nlohmann::json progress_json(const jobs::JobProgress& progress);
 
 /// The part of the progress that makes an event: {"stage", "runs": {"run000": stage}}

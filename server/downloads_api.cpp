@@ -37,7 +37,9 @@ namespace {
 
 jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   jobs::JobRow row = find_job(call, request);
-  if (!has_dataset(row.state)) {
+  // One that could only not be published has its dataset, too.
+  const bool is_complete = !is_active(row.state) && fs::exists(call.folders.dataset_of(row.id));
+  if (!has_dataset(row.state) && !is_complete) {
     throw HttpError{
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
   }

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "jobs/spec/calibrations.h"
 #include "jobs/spec/scenario_mix.h"
 #include "jobs/spec/spec.h"
@@ -22,13 +23,14 @@ using nlohmann::json;
 
 JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
                    Uploads& uploads, const Calibrations& calibrations,
-                   const ConfinedChecks& confined)
+                   const ConfinedChecks& confined, const PublishTargets& publish_to)
     : folders_(folders),
       store_(store),
       state_(state),
       uploads_(uploads),
       calibrations_(calibrations),
-      confined_(confined) {}
+      confined_(confined),
+      publish_to_(publish_to) {}
 
 std::string JobQueue::with_cameras(std::string_view job_json) const {
   return jobs::with_calibrations(
@@ -40,12 +42,16 @@ jobs::ResolvedJob JobQueue::resolve(std::string_view job_json) const {
 }
 
 json JobQueue::dry_run(std::string_view job_json) const {
-  return confined_.dry_run(with_cameras(job_json), folders_.scenarios());
+  json answer = confined_.dry_run(with_cameras(job_json), folders_.scenarios());
+  constexpr const char* kPublish = "/outputs/publish";
+  publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
+  return answer;
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {
   const jobs::ResolvedJob resolved = resolve(submission.job_json);
   const jobs::JobSpec& job = resolved.spec();
+  publish_to_.require(job.outputs.publish);
   const auto lock = uploads_.hold();
   require_scenario(job);
   const json sent = {submission.job_json, submission.priority, submission.labels};

@@ -18,6 +18,7 @@
 #include "jobs/spec/resolved_job.h"
 #include "server/calibrations.h"
 #include "server/confined_checks.h"
+#include "server/publish_targets.h"
 #include "server/queue_state.h"
 #include "server/service_errors.h"
 #include "server/service_folders.h"
@@ -42,7 +43,8 @@ class JobQueue {
  public:
   /// All must outlive it.
   JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState& state, Uploads& uploads,
-           const Calibrations& calibrations, const ConfinedChecks& confined);
+           const Calibrations& calibrations, const ConfinedChecks& confined,
+           const PublishTargets& publish_to);
 
   /// The job, checked and completed; queues nothing. Throws InputError.
   jobs::ResolvedJob resolve(std::string_view job_json) const;
@@ -104,6 +106,7 @@ class JobQueue {
   Uploads& uploads_;
   const Calibrations& calibrations_;
   const ConfinedChecks& confined_;
+  const PublishTargets& publish_to_;
   std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
   mutable TextCache texts_;
 };

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "bucket/publish.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
 #include "jobs/spec/task_memory.h"
@@ -53,13 +54,15 @@ bool may_begin(const JobRow& row, const std::vector<JobRow>& active, int max_act
 }  // namespace
 
 JobRunner::JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-                     jobs::Executor& executor, LookAtDisk look_at_disk, int max_active)
+                     jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
+                     const PublishTargets& publish_to)
     : folders_(folders),
       store_(store),
       state_(state),
       executor_(executor),
       look_at_disk_(std::move(look_at_disk)),
       max_active_(max_active),
+      publish_to_(publish_to),
       thread_([this](const std::stop_token& stop) { dispatch(stop); }) {}
 
 void JobRunner::dispatch(const std::stop_token& stop) {
@@ -188,10 +191,21 @@ jobs::Share JobRunner::share_of(const JobRow& row) const {
   return share;
 }
 
+// The operator may have withdrawn what was allowed when the job was submitted. A bucket that cannot
+// be used shall not be found after hours of work.
+void JobRunner::require_target(const jobs::JobSpec& job, const jobs::JobFolder& folder,
+                               const std::stop_token& stop) const {
+  const std::string& address = job.outputs.publish;
+  publish_to_.require(address);
+  if (address.empty() || folder.is_done({jobs::Task::Kind::collect})) return;
+  bucket::check_target(bucket::parse_address(address, "", "/outputs/publish"), stop);
+}
+
 std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
                                                       const std::stop_token& stop) {
   const jobs::ResolvedJob job = jobs::read_resolved_job(row.spec_json, "");
   const auto folder = jobs::JobFolder::restore(folders_.job_folder(row.id), job);
+  require_target(job.spec(), folder, stop);
   Clock::time_point last_save;
   Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
   std::string stages;

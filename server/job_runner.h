@@ -14,6 +14,7 @@
 #include "jobs/queue/executor.h"
 #include "jobs/queue/store.h"
 #include "jobs/queue/supervisor.h"
+#include "server/publish_targets.h"
 #include "server/queue_state.h"
 #include "server/service_folders.h"
 
@@ -28,7 +29,8 @@ class JobRunner {
   /// `max_active` jobs one is begun only for an owner who has none that is active, or with a
   /// priority above all that are. All must outlive it.
   JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-            jobs::Executor& executor, LookAtDisk look_at_disk, int max_active);
+            jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
+            const PublishTargets& publish_to);
   /// Ends the workers; the jobs they were at stay "running" in the store, to be resumed.
   ~JobRunner() = default;
   JobRunner(const JobRunner&) = delete;
@@ -51,6 +53,8 @@ class JobRunner {
   std::vector<jobs::RunFailure> make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
   void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
   void make_study(const jobs::JobRow& row, const std::stop_token& stop);
+  void require_target(const jobs::JobSpec& job, const jobs::JobFolder& folder,
+                      const std::stop_token& stop) const;
   jobs::Share share_of(const jobs::JobRow& row) const;
   void save_progress(const jobs::JobRow& row);
   void save_bytes(const jobs::JobRow& row);
@@ -61,6 +65,7 @@ class JobRunner {
   jobs::Executor& executor_;
   LookAtDisk look_at_disk_;
   int max_active_;
+  const PublishTargets& publish_to_;
   std::list<Supervisor> supervisors_;  ///< of the dispatching thread
   std::jthread thread_;                ///< last: ends before what it uses
 };

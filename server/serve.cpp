@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "bucket/access.h"
 #include "jobs/queue/executors.h"
 #include "jobs/queue/file_fence.h"
 #include "jobs/queue/folder_lock.h"
@@ -151,6 +152,9 @@ int serve(const ServeOptions& options) {
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
+  PublishTargets publish_to(options.publish_to);
+  // Missing credentials shall not be found by the first job.
+  if (publish_to.are_there()) static_cast<void>(bucket::read_access());
   jobs::protect_this_process();
   const bool is_container = is_in_container();
   const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
@@ -181,6 +185,7 @@ int serve(const ServeOptions& options) {
                         .min_free_bytes = options.min_free_mib << kMibShift},
        .max_active_jobs = options.max_active_jobs,
        .max_task_mib = max_task_mib(options),
+       .publish_to = std::move(publish_to),
        .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s))}},
       *executor);
   WebhookSender hooks(service.queue(), database,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "jobs/queue/executors.h"
 
@@ -29,7 +30,8 @@ struct ServeOptions {
   std::int64_t keep_gib = 0;        ///< that all jobs may take together; 0: any
   std::int64_t uploads_gib = 8;     ///< that all uploaded scenarios may take together
   std::int64_t min_free_mib = 512;  ///< below this the queue is paused
-  bool webhook_private = false;     ///< webhooks may lead to addresses that are not public
+  std::vector<std::string> publish_to;  ///< addresses that jobs may publish to, and below them
+  bool webhook_private = false;         ///< webhooks may lead to addresses that are not public
   bool log_json = false;
 };
 

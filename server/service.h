@@ -13,6 +13,7 @@
 #include "server/job_queue.h"
 #include "server/job_runner.h"
 #include "server/live_flights.h"
+#include "server/publish_targets.h"
 #include "server/queue_state.h"
 #include "server/report_maker.h"
 #include "server/service_folders.h"
@@ -28,11 +29,12 @@ struct ServiceOptions {
   jobs::ConfinedTask confined;          ///< checks of what users send
   UploadLimits uploads = {};
   HousekeepingOptions housekeeping = {};
-  int max_active_jobs = 16;        ///< worked on at once (server/job_runner.h)
-  std::int64_t max_task_mib = 0;   ///< memory for a task (server/confined_checks.h); 0: any
-  LiveLimits live = {};            ///< of live flights
-  jobs::Store::Clock clock = {};   ///< default: the system's
-  jobs::Store::Clock steady = {};  ///< of jobs::ServiceClock
+  int max_active_jobs = 16;       ///< worked on at once (server/job_runner.h)
+  std::int64_t max_task_mib = 0;  ///< memory for a task (server/confined_checks.h); 0: any
+  PublishTargets publish_to = PublishTargets();  ///< that jobs may name
+  LiveLimits live = {};                          ///< of live flights
+  jobs::Store::Clock clock = {};                 ///< default: the system's
+  jobs::Store::Clock steady = {};                ///< of jobs::ServiceClock
 };
 
 /// The parts are safe to use from many threads.
@@ -59,6 +61,7 @@ class Service {
   const jobs::Executor& executor_;
   // Each uses those above it.
   ServiceFolders folders_;
+  PublishTargets publish_to_;
   jobs::Store store_;
   ConfinedChecks confined_;
   QueueState state_;

@@ -147,9 +147,12 @@ class Collector {
     for (const FailedRun& run : failed_) {
       failed.push_back({{"run", run_name(run.run)}, {"task", run.task}});
     }
+    // The same dataset wherever it is brought.
+    JobSpec job = job_;
+    job.outputs.publish.clear();
     return {{"schema_version", kManifestVersion},
             {"generator", kGenerator},
-            {"job", to_json(job_)},
+            {"job", to_json(job)},
             {"devices", devices_},
             {"people", {{"content_hash", pinned_people(folder_)}}},
             {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},

@@ -10,11 +10,14 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/redact.h"
+#include "bucket/publish.h"
+#include "bucket/spec/address.h"
 #include "camera/files.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/rehearsal.h"
 #include "jobs/pipeline/run_writers.h"
+#include "jobs/queue/delivery.h"
 #include "jobs/queue/publication.h"
 #include "jobs/queue/run_warnings.h"
 #include "jobs/queue/trace_seal.h"
@@ -124,6 +127,20 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
 }
 
+void publish_job(const JobFolder& folder, const JobSpec& job, const OnTaskProgress& on_progress,
+                 const std::stop_token& stop) {
+  const bucket::Address address =
+      bucket::parse_address(job.outputs.publish, "", "/outputs/publish");
+  const auto progress = [&](std::int64_t done_bytes, std::int64_t total_bytes) {
+    if (on_progress) {
+      on_progress({static_cast<double>(done_bytes), static_cast<double>(total_bytes)});
+    }
+  };
+  const bucket::Published published =
+      bucket::publish_dataset(folder.dataset(), address, progress, stop);
+  write_delivery(folder, {address.text(), published.objects, published.bytes});
+}
+
 void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::path& scenarios,
              const Task& task, const OnTaskProgress& on_progress, const std::stop_token& stop) {
   const JobSpec& job = resolved.spec();
@@ -139,6 +156,8 @@ void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::pat
                           on_progress, stop);
     case Task::Kind::collect:
       return collect_dataset(folder, job);
+    case Task::Kind::publish:
+      return publish_job(folder, job, on_progress, stop);
     case Task::Kind::calibrate:
     case Task::Kind::report:
     case Task::Kind::study_run:

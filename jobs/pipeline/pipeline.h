@@ -44,6 +44,10 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
 /// Gathers everything into dataset/ and writes its manifest.
 void collect_dataset(const JobFolder& folder, const JobSpec& job);
 
+/// Brings the dataset to the object store that the job names: published.json. Progress in bytes.
+void publish_job(const JobFolder& folder, const JobSpec& job,
+                 const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
+
 /// Any task of the job.
 void do_task(const JobFolder& folder, const ResolvedJob& resolved,
              const std::filesystem::path& scenarios, const Task& task,

@@ -130,7 +130,8 @@ int attempt_of_this_process() {
 /// Confines this process to the files of its job. Compiled shaders are kept between tasks: without
 /// them each would begin with seconds of compiling.
 std::string fence_worker(const std::filesystem::path& job_folder, const std::string& task_name) {
-  FileFence fence = fence_of_folder(job_folder);
+  FileFence fence = fence_of_folder(
+      job_folder, task_name == kPublishName ? Credentials::readable : Credentials::hidden);
   const bool renders = task_name.find("/shard") != std::string::npos;
   if (const auto cache = shader_cache_folder(); renders && !cache.empty()) {
     std::error_code error;
@@ -156,7 +157,10 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
   die_with_supervisor();
   log_to_stderr();
   const std::filesystem::path scenarios = world::scenarios_folder();
-  for (const std::string& unlimited : {limit_this_process(), fence_worker(job_folder, task_name)}) {
+  // It opens no file of strangers: the dataset's are sent as they are.
+  const Network network = task_name == kPublishName ? Network::allowed : Network::refused;
+  for (const std::string& unlimited :
+       {limit_this_process(network), fence_worker(job_folder, task_name)}) {
     if (!unlimited.empty()) spdlog::warn("the kernel lets nobody limit {}", unlimited);
   }
   render::tune_allocator();

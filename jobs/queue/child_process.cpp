@@ -9,9 +9,12 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "jobs/queue/file_fence.h"
 
 namespace throng::jobs {
 
@@ -38,11 +41,27 @@ class SpawnSettings {
   posix_spawnattr_t attributes;
 };
 
-std::vector<std::string> changed_environment(const ChildProcess::Variables& variables) {
+constexpr std::string_view kCredentialPrefix = "AWS_";
+
+/// Files that credentials are read from, with colons between them as in $PATH.
+std::string credential_files() {
+  std::string files;
+  for (const char* name : {"AWS_SHARED_CREDENTIALS_FILE", "AWS_CONFIG_FILE"}) {
+    const char* file = std::getenv(name);
+    if (file == nullptr || *file == '\0') continue;
+    files += (files.empty() ? "" : ":") + std::filesystem::absolute(file).string();
+  }
+  return files;
+}
+
+std::vector<std::string> changed_environment(ChildProcess::Variables variables) {
+  if (const std::string files = credential_files(); !files.empty()) {
+    variables.emplace_back(kPrivateCredentialsVariable, files);
+  }
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string text = *entry;
-    bool replaced = false;
+    bool replaced = text.starts_with(kCredentialPrefix);
     for (const auto& [name, value] : variables) replaced |= text.starts_with(name + "=");
     if (!replaced) environment.push_back(text);
   }
@@ -61,6 +80,17 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 }
 
 }  // namespace
+
+ChildProcess::Variables credential_variables() {
+  ChildProcess::Variables variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const std::size_t end = text.find('=');
+    if (!text.starts_with(kCredentialPrefix) || end == std::string_view::npos) continue;
+    variables.emplace_back(text.substr(0, end), text.substr(end + 1));
+  }
+  return variables;
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variables& variables,
                            const std::filesystem::path& log, int input) {

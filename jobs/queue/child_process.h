@@ -16,11 +16,16 @@ struct ExitStatus {
   int signal = 0;  ///< 0: none
 };
 
+/// This process's variables that reach object stores, for the one child that uses them.
+std::vector<std::pair<std::string, std::string>> credential_variables();
+
 class ChildProcess {
  public:
   using Variables = std::vector<std::pair<std::string, std::string>>;
 
   /// Starts command[0] (searched in PATH) with this process's environment changed by `variables`.
+  /// Credentials of object stores ($AWS_...) are not handed on, unless they are among `variables`;
+  /// the files that hold them are named in $THRONG_PRIVATE_CREDENTIALS (jobs/queue/file_fence.h).
   /// stderr is appended to the file `log`; stdin is the descriptor `input`, or empty. Throws
   /// EnvironmentError.
   ChildProcess(const std::vector<std::string>& command, const Variables& variables,

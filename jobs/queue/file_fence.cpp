@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string_view>
 
 #include "base/files.h"
@@ -124,6 +125,20 @@ void allow_reading_around(Ruleset& rules, const fs::path& folder,
   }
 }
 
+std::vector<fs::path> credential_paths() {
+  std::vector<fs::path> paths;
+  const char* home = std::getenv("HOME");
+  std::error_code error;
+  const bool has_home = home != nullptr && *home != '\0';
+  if (has_home && fs::exists(fs::path(home) / ".aws", error)) {
+    paths.push_back(fs::path(home) / ".aws");
+  }
+  const char* files = std::getenv(kPrivateCredentialsVariable);
+  std::istringstream list(files == nullptr ? "" : files);
+  for (std::string file; std::getline(list, file, ':');) paths.emplace_back(file);
+  return paths;
+}
+
 void allow_devices(Ruleset& rules) {
   constexpr std::uint64_t kUse =
       LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
@@ -163,9 +178,10 @@ std::string fence_this_process(const FileFence& fence) {
   return "";
 }
 
-FileFence fence_of_folder(const fs::path& folder) {
+FileFence fence_of_folder(const fs::path& folder, Credentials credentials) {
   FileFence fence;
   fence.writable = {folder};
+  if (credentials == Credentials::hidden) fence.hidden = credential_paths();
   const char* database = std::getenv(kPrivateDatabaseVariable);
   if (database != nullptr && *database != '\0') fence.hidden.emplace_back(database);
   const char* data = std::getenv(kPrivateFolderVariable);

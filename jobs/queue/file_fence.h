@@ -14,6 +14,10 @@ inline constexpr const char* kPrivateFolderVariable = "THRONG_PRIVATE_FOLDER";
 /// Likewise of its databases, where they lie elsewhere: children read nothing of it.
 inline constexpr const char* kPrivateDatabaseVariable = "THRONG_PRIVATE_DATABASE";
 
+/// Files with credentials of object stores, with colons between them: only the worker that
+/// publishes reads them, and those in ~/.aws.
+inline constexpr const char* kPrivateCredentialsVariable = "THRONG_PRIVATE_CREDENTIALS";
+
 struct FileFence {
   /// Files and folders that may be written, read and removed; those that do not exist are left out.
   std::vector<std::filesystem::path> writable;
@@ -28,9 +32,13 @@ struct FileFence {
 /// kernel does not allow it, for people; "" when it does.
 std::string fence_this_process(const FileFence& fence);
 
+/// Whether a child may read the credentials of object stores.
+enum class Credentials { hidden, readable };
+
 /// The fence of a child that works in a folder: it reads all but $THRONG_PRIVATE_FOLDER
-/// and $THRONG_PRIVATE_DATABASE, and of the former the scenarios.
-FileFence fence_of_folder(const std::filesystem::path& folder);
+/// and $THRONG_PRIVATE_DATABASE, of the former the scenarios, and credentials if it may.
+FileFence fence_of_folder(const std::filesystem::path& folder,
+                          Credentials credentials = Credentials::hidden);
 
 /// Mesa's folder of compiled shaders, by its documentation; "" if it keeps none.
 std::filesystem::path shader_cache_folder();

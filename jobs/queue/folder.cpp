@@ -28,13 +28,16 @@ bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
   });
 }
 
-/// Whether the text of a job file is this job. The file may be of an earlier version, whose names
-/// of fields are deprecated now.
-bool is_same_job(const std::string& written, const std::string& text, const fs::path& file) {
-  if (written == text) return true;
+std::string text_of(const JobSpec& job) { return to_json(job).dump(kJsonIndent) + "\n"; }
+
+/// Whether the text of a job file is this job, whatever it says of publishing. The file may be of
+/// an earlier version, whose names of fields are deprecated now.
+bool is_same_job(const std::string& written, const JobSpec& job, const fs::path& file) {
+  if (written == text_of(job)) return true;
   try {
-    const ResolvedJob job = read_resolved_job(written, file.string());
-    return to_json(job.spec()).dump(kJsonIndent) + "\n" == text;
+    JobSpec other = read_resolved_job(written, file.string()).spec();
+    other.outputs.publish = job.outputs.publish;
+    return text_of(other) == text_of(job);
   } catch (const std::exception&) {
     return false;  // damaged, or of another version: another job
   }
@@ -50,7 +53,7 @@ void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
 JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
   const JobSpec& job = resolved.spec();
   JobFolder folder(std::move(path));
-  const std::string text = to_json(job).dump(kJsonIndent) + "\n";
+  const std::string text = text_of(job);
   if (!fs::exists(folder.job_file())) {
     if (fs::exists(folder.path()) && !is_as_good_as_empty(folder.path(), folder.job_file())) {
       throw InputError(
@@ -59,9 +62,14 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
                   "a new or empty folder, or one of the same job"});
     }
     write_file_atomically(folder.job_file(), text);
-  } else if (!is_same_job(read_file(folder.job_file()), text, folder.job_file())) {
-    throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
-                             "a new or empty folder, or one of the same job"});
+  } else if (const std::string written = read_file(folder.job_file()); written != text) {
+    if (!is_same_job(written, job, folder.job_file())) {
+      throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
+                               "a new or empty folder, or one of the same job"});
+    }
+    // It is published elsewhere now, or no more.
+    fs::remove(folder.output_of({Task::Kind::publish}));
+    write_file_atomically(folder.job_file(), text);
   }
   if (job.recorded) keep_recording(*job.recorded, folder.path());
   return folder;
@@ -69,10 +77,9 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
 
 JobFolder JobFolder::restore(fs::path path, const ResolvedJob& resolved) {
   JobFolder folder(std::move(path));
-  const std::string text = to_json(resolved.spec()).dump(kJsonIndent) + "\n";
   const fs::path file = folder.job_file();
-  if (!fs::exists(file) || !is_same_job(read_file(file), text, file)) {
-    write_file_atomically(file, text);
+  if (!fs::exists(file) || !is_same_job(read_file(file), resolved.spec(), file)) {
+    write_file_atomically(file, text_of(resolved.spec()));
   }
   return create(folder.path(), resolved);
 }
@@ -83,6 +90,7 @@ ResolvedJob JobFolder::read_job() const {
 
 fs::path JobFolder::output_of(const Task& task) const {
   if (task.kind == Task::Kind::collect) return dataset();
+  if (task.kind == Task::Kind::publish) return path_ / "published.json";
   if (task.kind == Task::Kind::calibrate) return path_ / calibrate::kCameraName;
   if (task.kind == Task::Kind::report) return path_ / "report.html";
   if (task.kind == Task::Kind::study_report) return path_ / study::kSummaryName;

@@ -7,8 +7,10 @@
 //   work/run000/shard0003/    images, density maps, previews, records of its frames
 //   failed_runs.json          runs that the dataset lacks, if any
 //   dataset/                  the result; complete when it is there
-//   logs/                     what the workers said; logs/nodes.jsonl: on which nodes of a cluster
-//   attempts/                 of a cluster's workers (jobs/queue/attempts.h)
+//   published.json            where it was brought, if the job asks for that
+//   (jobs/queue/delivery.h) logs/                     what the workers said; logs/nodes.jsonl: on
+//   which nodes of a cluster attempts/                 of a cluster's workers
+//   (jobs/queue/attempts.h)
 #pragma once
 
 #include <filesystem>
@@ -23,8 +25,8 @@ class JobFolder {
   explicit JobFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// Creates the folder for a job, or checks that the one there is for the same job (then work that
-  /// it holds is taken up). Throws InputError when it holds another job or other files, and
-  /// EnvironmentError.
+  /// it holds is taken up). An address to publish to makes no other job. Throws InputError
+  /// when it holds another job or other files, and EnvironmentError.
   static JobFolder create(std::filesystem::path path, const ResolvedJob& resolved);
 
   /// Likewise for a folder that is named after the job, so that it can hold no other: a job.json

@@ -109,7 +109,7 @@ class Batch {
                    {"--job", folder_.path().string(), "--task", name_of(tasks_[task])});
     try {
       running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
-                                                  variables_of(attempt, memory_mib),
+                                                  variables_of(tasks_[task], attempt, memory_mib),
                                                   folder_.log_of(tasks_[task]), options_.now));
       exhausted_.clear();
     } catch (const ResourcesExhausted& error) {
@@ -133,9 +133,14 @@ class Batch {
     share_.on_wait(reason);
   }
 
-  ChildProcess::Variables variables_of(int attempt, std::int64_t memory_mib) const {
+  ChildProcess::Variables variables_of(const Task& task, int attempt,
+                                       std::int64_t memory_mib) const {
     ChildProcess::Variables variables = {{kSupervisorVariable, std::to_string(::getpid())},
                                          {kAttemptVariable, std::to_string(attempt)}};
+    if (task.kind == Task::Kind::publish) {
+      const ChildProcess::Variables credentials = credential_variables();
+      variables.insert(variables.end(), credentials.begin(), credentials.end());
+    }
     if (options_.worker_memory_mib > 0) {
       variables.emplace_back(kMemoryVariable, std::to_string(options_.worker_memory_mib));
     } else if (options_.limits_by_need && memory_mib > 0) {

@@ -42,6 +42,9 @@ SlurmArrays::SlurmArrays(const SlurmOptions& options)
 std::vector<TaskResult> SlurmArrays::run(const JobFolder& folder, std::span<const Task> tasks,
                                          const OnProgress& on_progress, std::stop_token stop,
                                          const Share& share) {
+  if (tasks.size() == 1 && tasks[0].kind == Task::Kind::publish) {
+    return here_.run(folder, tasks, on_progress, std::move(stop), share);
+  }
   // The nodes are elsewhere: a relative path means nothing to them.
   const JobFolder absolute(std::filesystem::absolute(folder.path()));
   return SlurmBatch(*shared_, absolute, tasks, on_progress, std::move(stop), share).run();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "jobs/queue/executor.h"
+#include "jobs/queue/local_processes.h"
 #include "jobs/queue/node_book.h"
 #include "jobs/queue/slurm_controller.h"
 #include "jobs/queue/slurm_options.h"
@@ -41,8 +42,12 @@ struct SlurmShared {
   std::atomic<bool> leaves_tasks = false;
 };
 
+/// Datasets are published by processes of this machine: nodes need no way out of the cluster and
+/// see no credentials.
 class SlurmArrays final : public Executor {
  public:
+  static constexpr int kPublishedAtOnce = 4;
+
   explicit SlurmArrays(const SlurmOptions& options = {});
 
   using Executor::run;
@@ -57,6 +62,7 @@ class SlurmArrays final : public Executor {
 
  private:
   std::unique_ptr<SlurmShared> shared_;
+  LocalProcesses here_{{.workers = kPublishedAtOnce}};
 };
 
 /// Asks Slurm whether it knows partition, account and resources. Throws InputError with its answer

@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 
+#include "jobs/queue/delivery.h"
 #include "jobs/queue/failed_runs.h"
 #include "jobs/queue/folder_lock.h"
 #include "jobs/queue/trace_seal.h"
@@ -74,20 +75,45 @@ class Supervision {
       share_.later_tasks = 0;
       do_task(dataset);
     }
-    for (RunProgress& run : progress_.runs) {
-      if (run.stage == Stage::failed) continue;
-      run.stage = Stage::finished;
-      run.simulated_s = run.duration_s;
-      run.images_done = run.images_total;
-      run.pace = {};
-    }
     progress_.shards.clear();
     progress_.pace = {};
+    if (!job_.outputs.publish.empty()) publish();
+    finish_runs(Stage::finished);
     report();
     return std::move(failures_);
   }
 
  private:
+  /// All runs but those that failed have everything done that is theirs.
+  void finish_runs(Stage stage) {
+    for (RunProgress& run : progress_.runs) {
+      if (run.stage == Stage::failed) continue;
+      run.stage = stage;
+      run.simulated_s = run.duration_s;
+      run.images_done = run.images_total;
+      run.pace = {};
+    }
+  }
+
+  void publish() {
+    const Task task{Task::Kind::publish};
+    DeliveryProgress& delivery = progress_.delivery.emplace();
+    delivery.address = job_.outputs.publish;
+    if (!folder_.is_done(task)) {
+      finish_runs(Stage::publishing);
+      report();
+      do_task(task, [&](const Task&, const TaskProgress& progress) {
+        delivery.bytes_done = std::llround(progress.done);
+        delivery.bytes_total = std::llround(progress.total);
+        report();
+      });
+    }
+    const std::optional<Delivery> done = read_delivery(folder_);
+    check(done.has_value(), "what is done has its output");
+    delivery.bytes_done = delivery.bytes_total = done->bytes;
+    delivery.objects = done->objects;
+  }
+
   template <typename TasksOf>
   std::vector<Task> tasks_of_all_runs(const TasksOf& tasks_of) const {
     std::vector<Task> tasks;
@@ -162,12 +188,13 @@ class Supervision {
     return results;
   }
 
-  // The last task, of all runs together: its failure is the job's.
-  void do_task(const Task& task) {
+  // A task of all runs together: its failure is the job's.
+  void do_task(const Task& task, const Executor::OnProgress& on_progress = {}) {
     const std::array tasks = {task};
-    TaskResult result = execute(tasks, {})[0];
+    TaskResult result = execute(tasks, on_progress)[0];
     if (stop_.stop_requested()) throw Cancelled();
-    if (result.outcome == Outcome::environment_error && lacks_output()) {
+    if (task.kind == Task::Kind::collect && result.outcome == Outcome::environment_error &&
+        lacks_output()) {
       // It has removed output that was damaged.
       simulate();
       make_frames();
@@ -177,7 +204,8 @@ class Supervision {
     throw_if_wrong(task, result);
     if (result.outcome != Outcome::succeeded) throw EnvironmentError(text_of(task, result));
     if (!folder_.is_done(task)) {
-      throw EnvironmentError("dataset: the worker reported success but its output is not there");
+      throw EnvironmentError(fmt::format(
+          "{}: the worker reported success but its output is not there", name_of(task)));
     }
   }
 
@@ -323,6 +351,8 @@ std::string_view name_of(Stage stage) {
       return "rendering";
     case Stage::rendered:
       return "rendered";
+    case Stage::publishing:
+      return "publishing";
     case Stage::finished:
       return "finished";
     case Stage::failed:

@@ -17,7 +17,7 @@
 namespace throng::jobs {
 
 /// Progress of a run.
-enum class Stage { waiting, simulating, rendering, rendered, finished, failed };
+enum class Stage { waiting, simulating, rendering, rendered, publishing, finished, failed };
 
 std::string_view name_of(Stage stage);
 
@@ -48,11 +48,20 @@ struct ShardProgress {
   std::string node = {};  ///< of a cluster; "" on this machine
 };
 
+/// The way of a job's dataset to an object store.
+struct DeliveryProgress {
+  std::string address;  ///< s3://...
+  std::int64_t bytes_done = 0;
+  std::int64_t bytes_total = 0;              ///< 0: not known yet
+  std::optional<std::int64_t> objects = {};  ///< once all are there
+};
+
 struct JobProgress {
   std::vector<RunProgress> runs;
   std::vector<ShardProgress> shards;  ///< begun and not at their end
   std::vector<NodeWork> nodes = {};   ///< of a cluster, by name
   Pace pace;
+  std::optional<DeliveryProgress> delivery = {};  ///< of a job that asks for it, from its begin on
 };
 
 using OnJobProgress = std::function<void(const JobProgress&)>;

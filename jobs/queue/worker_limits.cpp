@@ -21,14 +21,12 @@ namespace {
 
 // System calls by which a process could reach the network without socket(), other processes of the
 // same user, or parts of the kernel that no task needs.
-constexpr std::array kRefusedCalls = {SCMP_SYS(connect),        SCMP_SYS(io_uring_setup),
-                                      SCMP_SYS(io_uring_enter), SCMP_SYS(pidfd_getfd),
-                                      SCMP_SYS(unshare),        SCMP_SYS(setns),
-                                      SCMP_SYS(mount),          SCMP_SYS(umount2),
-                                      SCMP_SYS(pivot_root),     SCMP_SYS(bpf),
-                                      SCMP_SYS(userfaultfd),    SCMP_SYS(perf_event_open),
-                                      SCMP_SYS(keyctl),         SCMP_SYS(add_key),
-                                      SCMP_SYS(request_key),    SCMP_SYS(open_by_handle_at)};
+constexpr std::array kRefusedCalls = {
+    SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter),  SCMP_SYS(pidfd_getfd),
+    SCMP_SYS(unshare),        SCMP_SYS(setns),           SCMP_SYS(mount),
+    SCMP_SYS(umount2),        SCMP_SYS(pivot_root),      SCMP_SYS(bpf),
+    SCMP_SYS(userfaultfd),    SCMP_SYS(perf_event_open), SCMP_SYS(keyctl),
+    SCMP_SYS(add_key),        SCMP_SYS(request_key),     SCMP_SYS(open_by_handle_at)};
 // The leak check of AddressSanitizer traces the process itself.
 #if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
 constexpr std::array kRefusedTracing = {SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
@@ -40,8 +38,9 @@ constexpr std::array<int, 0> kRefusedTracing = {};
 // Of -1000 to 1000: whom the kernel ends first when memory runs out.
 constexpr int kOomScore = 500;
 
-/// Refuses all sockets but unconnected local ones, and the calls above; 0, or an errno.
-int refuse_calls() {
+/// Refuses all sockets but unconnected local ones, unless the network is allowed, and the calls
+/// above; 0, or an errno.
+int refuse_calls(Network network) {
   const std::unique_ptr<void, decltype(&seccomp_release)> filter(seccomp_init(SCMP_ACT_ALLOW),
                                                                  &seccomp_release);
   if (!filter) return ENOMEM;
@@ -50,9 +49,13 @@ int refuse_calls() {
     return seccomp_rule_add_array(filter.get(), kRefusal, call,
                                   static_cast<unsigned>(conditions.size()), conditions.begin());
   };
-  int error = refuse(SCMP_SYS(socket), {{0, SCMP_CMP_NE, AF_UNIX, 0}});
-  // Datagrams to an address need no connection.
-  if (error == 0) error = refuse(SCMP_SYS(sendto), {{4, SCMP_CMP_NE, 0, 0}});
+  int error = 0;
+  if (network == Network::refused) {
+    error = refuse(SCMP_SYS(socket), {{0, SCMP_CMP_NE, AF_UNIX, 0}});
+    if (error == 0) error = refuse(SCMP_SYS(connect), {});
+    // Datagrams to an address need no connection.
+    if (error == 0) error = refuse(SCMP_SYS(sendto), {{4, SCMP_CMP_NE, 0, 0}});
+  }
   for (const int call : kRefusedCalls) error = error == 0 ? refuse(call, {}) : error;
   for (const int call : kRefusedTracing) error = error == 0 ? refuse(call, {}) : error;
   return error != 0 ? -error : -seccomp_load(filter.get());
@@ -62,7 +65,7 @@ int refuse_calls() {
 
 void protect_this_process() { ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }
 
-std::string limit_this_process() {
+std::string limit_this_process(Network network) {
   std::string refused;
   const auto add_refused = [&](const char* what, int error) {
     refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", what, std::strerror(error));
@@ -83,7 +86,7 @@ std::string limit_this_process() {
   };
   limit_memory(RLIMIT_AS, kMemoryVariable);
   limit_memory(RLIMIT_DATA, kDataVariable);
-  if (const int error = refuse_calls(); error != 0) add_refused("the network", error);
+  if (const int error = refuse_calls(network); error != 0) add_refused("the network", error);
   return refused;
 }
 

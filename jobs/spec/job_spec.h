@@ -42,6 +42,8 @@ struct OutputSpec {
   annotate::CountAreas counts;        ///< of the job; the ground and exits come with them
   int previews = 3;
   std::vector<std::string> formats;  ///< other formats, below formats/ in the dataset
+  std::string
+      publish;  ///< address (bucket/spec/address.h) that the dataset is brought to; "": none
   formats::ExportOptions exports;
 };
 

@@ -7,6 +7,7 @@
 
 #include "annotate/spec/ground_truth.h"
 #include "base/suggest.h"
+#include "bucket/spec/address.h"
 #include "formats/spec/options.h"
 #include "jobs/spec/ground_fields.h"
 #include "jobs/spec/job_fields.h"
@@ -124,6 +125,17 @@ void set_class_names(JobSpec& job, const json& value, const FieldPlace& place) {
   }
 }
 
+json publish_json(const JobSpec& job) { return value_json(job.outputs.publish); }
+
+void set_publish(JobSpec& job, const json& value, const FieldPlace& place) {
+  try {
+    const auto& text = value.get_ref<const std::string&>();
+    job.outputs.publish = bucket::parse_address(text, "", place.pointer).text();
+  } catch (const InputError& error) {
+    place.problems.push_back(error.problems().front());
+  }
+}
+
 void add_export_fields(FieldTable<JobSpec>& table) {
   table.group("outputs/splits", "Splits", "Assignment of runs to splits in other formats.");
   table.add("outputs/splits/train", "Training", "", numbers(0, 1), share_of(Split::train),
@@ -218,6 +230,10 @@ void add_output_fields(FieldTable<JobSpec>& table) {
             at(&JobSpec::outputs, &OutputSpec::formats),
             "Additional formats of the dataset, below formats/: names that throng "
             "export --list prints.");
+  table.add("outputs/publish", "Publish to", "", texts(1, 600), publish_json, set_publish,
+            "Address in an object store, s3://BUCKET/PREFIX, that the finished dataset is brought "
+            "to; credentials come from the environment and never stand in a job "
+            "(docs/publishing.md). Default: none.");
   add_export_fields(table);
 }
 

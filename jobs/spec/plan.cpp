@@ -83,6 +83,8 @@ std::string name_of(const Task& task) {
       return run_name(task.run) + "/metrics";
     case Task::Kind::render:
       return fmt::format("{}/shard{:04}", run_name(task.run), task.shard);
+    case Task::Kind::publish:
+      return kPublishName;
     case Task::Kind::calibrate:
       return "calibration";
     case Task::Kind::report:
@@ -98,7 +100,7 @@ std::string name_of(const Task& task) {
 }
 
 Task task_named(const JobSpec& job, const std::string& name) {
-  std::vector<Task> tasks = {{Task::Kind::collect}};
+  std::vector<Task> tasks = {{Task::Kind::collect}, {Task::Kind::publish}};
   for (int run = 0; run < job.runs; ++run) {
     if (!name.starts_with(run_name(run) + "/")) continue;
     tasks.push_back({Task::Kind::simulate, run});

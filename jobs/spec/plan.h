@@ -47,6 +47,7 @@ struct Task {
     measure,
     render,
     collect,
+    publish,
     calibrate,
     report,
     study_run,
@@ -58,10 +59,11 @@ struct Task {
   auto operator<=>(const Task&) const = default;
 };
 
-/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "calibration", "report",
-/// "simulation/000012", "study": what the task publishes.
+/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "publish", "calibration",
+/// "report", "simulation/000012", "study": what the task publishes.
 std::string name_of(const Task& task);
 
+inline constexpr const char* kPublishName = "publish";
 inline constexpr const char* kStudyRunName = "simulation";
 
 /// The reverse, for tasks of the job's plan. Throws InputError when the job has no such task.

@@ -82,6 +82,7 @@ TaskMemory::TaskMemory(const JobSpec& job, int people_of_scenario) {
 
 std::int64_t TaskMemory::mib_of(const Task& task) const {
   if (task.kind == Task::Kind::report) return kReportMemoryMib;
+  if (task.kind == Task::Kind::publish) return kPublishMemoryMib;
   // Beyond the job's runs there are tasks of all runs: the largest stands for them.
   const auto run = std::min(static_cast<std::size_t>(task.run), runs_.size() - 1);
   if (task.kind == Task::Kind::render) return runs_[run].render_mib;

@@ -37,4 +37,7 @@ std::int64_t calibration_memory_mib(std::int64_t max_image_pixels);
 /// The memory that a report needs, which reads the results of a job run by run.
 inline constexpr std::int64_t kReportMemoryMib = 512;
 
+/// The memory that publishing needs: the manifest of a large dataset, and what a bucket lists.
+inline constexpr std::int64_t kPublishMemoryMib = 256;
+
 }  // namespace throng::jobs

@@ -72,13 +72,26 @@ class JobError(TypedDict):
     """Runs that failed, of a job that is partial."""
 
 
+class ProgressPublishing(TypedDict):
+    """Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md)."""
+
+    address: str
+    """Place of the dataset in the object store, s3://BUCKET/PREFIX."""
+    bytes_done: int
+    """Known to be there."""
+    bytes_total: int
+    """0 as long as it is not known."""
+    objects: int | None
+    """Objects of the dataset, once all are there."""
+
+
 class ProgressRun(TypedDict):
     """ProgressRun of the service."""
 
     run: str
     seed: int
     """Up to 64 bits."""
-    stage: Literal["waiting", "simulating", "rendering", "rendered", "finished", "failed"]
+    stage: Literal["waiting", "simulating", "rendering", "rendered", "publishing", "finished", "failed"]
     simulated_s: float
     duration_s: float
     frames_done: int
@@ -116,7 +129,9 @@ class ProgressNode(TypedDict):
 class Progress(TypedDict):
     """Empty before the job has begun."""
 
-    stage: NotRequired[Literal["waiting", "simulating", "rendering", "rendered", "finished", "failed"]]
+    stage: NotRequired[Literal["waiting", "simulating", "rendering", "rendered", "publishing", "finished", "failed"]]
+    publishing: NotRequired[ProgressPublishing]
+    """Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md)."""
     frames_done: NotRequired[int]
     frames_total: NotRequired[int]
     runs: NotRequired[list[ProgressRun]]

@@ -336,4 +336,8 @@ def _draw(bar: ProgressBar, data: Mapping[str, Any]) -> None:
     done, total = data.get("frames_done", 0), data.get("frames_total", 0)
     left = data.get("remaining_s")
     text = f"{data.get('stage', '')}, {done} of {counted(total, 'frame')}" + (f", {left:.0f} s left" if left else "")
+    publishing = data.get("publishing")
+    if data.get("stage") == "publishing" and publishing:
+        done, total = publishing["bytes_done"], publishing["bytes_total"]
+        text = f"publishing, {done / 1e6:.1f} of {total / 1e6:.1f} MB"
     bar.update(done / total if total else 0.0, text, str(data.get("stage", "")))

@@ -178,6 +178,9 @@ class Outputs(Part):
     Default: 3."""
     formats: Sequence[str] | None = None
     """Additional formats of the dataset, below formats/: names that throng export --list prints."""
+    publish: str | None = None
+    """Address in an object store, s3://BUCKET/PREFIX, that the finished dataset is brought to; credentials come from
+    the environment and never stand in a job (docs/publishing.md). Default: none."""
     splits: Splits | None = None
     """Assignment of runs to splits in other formats."""
     filters: Filters | None = None

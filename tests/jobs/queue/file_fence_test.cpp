@@ -88,6 +88,33 @@ TEST_F(FileFenceTest, ItsOwnFolderIsFree) {
   EXPECT_TRUE(succeeds([&] { return ::truncate((mine / "job.json").c_str(), 1) == 0; }));
 }
 
+TEST_F(FileFenceTest, CredentialsAreReadByTheOneThatPublishes) {
+  SKIP_WITHOUT_LANDLOCK();
+  const fs::path in_home = outside / ".aws/credentials";
+  const fs::path named = outside / "keys";
+  const fs::path beside = outside / "file";
+  write_file_atomically(in_home, "secret");
+  write_file_atomically(named, "secret");
+  const auto reads = [&](const fs::path& file, Credentials credentials) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::setenv("HOME", outside.c_str(), 1);
+      ::setenv(kPrivateCredentialsVariable, named.c_str(), 1);
+      if (!fence_this_process(fence_of_folder(mine, credentials)).empty()) ::_exit(2);
+      ::_exit(can_open(file, O_RDONLY) ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) < 2);
+    return WEXITSTATUS(status) == 0;
+  };
+  for (const fs::path& file : {in_home, named}) {
+    EXPECT_TRUE(reads(file, Credentials::readable)) << file;
+    EXPECT_FALSE(reads(file, Credentials::hidden)) << file;
+  }
+  EXPECT_TRUE(reads(beside, Credentials::hidden));
+}
+
 TEST_F(FileFenceTest, NothingElseIsWritten) {
   SKIP_WITHOUT_LANDLOCK();
   const std::map<std::string, std::function<bool()>> attempts = {

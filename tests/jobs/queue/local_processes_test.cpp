@@ -82,6 +82,43 @@ class LocalProcessesTest : public testing::Test {
   double rest_s = 0.01;
 };
 
+/// Sets a variable of this process for the time of a test.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST_F(LocalProcessesTest, OnlyTheOneThatPublishesGetsCredentials) {
+  const Variable secret("AWS_SECRET_ACCESS_KEY", "hunter2");
+  const Variable profile("AWS_SHARED_CREDENTIALS_FILE", "/srv/keys");
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "env > $2/$4.env", "worker"};
+  LocalProcesses processes(options);
+  const auto environment_of = [&](const Task& task) {
+    std::filesystem::create_directories((folder.path() / name_of(task)).parent_path());
+    const std::array tasks = {task};
+    processes.run(JobFolder(folder.path()), tasks, {}, {});
+    return read_file(folder.path() / (name_of(task) + ".env"));
+  };
+  EXPECT_THAT(environment_of({Task::Kind::publish}), HasSubstr("AWS_SECRET_ACCESS_KEY=hunter2\n"));
+  for (const Task::Kind kind : {Task::Kind::simulate, Task::Kind::measure, Task::Kind::render,
+                                Task::Kind::collect, Task::Kind::calibrate, Task::Kind::report,
+                                Task::Kind::study_run, Task::Kind::study_report}) {
+    const std::string environment = environment_of({kind});
+    EXPECT_THAT(environment, testing::Not(HasSubstr("AWS_")));
+    EXPECT_THAT(environment, testing::Not(HasSubstr("hunter2")));
+    EXPECT_THAT(environment, HasSubstr("THRONG_PRIVATE_CREDENTIALS=/srv/keys\n"));
+  }
+}
+
 TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
   const auto results = run("echo $task >> $job/ran", 5);
   EXPECT_EQ(results.size(), 5U);

@@ -55,6 +55,66 @@ TEST_F(SupervisorTest, TakesUpWhereAnEarlierOneStopped) {
   EXPECT_TRUE(third.done().empty());
 }
 
+ResolvedJob published_to(const ResolvedJob& job, const std::string& address) {
+  JobSpec spec = job.spec();
+  spec.outputs.publish = address;
+  return ResolvedJob(spec);
+}
+
+TEST_F(SupervisorTest, PublishesTheDatasetOnceItIsThere) {
+  job = published_to(job, "s3://data/set");
+  std::vector<std::string> stages;
+  std::optional<DeliveryProgress> delivery;
+  run_job(folder(), job, executor, [&](const JobProgress& progress) {
+    const std::string stage(name_of(progress.runs[0].stage));
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+    delivery = progress.delivery;
+  });
+  EXPECT_EQ(executor.done().back(), "publish");
+  EXPECT_THAT(stages, ElementsAre("waiting", "simulating", "rendering", "rendered", "publishing",
+                                  "finished"));
+  ASSERT_TRUE(delivery);
+  EXPECT_EQ(delivery->address, "s3://data/set");
+  EXPECT_EQ(delivery->objects, 2);
+  EXPECT_EQ(delivery->bytes_done, 20);
+}
+
+TEST_F(SupervisorTest, PublishingThatFailsLeavesTheDatasetAndIsTriedAgain) {
+  job = published_to(job, "s3://data/set");
+  executor.before = [](const Task& task) {
+    return task.kind == Task::Kind::publish
+               ? TaskResult{Outcome::environment_error, 3, "SlowDown", {}}
+               : TaskResult{};
+  };
+  try {
+    run_job(folder(), job, executor);
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_STREQ(error.what(), "publish: SlowDown (after 3 attempts)");
+  }
+  EXPECT_TRUE(folder().is_done({Task::Kind::collect}));
+  FakeExecutor second;
+  run_job(folder(), job, second);
+  EXPECT_THAT(second.done(), ElementsAre("publish"));
+}
+
+TEST_F(SupervisorTest, AnotherAddressPublishesTheSameDatasetAgain) {
+  job = published_to(job, "s3://data/set");
+  run_job(folder(), job, executor);
+  job = published_to(job, "s3://data/other");
+  FakeExecutor second;
+  run_job(folder(), job, second);
+  EXPECT_THAT(second.done(), ElementsAre("publish"));
+  EXPECT_EQ(folder().read_job().spec().outputs.publish, "s3://data/other");
+  FakeExecutor third;
+  run_job(folder(), job, third);
+  EXPECT_TRUE(third.done().empty());
+  job = published_to(job, "");
+  run_job(folder(), job, third);
+  EXPECT_TRUE(third.done().empty());
+  EXPECT_FALSE(folder().is_done({Task::Kind::publish}));
+}
+
 TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
   executor.before = [](const Task& task) {
     return name_of(task) == "run001/shard0002" ? TaskResult{Outcome::crashed, 3, "boom", {}}

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -34,6 +35,23 @@ TEST(WorkerLimits, NoSocketLeadsOutOfTheMachine) {
           refused = refused && ::socket(family, SOCK_STREAM, 0) < 0 && errno == EACCES;
         }
         leave((!was_limited || refused) && ::socket(AF_UNIX, SOCK_STREAM, 0) >= 0);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+TEST(WorkerLimits, OneThatPublishesConnectsAndIsLimitedOtherwise) {
+  EXPECT_EXIT(
+      {
+        const bool was_limited =
+            limit_this_process(Network::allowed).find("network") == std::string::npos;
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in nowhere{};
+        nowhere.sin_family = AF_INET;
+        nowhere.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const bool is_connecting =
+            ::connect(socket, reinterpret_cast<sockaddr*>(&nowhere), sizeof(nowhere)) != 0 &&
+            errno != EACCES;
+        leave(socket >= 0 && is_connecting && (!was_limited || is_refused(SYS_unshare)));
       },
       testing::ExitedWithCode(0), "");
 }

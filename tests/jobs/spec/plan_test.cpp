@@ -102,7 +102,7 @@ TEST(Plan, AsManyPreviewsAsAskedForOrAsThereAreFrames) {
 
 TEST(Plan, TaskNamesAreUniqueAndReadBack) {
   const JobSpec job = job_with(100, 1, 1, 2);
-  std::vector<Task> tasks = {{Task::Kind::collect}};
+  std::vector<Task> tasks = {{Task::Kind::collect}, {Task::Kind::publish}};
   for (int run = 0; run < 2; ++run) {
     tasks.push_back({Task::Kind::simulate, run});
     tasks.push_back({Task::Kind::measure, run});

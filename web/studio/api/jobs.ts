@@ -1,5 +1,6 @@
 // Jobs and what can be done with them.
 
+import { bytesText } from "../parts/format";
 import { navigate } from "../parts/router";
 import { sendJson } from "./client";
 import type { Job, Progress } from "./types";
@@ -35,6 +36,8 @@ export function stageText(progress: Progress): string {
       return `rendering: ${done.toLocaleString("en-US")} of ${total.toLocaleString("en-US")} images`;
     case "rendered":
       return "writing the dataset";
+    case "publishing":
+      return `publishing: ${bytesText(progress.publishing?.bytes_done ?? 0)} of ${bytesText(progress.publishing?.bytes_total ?? 0)}`;
     default:
       return progress.stage;
   }

@@ -54,14 +54,25 @@ export interface JobError {
 
 /** Empty before the job has begun. */
 export interface Progress {
-  stage?: "waiting" | "simulating" | "rendering" | "rendered" | "finished" | "failed";
+  stage?: "waiting" | "simulating" | "rendering" | "rendered" | "publishing" | "finished" | "failed";
+  /** Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md). */
+  publishing?: {
+    /** Place of the dataset in the object store, s3://BUCKET/PREFIX. */
+    address: string;
+    /** Known to be there. */
+    bytes_done: number;
+    /** 0 as long as it is not known. */
+    bytes_total: number;
+    /** Objects of the dataset, once all are there. */
+    objects: number | null;
+  };
   frames_done?: number;
   frames_total?: number;
   runs?: ({
     run: string;
     /** Up to 64 bits. */
     seed: number;
-    stage: "waiting" | "simulating" | "rendering" | "rendered" | "finished" | "failed";
+    stage: "waiting" | "simulating" | "rendering" | "rendered" | "publishing" | "finished" | "failed";
     simulated_s: number;
     duration_s: number;
     frames_done: number;

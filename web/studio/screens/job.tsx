@@ -267,6 +267,10 @@ function Summary({ job }: { job: Job }) {
   } else if (job.ended_at) {
     figures.push(["disk", bytesText(job.bytes)]);
   }
+  const { publishing } = job.progress;
+  if (publishing && publishing.objects !== null) {
+    figures.push(["published", `${publishing.address} (${publishing.objects} objects, ${bytesText(publishing.bytes_total)})`]);
+  }
   if (job.attempt > 1) figures.push(["attempt", String(job.attempt)]);
   if (job.expires_at && !job.keep) figures.push(["removed", timeText(job.expires_at)]);
   return (
