@@ -288,7 +288,7 @@ class Publisher {
 }  // namespace
 
 Published publish_dataset(const fs::path& dataset, const Address& address,
-                          const OnPublished& on_published, std::stop_token stop) {
+                          const OnPublished& on_published, const std::stop_token& stop) {
   return Publisher(dataset, address, on_published, stop).publish();
 }
 

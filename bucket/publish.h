@@ -27,7 +27,7 @@ using OnPublished = std::function<void(std::int64_t done_bytes, std::int64_t tot
 /// interruption. Throws InputError (the folder holds no dataset or one that was changed, there is
 /// no such bucket, the prefix holds something else), EnvironmentError and Cancelled.
 Published publish_dataset(const std::filesystem::path& dataset, const Address& address,
-                          const OnPublished& on_published = {}, std::stop_token stop = {});
+                          const OnPublished& on_published = {}, const std::stop_token& stop = {});
 
 /// Finds out before any work whether a dataset can be brought to an address later: credentials, the
 /// bucket, the right to write there, and that the prefix holds no dataset yet. Leaves no object

@@ -18,7 +18,7 @@ const std::vector<ExecutorKind>& executor_kinds() {
        [](const ExecutorOptions&) { return std::string(); }},
       {"slurm", "array jobs of a Slurm cluster that shares the folder (docs/cluster.md)",
        [](const ExecutorOptions& options) -> std::unique_ptr<Executor> {
-         return std::make_unique<SlurmArrays>(options.slurm);
+         return std::make_unique<SlurmArrays>(options.slurm, options.local);
        },
        [](const ExecutorOptions& options) { return check_slurm(options.slurm); }}};
   return kinds;

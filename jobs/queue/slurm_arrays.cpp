@@ -36,8 +36,9 @@ void SlurmArrayNames::give_back(const std::string& array) {
   names_.erase(array);
 }
 
-SlurmArrays::SlurmArrays(const SlurmOptions& options)
-    : shared_(new SlurmShared{completed(options), SlurmController({.poll_s = options.poll_s})}) {}
+SlurmArrays::SlurmArrays(const SlurmOptions& options, LocalProcessesOptions here)
+    : shared_(new SlurmShared{completed(options), SlurmController({.poll_s = options.poll_s})}),
+      here_(std::move(here)) {}
 
 std::vector<TaskResult> SlurmArrays::run(const JobFolder& folder, std::span<const Task> tasks,
                                          const OnProgress& on_progress, std::stop_token stop,

@@ -46,9 +46,8 @@ struct SlurmShared {
 /// see no credentials.
 class SlurmArrays final : public Executor {
  public:
-  static constexpr int kPublishedAtOnce = 4;
-
-  explicit SlurmArrays(const SlurmOptions& options = {});
+  /// `here`: how tasks run on this machine.
+  explicit SlurmArrays(const SlurmOptions& options = {}, LocalProcessesOptions here = {});
 
   using Executor::run;
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
@@ -62,7 +61,7 @@ class SlurmArrays final : public Executor {
 
  private:
   std::unique_ptr<SlurmShared> shared_;
-  LocalProcesses here_{{.workers = kPublishedAtOnce}};
+  LocalProcesses here_;
 };
 
 /// Asks Slurm whether it knows partition, account and resources. Throws InputError with its answer

@@ -155,6 +155,22 @@ class SlurmArraysTest : public testing::Test {
   std::vector<NodeWork> nodes;
 };
 
+TEST_F(SlurmArraysTest, DatasetsArePublishedHereAndNodesSeeNoCredentials) {
+  ::setenv("AWS_SECRET_ACCESS_KEY", "hunter2", 1);
+  SlurmArrays slurm(options_for("env > $job/node; end 0"),
+                    {.command = {"/bin/sh", "-c", "env > $2/here", "worker"}});
+  const JobFolder job(folder.path());
+  const std::vector<Task> simulate = {{Task::Kind::simulate}};
+  const std::vector<Task> publish = {{Task::Kind::publish}};
+  slurm.run(job, simulate, {}, {});
+  const std::string submitted = read_file(fake.path() / "submitted");
+  slurm.run(job, publish, {}, {});
+  ::unsetenv("AWS_SECRET_ACCESS_KEY");
+  EXPECT_EQ(read_file(fake.path() / "submitted"), submitted);
+  EXPECT_THAT(read_file(job.path() / "here"), HasSubstr("AWS_SECRET_ACCESS_KEY=hunter2"));
+  EXPECT_THAT(read_file(job.path() / "node"), testing::Not(HasSubstr("hunter2")));
+}
+
 TEST_F(SlurmArraysTest, AStageIsOneArray) {
   const auto results = run("say '{\"done\":1,\"total\":2}'; echo $task >> $job/tasks; end 0", 3);
   for (const TaskResult& result : results) {
