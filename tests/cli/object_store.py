@@ -5,6 +5,7 @@ the SHA-256 and the MD5 that its headers say. It notes requests, makes faults, a
 s3rver's folder: ListMultipartUploads, ListParts, AbortMultipartUpload, and NoSuchUpload.
 """
 import base64
+import contextlib
 import hashlib
 import hmac
 import http.client
@@ -110,7 +111,11 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             return self.end_headers()
         return self.answer(*answer)
 
-    do_GET = do_HEAD = do_PUT = do_POST = do_DELETE = handle_request
+    def do_request(self):
+        with self.store.at_work():
+            self.handle_request()
+
+    do_GET = do_HEAD = do_PUT = do_POST = do_DELETE = do_request
 
     def check(self, headers, body):
         wrong = self.store.wrong
@@ -145,6 +150,7 @@ class ObjectStore:
         self.requests = []
         self.wrong = []  # requests that were not signed, or not with the body's checksums
         self.fault = lambda request: None  # drop, slow_down, corrupt, lose_answer, truncate
+        self.busy = 0  # requests that may still change something
         self._lock = threading.Lock()
 
     def __enter__(self):
@@ -189,6 +195,16 @@ class ObjectStore:
         with self._lock:
             self.requests.append(request)
             return self.fault(request)
+
+    @contextlib.contextmanager
+    def at_work(self):
+        with self._lock:
+            self.busy += 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self.busy -= 1
 
     def sent(self, method="PUT"):
         """Requests with a body that were sent since the last call of forget()."""

@@ -85,17 +85,27 @@ class Publishing(unittest.TestCase):
         process = subprocess.Popen(
             [THRONG, "publish", dataset, address], env=self.environment, stderr=subprocess.DEVNULL
         )
-        killing = threading.Event()
+        self.store.fault = self.killing(process, is_it_time)
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+        self.settle()
+
+    @staticmethod
+    def killing(process, is_it_time):
+        """A fault that kills a process once it is time; this and all further requests are lost."""
+        is_killed = threading.Event()
 
         def fault(request):
-            if killing.is_set() or is_it_time(request):
-                killing.set()
+            if is_killed.is_set() or is_it_time(request):
+                is_killed.set()
                 process.kill()
                 return "drop"
             return None
 
-        self.store.fault = fault
-        self.assertEqual(process.wait(), -signal.SIGKILL)
+        return fault
+
+    def settle(self):
+        """Waits until requests of a process that was killed have had their effect, and forgets them."""
+        wait_until(lambda: self.store.busy == 0)
         self.store.forget()
 
     def test_a_dataset_is_there_byte_by_byte_and_the_manifest_comes_last(self):
@@ -225,6 +235,20 @@ class Publishing(unittest.TestCase):
         self.throng("publish", dataset, "s3://data/set")
         self.assertEqual(answers, [])
         self.assertEqual(self.store.objects(), files_of(dataset, "set/"))
+
+    def test_without_a_listing_that_shows_all_there_is_no_manifest(self):
+        dataset = write_dataset(self.folder / "dataset", small=3)
+        original = self.store.own_answer
+
+        def own_answer(request):
+            if "list-type" in request["query"]:
+                return 200, b"<ListBucketResult><IsTruncated>false</IsTruncated></ListBucketResult>", ()
+            return original(request)
+
+        self.store.own_answer = own_answer
+        done = self.throng("publish", dataset, "s3://data/set", code=3)
+        self.assertIn("the listing shows 0 of 4 objects", done.stderr)
+        self.assertNotIn("set/manifest.json", self.store.objects())
 
     def test_nothing_of_others_is_overwritten(self):
         first = write_dataset(self.folder / "first", seed=1)
@@ -387,6 +411,36 @@ class Publishing(unittest.TestCase):
             *(part.decode(errors="replace") for part in files_of(data).values()),
         ):
             self.assert_secret(text)
+
+    def test_a_service_that_is_killed_goes_on_publishing(self):
+        data = self.folder / "data"
+        options = {"env": self.environment}
+        process, port = start_service(THRONG, data, "--publish-to", "s3://data", **options)
+        self.store.fault = self.killing(process, lambda request: len(self.store.objects()) > 1)
+        body = json.dumps({**JOB, "outputs": {"publish": "s3://data/set"}}).encode()
+        headers = {"Content-Type": "application/json"}
+        request = urllib.request.Request(f"http://127.0.0.1:{port}/v1/jobs", body, headers)
+        with urllib.request.urlopen(request, timeout=300) as answer:
+            name = json.load(answer)["id"]
+        process.wait()
+        self.settle()
+        there = set(self.store.objects())
+        self.assertNotIn("set/manifest.json", there)
+        process, port = start_service(THRONG, data, "--publish-to", "s3://data", **options)
+        try:
+
+            def state():
+                with urllib.request.urlopen(f"http://127.0.0.1:{port}/v1/jobs/{name}", timeout=300) as answer:
+                    return json.load(answer)["state"]
+
+            wait_until(lambda: state() != "running")
+            self.assertEqual(state(), "succeeded")
+        finally:
+            process.send_signal(signal.SIGTERM)
+            process.wait(300)
+        expected = files_of(data / "jobs" / name / "dataset", "set/")
+        self.assertEqual(self.store.objects(), expected)
+        self.assertEqual({request["key"] for request in self.store.sent()}, set(expected) - there)
 
     def test_the_service_needs_credentials_and_an_address(self):
         for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY"):
