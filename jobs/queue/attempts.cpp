@@ -117,6 +117,12 @@ void revoke_attempt(const JobFolder& folder, const std::string& array, std::size
   remove_for_good(attempt_folder(folder, array, index));
 }
 
+bool renew_attempt(const JobFolder& folder, const std::string& array, std::size_t index) {
+  revoke_attempt(folder, array, index);
+  std::error_code error;
+  return fs::create_directory(attempt_folder(folder, array, index), error);
+}
+
 void remove_attempts(const JobFolder& folder, const std::string& array) {
   remove_for_good(array_folder(folder, array));
   std::error_code ignored;

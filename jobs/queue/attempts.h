@@ -56,6 +56,11 @@ std::string noted_array_job(const JobFolder& folder, const std::string& array);
 /// more. Throws EnvironmentError when the folder cannot be removed.
 void revoke_attempt(const JobFolder& folder, const std::string& array, std::size_t index);
 
+/// Takes the right of an attempt away and makes a new one of the same index, for a task that
+/// Slurm begins again under its number. False when there is no room for it. Throws as
+/// revoke_attempt().
+bool renew_attempt(const JobFolder& folder, const std::string& array, std::size_t index);
+
 /// Removes the array with all its attempts. Throws EnvironmentError.
 void remove_attempts(const JobFolder& folder, const std::string& array);
 

@@ -113,9 +113,10 @@ std::vector<NodeWork> NodeBook::of(const JobFolder& folder) const {
   return list_of(totals_of(folder));
 }
 
-int NodeBook::running(const JobFolder& folder) const {
+int NodeBook::running() const {
+  const std::lock_guard lock(mutex_);
   int running = 0;
-  for (const NodeWork& work : of(folder)) running += work.running;
+  for (const auto& [name, work] : all_) running += work.running;
   return running;
 }
 

@@ -40,8 +40,8 @@ class NodeBook {
 
   /// Of a job, by name: what earlier processes noted, and what runs now.
   std::vector<NodeWork> of(const JobFolder& folder) const;
-  /// Tasks of a job that run now.
-  int running(const JobFolder& folder) const;
+  /// Tasks of all jobs that run now.
+  int running() const;
   /// Of all jobs since this process began.
   std::vector<NodeWork> all() const;
 

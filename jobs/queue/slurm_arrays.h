@@ -18,6 +18,7 @@
 #include "jobs/queue/node_book.h"
 #include "jobs/queue/slurm_controller.h"
 #include "jobs/queue/slurm_options.h"
+#include "jobs/queue/slurm_submission.h"
 
 namespace throng::jobs {
 
@@ -39,6 +40,8 @@ struct SlurmShared {
   SlurmController controller;
   NodeBook book = {};
   SlurmArrayNames arrays = {};
+  /// Tasks of an array: a controller with a smaller MaxArraySize is found out by its refusals.
+  std::atomic<std::size_t> max_tasks = kMaxArrayTasks;
   std::atomic<bool> leaves_tasks = false;
 };
 

@@ -27,6 +27,7 @@ bool SlurmBatch::Array::is_open() const {
 
 void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
   if (array.job.empty() || queue.asked <= array.since) return;
+  take_accounting(array, queue);
   for (Entry& entry : array.entries) {
     if (!entry.is_open) continue;
     const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
@@ -43,6 +44,7 @@ void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
 void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
   const SlurmFate fate = fate_of(state);
   if (fate == SlurmFate::waiting) {
+    if (!entry.node.empty() && is_requeued(state)) return begin_again(array, entry, state);
     entry.heard = options_.now();  // also one that was suspended
     return;
   }
@@ -76,42 +78,80 @@ void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
     timeout = fmt::format("the task took longer than {} s", options_.max_task_s);
   }
   if (timeout.empty()) return;
-  cancel(array, entry);
+  array.to_cancel.push_back(entry.index);
   end_attempt(array, entry, state,
               result_of({{}, std::nullopt, timeout}, folder_.log_of(tasks_[entry.task])), false);
 }
 
 // Slurm forgets tasks some minutes after their end (MinJobAge), and all of them with its state.
 void SlurmBatch::look_for_absent(Array& array, Entry& entry, const SlurmQueue& queue) {
-  if (entry.accounting) {
-    constexpr std::chrono::seconds kNow(0);
-    if (entry.accounting->wait_for(kNow) != std::future_status::ready) return;
-    const SlurmAnswer answer = entry.accounting->get();
-    entry.accounting.reset();
-    const auto state =
-        answer.is_ok ? read_accounting(answer.text, job_name_of(array.name)) : std::nullopt;
-    const SlurmFate fate = state ? fate_of(*state) : SlurmFate::lost;
-    entry.absent = queue.asked;
-    if (fate == SlurmFate::running || fate == SlurmFate::waiting) return;
-    SlurmTask gone = state.value_or(SlurmTask{});
-    if (!state) gone.state = "BOOT_FAIL";
-    if (gone.node.empty()) gone.node = entry.node;
-    if (!state) {
-      return end_attempt(array, entry, gone,
-                         {Outcome::environment_error, 0, "lost: Slurm does not know the task", {}},
-                         true);
-    }
-    return look_at(array, entry, gone);
-  }
+  if (entry.is_in_accounting) return;
   SlurmTask unknown;
   unknown.node = entry.node;
   read_messages(entry);
   if (take_end(array, entry, unknown)) return;
   if (!entry.absent) entry.absent = queue.asked;
-  if (*entry.absent == queue.asked) return;
-  entry.accounting = shared_.controller.ask({"sacct", "-n", "-P", "-X", "-j",
-                                             fmt::format("{}_{}", array.job, entry.index), "-o",
-                                             "State,ExitCode,NodeList,JobName"});
+  entry.is_in_accounting = *entry.absent != queue.asked && !array.accounting;
+}
+
+// One sacct asks for all tasks of an array that two looks have missed.
+void SlurmBatch::take_accounting(Array& array, const SlurmQueue& queue) {
+  constexpr std::chrono::seconds kNow(0);
+  if (!array.accounting) {
+    if (std::none_of(array.entries.begin(), array.entries.end(),
+                     [](const Entry& entry) { return entry.is_open && entry.is_in_accounting; })) {
+      return;
+    }
+    array.accounting =
+        shared_.controller.ask({"sacct", "-n", "-P", "-X", "-j", array.job, "-o", kAccountFormat});
+    return;
+  }
+  if (array.accounting->wait_for(kNow) != std::future_status::ready) return;
+  const SlurmAnswer answer = array.accounting->get();
+  array.accounting.reset();
+  std::map<int, SlurmTask> known;
+  if (answer.is_ok) known = read_accounting(answer.text, job_name_of(array.name));
+  for (Entry& entry : array.entries) {
+    if (!entry.is_open || !entry.is_in_accounting) continue;
+    entry.is_in_accounting = false;
+    entry.absent = queue.asked;
+    const auto found = known.find(static_cast<int>(entry.index));
+    take_account(array, entry, found == known.end() ? std::nullopt : std::optional(found->second));
+  }
+}
+
+void SlurmBatch::take_account(Array& array, Entry& entry, const std::optional<SlurmTask>& account) {
+  SlurmTask gone = account.value_or(SlurmTask{});
+  if (gone.node.empty()) gone.node = entry.node;
+  if (account) {
+    const SlurmFate fate = fate_of(gone);
+    if (fate != SlurmFate::running && fate != SlurmFate::waiting) look_at(array, entry, gone);
+    return;
+  }
+  gone.state = "BOOT_FAIL";
+  end_attempt(array, entry, gone,
+              {Outcome::environment_error, 0, "lost: Slurm does not know the task", {}}, true);
+}
+
+// Slurm has ended the task and will begin it under the same number: with a new right to publish, it
+// keeps its place in the queue.
+void SlurmBatch::begin_again(Array& array, Entry& entry, const SlurmTask& state) {
+  SlurmTask before = state;
+  before.node = entry.node;
+  read_messages(entry);
+  if (take_end(array, entry, before)) {
+    array.to_cancel.push_back(entry.index);
+    return;
+  }
+  const std::string message = fmt::format("lost on node {}: Slurm begins it again", entry.node);
+  if (!renew_attempt(folder_, array.name, entry.index)) {
+    before.state = "PREEMPTED";
+    return end_attempt(array, entry, before, {Outcome::environment_error, 0, message, {}}, true);
+  }
+  note_end(array, entry, "lost", message);
+  entry.messages = MessageFile(attempt_folder(folder_, array.name, entry.index) / "messages");
+  entry.node.clear();
+  entry.ended.reset();
 }
 
 // Notes where it runs, and reads what it says.
@@ -121,7 +161,19 @@ void SlurmBatch::follow(Entry& entry, const SlurmTask& state) {
     entry.begun = entry.heard = options_.now();
     shared_.book.begin(folder_, entry.node);
   }
-  read_messages(entry);
+  // An end is seen at the next look; steps and signs of life are not worth a file system's time.
+  if (are_messages_due_ || fate_of(state) != SlurmFate::running) read_messages(entry);
+}
+
+// However many tasks run, their files are opened at a bounded rate, and often enough that none is
+// taken for dead.
+SlurmBatch::Clock::duration SlurmBatch::message_pause() const {
+  constexpr std::chrono::milliseconds kMinPause(500);
+  constexpr std::chrono::milliseconds kPerTask(50);
+  constexpr double kPerLease = 4;
+  const Clock::duration pause =
+      std::max<Clock::duration>(kMinPause, kPerTask * shared_.book.running());
+  return std::min(pause, steady_seconds(options_.lease_s / kPerLease));
 }
 
 void SlurmBatch::read_messages(Entry& entry) {
@@ -179,6 +231,11 @@ bool SlurmBatch::has_published(const AttemptEnd& end) const {
 void SlurmBatch::close(Array& array, Entry& entry, const std::string& outcome,
                        const std::string& message) {
   entry.is_open = false;
+  note_end(array, entry, outcome, message);
+}
+
+void SlurmBatch::note_end(const Array& array, const Entry& entry, const std::string& outcome,
+                          const std::string& message) {
   if (entry.node.empty()) return;
   const double seconds = entry.messages.end()
                              ? entry.messages.end()->seconds
@@ -200,7 +257,7 @@ void SlurmBatch::end_attempt(Array& array, Entry& entry, const SlurmTask& state,
   revoke_attempt(folder_, array.name, entry.index);
   close(array, entry, is_blameless ? "lost" : name_of(result.outcome), result.message);
   if (is_blameless) {
-    cancel(array, entry);  // Slurm may hold it
+    array.to_cancel.push_back(entry.index);  // Slurm may hold it
     return lose(entry.task, std::move(result), state);
   }
   if (result.outcome == Outcome::out_of_memory) ++ledgers_[entry.task].exhaustions;
@@ -233,11 +290,19 @@ void SlurmBatch::lose(std::size_t task, TaskResult result, const SlurmTask& stat
   waiting_.push_back({task, after(options_.rest_s)});
 }
 
-void SlurmBatch::cancel(const Array& array, const Entry& entry) const {
-  if (array.job.empty()) return;  // it finds no right to publish
-  // The number alone may be another's by now.
-  shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name),
-                           fmt::format("{}_{}", array.job, entry.index)});
+// One scancel per array, for all that were ended since the last one. As long as its number is not
+// known, tasks find no right to publish.
+void SlurmBatch::cancel_ended() {
+  for (Array& array : arrays_) {
+    if (array.to_cancel.empty()) continue;
+    // The number alone may be another's by now.
+    std::vector<std::string> command = {"scancel", "--quiet", "--name=" + job_name_of(array.name)};
+    for (const std::size_t index : array.to_cancel) {
+      command.push_back(fmt::format("{}_{}", array.job, index));
+    }
+    array.to_cancel.clear();
+    if (!array.job.empty()) shared_.controller.tell(std::move(command));
+  }
 }
 
 void SlurmBatch::end_others(const std::function<bool(const Task&)>& condition) {

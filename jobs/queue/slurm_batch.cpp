@@ -18,10 +18,7 @@ namespace {
 
 // How late a wish to stop may be noticed.
 constexpr std::chrono::milliseconds kTick(100);
-// How often files of messages are looked at: seldom where there are many, for the sake of the file
-// system.
-constexpr std::chrono::milliseconds kMinMessagePause(500);
-constexpr std::chrono::milliseconds kMessagePausePerTask(5);
+constexpr std::chrono::milliseconds kLookPause(500);
 // How long a stop waits for workers to end. One that does not has lost its right to publish.
 constexpr std::chrono::seconds kMaxWait(8);
 // Looks at the queue that must miss an array or a task until it counts as gone.
@@ -59,14 +56,10 @@ std::vector<TaskResult> SlurmBatch::run() {
     submit_ready();
     const auto queue = shared_.controller.queue();
     if (Clock::now() >= next_look) {
-      for (Array& array : arrays_) {
-        if (array.job.empty()) find_number(array, *queue);
-        look_at(array, *queue);
-        update_nice(array);
-      }
-      const auto running = static_cast<int>(shared_.book.running(folder_));
-      next_look = Clock::now() + std::max(kMinMessagePause, kMessagePausePerTask * running);
+      look(*queue);
+      next_look = Clock::now() + kLookPause;
     }
+    cancel_ended();
     drop_closed_arrays();
     say_why_nothing_runs(*queue);
     if (arrays_.empty() && waiting_.empty()) break;
@@ -74,6 +67,17 @@ std::vector<TaskResult> SlurmBatch::run() {
   }
   wait_for_cancelled();
   return std::move(results_);
+}
+
+void SlurmBatch::look(const SlurmQueue& queue) {
+  are_messages_due_ = Clock::now() >= next_messages_;
+  for (Array& array : arrays_) {
+    if (array.job.empty()) find_number(array, queue);
+    look_at(array, queue);
+    update_nice(array);
+  }
+  if (are_messages_due_) next_messages_ = Clock::now() + message_pause();
+  pending_ = reason_to_wait(queue);
 }
 
 std::optional<std::size_t> SlurmBatch::task_named(const std::string& name) const {
@@ -112,14 +116,13 @@ void SlurmBatch::adopt(const AttemptArray& found) {
           return std::any_of(a.entries.begin(), a.entries.end(),
                              [&](const Entry& entry) { return entry.task == *task; });
         });
-    Entry& entry = array.entries.emplace_back(task.value_or(0), i, own / "messages");
     if (task && !is_double) {
+      array.entries.emplace_back(*task, i, own / "messages");
       results_[*task].attempts = found.attempts[i].number;
       continue;
     }
     revoke_attempt(folder_, array.name, i);
-    cancel(array, entry);
-    array.entries.pop_back();
+    array.to_cancel.push_back(i);
   }
 }
 
@@ -129,6 +132,7 @@ void SlurmBatch::submit_ready() {
     return array.submission.has_value();
   });
   if (is_submitting || waiting_.empty() || stop_.stop_requested()) return;
+  if (Clock::now() < next_submission_) return;
   if (!shared_.controller.queue()->away.empty()) return;
   std::map<SlurmNeed, std::vector<std::size_t>> ready;
   std::deque<Waiting> later;
@@ -143,6 +147,7 @@ void SlurmBatch::submit_ready() {
         .push_back(waiting.task);
   }
   waiting_ = std::move(later);
+  bool is_enough = false;
   for (auto& [need, tasks] : ready) {
     // Another that could not be submitted may have ended its run meanwhile.
     tasks.erase(std::remove_if(tasks.begin(), tasks.end(),
@@ -150,12 +155,23 @@ void SlurmBatch::submit_ready() {
                                  return results_[task].outcome == Outcome::cancelled;
                                }),
                 tasks.end());
-    for (std::size_t i = 0; i < tasks.size(); i += kMaxArrayTasks) {
-      const std::size_t end = std::min(tasks.size(), i + kMaxArrayTasks);
+    for (std::size_t i = 0; i < tasks.size();) {
+      if (is_enough) {
+        waiting_.push_back({tasks[i++], now});
+        continue;
+      }
+      const std::size_t end = std::min(tasks.size(), i + max_tasks());
       submit(need, {tasks.begin() + static_cast<std::ptrdiff_t>(i),
                     tasks.begin() + static_cast<std::ptrdiff_t>(end)});
+      i = end;
+      // After a refusal one array shows whether others are accepted.
+      is_enough = refusals_ > 0;
     }
   }
+}
+
+std::size_t SlurmBatch::max_tasks() const {
+  return std::min(max_accepted_, shared_.max_tasks.load());
 }
 
 void SlurmBatch::submit(const SlurmNeed& need, const std::vector<std::size_t>& tasks) {
@@ -173,6 +189,8 @@ void SlurmBatch::submit(const SlurmNeed& need, const std::vector<std::size_t>& t
     return;
   }
   shared_.arrays.take(made.name);
+  // Tasks that end one by one are submitted together.
+  next_submission_ = Clock::now() + steady_seconds(options_.poll_s);
   Array& array = arrays_.emplace_back();
   array.name = made.name;
   array.nice = nice_of(share_.priority());
@@ -193,15 +211,30 @@ void SlurmBatch::finish_submission(Array& array) {
     array.since = Clock::now();
     refusal_.clear();
     refusals_ = 0;
+    max_accepted_ = std::min(kMaxArrayTasks, 2 * max_accepted_);
     note_array_job(folder_, array.name, array.job);  // or it is found by its name
     return;
   }
   // It may have been accepted although the answer got lost: then its tasks find no folder.
+  shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name)});
+  take_refusal(array, answer);
+  abandon(array);
+}
+
+// A limit on arrays, or on the tasks of a user, leaves room for smaller ones.
+void SlurmBatch::take_refusal(const Array& array, const SlurmAnswer& answer) {
+  const std::size_t half = std::max<std::size_t>(1, array.entries.size() / 2);
   refusal_ = answer.is_away ? "" : answer.text.substr(0, answer.text.find('\n'));
+  if (is_array_too_large(answer.text) && array.entries.size() > 1) {
+    shared_.max_tasks = std::min(shared_.max_tasks.load(), half);
+    refusals_ = std::max(refusals_, 1);
+    next_submission_ = {};
+    return;
+  }
+  if (!answer.is_away) max_accepted_ = half;
   constexpr int kMaxDoublings = 6;
   const double rest_s = options_.rest_s * std::pow(2.0, std::min(refusals_++, kMaxDoublings));
-  shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name)});
-  abandon(array, rest_s);
+  next_submission_ = Clock::now() + steady_seconds(rest_s);
 }
 
 // The server died between the submission and the note of its number.
@@ -215,17 +248,17 @@ void SlurmBatch::find_number(Array& array, const SlurmQueue& queue) {
     return;
   }
   if (++array.looks_without < kMissingLooks) return;
-  abandon(array, 0);
+  abandon(array);
 }
 
 // As if its tasks had never been begun.
-void SlurmBatch::abandon(Array& array, double rest_s) {
+void SlurmBatch::abandon(Array& array) {
   for (Entry& entry : array.entries) {
     if (!entry.is_open) continue;
     entry.is_open = false;
     revoke_attempt(folder_, array.name, entry.index);
     --results_[entry.task].attempts;
-    waiting_.push_back({entry.task, after(rest_s)});
+    waiting_.push_back({entry.task, options_.now()});
   }
 }
 
@@ -237,6 +270,21 @@ void SlurmBatch::update_nice(Array& array) const {
       {"scontrol", "update", "JobId=" + array.job, fmt::format("Nice={}", nice)});
 }
 
+// Why the first task that waits does so; "" when one runs.
+std::string SlurmBatch::reason_to_wait(const SlurmQueue& queue) const {
+  std::string reason;
+  for (const Array& array : arrays_) {
+    for (const Entry& entry : array.entries) {
+      if (!entry.is_open) continue;
+      const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
+      if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) continue;
+      if (fate_of(found->second) != SlurmFate::waiting) return "";
+      if (reason.empty()) reason = found->second.reason;
+    }
+  }
+  return reason == "None" ? "" : reason;
+}
+
 void SlurmBatch::say_why_nothing_runs(const SlurmQueue& queue) {
   std::string reason;
   if (!queue.away.empty()) {
@@ -244,21 +292,8 @@ void SlurmBatch::say_why_nothing_runs(const SlurmQueue& queue) {
         fmt::format("Slurm's controller does not answer ({}); tasks that run go on", queue.away);
   } else if (!refusal_.empty()) {
     reason = fmt::format("Slurm refuses the tasks: {}", refusal_);
-  } else {
-    std::string pending;
-    for (const Array& array : arrays_) {
-      for (const Entry& entry : array.entries) {
-        if (!entry.is_open) continue;
-        const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
-        if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) continue;
-        const SlurmFate fate = fate_of(found->second);
-        if (fate != SlurmFate::waiting) pending = "-";
-        if (fate == SlurmFate::waiting && pending.empty()) pending = found->second.reason;
-      }
-    }
-    if (!pending.empty() && pending != "-" && pending != "None") {
-      reason = fmt::format("the tasks wait in Slurm's queue ({})", pending);
-    }
+  } else if (!pending_.empty()) {
+    reason = fmt::format("the tasks wait in Slurm's queue ({})", pending_);
   }
   if (reason == reason_) return;
   reason_ = reason;
@@ -280,6 +315,7 @@ void SlurmBatch::drop_closed_arrays() {
 
 // The next process finds the arrays in the job's folder.
 std::vector<TaskResult> SlurmBatch::leave() {
+  cancel_ended();
   for (Array& array : arrays_) {
     if (array.submission) array.submission->wait_for(kMaxWait);
     finish_submission(array);

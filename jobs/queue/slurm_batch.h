@@ -59,7 +59,7 @@ class SlurmBatch {
     Clock::time_point heard = {};                  ///< when it last said something, or could not
     std::optional<Clock::time_point> ended = {};   ///< since when Slurm says that it has
     std::optional<Clock::time_point> absent = {};  ///< since when Slurm does not know it
-    std::optional<std::future<SlurmAnswer>> accounting = {};
+    bool is_in_accounting = false;                 ///< the accounting was asked for it
     bool is_open = true;
   };
 
@@ -67,6 +67,8 @@ class SlurmBatch {
     std::string name = {};
     std::string job = {};  ///< array job; "" as long as it is not known
     std::optional<std::future<SlurmAnswer>> submission = {};
+    std::optional<std::future<SlurmAnswer>> accounting = {};  ///< of tasks that Slurm has forgotten
+    std::vector<std::size_t> to_cancel = {};                  ///< indices, for the next scancel
     Clock::time_point since = Clock::now();  ///< what Slurm said earlier does not count
     int looks_without = 0;                   ///< looks that did not find its name
     Clock::time_point last_look = {};
@@ -84,16 +86,23 @@ class SlurmBatch {
   // Submission.
   void submit_ready();
   void submit(const SlurmNeed& need, const std::vector<std::size_t>& tasks);
+  std::size_t max_tasks() const;
+  void take_refusal(const Array& array, const SlurmAnswer& answer);
   void finish_submission(Array& array);
   void find_number(Array& array, const SlurmQueue& queue);
-  void abandon(Array& array, double rest_s);
+  void abandon(Array& array);
   void update_nice(Array& array) const;
 
   // Attempts that run.
+  void look(const SlurmQueue& queue);
   void look_at(Array& array, const SlurmQueue& queue);
   void look_at(Array& array, Entry& entry, const SlurmTask& state);
   void look_for_absent(Array& array, Entry& entry, const SlurmQueue& queue);
+  void take_accounting(Array& array, const SlurmQueue& queue);
+  void take_account(Array& array, Entry& entry, const std::optional<SlurmTask>& account);
+  void begin_again(Array& array, Entry& entry, const SlurmTask& state);
   void follow(Entry& entry, const SlurmTask& state);
+  Clock::duration message_pause() const;
   void read_messages(Entry& entry);
   bool take_end(Array& array, Entry& entry, const SlurmTask& state);
   bool has_published(const AttemptEnd& end) const;
@@ -106,11 +115,14 @@ class SlurmBatch {
   void lose(std::size_t task, TaskResult result, const SlurmTask& state);
   void end_others(const std::function<bool(const Task&)>& condition);
   void close(Array& array, Entry& entry, const std::string& outcome, const std::string& message);
-  void cancel(const Array& array, const Entry& entry) const;
+  void note_end(const Array& array, const Entry& entry, const std::string& outcome,
+                const std::string& message);
+  void cancel_ended();
   void drop_closed_arrays();
   std::vector<TaskResult> leave();
   void wait_for_cancelled();
 
+  std::string reason_to_wait(const SlurmQueue& queue) const;
   void say_why_nothing_runs(const SlurmQueue& queue);
   SteadyTime after(double seconds) const;
 
@@ -126,8 +138,13 @@ class SlurmBatch {
   std::list<Array> arrays_;
   std::vector<Ledger> ledgers_;
   std::vector<TaskResult> results_;
-  std::string refusal_;                     ///< of the last submission; "" if it was accepted
-  int refusals_ = 0;                        ///< in a row
+  std::string refusal_;  ///< of the last submission; "" if it was accepted
+  int refusals_ = 0;     ///< in a row
+  std::size_t max_accepted_ = kMaxArrayTasks;
+  Clock::time_point next_submission_ = {};
+  Clock::time_point next_messages_ = {};
+  bool are_messages_due_ = false;           ///< in this look
+  std::string pending_;                     ///< reason_to_wait() of the last look
   std::string reason_;                      ///< that was last given to Share::on_wait
   std::vector<SlurmQueue::Key> cancelled_;  ///< attempts whose workers may still run
 };

@@ -30,6 +30,25 @@ std::optional<int> number_in(std::string_view text) {
   return value;
 }
 
+/// 3 of "12_3"; 5, 6, 9 of "12_[5-6,9%4]".
+std::vector<int> indices_in(const std::string& job) {
+  std::vector<int> indices;
+  const auto underscore = job.find('_');
+  if (underscore == std::string::npos) return indices;
+  std::string list = job.substr(underscore + 1);
+  if (list.starts_with('[')) list = list.substr(1, list.find_first_of("%]") - 1);
+  for (const std::string& range : split(list, ',')) {
+    const auto dash = range.find('-');
+    const std::optional<int> first = number_in(range.substr(0, dash));
+    const std::optional<int> last =
+        dash == std::string::npos ? first : number_in(range.substr(dash + 1));
+    constexpr int kMaxIndex = 1 << 20;
+    if (!first || !last || *last >= kMaxIndex) continue;
+    for (int index = *first; index <= *last; ++index) indices.push_back(index);
+  }
+  return indices;
+}
+
 /// As wait() gives it: the signal in the lowest seven bits, the exit code in the next eight.
 ExitStatus status_of(int raw) {
   constexpr int kSignalBits = 0x7f;
@@ -86,23 +105,28 @@ std::vector<SlurmTask> read_queue(const std::string& text, std::string_view pref
   return tasks;
 }
 
-std::optional<SlurmTask> read_accounting(const std::string& text, const std::string& name) {
-  constexpr std::size_t kFields = 4;
+std::map<int, SlurmTask> read_accounting(const std::string& text, const std::string& name) {
+  constexpr std::size_t kFields = 5;
+  std::map<int, SlurmTask> tasks;
   for (const std::string& line : split(text, '\n')) {
     const std::vector<std::string> fields = split(line, '|');
     // Numbers of jobs come again when a controller has lost its state.
-    if (fields.size() < kFields || fields[0].empty() || fields[3] != name) continue;
-    const std::vector<std::string> codes = split(fields[1], ':');
+    if (fields.size() < kFields || fields[1].empty() || fields[4] != name) continue;
+    const std::vector<std::string> codes = split(fields[2], ':');
     if (codes.size() != 2 || !number_in(codes[0]) || !number_in(codes[1])) continue;
     SlurmTask task;
+    task.job = fields[0].substr(0, fields[0].find('_'));
     task.name = name;
     // "CANCELLED by 1000"
-    task.state = fields[0].substr(0, fields[0].find(' '));
+    task.state = fields[1].substr(0, fields[1].find(' '));
     task.status = {*number_in(codes[0]), *number_in(codes[1])};
-    task.node = fields[2];
-    return task;
+    task.node = fields[3];
+    for (const int index : indices_in(fields[0])) {
+      task.index = index;
+      tasks.insert_or_assign(index, task);
+    }
   }
-  return std::nullopt;
+  return tasks;
 }
 
 std::string read_submission(const std::string& text) {
@@ -111,6 +135,10 @@ std::string read_submission(const std::string& text) {
     if (number_in(number)) return number;
   }
   return "";
+}
+
+bool is_array_too_large(std::string_view output) {
+  return output.find("Invalid job array specification") != std::string_view::npos;
 }
 
 bool is_controller_away(std::string_view output) {
@@ -153,6 +181,11 @@ SlurmFate fate_of(const SlurmTask& task) {
     return fate;
   }
   return SlurmFate::running;  // a state of a later version: the lease decides
+}
+
+bool is_requeued(const SlurmTask& task) {
+  static constexpr std::array kStates = {"PENDING", "REQUEUED", "REQUEUE_FED", "CONFIGURING"};
+  return std::find(kStates.begin(), kStates.end(), task.state) != kStates.end();
 }
 
 bool is_blameless(SlurmFate fate) {

@@ -2,6 +2,7 @@
 // a task. Pure functions; written for Slurm 20.11 and later.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,12 +33,18 @@ inline constexpr const char* kQueueFormat =
 /// Lines that are no such task are left out.
 std::vector<SlurmTask> read_queue(const std::string& text, std::string_view prefix);
 
-/// State, status and node of one task of a job of this name, from `sacct -n -P -X -o
-/// State,ExitCode,NodeList,JobName`; nothing when the accounting knows none.
-std::optional<SlurmTask> read_accounting(const std::string& text, const std::string& name);
+/// The argument of sacct's -o by which read_accounting() reads.
+inline constexpr const char* kAccountFormat = "JobID,State,ExitCode,NodeList,JobName";
+
+/// State, status and node of the tasks of an array job of this name, by their indices, from
+/// `sacct -n -P -X`. Tasks that wait have one line together ("12_[5-9,11%4]").
+std::map<int, SlurmTask> read_accounting(const std::string& text, const std::string& name);
 
 /// The number of a submitted job, from `sbatch --parsable`; "" when there is none.
 std::string read_submission(const std::string& text);
+
+/// Whether sbatch refused an array for its size: the cluster's MaxArraySize is smaller.
+bool is_array_too_large(std::string_view output);
 
 /// Whether a program of Slurm failed because the controller cannot be reached or has no room now,
 /// rather than because it refuses what was asked.
@@ -57,6 +64,10 @@ enum class SlurmFate {
 };
 
 SlurmFate fate_of(const SlurmTask& task);
+
+/// Whether a task that was running waits to be begun again under its number: by `--requeue`, or an
+/// administrator. One that is suspended goes on.
+bool is_requeued(const SlurmTask& task);
 
 /// Whether the task did nothing to end like that: it is tried again as if it had not been begun.
 bool is_blameless(SlurmFate fate);

@@ -155,6 +155,33 @@ TEST_F(AttemptsTest, NothingIsPublishedOnceTheRightIsTakenAway) {
   EXPECT_FALSE(fs::exists(note));
 }
 
+// Slurm begins a task again under its number, with a right of its own, while the process of a node
+// that was cut off is still there.
+TEST_F(AttemptsTest, ARenewedRightIsNotThatOfTheFirstProcess) {
+  const fs::path output = folder.path() / "work/run000/shard0000";
+  const int code = exit_code_of([&] {
+    begin_attempt(folder.path(), array.name, 0);
+    StagingFolder staging(output);
+    if (exit_code_of([&] { return renew_attempt(folder, array.name, 0) ? 0 : 1; }) != 0) return 1;
+    const auto begin = [&] {
+      begin_attempt(folder.path(), array.name, 0);
+      return is_staging_revoked() ? 1 : 0;
+    };
+    if (exit_code_of(begin) != 0) return 2;
+    if (!is_staging_revoked()) return 3;
+    fs::create_directories(staging.path() / "files");
+    try {
+      staging.commit();
+    } catch (const EnvironmentError&) {
+      return 0;
+    }
+    return 4;
+  });
+  EXPECT_EQ(code, 0);
+  EXPECT_FALSE(fs::exists(output));
+  EXPECT_TRUE(claim_of(folder, array.name, 0)) << "the second process has begun";
+}
+
 TEST_F(AttemptsTest, NamesOfStagedFilesSayWhoWritesThem) {
   const fs::path one = staging_path_of(base.path() / "file");
   const fs::path other = staging_path_of(base.path() / "file");

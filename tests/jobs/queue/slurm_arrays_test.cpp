@@ -31,7 +31,9 @@ constexpr const char* kSbatch = R"sh(#!/bin/sh
 for word in "$@"; do case $word in
   --test-only) exit 0;;
   --job-name=*) name=${word#*=};;
-  --array=*) last=${word##*-}; last=${last%%%*};;
+  --array=*) last=${word##*-}; last=${last%%%*}
+    [ -e $FAKE/most ] && [ $last -ge $(cat $FAKE/most) ] && { echo "$word" >> $FAKE/too_large
+      echo "sbatch: error: Batch job submission failed: Invalid job array specification" >&2; exit 1; };;
   --wrap=*) script=${word#*=};;
 esac; done
 echo "$*" >> $FAKE/submitted
@@ -66,7 +68,9 @@ constexpr const char* kSqueue = R"sh(#!/bin/sh
 cat $FAKE/queue/* 2>/dev/null; exit 0
 )sh";
 constexpr const char* kScancel = "#!/bin/sh\necho \"$*\" >> $FAKE/cancelled\n";
-constexpr const char* kSacct = "#!/bin/sh\necho 'Slurm accounting storage is disabled'; exit 1\n";
+constexpr const char* kSacct =
+    "#!/bin/sh\necho \"$*\" >> $FAKE/accounts\n"
+    "echo 'Slurm accounting storage is disabled'; exit 1\n";
 // begin_attempt() without the program: a worker that a test describes.
 constexpr const char* kWorker = R"sh(#!/bin/sh
 job=$2 array=$4
@@ -254,6 +258,75 @@ TEST_F(SlurmArraysTest, ARefusalIsSaidAndTriedAgain) {
   EXPECT_EQ(result.attempts, 1) << "a refusal is no attempt";
   ASSERT_FALSE(waits.empty());
   EXPECT_EQ(waits[0], "Slurm refuses the tasks: sbatch: error: Invalid account");
+}
+
+TEST_F(SlurmArraysTest, AClusterWithASmallerMaxArraySizeGetsSmallerArrays) {
+  write_file_atomically(fake.path() / "most", "3");
+  for (const TaskResult& result : run("end 0", 8)) {
+    EXPECT_EQ(result.outcome, Outcome::succeeded) << result.message;
+    EXPECT_EQ(result.attempts, 1);
+  }
+  EXPECT_EQ(text_of(fake.path() / "too_large"), "--array=0-7\n--array=0-3\n");
+  EXPECT_THAT(text_of(fake.path() / "submitted"), testing::Not(HasSubstr("--array=0-3")));
+  EXPECT_THAT(text_of(fake.path() / "submitted"), HasSubstr("--array=0-1"));
+}
+
+// By --requeue Slurm begins a task again under its number: it does so with the first start, and at
+// no attempt's expense.
+TEST_F(SlurmArraysTest, ATaskThatIsRequeuedBeginsAgainUnderItsNumber) {
+  const auto line = [](const std::string& state, const std::string& node) {
+    return "1|0|" + state + "|" + node + "|BeginTime|0|%s|\\n";
+  };
+  // The first start ends like a preempted one; the second begins once it has the right to.
+  const std::string script =
+      "q=$FAKE/queue/1_0\n"
+      "[ $(begun) = 1 ] || end 0\n"
+      "printf '" +
+      line("RUNNING", "fake0") +
+      "' throng-$array > $q\n"
+      "while ! [ -e $FAKE/requeue ]; do sleep 0.01; done\n"
+      "printf '" +
+      line("PENDING", "") +
+      "' throng-$array > $q\n"
+      "while [ -e $own/claimed ] || ! [ -e $own ]; do sleep 0.01; done\n"
+      "printf '" +
+      line("RUNNING", "fake1") +
+      "' throng-$array > $q\n"
+      "SLURMD_NODENAME=fake1 exec $0 --job $job --array $array";
+  SlurmArrays arrays(options_for(script));
+  const JobFolder job(folder.path());
+  const std::jthread requeues([&] {
+    EXPECT_TRUE(wait_until([&] {
+      const auto known = arrays.nodes_of(job);
+      return !known.empty() && known[0].running == 1;
+    }));
+    write_file_atomically(fake.path() / "requeue", "");
+  });
+  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
+  const auto results = arrays.run(job, tasks, {}, {});
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded) << results[0].message;
+  EXPECT_EQ(results[0].attempts, 1);
+  EXPECT_EQ(text_of(folder.path() / "begun"), "x\nx\n");
+  const std::string submitted = text_of(fake.path() / "submitted");
+  EXPECT_EQ(std::count(submitted.begin(), submitted.end(), '\n'), 1) << "it keeps its place";
+  EXPECT_THAT(text_of(folder.path() / "logs/nodes.jsonl"), HasSubstr("\"outcome\":\"lost\""));
+}
+
+// One question and one order for all tasks of an array, however many there are.
+TEST_F(SlurmArraysTest, TasksThatSlurmForgetsAreAskedForAndGivenUpTogether) {
+  install("forget", "#!/bin/sh\nrm -f $FAKE/queue/1_*\n");
+  const std::string script =
+      "[ $(begun) -gt 4 ] && end 0; while [ $(wc -l < $job/begun) -lt 4 ]; do sleep 0.01; done\n"
+      "$FAKE/bin/forget; while [ -e $own ]; do sleep 0.01; done; exit 1";
+  for (const TaskResult& result : run(script, 4)) {
+    EXPECT_EQ(result.outcome, Outcome::succeeded) << result.message;
+    EXPECT_EQ(result.attempts, 1);
+  }
+  EXPECT_EQ(text_of(fake.path() / "accounts"),
+            "-n -P -X -j 1 -o JobID,State,ExitCode,NodeList,JobName\n");
+  const std::string cancelled = text_of(fake.path() / "cancelled");
+  EXPECT_EQ(std::count(cancelled.begin(), cancelled.end(), '\n'), 1);
+  EXPECT_THAT(cancelled, HasSubstr(" 1_0 1_1 1_2 1_3\n"));
 }
 
 TEST_F(SlurmArraysTest, ALostAnswerOfSbatchRunsNothingTwice) {

@@ -1,5 +1,6 @@
 #include "jobs/queue/slurm_state.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -39,16 +40,39 @@ TEST(SlurmState, TheQueueHoldsOurTasksOnly) {
 }
 
 TEST(SlurmState, TheAccountingKnowsStateStatusAndNode) {
-  const auto cancelled = read_accounting("CANCELLED by 1000|0:15|node2|throng-a|\n", "throng-a");
-  ASSERT_TRUE(cancelled);
-  EXPECT_EQ(cancelled->state, "CANCELLED");
-  EXPECT_EQ(cancelled->status.signal, SIGTERM);
-  EXPECT_EQ(cancelled->node, "node2");
-  EXPECT_EQ(read_accounting("FAILED|3:0|node1|throng-a\n", "throng-a")->status.code, 3);
-  EXPECT_FALSE(read_accounting("FAILED|3:0|node1|throng-b\n", "throng-a"))
-      << "the number came again";
-  EXPECT_FALSE(read_accounting("", "throng-a"));
-  EXPECT_FALSE(read_accounting("Slurm accounting storage is disabled\n", "throng-a"));
+  const auto tasks = read_accounting(
+      "7_3|CANCELLED by 1000|0:15|node2|throng-a|\n"
+      "7_4|FAILED|3:0|node1|throng-a|\n"
+      "7_5|FAILED|3:0|node1|throng-b|\n",
+      "throng-a");
+  ASSERT_EQ(tasks.size(), 2U) << "the number came again for another's job";
+  EXPECT_EQ(tasks.at(3).state, "CANCELLED");
+  EXPECT_EQ(tasks.at(3).status.signal, SIGTERM);
+  EXPECT_EQ(tasks.at(3).node, "node2");
+  EXPECT_EQ(tasks.at(4).status.code, 3);
+  EXPECT_TRUE(read_accounting("", "throng-a").empty());
+  EXPECT_TRUE(read_accounting("Slurm accounting storage is disabled\n", "throng-a").empty());
+}
+
+TEST(SlurmState, TheAccountingHasOneLineForTasksThatWait) {
+  const auto indices = [](const std::string& job) {
+    std::vector<int> found;
+    for (const auto& [index, task] :
+         read_accounting(job + "|PENDING|0:0|None assigned|throng-a|\n", "throng-a")) {
+      EXPECT_EQ(task.job, "7");
+      EXPECT_EQ(task.index, index);
+      EXPECT_EQ(fate_of(task), SlurmFate::waiting);
+      found.push_back(index);
+    }
+    return found;
+  };
+  EXPECT_THAT(indices("7_[5-7,9%4]"), testing::ElementsAre(5, 6, 7, 9));
+  EXPECT_THAT(indices("7_[0-1]"), testing::ElementsAre(0, 1));
+  EXPECT_THAT(indices("7_[2]"), testing::ElementsAre(2));
+  EXPECT_EQ(indices("7_[5-999%100]").size(), 995U);
+  EXPECT_THAT(indices("7"), testing::IsEmpty());
+  EXPECT_THAT(indices("7_[]"), testing::IsEmpty());
+  EXPECT_THAT(indices("7_[0-99999999999]"), testing::IsEmpty());
 }
 
 TEST(SlurmState, ASubmissionGivesANumber) {
