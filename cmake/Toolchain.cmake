@@ -40,3 +40,8 @@ elseif(THRONG_JOIN_SOURCES)
   # strings overlap themselves and function objects without value.
   target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+
+# Programs find their libraries where the system has them, as installed ones do. The paths that CMake writes into programs
+# of the build folder end with a colon, which means the working folder: that of a worker is its job's, so each looked for
+# libraries there first, 500 names on a cluster's shared file system, and would have loaded them.
+set(CMAKE_SKIP_BUILD_RPATH ON)
