@@ -84,8 +84,11 @@ void write_temporary_file(const fs::path& path, std::string_view bytes) {
 
 void link_or_copy(const fs::path& from, const fs::path& to) {
   std::error_code error;
-  fs::create_directories(parent_of(to), error);
-  if (!error) fs::create_hard_link(from, to, error);
+  fs::create_hard_link(from, to, error);
+  if (error == std::errc::no_such_file_or_directory) {
+    fs::create_directories(parent_of(to), error);
+    if (!error) fs::create_hard_link(from, to, error);
+  }
   if (error) fs::copy_file(from, to, error);
   if (error) {
     throw EnvironmentError(

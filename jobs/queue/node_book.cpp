@@ -97,9 +97,12 @@ void NodeBook::end(const JobFolder& folder, const NodeRecord& record) {
   // Also where its beginning was not seen: begin() and end() need not pair.
   add(work_at(totals_of(folder), record.node), record.outcome, record.seconds);
   add(work_at(all_, record.node), record.outcome, record.seconds);
-  std::error_code ignored;
-  fs::create_directories(file_of(folder).parent_path(), ignored);
   std::ofstream file(file_of(folder), std::ios::app);
+  if (!file) {  // no worker has made the folder yet
+    std::error_code ignored;
+    fs::create_directories(file_of(folder).parent_path(), ignored);
+    file.open(file_of(folder), std::ios::app);
+  }
   file << json{{"task", record.task},       {"attempt", record.attempt},
                {"node", record.node},       {"slurm_job", record.slurm_job},
                {"outcome", record.outcome}, {"seconds", record.seconds},

@@ -42,8 +42,14 @@ std::vector<FileEntry> other_files(const fs::path& folder) {
 }
 
 void check_file(const fs::path& file, const FileEntry& entry) {
-  if (!fs::exists(file)) throw DamagedOutput(fmt::format("{} is gone", file.string()));
-  if (hashes_of_file(file).sha256_hex == entry.sha256) return;
+  FileHashes hashes;
+  try {
+    hashes = hashes_of_file(file);
+  } catch (const EnvironmentError&) {
+    if (fs::exists(file)) throw;
+    throw DamagedOutput(fmt::format("{} is gone", file.string()));
+  }
+  if (hashes.sha256_hex == entry.sha256) return;
   throw DamagedOutput(
       fmt::format("{} is damaged: its bytes have changed since they were written", file.string()));
 }
@@ -65,10 +71,15 @@ void from_json(const json& value, FileEntry& file) {
 }
 
 void write_new_file(const fs::path& path, std::string_view bytes) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
   errno = 0;
   std::ofstream file(path, std::ios::binary);
+  if (!file && errno == ENOENT) {  // the first one in its folder
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    errno = 0;
+    file.clear();
+    file.open(path, std::ios::binary);
+  }
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw_write_error(path, errno);

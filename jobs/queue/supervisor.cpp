@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "jobs/queue/delivery.h"
@@ -162,7 +163,10 @@ class Supervision {
         images_[task] = images_of(task);
       }
     }
-    for (RunProgress& run : progress_.runs) set_stage(run);
+    for (RunProgress& run : progress_.runs) {
+      if (folder_.is_done({Task::Kind::simulate, run.run})) simulated_.insert(run.run);
+      set_stage(run);
+    }
     speeds_.clear();
     total_speed_.reset();
     report();
@@ -276,7 +280,7 @@ class Supervision {
     }
     if (run.images_done == run.images_total) {
       run.stage = Stage::rendered;
-    } else if (folder_.is_done({Task::Kind::simulate, run.run})) {
+    } else if (simulated_.contains(run.run)) {
       run.stage = Stage::rendering;
       run.simulated_s = run.duration_s;
     } else if (run.simulated_s > 0) {
@@ -334,6 +338,7 @@ class Supervision {
   Share share_;
   JobProgress progress_;
   std::vector<RunFailure> failures_;
+  std::set<int> simulated_;             ///< runs whose simulation was there when a stage began
   std::map<Task, long long> images_;    ///< done, per shard
   std::map<Task, Speedometer> speeds_;  ///< of shards; of a run by the name of its simulation
   std::optional<Speedometer> total_speed_;
