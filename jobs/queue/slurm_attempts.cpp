@@ -249,6 +249,8 @@ void SlurmBatch::note_end(const Array& array, const Entry& entry, const std::str
 void SlurmBatch::succeed(Array& array, Entry& entry, const std::string& node) {
   if (entry.node.empty() && !node.empty()) entry.node = node;
   close(array, entry, name_of(Outcome::succeeded), "");
+  // Now rather than with all others at the end of the stage, which would wait for it.
+  revoke_attempt(folder_, array.name, entry.index);
 }
 
 void SlurmBatch::end_attempt(Array& array, Entry& entry, const SlurmTask& state, TaskResult result,

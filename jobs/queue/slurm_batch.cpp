@@ -109,7 +109,7 @@ void SlurmBatch::adopt(const AttemptArray& found) {
   for (std::size_t i = 0; i < found.attempts.size(); ++i) {
     const fs::path own = attempt_folder(folder_, found.name, i);
     std::error_code none;
-    if (!fs::exists(own, none)) continue;  // it has ended, badly
+    if (!fs::exists(own, none)) continue;  // it has ended
     const auto task = task_named(found.attempts[i].task);
     const bool is_double =
         task && std::any_of(arrays_.begin(), arrays_.end(), [&](const Array& a) {

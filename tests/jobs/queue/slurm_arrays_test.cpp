@@ -193,6 +193,16 @@ TEST_F(SlurmArraysTest, AStageIsOneArray) {
   EXPECT_THAT(text_of(folder.path() / "logs/nodes.jsonl"), HasSubstr("\"task\":\"run002/trace\""));
 }
 
+// Thousands at once would keep the next stage waiting.
+TEST_F(SlurmArraysTest, TheFolderOfATaskGoesWithItsEnd) {
+  const auto results =
+      run("[ $SLURM_ARRAY_TASK_ID = 0 ] && end 0\n"
+          "i=0; while [ -e $job/attempts/$array/0 ]; do\n"
+          "  i=$((i + 1)); [ $i -lt 1000 ] || end 2; sleep 0.01; done; end 0",
+          2);
+  EXPECT_EQ(results[1].outcome, Outcome::succeeded) << results[1].message;
+}
+
 TEST_F(SlurmArraysTest, ACrashIsTriedAgainAndThreeAreFinal) {
   EXPECT_EQ(run("[ $(begun) -lt 3 ] && kill -9 $$; end 0")[0].attempts, 3);
   fs::remove(folder.path() / "begun");
@@ -288,7 +298,8 @@ TEST_F(SlurmArraysTest, ATaskThatIsRequeuedBeginsAgainUnderItsNumber) {
       "printf '" +
       line("PENDING", "") +
       "' throng-$array > $q\n"
-      "while [ -e $own/claimed ] || ! [ -e $own ]; do sleep 0.01; done\n"
+      "i=0; while [ -e $own/claimed ] || ! [ -e $own ]; do\n"
+      "  i=$((i + 1)); [ $i -lt 1000 ] || exit 75; sleep 0.01; done\n"
       "printf '" +
       line("RUNNING", "fake1") +
       "' throng-$array > $q\n"
