@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "metrics/run_bound.h"
+#include "places/load_scenario.h"
 #include "sim/run.h"
 
 namespace {
@@ -118,7 +119,7 @@ int main(int argc, char** argv) {
   const auto folder = world::scenarios_folder();
   const std::vector<std::string> ids = world::list_scenarios(folder);
   std::vector<world::Scenario> scenarios;
-  for (const std::string& id : ids) scenarios.push_back(world::find_scenario(folder, id));
+  for (const std::string& id : ids) scenarios.push_back(places::find_scenario(folder, id));
   std::vector<Row> rows(ids.size());
   const auto print = [&] {
     int done = 0;

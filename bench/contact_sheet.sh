@@ -7,7 +7,7 @@ root="$(cd "$(dirname "$0")/.." && pwd)"
 runs="${1:?usage: bench/contact_sheet.sh RUNS [PLACE...]}"
 shift
 places=("$@")
-[ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.json)
+[ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.place.json)
 mkdir -p "$root/docs/places"
 for place in "${places[@]}"; do
   "$root/build/release/bench/place_sheet" "$root/docs/places/$place.jpg" "${WIDTH:-480}" \

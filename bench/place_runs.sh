@@ -9,7 +9,7 @@ throng="${THRONG:-$root/build/release/cli/throng}"
 folder="${1:?usage: bench/place_runs.sh FOLDER [PLACE...]}"
 shift
 places=("$@")
-[ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.json)
+[ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.place.json)
 mkdir -p "$folder"
 
 # job PLACE VARIANT: the shipped job with small, few images. The demo is every day, but for places with a job for that.

@@ -19,6 +19,7 @@
 #include "annotate/preview.h"
 #include "base/files.h"
 #include "geometry/angle.h"
+#include "places/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
@@ -101,7 +102,7 @@ struct Run {
 };
 
 Run load(const std::string& id, const std::string& trace_file) {
-  return {world::find_scenario(world::scenarios_folder(), id), world::read_trace(trace_file)};
+  return {places::find_scenario(world::scenarios_folder(), id), world::read_trace(trace_file)};
 }
 
 void draw_row(const Run& run, const Environment& environment, const skinning::Population& people,

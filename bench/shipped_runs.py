@@ -10,6 +10,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -24,8 +25,8 @@ def shipped():
     """Ids of all scenarios."""
     folder = ROOT / "scenarios"
     for file in sorted(folder.rglob("*.json")):
-        if not file.name.endswith((".job.json", ".place.json")) and file.name != "study.json":
-            yield str(file.relative_to(folder).with_suffix(""))
+        if not file.name.endswith(".job.json") and file.name != "study.json":
+            yield re.sub(r"(\.place)?\.json$", "", str(file.relative_to(folder)))
 
 
 def crowd_of(scenario, agents):

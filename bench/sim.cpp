@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/resources.h"
+#include "places/load_scenario.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
@@ -19,7 +20,7 @@ constexpr double kPhysicsHz = 480;
 
 const world::Scenario& city_square() {
   static const world::Scenario scenario =
-      world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+      places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 

@@ -14,6 +14,7 @@
 #include "annotate/preview.h"
 #include "base/files.h"
 #include "geometry/angle.h"
+#include "places/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
@@ -75,7 +76,7 @@ void place(const render::Frame& frame, std::size_t panel, std::vector<std::uint8
 
 void run(const std::string& trace_file, const std::string& out, const char* chosen) {
   const world::Scenario scenario =
-      world::find_scenario(world::scenarios_folder(), "city_square/nearest_exit");
+      places::find_scenario(world::scenarios_folder(), "city_square/nearest_exit");
   const world::Trace trace = world::read_trace(trace_file);
   const skinning::Population people = skinning::load_population(skinning::population_folder());
   const std::vector<Environment> all = panels();

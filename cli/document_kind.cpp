@@ -22,7 +22,7 @@ constexpr std::array kWords = {
     KindWords{"a file of an unknown kind", ""},
     KindWords{"a job", "`throng run`"},
     KindWords{"a scenario", "`throng scenario check`, and a job names it"},
-    KindWords{"a blueprint", "`throng scenario make`, which makes a scenario of it"},
+    KindWords{"a blueprint", "`throng scenario check`, and a job names it"},
     KindWords{"a study", "`throng study`"},
 };
 
@@ -48,6 +48,12 @@ DocumentKind document_kind(std::string_view text, const std::string& file) {
   }
   return has_any({"capture", "drones", "runs", "outputs"}) ? DocumentKind::job
                                                            : DocumentKind::unknown;
+}
+
+void require_scenario(std::string_view text, const std::string& file) {
+  if (document_kind(text, file) != DocumentKind::blueprint) {
+    require_kind(DocumentKind::scenario, text, file);
+  }
 }
 
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file) {

@@ -18,6 +18,9 @@ DocumentKind document_kind(std::string_view text, const std::string& file);
 /// file.
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file);
 
+/// The same for a scenario, which a blueprint is, too.
+void require_scenario(std::string_view text, const std::string& file);
+
 /// "a job", for messages.
 std::string_view name_of(DocumentKind kind);
 

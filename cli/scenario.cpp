@@ -44,7 +44,7 @@ namespace fs = std::filesystem;
 /// An existing path, else the file of a shipped scenario's id.
 fs::path scenario_path(const std::string& name) {
   if (fs::is_regular_file(name)) {
-    require_kind(DocumentKind::scenario, read_input_file(name, "a scenario"), name);
+    require_scenario(read_input_file(name, "a scenario"), name);
   }
   if (fs::exists(name)) return name;
   if (fs::path(name).extension() == ".json") {
@@ -122,7 +122,7 @@ void add_make(CLI::App& scenario) {
   command->add_option("-o,--output", *folder, "Folder for ID.json and its Menge files");
   command->callback([file, folder] {
     require_kind(DocumentKind::blueprint, read_input_file(*file, "a blueprint"), *file);
-    const std::string id = file->stem().stem().string();
+    const std::string id = world::id_from_file(*file);
     const fs::path made = places::make_scenario(*file, *folder, id);
     fmt::print("{}\n", made.string());
   });

@@ -6,6 +6,7 @@
 
 #include "cli/document_kind.h"
 #include "cli/input_file.h"
+#include "places/load_scenario.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
 #include "world/trace_scenario.h"
@@ -23,10 +24,10 @@ namespace throng::cli {
 /// InputError.
 inline world::Scenario scenario_named(const std::string& name) {
   const std::filesystem::path file(name);
-  if (file.extension() != ".json") return world::find_scenario(world::scenarios_folder(), name);
+  if (file.extension() != ".json") return places::find_scenario(world::scenarios_folder(), name);
   if (!std::filesystem::exists(file)) refuse_missing_scenario(name);
-  require_kind(DocumentKind::scenario, read_input_file(name, "a scenario file"), name);
-  return world::load_scenario(file, file.stem().string());
+  require_scenario(read_input_file(name, "a scenario file"), name);
+  return places::load_scenario(file, world::id_from_file(file));
 }
 
 /// The scenario that the user names; where `name` is empty the one that the trace holds, else the

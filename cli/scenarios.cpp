@@ -11,6 +11,7 @@
 #include "cli/bundle.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "places/load_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -22,7 +23,7 @@ void list() {
   std::vector<Problem> problems;  // one broken file hides no other
   for (const std::string& id : world::list_scenarios(folder)) {
     try {
-      fmt::print("{:<32} {}\n", id, world::find_scenario(folder, id).name);
+      fmt::print("{:<32} {}\n", id, places::find_scenario(folder, id).name);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -39,7 +40,7 @@ struct UploadArguments {
 void upload(const UploadArguments& arguments) {
   const std::filesystem::path from = arguments.from;
   const bool is_blueprint = from.extension() == ".json";
-  const Bundle bundle = is_blueprint ? Bundle{from.stem().stem().string(),
+  const Bundle bundle = is_blueprint ? Bundle{world::id_from_file(from),
                                               read_input_file(arguments.from, "a blueprint")}
                                      : read_bundle(arguments.from);
   const std::string name = arguments.name.empty() ? bundle.name : arguments.name;

@@ -93,6 +93,11 @@ json load_blueprint(const fs::path& file) {
   return world::read_extended(file, file.string()).whole;
 }
 
+bool is_blueprint(const json& document, const fs::path& file) {
+  return document.is_object() && !document.contains("crowd") &&
+         (document.contains("people") || file.string().ends_with(world::kBlueprintEnding));
+}
+
 namespace {
 
 BuiltScenario built_of(const json& blueprint, const json& said, const std::string& source,

@@ -16,6 +16,9 @@ namespace throng::places {
 /// (RFC 7396). Throws InputError and EnvironmentError.
 nlohmann::json load_blueprint(const std::filesystem::path& file);
 
+/// Whether the document of a file is a blueprint: by its fields, or by the file's ending.
+bool is_blueprint(const nlohmann::json& document, const std::filesystem::path& file);
+
 /// A scenario in memory.
 struct BuiltScenario {
   nlohmann::json document;  ///< what is in the scenario's file, but for its "crowd"

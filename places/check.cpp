@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "places/check_place.h"
+#include "places/load_scenario.h"
 #include "places/survey.h"
 
 namespace throng::places {
@@ -40,7 +41,7 @@ void append(std::vector<Finding> more, std::vector<Finding>& all) {
 
 std::vector<Finding> check_file(const fs::path& file) {
   try {
-    return check(world::load_scenario(file, file.stem().string()), file.string());
+    return check(load_scenario(file, world::id_from_file(file)), file.string());
   } catch (const InputError& error) {
     return findings_of(error, file.string());
   }
@@ -110,7 +111,9 @@ std::vector<Finding> check_files(const fs::path& file_or_folder) {
         {file_or_folder.string(), "", "no scenario",
          "a folder with scenario files, whose names are words of [a-z0-9_] and .json"});
   }
-  for (const std::string& id : ids) append(check_file(file_or_folder / (id + ".json")), findings);
+  for (const std::string& id : ids) {
+    append(check_file(world::scenario_file(file_or_folder, id)), findings);
+  }
   return findings;
 }
 

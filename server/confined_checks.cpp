@@ -70,13 +70,11 @@ std::string ConfinedChecks::job_plan(const std::string& job_json, const fs::path
       .at("svg");
 }
 
-std::map<std::string, std::string> ConfinedChecks::made_scenario(const json& blueprint,
-                                                                 const std::string& id) const {
-  return answer_to({{"task", "make_scenario"},
-                    {"subject", "a blueprint"},
-                    {"blueprint", blueprint},
-                    {"id", id}})
-      .at("files");
+std::vector<json> ConfinedChecks::summaries(const std::vector<std::string>& ids,
+                                            const fs::path& scenarios) const {
+  if (ids.empty()) return {};
+  return answer_to({{"task", "summaries"}, {"ids", ids}, {"scenarios", scenarios.string()}})
+      .at("summaries");
 }
 
 json ConfinedChecks::blueprint(const std::string& id, const fs::path& scenarios) const {

@@ -4,11 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "jobs/queue/checked_scenarios.h"
 #include "jobs/queue/confined_task.h"
@@ -37,9 +37,10 @@ class ConfinedChecks {
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
-  /// The files of a scenario, by their names, made from a blueprint.
-  std::map<std::string, std::string> made_scenario(const nlohmann::json& blueprint,
-                                                   const std::string& id) const;
+  /// Scenarios as clients see them (jobs/spec/scenario_summary.h), in the order of the ids; of one
+  /// that cannot be loaded an object with an "error".
+  std::vector<nlohmann::json> summaries(const std::vector<std::string>& ids,
+                                        const std::filesystem::path& scenarios) const;
   /// The blueprint that a scenario was made from, with what it extends; null: there is none.
   nlohmann::json blueprint(const std::string& id, const std::filesystem::path& scenarios) const;
   /// A calibration's request, whose files lie in the folder. Returns the memory it needs, in MiB.

@@ -12,6 +12,7 @@
 #include "base/json_text.h"
 #include "server/answers.h"
 #include "server/unix_time.h"
+#include "world/scenario.h"
 
 namespace throng::server {
 
@@ -179,18 +180,11 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
 ScenarioStore::Staged ScenarioStore::stage_blueprint(const std::string& name, const json& blueprint,
                                                      const std::string& owner) const {
   Staged staged = begin_staging(name, owner);
-  std::map<std::string, std::string> files = confined_.made_scenario(blueprint, kPlaceId);
-  files[fmt::format("{}.place.json", kPlaceId)] = blueprint.dump(1) + "\n";
-  for (const auto& [file, text] : files) {
-    // The child is confined because it may be taken over: its word leads out of no folder.
-    if (file.empty() || fs::path(file).filename() != file || file.starts_with('.')) {
-      throw EnvironmentError(
-          fmt::format("a child answered with the file \"{}\", expected a plain name", file));
-    }
-    write_file_atomically(staged.folder->path() / kFilesName / file, text);
-    staged.upload.bytes += static_cast<std::int64_t>(text.size());
-  }
-  staged.upload.files = files.size();
+  const std::string text = blueprint.dump(1) + "\n";
+  const std::string file = fmt::format("{}{}", kPlaceId, world::kBlueprintEnding);
+  write_file_atomically(staged.folder->path() / kFilesName / file, text);
+  staged.upload.bytes = static_cast<std::int64_t>(text.size());
+  staged.upload.files = 1;
   finish_staging(staged);
   return staged;
 }

@@ -82,8 +82,7 @@ class ScenarioStore {
   /// Unpacks and checks a bundle. A single folder that everything in it lies in is taken for the
   /// bundle's own. Throws InputError naming everything wrong, EnvironmentError.
   Staged stage(const std::string& name, std::string_view bytes, const std::string& owner) const;
-  /// Makes and checks the scenario NAME/place of a blueprint, which is kept with it. Throws
-  /// likewise.
+  /// Checks the scenario NAME/place of a blueprint. Throws likewise.
   Staged stage_blueprint(const std::string& name, const nlohmann::json& blueprint,
                          const std::string& owner) const;
   /// Publishes it; durable when it returns. Throws NameTaken and UploadsFull.

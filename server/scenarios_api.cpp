@@ -6,9 +6,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "base/error.h"
-#include "jobs/spec/scenario_summary.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -40,27 +40,40 @@ json findings_json(const std::vector<jobs::ScenarioFinding>& findings) {
   return list;
 }
 
-/// Uploaded scenarios are known from their check: this process does not load them.
-json summary_of(const Call& call, const std::string& id,
-                const std::optional<ScenarioUpload>& upload) {
-  if (!upload) {
-    return jobs::scenario_summary(world::find_scenario(call.folders.scenarios(), id));
-  }
-  const auto found = std::find(upload->ids.begin(), upload->ids.end(), id);
-  const auto index = static_cast<std::size_t>(found - upload->ids.begin());
-  if (index >= upload->summaries.size()) {
-    throw InputError(Problem{id, "", "a scenario that was not there when it was uploaded",
-                             "one that can be loaded; upload it again"});
-  }
-  return upload->summaries[index];
+/// The summary of an uploaded scenario as of its check, or an object with an "error".
+json uploaded_summary(const ScenarioUpload& upload, const std::string& id) {
+  const auto found = std::find(upload.ids.begin(), upload.ids.end(), id);
+  const auto index = static_cast<std::size_t>(found - upload.ids.begin());
+  if (index < upload.summaries.size()) return upload.summaries[index];
+  return {{"error", Problem{id, "", "a scenario that was not there when it was uploaded",
+                            "one that can be loaded; upload it again"}
+                        .text()}};
 }
 
-json scenario_json(const Call& call, const std::string& id) {
-  const auto upload = call.uploads.scenarios().find(upload_of(id));
-  json value = summary_of(call, id, upload);
-  value["id"] = id;
-  value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
-  return value;
+/// Scenarios as clients see them, in the order of the ids. One that is damaged has an "error" and
+/// hides no other. This process loads none: uploaded ones are known from their check.
+json scenarios_json(const Call& call, const std::vector<std::string>& ids) {
+  std::vector<std::optional<ScenarioUpload>> uploads;
+  std::vector<std::string> shipped;
+  for (const std::string& id : ids) {
+    uploads.push_back(call.uploads.scenarios().find(upload_of(id)));
+    if (!uploads.back()) shipped.push_back(id);
+  }
+  const auto summaries = call.confined.summaries(shipped, call.folders.scenarios());
+  json list = json::array();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto& upload = uploads[i];
+    json value = upload ? uploaded_summary(*upload, ids[i]) : summaries.at(next++);
+    value["id"] = ids[i];
+    if (value.contains("error")) {
+      value["error"] = call.folders.without_paths(value["error"].get<std::string>());
+    } else {
+      value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
+    }
+    list.push_back(std::move(value));
+  }
+  return list;
 }
 
 /// Whether the body is a blueprint; else it is a bundle. Throws HttpError for anything else.
@@ -109,17 +122,10 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
 }
 
 void list_scenarios(const Call& call, const Request&, Response& response) {
-  json list = json::array();
-  for (const std::string& id : world::list_scenarios(call.folders.scenarios())) {
-    if (is_bundle_name(upload_of(id))) continue;  // of one job, and of no use to others
-    try {
-      list.push_back(scenario_json(call, id));
-    } catch (const InputError& error) {
-      // One that is damaged hides no other.
-      list.push_back({{"id", id}, {"error", call.folders.without_paths(error.what())}});
-    }
-  }
-  write_json(response, 200, {{"scenarios", std::move(list)}});
+  std::vector<std::string> ids = world::list_scenarios(call.folders.scenarios());
+  // Those of one job's bundle are of no use to others.
+  std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_of(id)); });
+  write_json(response, 200, {{"scenarios", scenarios_json(call, ids)}});
 }
 
 void send_scenario(const Call& call, const Request& request, Response& response) {
@@ -141,7 +147,11 @@ void send_scenario(const Call& call, const Request& request, Response& response)
   if (!format.empty() && format != "json") {
     throw HttpError{400, "format is wrong", {{"", "?format", format, "json, svg or blueprint"}}};
   }
-  write_json(response, 200, scenario_json(call, id));
+  json value = scenarios_json(call, {id}).front();
+  if (value.contains("error")) {
+    throw HttpError{400, "the scenario cannot be loaded", {{"", "", value["error"], ""}}};
+  }
+  write_json(response, 200, value);
 }
 
 void send_job_plan(const Call& call, const Request& request, Response& response) {

@@ -11,9 +11,12 @@
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "base/version.h"
+#include "crowd/menge_files/write.h"
 #include "jobs/pipeline/resolve.h"
+#include "places/load_scenario.h"
 #include "schemas/schemas.h"
 #include "world/json_reader.h"
+#include "world/scenario_crowd.h"
 
 namespace throng::study {
 
@@ -133,8 +136,8 @@ class StudyReader {
     const std::string id = value.text();
     if (id.empty()) return {};
     try {
-      world::Scenario scenario = world::find_scenario(scenarios_, id);
-      if (scenario.scene_file.empty()) {
+      world::Scenario scenario = places::find_scenario(scenarios_, id);
+      if (!scenario.has_crowd()) {
         value.reject(fmt::format("\"{}\", a place for recorded people", id),
                      "a scenario with a crowd to simulate");
       }
@@ -206,8 +209,8 @@ class StudyReader {
       std::string inputs = fmt::format("{} outcome 2 {} {}", kGenerator,
                                        one.alarm.at_s.value_or(-1), one.reference.speed_mps);
       for (const double rate : one.reference.capacity_per_s) inputs += fmt::format(" {}", rate);
-      inputs += read_file(one.scenario.scene_file) + read_file(one.scenario.behavior_file);
-      inputs += read_file(scenarios_ / (one.scenario.id + ".json"));
+      const crowd::CrowdDescription crowd = world::crowd_of(one.scenario);
+      inputs += crowd::to_xml(crowd.scene) + crowd::to_xml(crowd.behavior) + one.scenario.document;
       auto& jobs = study_.jobs.emplace_back();
       auto& fingerprints = study_.fingerprints.emplace_back();
       for (std::size_t p = 0; p < study_.policies.size(); ++p) {

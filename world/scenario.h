@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/rectangle.h"
@@ -136,15 +137,19 @@ void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 /// source tree's.
 std::filesystem::path scenarios_folder();
 
-/// `<folder>/<id>.json`. Ids are words of [a-z0-9_] joined by '/': nothing outside the folder can
-/// be named. Throws InputError when the id is malformed or unknown (listing what there is).
+/// Ending of the files of blueprints (places/blueprint.h).
+inline constexpr std::string_view kBlueprintEnding = ".place.json";
+
+/// `<folder>/<id>.json`, else the blueprint `<folder>/<id>.place.json`. Ids are words of [a-z0-9_]
+/// joined by '/': nothing outside the folder can be named. Throws InputError when the id is
+/// malformed or unknown (listing what there is).
 std::filesystem::path scenario_file(const std::filesystem::path& folder, const std::string& id);
 
-/// Loads the file of a scenario's id.
-Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
+/// The name of a scenario file without its ending, which is ".json" or ".place.json".
+std::string id_from_file(const std::filesystem::path& file);
 
-/// Every scenario id in the folder, sorted. Sound JSON files without any part of a scenario (jobs,
-/// studies) are none.
+/// Every scenario id in the folder, sorted, whether its file is a scenario or a blueprint. Sound
+/// JSON files without any part of a scenario (jobs, studies) are none.
 std::vector<std::string> list_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::world

@@ -56,7 +56,8 @@ std::string_view last_part(std::string_view id) { return id.substr(id.rfind('/')
 /// ("scenarios/campus/everyday.json"), the name is a folder of ids or the last part of some.
 std::vector<std::string_view> meant_by(std::string_view name,
                                        std::span<const std::string_view> known) {
-  for (const std::string_view ending : {".place.json", ".json", "/"}) {
+  for (const std::string_view ending :
+       {kBlueprintEnding, std::string_view(".json"), std::string_view("/")}) {
     if (name.ends_with(ending)) name.remove_suffix(ending.size());
   }
   std::vector<std::string_view> meant;
@@ -102,17 +103,28 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
     const fs::directory_entry& entry = *entries;
     if (entries.depth() >= kDeepest) entries.disable_recursion_pending();
     if (entry.path().extension() != ".json" || !entry.is_regular_file(error)) continue;
+    const fs::path name = entry.path().lexically_relative(folder);
     // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
-    std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
+    std::string id = (name.parent_path() / id_from_file(name)).generic_string();
     if (is_scenario_id(id) && !is_something_else(entry.path())) ids.push_back(std::move(id));
   }
   std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());  // made from a blueprint beside it
   return ids;
 }
 
+std::string id_from_file(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const bool is_blueprint = name.ends_with(kBlueprintEnding);
+  return is_blueprint ? name.substr(0, name.size() - kBlueprintEnding.size())
+                      : file.stem().string();
+}
+
 fs::path scenario_file(const fs::path& folder, const std::string& id) {
-  fs::path file = folder / (id + ".json");
-  if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
+  for (const std::string_view ending : {std::string_view(".json"), kBlueprintEnding}) {
+    fs::path file = folder / (id + std::string(ending));
+    if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
+  }
   const std::vector<std::string> ids = list_scenarios(folder);
   const std::vector<std::string_view> known(ids.begin(), ids.end());
   Problem problem = unknown_name("", "", "scenario", id, known);
@@ -134,10 +146,6 @@ std::optional<std::string> scenario_id_in(const fs::path& folder, const std::str
   const std::vector<std::string_view> known(ids.begin(), ids.end());
   const std::vector<std::string_view> meant = meant_by(path, known);
   return meant.size() == 1 ? std::optional<std::string>(meant.front()) : std::nullopt;
-}
-
-Scenario find_scenario(const fs::path& folder, const std::string& id) {
-  return load_scenario(scenario_file(folder, id), id);
 }
 
 }  // namespace throng::world

@@ -17,7 +17,9 @@
 #include "jobs/pipeline/resolve.h"
 #include "jobs/pipeline/scenario_check.h"
 #include "jobs/spec/scenario_mix.h"
+#include "jobs/spec/scenario_summary.h"
 #include "places/blueprint.h"
+#include "places/load_scenario.h"
 #include "places/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "world/scenario.h"
@@ -47,7 +49,7 @@ json dry_run(const json& request) {
 
 json draw_scenario(const json& request) {
   const world::Scenario scenario =
-      world::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
+      places::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
   return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx))}};
 }
 
@@ -58,17 +60,23 @@ json draw_job(const json& request) {
   return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
 }
 
-std::string blueprint_name(const std::string& id) { return id + ".place.json"; }
-
-json make_scenario(const json& request) {
-  const std::string id = text_at(request, "id");
-  const std::string source = blueprint_name(id);
-  return {{"files", places::scenario_files(request.at("blueprint"), source, id)}};
+json describe_scenarios(const json& request) {
+  json summaries = json::array();
+  for (const std::string& id : request.at("ids").get<std::vector<std::string>>()) {
+    try {
+      summaries.push_back(
+          scenario_summary(places::find_scenario(text_at(request, "scenarios"), id)));
+    } catch (const InputError& error) {
+      // One that is damaged hides no other.
+      summaries.push_back({{"error", error.what()}});
+    }
+  }
+  return {{"summaries", std::move(summaries)}};
 }
 
 json read_blueprint(const json& request) {
-  const std::filesystem::path file =
-      std::filesystem::path(text_at(request, "scenarios")) / blueprint_name(text_at(request, "id"));
+  const std::string name = text_at(request, "id") + std::string(world::kBlueprintEnding);
+  const std::filesystem::path file = std::filesystem::path(text_at(request, "scenarios")) / name;
   return {
       {"blueprint", std::filesystem::exists(file) ? places::load_blueprint(file) : json(nullptr)}};
 }
@@ -86,7 +94,7 @@ constexpr std::array kWork = {
     Work{"dry_run", &dry_run},
     Work{"scenario_plan", &draw_scenario},
     Work{"job_plan", &draw_job},
-    Work{"make_scenario", &make_scenario},
+    Work{"summaries", &describe_scenarios},
     Work{"blueprint", &read_blueprint},
     Work{"calibration", &check_calibration},
     Work{"catalog", [](const json&) { return catalog(); }},

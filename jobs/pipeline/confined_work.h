@@ -15,8 +15,8 @@ namespace throng::jobs {
 ///   dry_run        checks it likewise and says what it will take (jobs/pipeline/job_check.h)
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg": ...}
 ///   job_plan       likewise of the resolved job "job", with the paths of its drones: {"svg": ...}
-///   make_scenario  makes the files of the scenario "id" from the blueprint "blueprint" (JSON):
-///                  {"files": {"NAME": "TEXT"}}
+///   summaries      describes the scenarios "ids" in "scenarios": {"summaries": [...]}, each as
+///                  scenario_summary() does or with an "error"
 ///   blueprint      reads the blueprint of the scenario "id" in "scenarios", with what it extends:
 ///                  {"blueprint": ...}; null if there is none
 ///   calibration    checks the calibration "request", whose files lie in "files":

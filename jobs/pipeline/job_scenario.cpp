@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "places/generated.h"
+#include "places/load_scenario.h"
 #include "world/trace_scenario.h"
 
 namespace throng::jobs {
@@ -13,7 +14,7 @@ world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& sce
                             const std::string& source, const std::string& pointer) {
   try {
     return job.generate ? places::load_generated(*job.generate)
-                        : world::find_scenario(scenarios, job.scenario);
+                        : places::find_scenario(scenarios, job.scenario);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {

@@ -7,6 +7,7 @@
 #include "crowd/simulation.h"
 #include "jobs/spec/scenario_summary.h"
 #include "places/check.h"
+#include "places/load_scenario.h"
 #include "render/props/mesh_file.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -73,14 +74,16 @@ CheckedScenarios check_scenarios(const fs::path& folder) {
   Findings findings(folder);
   for (const std::string& id : checked.ids) {
     world::Scenario scenario;
-    const auto load = [&] { scenario = world::load_scenario(folder / (id + ".json"), id); };
+    const fs::path file = world::scenario_file(folder, id);
+    const auto load = [&] { scenario = places::load_scenario(file, id); };
     if (!findings.has_done(load)) continue;
     const auto load_people = [&] {
       // A place for recorded people has no crowd of its own.
-      if (!scenario.scene_file.empty()) static_cast<void>(sim::load_crowd(scenario, 1, {}));
+      if (scenario.has_crowd()) static_cast<void>(sim::load_crowd(scenario, 1, {}));
     };
     if (findings.has_done(load_people)) {
-      for (places::Finding& finding : places::check(scenario, id + ".json")) {
+      for (places::Finding& finding :
+           places::check(scenario, file.lexically_relative(folder).string())) {
         checked.findings.push_back({finding.severity == places::Severity::error,
                                     std::move(finding.problem), std::move(finding.remedy)});
       }

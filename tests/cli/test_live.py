@@ -124,7 +124,9 @@ class Live(WithServer):
         flight = self.client.live(job)
         self.addCleanup(flight.remove)
         hello = next(flight.messages()).value
-        scenario = json.loads((pathlib.Path(__file__).parents[2] / "scenarios/city_square/emergency.json").read_text())
+        scenario = json.loads(
+            (pathlib.Path(__file__).parents[2] / "scenarios/city_square/emergency.place.json").read_text()
+        )
         expected = [(d["kind"], d["position"], d["start_s"]) for d in scenario["disasters"] if d["kind"] != "attacker"]
         self.assertEqual([(d["kind"], d["position"], d["start_s"]) for d in hello["dangers"]], expected)
         self.assertGreater(len(expected), 0)

@@ -185,9 +185,9 @@ class Messages(unittest.TestCase):
         place = self.folder / "yard.place.json"
         place.write_text('{"name": "Yard", "people": {}}')
         self.refused(
-            "found a blueprint, expected a job; a blueprint is for `throng scenario make`", "run", place, "-o", "x"
+            "found a blueprint, expected a job; a blueprint is for `throng scenario check`", "run", place, "-o", "x"
         )
-        self.refused("found a blueprint, expected a scenario", "scenario", "check", place)
+        self.refused("missing required field", "scenario", "plan", place, "-o", self.folder / "plan.svg")
         self.refused("found a job, expected a study; a job is for `throng run`", "study", self.job(), "-o", "x")
         self.refused("found a job, expected a blueprint", "scenario", "make", self.job())
         study = self.folder / "s.json"

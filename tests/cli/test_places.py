@@ -27,7 +27,7 @@ def test_ten_minutes(folder):
     job = re.search(r'`(\{"scenario": "yard_fire".*?\})`', text).group(1)
     (folder / "job.json").write_text(job)
     commands = [line for block in re.findall(r"```sh\n(.*?)```", text, re.S) for line in block.splitlines()]
-    assert len(commands) == 7, commands
+    assert len(commands) == 5, commands
     environment = dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}")
     (folder / "throng").symlink_to(THRONG)
     for command in commands:
@@ -40,14 +40,18 @@ def test_ten_minutes(folder):
 
 
 def test_check_says_what_is_wrong(folder):
-    scenario = json.loads((ROOT / "scenarios" / "bridge" / "everyday.json").read_text())
-    for name in ("everyday_scene.xml", "everyday_behavior.xml", "river.obj", "river.mtl"):
+    scenario = json.loads((ROOT / "scenarios" / "bridge" / "everyday.place.json").read_text())
+    for name in ("river.obj", "river.mtl"):
         (folder / name).write_text((ROOT / "scenarios" / "bridge" / name).read_text())
-    (folder / "good.json").write_text(json.dumps(scenario))
-    assert "0 errors" in throng("scenario", "check", "good.json", cwd=folder)
+    (folder / "good.place.json").write_text(json.dumps(scenario))
+    assert "0 errors" in throng("scenario", "check", "good.place.json", cwd=folder)
+    throng("scenario", "make", "good.place.json", "-o", "made", cwd=folder)
+    for name in ("river.obj", "river.mtl"):
+        (folder / "made" / name).write_text((ROOT / "scenarios" / "bridge" / name).read_text())
+    assert "0 errors" in throng("scenario", "check", "made/good.json", cwd=folder)
     scenario["drones"][0]["start"] = [-66, 20, 11.2]
-    (folder / "bad.json").write_text(json.dumps(scenario))
-    said = throng("scenario", "check", "bad.json", cwd=folder, code=2)
+    (folder / "bad.place.json").write_text(json.dumps(scenario))
+    said = throng("scenario", "check", "bad.place.json", cwd=folder, code=2)
     assert "/drones/0/start" in said and "remedy" in said, said
 
 

@@ -9,6 +9,7 @@ usage: test_shipped.py THRONG
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -31,8 +32,8 @@ def shipped():
     """Ids of all scenarios but the paper's own."""
     folder = ROOT / "scenarios"
     for file in sorted(folder.rglob("*.json")):
-        name = str(file.relative_to(folder).with_suffix(""))
-        is_scenario = not file.name.endswith((".job.json", ".place.json")) and file.name != "study.json"
+        name = re.sub(r"(\.place)?\.json$", "", str(file.relative_to(folder)))
+        is_scenario = not file.name.endswith(".job.json") and file.name != "study.json"
         if is_scenario and not name.endswith(PAPERS_OWN):
             yield name
 

@@ -10,6 +10,7 @@
 #include "imports/populate.h"
 #include "imports/sdf_world.h"
 #include "places/check.h"
+#include "places/load_scenario.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
 #include "world/scenario.h"
@@ -37,7 +38,7 @@ void expect_it_runs(Place place, int people) {
   const Population population = populate(place, {people, 3});
   EXPECT_EQ(population.starts.size(), static_cast<std::size_t>(people));
   const auto file = write_place(place, population, folder.path());
-  const world::Scenario scenario = world::find_scenario(folder.path(), place.name);
+  const world::Scenario scenario = places::find_scenario(folder.path(), place.name);
   EXPECT_EQ(scenario.exits.size(), population.gates.size());
   for (const places::Finding& finding : places::check_files(file)) {
     EXPECT_NE(finding.severity, places::Severity::error) << finding.text();

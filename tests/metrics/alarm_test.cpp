@@ -99,27 +99,6 @@ TEST_F(AlarmFiles, WhatIsNoXmlIsRefused) {
   EXPECT_THROW(world::alarm_of(place), EnvironmentError);
 }
 
-TEST(ShippedAlarms, AreThoseOfTheirFiles) {
-  const std::filesystem::path folder = source_folder() / "scenarios";
-  const auto alarm = [&](const char* id) {
-    return world::alarm_of(world::find_scenario(folder, id));
-  };
-  EXPECT_EQ(alarm("station/emergency").at_s, 6);
-  EXPECT_EQ(alarm("station/emergency").aware_states, (Names{"Flee", "Follow", "React"}));
-  EXPECT_EQ(alarm("city_square/nearest_exit").at_s, 18);
-  EXPECT_EQ(alarm("city_square/nearest_exit").aware_states,
-            (Names{"Follow", "RunToExit1", "RunToExit2", "RunToGoodExit"}));
-  EXPECT_EQ(alarm("city_square/huang2016/nearest_exit").at_s, 0);
-  EXPECT_FALSE(alarm("station/everyday").at_s);
-  for (const std::string& id : world::list_scenarios(folder)) {
-    const bool everyday = id.find("everyday") != std::string::npos;
-    const world::Alarm found = alarm(id.c_str());
-    EXPECT_EQ(found.at_s.has_value(), !everyday) << id;
-    if (everyday) continue;
-    EXPECT_FALSE(found.aware_states.empty()) << id;
-  }
-}
-
 // Without such states: people who begin to head for an exit after the alarm, or for another one.
 TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
   world::Scenario scenario = place_with_door(2);

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/files.h"
 #include "base/resources.h"
 #include "places/blueprint.h"
 #include "places/check.h"
+#include "places/load_scenario.h"
 #include "tests/world/temporary_folder.h"
+#include "world/alarm.h"
+#include "world/scenario_crowd.h"
 
 namespace throng::places {
 namespace {
@@ -37,26 +39,47 @@ TEST(Library, HasEightPlacesEachWithAnEmergency) {
   EXPECT_EQ(places, 8U);
 }
 
-TEST(Library, IsMadeFromItsBlueprints) {
-  // Generated files must not be changed by hand: scripts/make_scenarios.sh generates them again.
+TEST(Library, FilesMadeFromABlueprintAreTheSameScenario) {
   for (const fs::path& blueprint : blueprints()) {
     const TemporaryFolder folder;
-    const std::string id = blueprint.stem().stem().string();
-    make_scenario(load_blueprint(blueprint), blueprint.string(), folder.path(), id);
-    for (const char* suffix : {".json", "_scene.xml", "_behavior.xml"}) {
-      EXPECT_TRUE(read_file(folder.path() / (id + suffix)) ==
-                  read_file(blueprint.parent_path() / (id + suffix)))
-          << blueprint << ": " << id << suffix << " differs; run scripts/make_scenarios.sh";
+    const std::string id = world::id_from_file(blueprint);
+    const world::Scenario loaded = load_scenario(blueprint, id);
+    for (const world::PlacedMesh& mesh : loaded.meshes) {
+      fs::copy(mesh.file, folder.path(), fs::copy_options::skip_existing);
     }
+    const world::Scenario made =
+        world::load_scenario(make_scenario(blueprint, folder.path(), id), id);
+    EXPECT_EQ(loaded.document, made.document) << blueprint;
+    const crowd::CrowdDescription in_memory = world::crowd_of(loaded);
+    const crowd::CrowdDescription in_files = world::crowd_of(made);
+    EXPECT_EQ(in_memory.scene.root, in_files.scene.root) << blueprint;
+    EXPECT_EQ(in_memory.behavior.root, in_files.behavior.root) << blueprint;
   }
 }
 
 TEST(Library, HasNoFaults) {
   for (const fs::path& blueprint : blueprints()) {
-    const std::string id = blueprint.stem().stem().string();
-    for (const Finding& finding : check_files(blueprint.parent_path() / (id + ".json"))) {
-      ADD_FAILURE() << finding.text();
-    }
+    for (const Finding& finding : check_files(blueprint)) ADD_FAILURE() << finding.text();
+  }
+}
+
+TEST(Library, AlarmsAreThoseOfTheFiles) {
+  const std::filesystem::path folder = source_folder() / "scenarios";
+  const auto alarm = [&](const char* id) { return world::alarm_of(find_scenario(folder, id)); };
+  EXPECT_EQ(alarm("station/emergency").at_s, 6);
+  EXPECT_EQ(alarm("station/emergency").aware_states,
+            (std::vector<std::string>{"Flee", "Follow", "React"}));
+  EXPECT_EQ(alarm("city_square/nearest_exit").at_s, 18);
+  EXPECT_EQ(alarm("city_square/nearest_exit").aware_states,
+            (std::vector<std::string>{"Follow", "RunToExit1", "RunToExit2", "RunToGoodExit"}));
+  EXPECT_EQ(alarm("city_square/huang2016/nearest_exit").at_s, 0);
+  EXPECT_FALSE(alarm("station/everyday").at_s);
+  for (const std::string& id : world::list_scenarios(folder)) {
+    const bool everyday = id.find("everyday") != std::string::npos;
+    const world::Alarm found = alarm(id.c_str());
+    EXPECT_EQ(found.at_s.has_value(), !everyday) << id;
+    if (everyday) continue;
+    EXPECT_FALSE(found.aware_states.empty()) << id;
   }
 }
 

@@ -37,12 +37,17 @@ inline const std::string kProgram;
 #define SKIP_WITHOUT_PROGRAM() \
   if (throng::server::kProgram.empty()) GTEST_SKIP() << "the program is not part of this build"
 
+/// A scenario that is no blueprint.
+inline world::Scenario find_scenario(const std::filesystem::path& folder, const std::string& id) {
+  return world::load_scenario(world::scenario_file(folder, id), id);
+}
+
 /// Resolves a job without its crowd, drones' flights and lenses.
 inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
   jobs::JobSpec job = jobs::parse_job(request.at("job").get<std::string>(), "");
   if (!job.generate) {
     try {
-      const world::Scenario scenario = world::find_scenario(
+      const world::Scenario scenario = find_scenario(
           std::filesystem::path(request.at("scenarios").get<std::string>()), job.scenario);
       if (job.drones.empty()) {
         for (const world::DroneStart& drone : scenario.drones) {
@@ -85,11 +90,19 @@ inline nlohmann::json check_lightly(const nlohmann::json& request) {
   }
   if (task == "people") return nullptr;
   if (task == "calibration") return nlohmann::json::object();
+  if (task == "summaries") {
+    nlohmann::json list = nlohmann::json::array();
+    for (const std::string& id : request.at("ids").get<std::vector<std::string>>()) {
+      list.push_back(
+          jobs::scenario_summary(find_scenario(request.at("scenarios").get<std::string>(), id)));
+    }
+    return {{"summaries", std::move(list)}};
+  }
   if (task != "scenarios") return {{"svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>"}};
   const std::filesystem::path folder = request.at("folder").get<std::string>();
   jobs::CheckedScenarios checked{world::list_scenarios(folder)};
   for (const std::string& id : checked.ids) {
-    checked.summaries.push_back(jobs::scenario_summary(world::find_scenario(folder, id)));
+    checked.summaries.push_back(jobs::scenario_summary(find_scenario(folder, id)));
   }
   return checked;
 }

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/resources.h"
+#include "places/load_scenario.h"
 #include "sim/guidance_loop.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 world::Scenario square(const std::string& id) {
-  return world::find_scenario(source_folder() / "scenarios", "city_square/" + id);
+  return places::find_scenario(source_folder() / "scenarios", "city_square/" + id);
 }
 
 RunSpec guided_run(const std::string& policy, double duration_s) {

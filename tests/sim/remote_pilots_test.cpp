@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "places/load_scenario.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/recording/trace_recorder.h"
 #include "sim/run.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr int kSteps = 120;
 
 world::Scenario square() {
-  return world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+  return places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
 }
 
 RunSpec spec_of(int drones) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "places/load_scenario.h"
 #include "tests/world/temporary_folder.h"
 #include "world/trace.h"
 
@@ -26,7 +27,7 @@ constexpr int kPeopleInSquare = 260;
 
 const world::Scenario& city_square() {
   static const world::Scenario scenario =
-      world::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+      places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 
@@ -120,7 +121,7 @@ void watch(const world::Scenario& scenario, double duration_s, RecordingObserver
 
 TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
   world::Scenario street =
-      world::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
+      places::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
   // So small that he is outside of it as soon as he walks.
   street.inside = {{4, -1}, {6, 1}};
   RecordingObserver recorded;

@@ -10,6 +10,7 @@
 
 #include "base/resources.h"
 #include "metrics/evacuation.h"
+#include "places/load_scenario.h"
 #include "sim/run.h"
 #include "study/outcome.h"
 #include "tests/world/temporary_folder.h"
@@ -84,7 +85,7 @@ Counted counted(const world::Trace& trace, const world::Scenario& scenario,
 class Definitions : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Definitions, OfStudyAndMetricsAreOne) {
-  const world::Scenario scenario = world::find_scenario(kScenarioFolder, GetParam());
+  const world::Scenario scenario = places::find_scenario(kScenarioFolder, GetParam());
   sim::RunSpec spec;
   spec.seed = 90210;
   const bool is_large = GetParam().rfind("concert", 0) == 0 || GetParam().rfind("stadium", 0) == 0;
@@ -163,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Definitions,
 
 // Of 250 people of the header many arrive after the run's end.
 TEST(WhoCounts, AreThoseWhoArrive) {
-  const world::Scenario scenario = world::find_scenario(kScenarioFolder, "city_square/emergency");
+  const world::Scenario scenario = places::find_scenario(kScenarioFolder, "city_square/emergency");
   sim::RunSpec spec;
   spec.seed = 7;
   spec.duration_s = 20;
@@ -182,7 +183,7 @@ TEST(WhoCounts, AreThoseWhoArrive) {
 
 // Walkers who head for an exit anyway are not warned before the fire starts (at 6 s).
 TEST(WhoNotices, KnowsOfTheAlarm) {
-  const world::Scenario scenario = world::find_scenario(kScenarioFolder, "station/emergency");
+  const world::Scenario scenario = places::find_scenario(kScenarioFolder, "station/emergency");
   EXPECT_EQ(world::alarm_of(scenario).at_s, 6);
   sim::RunSpec spec;
   spec.seed = 11;

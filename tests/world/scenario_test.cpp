@@ -320,7 +320,18 @@ TEST_F(ScenarioFile, ScenariosAreFoundById) {
   folder.write("town/demo.job.json", "{}");
   folder.write("alone.json", "{}");
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("alone", "town/yard_2"));
-  EXPECT_EQ(find_scenario(folder.path(), "town/yard_2").id, "town/yard_2");
+  EXPECT_EQ(scenario_file(folder.path(), "town/yard_2"), folder.path() / "town/yard_2.json");
+  EXPECT_EQ(id_from_file("town/yard_2.json"), "yard_2");
+}
+
+TEST_F(ScenarioFile, BlueprintsAreFoundByIdUnlessAScenarioWasMadeOfThem) {
+  folder.write("town/hall.place.json", R"({"ground": {}, "people": {}})");
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
+  EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.place.json");
+  EXPECT_EQ(id_from_file("town/hall.place.json"), "hall");
+  folder.write("town/hall.json", valid_scenario().dump());
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
+  EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.json");
 }
 
 TEST_F(ScenarioFile, OtherFilesInTheFolderAreNoScenarios) {
@@ -382,7 +393,7 @@ TEST_F(ScenarioFile, IdsNameNothingOutsideTheFolder) {
   for (const std::string id : {"../outside", "/etc/passwd", "inner//yard", "inner/yard/", "/", "",
                                "Inner/yard", "inner/yard.json", "nowhere", "inner/../outside"}) {
     try {
-      find_scenario(folder.path() / "inner", id);
+      scenario_file(folder.path() / "inner", id);
       ADD_FAILURE() << id;
     } catch (const InputError& error) {
       EXPECT_THAT(error.problems()[0].expected, HasSubstr("yard")) << id;

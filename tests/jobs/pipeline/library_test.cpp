@@ -10,6 +10,7 @@
 #include "base/resources.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/spec/spec.h"
+#include "places/load_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {
@@ -28,7 +29,7 @@ std::set<std::string> scenarios_of_jobs(const fs::path& place) {
     const JobSpec job =
         resolve_job(read_file(entry.path()), entry.path().string(), kLibrary).spec();
     EXPECT_FALSE(job.drones.empty()) << entry.path();
-    EXPECT_NO_THROW(world::find_scenario(kLibrary, job.scenario)) << entry.path();
+    EXPECT_NO_THROW(places::find_scenario(kLibrary, job.scenario)) << entry.path();
     scenarios.insert(fs::path(job.scenario).filename().string());
   }
   return scenarios;
@@ -54,7 +55,7 @@ TEST(Library, PresetsAreJobsOfAllPlaces) {
     std::set<std::string> places;
     for (const ScenarioShare& share : job.mix) {
       if (share.generate) continue;
-      EXPECT_NO_THROW(world::find_scenario(kLibrary, share.scenario)) << entry.path();
+      EXPECT_NO_THROW(places::find_scenario(kLibrary, share.scenario)) << entry.path();
       places.insert(fs::path(share.scenario).parent_path().string());
     }
     EXPECT_EQ(places.size(), 8U) << entry.path();

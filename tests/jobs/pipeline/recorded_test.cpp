@@ -15,6 +15,7 @@
 #include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
+#include "places/load_scenario.h"
 #include "tests/jobs/yard.h"
 #include "world/scenario.h"
 
@@ -89,7 +90,7 @@ TEST_F(RecordedJob, TheMetricsOfItsRunAreThoseOfTheFile) {
   const world::Trace run = world::read_trace(made.output_of({Task::Kind::simulate, 1}));
   EXPECT_EQ(run.header.drone_ids.size(), 1U);
   const world::Trace file = read_recording(*spec.recorded);
-  const world::Scenario yard = world::find_scenario(folder.path(), "yard");
+  const world::Scenario yard = places::find_scenario(folder.path(), "yard");
   const auto figures = [&](const world::Trace& trace) {
     return metrics::to_json(metrics::run_metrics(trace, yard, metrics::exit_series(trace, yard)));
   };

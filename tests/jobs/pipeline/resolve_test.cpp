@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "jobs/pipeline/pipeline.h"
+#include "places/load_scenario.h"
 #include "sim/run.h"
 #include "tests/jobs/yard.h"
 
@@ -63,7 +64,7 @@ TEST_F(Resolve, TheScenarioCompletesTheJob) {
   EXPECT_EQ(job.drones[0].mission.id, "d1");
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
   EXPECT_EQ(job.crowd.model,
-            sim::model_for(world::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
+            sim::model_for(places::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
   EXPECT_EQ(resolved(R"({"scenario": "yard", "crowd": {"compat": "menge"}})").crowd.model, "orca");
 }
 
