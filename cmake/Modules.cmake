@@ -1,5 +1,5 @@
 # One library per module. A module declares its public headers, and the modules and libraries it may use; an #include of
-# any other module, or of a private header of one, stops the configuration (cmake/ModuleRules.cmake). A module may lie in
+# any other module, or of a private header of one, stops the configuration (scripts/module_rules.py). A module may lie in
 # a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
@@ -11,11 +11,16 @@ set(THRONG_PIXEL_MODULES annotate formats)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base geometry crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
 
-# throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...)
-# PUBLIC lists the headers that other modules, their tests, benchmarks and examples may include.
+# throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...
+#   REFUSES module...)
+# PUBLIC lists the headers that other modules, their tests, benchmarks and examples may include; REFUSES the modules that it
+# is not linked with, be it through others.
 function(throng_module name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;SOURCES;MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
-  throng_declare_module(${name} PUBLIC ${ARG_PUBLIC} MODULES ${ARG_MODULES})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;SOURCES;MODULES;LIBRARIES;PRIVATE_LIBRARIES;REFUSES" ${ARGN})
+  if(NOT name IN_LIST THRONG_ALL_MODULES)
+    message(FATAL_ERROR "module '${name}' is not in THRONG_ALL_MODULES (CMakeLists.txt)")
+  endif()
+  set_property(GLOBAL APPEND PROPERTY THRONG_DECLARED_MODULES "${name}")
   string(REPLACE "/" "_" target "${name}")
   if(ARG_SOURCES)
     set(links PUBLIC)

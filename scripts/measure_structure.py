@@ -19,6 +19,7 @@ import subprocess
 import sys
 
 import check_language
+import module_rules
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 APART = {"tests", "bench", "examples"}
@@ -27,19 +28,6 @@ FUNCTION = re.compile(
     r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
     r"(?::\s*[\w:]+[({].*)?\{\s*$"
 )
-
-
-def public_headers(root):
-    """Paths of the headers in the PUBLIC lists of all modules."""
-    listed = subprocess.run(
-        ["git", "ls-files", "*CMakeLists.txt"], check=True, capture_output=True, text=True, cwd=root
-    )
-    headers = set()
-    for path in listed.stdout.split():
-        declaration = re.search(r"throng_module\((\S+)\s+PUBLIC\s+([^)A-Z]*)", (root / path).read_text())
-        if declaration:
-            headers |= {f"{declaration[1]}/{header}" for header in declaration[2].split()}
-    return headers
 
 
 def language_findings(path, text):
@@ -125,7 +113,8 @@ def measure(root):
     texts = {path: (root / path).read_text(errors="replace") for path in git_files(root)}
     product = {path: text for path, text in texts.items() if path.split("/")[0] not in APART}
     includes = {path: re.findall(r'^#include "([^"]+)"', text, re.M) for path, text in product.items()}
-    public = public_headers(root)
+    structure = module_rules.Structure(root)
+    public = {header for module in structure.modules.values() for header in module.public}
     table, everything, sums = {}, [], [0] * 9
     for module in sorted({path.split("/")[0] for path in product}):
         own = {path: text for path, text in product.items() if path.split("/")[0] == module}

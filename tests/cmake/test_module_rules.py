@@ -1,4 +1,4 @@
-"""cmake/Modules.cmake: projects that break a rule of modules are not configured, and the message names the place.
+"""cmake/Modules.cmake and scripts/module_rules.py: projects that break a rule of modules are not configured, and the message names the place.
 
 usage: test_module_rules.py CMAKE COMPILER
 """
@@ -23,12 +23,17 @@ foreach(module IN LISTS THRONG_ALL_MODULES)
   add_subdirectory(${module})
 endforeach()
 # exceptions
-throng_check_modules(LIBRARY walls/spec)
+set(THRONG_LIBRARY_MODULES walls/spec)
+throng_check_modules()
 """,
     "walls/spec/CMakeLists.txt": "throng_module(walls/spec PUBLIC width.h unused.h)\n",
     "walls/spec/width.h": "#pragma once\n",
     "walls/spec/unused.h": "#pragma once\n",
-    "walls/CMakeLists.txt": "throng_module(walls PUBLIC wall.h stones/stone.h SOURCES wall.cpp stones/stone.cpp MODULES walls/spec)\n",
+    "walls/CMakeLists.txt": """throng_module(walls PUBLIC wall.h stones/stone.h SOURCES wall.cpp stones/stone.cpp MODULES walls/spec)
+throng_folder(stones "Stones (natural ones) and what holds them together.")
+throng_folder(arches "Stones above nothing." USES stones)
+""",
+    "walls/arches/arch.h": '#pragma once\n#include "walls/stones/stone.h"\n#include "walls/brick.h"\n',
     "walls/wall.h": '#pragma once\n#include "walls/brick.h"\n#include "walls/spec/width.h"\n',
     "walls/brick.h": "#pragma once\n",
     "walls/wall.cpp": '#include "walls/wall.h"\n#include "walls/stones/mortar.h"\n',
@@ -184,6 +189,42 @@ class Rules(unittest.TestCase):
         self.refused(
             self.exception("throng_allow_private(tests/walls/wall_test.cpp walls/brick.h)"),
             "throng_allow_private: tests/walls/wall_test.cpp includes walls/brick.h is an exception that nothing needs",
+        )
+
+    def test_folders(self):
+        self.refused(
+            {"walls/stones/mortar.h": '#pragma once\n#include "walls/arches/arch.h"\n'},
+            "walls/stones/mortar.h:2: includes walls/arches/arch.h, but folder 'walls/stones' does not use 'walls/arches'",
+        )
+        self.refused(
+            {"walls/roof/tile.h": "#pragma once\n"},
+            "walls/CMakeLists.txt: folder 'walls/roof' is not declared (throng_folder)",
+        )
+        self.refused(
+            {"walls/arches/arch.h": "#pragma once\n"},
+            "walls/CMakeLists.txt: folder 'walls/arches' uses 'walls/stones', but includes none of its headers",
+        )
+        self.refused(
+            {f"walls/stones/stone_{i}.h": "#pragma once\n" for i in range(38)},
+            "walls/CMakeLists.txt: folder 'walls/stones' holds 41 files, expected at most 40",
+        )
+        # The module's own folder may be included from all of its folders, and includes them all.
+        self.accepted({"walls/wall.cpp": PROJECT["walls/wall.cpp"] + '#include "walls/arches/arch.h"\n'})
+
+    def test_a_folder_uses_only_folders_declared_before_it(self):
+        text = PROJECT["walls/CMakeLists.txt"].replace('together.")', 'together." USES arches)')
+        self.refused(
+            {
+                "walls/CMakeLists.txt": text,
+                "walls/stones/mortar.h": '#pragma once\n#include "walls/arches/arch.h"\n',
+            },
+            "walls/CMakeLists.txt: folder 'walls/stones' uses 'walls/arches', which is not declared before it",
+        )
+
+    def test_refused_modules(self):
+        self.refused(
+            {"house/CMakeLists.txt": "throng_module(house SOURCES house.cpp MODULES walls REFUSES walls/spec)\n"},
+            "house/CMakeLists.txt: module 'house' is linked with module 'walls/spec', which it is to do without",
         )
 
     def test_all_violations_are_reported_at_once(self):
