@@ -1,7 +1,6 @@
 // A Menge project file: which scene and behavior are run, with which model, for how long.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -11,11 +10,6 @@
 #include "crowd/simulation.h"
 
 namespace throng::crowd {
-
-/// The words for Compat, in its order.
-inline constexpr std::array<std::string_view, 3> kCompatWords = {"none", "menge", "huang2016"};
-/// The words for LoadOptions::hard_separation, false first.
-inline constexpr std::array<std::string_view, 2> kSeparationWords = {"soft", "hard"};
 
 /// Throws InputError for a word that is not in kCompatWords.
 Compat compat_of(std::string_view word);

@@ -5,20 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "crowd/description/options.h"
+
 namespace throng::crowd {
-
-/// Whose results are wanted where the files leave a choice.
-enum class Compat {
-  none,      ///< the sensible semantics that the documentation gives
-  menge,     ///< Menge's own, with its quirks and random numbers
-  huang2016  ///< also those of the elements that the paper's authors added to it
-};
-
-/// Whether people's bodies give way (crowd/motion/bodies.h).
-struct Physical {
-  bool on = false;
-  float fall_impulse_ns = 20;  ///< a blow that throws somebody over
-};
 
 /// Somebody fell.
 struct Fall {

@@ -44,9 +44,6 @@ nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
 /// A job as GET /v1/jobs/{id} shows it.
 nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
 
-/// A status' reason phrase: "Not Found".
-const char* title_of(int status);
-
 /// A problem document (RFC 9457).
 nlohmann::json problem_document(int status, const std::string& detail,
                                 const std::vector<Problem>& problems = {});

@@ -17,9 +17,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "server/answers.h"
 #include "server/connection.h"
 #include "server/http.h"
+#include "server/reason_phrase.h"
 
 namespace throng::server {
 
@@ -44,7 +44,7 @@ httplib::Request request_of(const RequestHead& head) {
 /// The last answer of a connection.
 std::string text_of_answer(const httplib::Request& request, const httplib::Response& response) {
   std::string text = fmt::format("HTTP/1.1 {} {}\r\nContent-Length: {}\r\nConnection: close\r\n",
-                                 response.status, title_of(response.status), response.body.size());
+                                 response.status, reason_phrase(response.status), response.body.size());
   for (const auto& [name, value] : response.headers) {
     text += fmt::format("{}: {}\r\n", name, value);
   }

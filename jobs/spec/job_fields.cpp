@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "crowd/project.h"
+#include "crowd/description/options.h"
 #include "jobs/spec/randomize.h"
 #include "jobs/spec/scenario_mix.h"
 #include "render/spec/quality.h"

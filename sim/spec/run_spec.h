@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "camera/spec/camera_spec.h"
-#include "crowd/types.h"
+#include "crowd/description/options.h"
 #include "geometry/angle.h"
 #include "sim/spec/airframe.h"
 #include "sim/spec/wind_spec.h"
