@@ -50,6 +50,12 @@ def calls(text, name):
         yield [word.strip('"') for word in re.findall(r'"[^"]*"|[^\s"]+', found[1])]
 
 
+def nearest(headers, header):
+    """The headers of the same folder, if there are any: a list for a message."""
+    beside = [other for other in headers if os.path.dirname(other) == os.path.dirname(header)]
+    return beside or headers
+
+
 def by_keyword(words):
     groups, current = {}, None
     for word in words:
@@ -195,7 +201,7 @@ class Check:
             )
         elif header not in public and (path, header) not in self.of.exceptions:
             self.violations.append(
-                f"{refused} this is a private header of module '{module}' (its public headers: {', '.join(public)})"
+                f"{refused} this is a private header of module '{module}' (its public headers: {', '.join(nearest(public, header))})"
             )
 
     def judge_folders(self, path, header, line):

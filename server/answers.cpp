@@ -204,8 +204,10 @@ json job_json(const jobs::JobRow& row, const Retention& retention) {
 }
 
 json problem_document(int status, const std::string& detail, const std::vector<Problem>& problems) {
-  json document = {
-      {"type", "about:blank"}, {"title", reason_phrase(status)}, {"status", status}, {"detail", detail}};
+  json document = {{"type", "about:blank"},
+                   {"title", reason_phrase(status)},
+                   {"status", status},
+                   {"detail", detail}};
   if (!problems.empty()) document["errors"] = problems_json(problems);
   return document;
 }

@@ -43,8 +43,9 @@ httplib::Request request_of(const RequestHead& head) {
 
 /// The last answer of a connection.
 std::string text_of_answer(const httplib::Request& request, const httplib::Response& response) {
-  std::string text = fmt::format("HTTP/1.1 {} {}\r\nContent-Length: {}\r\nConnection: close\r\n",
-                                 response.status, reason_phrase(response.status), response.body.size());
+  std::string text =
+      fmt::format("HTTP/1.1 {} {}\r\nContent-Length: {}\r\nConnection: close\r\n", response.status,
+                  reason_phrase(response.status), response.body.size());
   for (const auto& [name, value] : response.headers) {
     text += fmt::format("{}: {}\r\n", name, value);
   }
