@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Measures the structure of the source code: sizes, public headers, cycles, function lengths, words, tests.
 
-usage: scripts/measure_structure.py [FOLDER...]    (default: this checkout; two folders: before → after)
+usage: scripts/measure_structure.py [FOLDER...] >docs/structure.md    (default: this checkout; two folders: before → after)
 
-Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
+Prints a Markdown table of the folders of modules, and one of figures with a row per top-level folder with C++ sources. Columns:
   .cpp, .h    number of files, each with its lines in the next column
   public      headers that the modules in the folder declare as PUBLIC
   folders     that hold them, and the files of the largest
@@ -162,13 +162,41 @@ def row_of(counts, lengths, folders):
     ]
 
 
+def print_table(head, rows):
+    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
+def folder_rows(root):
+    """A row per folder of a module: what it is for, the folders that it uses, its files."""
+    structure = module_rules.Structure(root)
+    files = collections.Counter(path.rsplit("/", 1)[0] for path in git_files(root))
+    for module in structure.modules.values():
+        for folder in module.folders.values():
+            name = f"**{folder.path}**" if folder.path == module.name else folder.path
+            uses = " ".join(
+                module.modules if folder.path == module.name else [u[len(module.name) + 1 :] for u in folder.uses]
+            )
+            yield [name, folder.purpose, uses, str(files[folder.path])]
+
+
 def main():
-    tables = [measure(pathlib.Path(folder).resolve()) for folder in sys.argv[1:]] or [measure(ROOT)]
-    print("| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
+    roots = [pathlib.Path(folder).resolve() for folder in sys.argv[1:]] or [ROOT]
+    tables = [measure(root) for root in roots]
+    print(
+        "# Structure in figures\n\nMade by `scripts/measure_structure.py` (its head explains the columns); do not edit.\n"
+    )
+    rows = []
     for module in tables[-1]:
-        rows = [table.get(module, ["-"] * (len(HEAD) - 1)) for table in tables]
-        cells = [values[0] if len(set(values)) == 1 else " → ".join(values) for values in zip(*rows)]
-        print(f"| {module} | " + " | ".join(cells) + " |")
+        compared = [table.get(module, ["-"] * (len(HEAD) - 1)) for table in tables]
+        cells = [values[0] if len(set(values)) == 1 else " → ".join(values) for values in zip(*compared)]
+        rows.append([module, *cells])
+    print_table(HEAD, rows)
+    print(
+        "\n## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
+    )
+    print_table(["folder", "what it is for", "uses", "files"], folder_rows(roots[-1]))
 
 
 if __name__ == "__main__":

@@ -12,8 +12,8 @@ module that it does not include, and none after it in THRONG_ALL_MODULES. A publ
 outside of the module, unless the module is in THRONG_LIBRARY_MODULES. A module is not linked with what it REFUSES, be it
 through others.
 
-A module with throng_folder() declares all folders in it. A file in one may include its own folder, the module's own
-(the interface, and what all share) and those that the folder USES, which precede it.
+A module declares all folders in it by throng_folder(), its own one ("."), too. A file in one may include its own folder,
+the module's own (the interface, and what all share) and those that the folder USES, which precede it.
 """
 import dataclasses
 import functools
@@ -85,7 +85,9 @@ class Structure:
                 self.modules[name] = Module(name, public, groups.get("MODULES", []), groups.get("REFUSES", []), {})
             for path, purpose, *words in calls(text or "", "throng_folder"):
                 folder = Folder(
-                    f"{name}/{path}", purpose, [f"{name}/{used}" for used in by_keyword(words).get("USES", [])]
+                    os.path.normpath(f"{name}/{path}"),
+                    purpose,
+                    [f"{name}/{used}" for used in by_keyword(words).get("USES", [])],
                 )
                 self.modules[name].folders[folder.path] = folder
 
@@ -237,8 +239,6 @@ class Check:
             self.violations.append(f"{where} is linked with module '{name}', which it is to do without")
 
     def check_folders(self, module):
-        if not module.folders:
-            return
         own = [path for path in self.of.files if self.of.module_of(path) == module.name]
         sizes = {}
         for path in own:
@@ -247,11 +247,11 @@ class Check:
         for folder, files in sizes.items():
             if len(files) > MAX_FILES:
                 self.violations.append(f"{where} '{folder}' holds {len(files)} files, expected at most {MAX_FILES}")
-            if folder != module.name and folder not in module.folders:
+            if folder not in module.folders:
                 self.violations.append(f"{where} '{folder}' is not declared (throng_folder)")
         before = []
         for folder in module.folders.values():
-            if folder.path not in sizes:
+            if folder.path not in sizes and folder.path != module.name:
                 self.violations.append(f"{where} '{folder.path}' holds no C++ file")
             for used in folder.uses:
                 included = any(

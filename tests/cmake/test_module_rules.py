@@ -13,6 +13,9 @@ import unittest
 CMAKE, COMPILER = sys.argv[1:3]
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "cmake"
 
+HOUSE = """throng_module(house SOURCES house.cpp MODULES walls)
+throng_folder(. "Houses.")
+"""
 # Two modules, one in a folder of the other, and one above them. walls/stones/ is a plain folder of walls.
 PROJECT = {
     "CMakeLists.txt": """cmake_minimum_required(VERSION 3.25)
@@ -26,10 +29,13 @@ endforeach()
 set(THRONG_LIBRARY_MODULES walls/spec)
 throng_check_modules()
 """,
-    "walls/spec/CMakeLists.txt": "throng_module(walls/spec PUBLIC width.h unused.h)\n",
+    "walls/spec/CMakeLists.txt": """throng_module(walls/spec PUBLIC width.h unused.h)
+throng_folder(. "Sizes.")
+""",
     "walls/spec/width.h": "#pragma once\n",
     "walls/spec/unused.h": "#pragma once\n",
     "walls/CMakeLists.txt": """throng_module(walls PUBLIC wall.h stones/stone.h SOURCES wall.cpp stones/stone.cpp MODULES walls/spec)
+throng_folder(. "Walls.")
 throng_folder(stones "Stones (natural ones) and what holds them together.")
 throng_folder(arches "Stones above nothing." USES stones)
 """,
@@ -40,7 +46,7 @@ throng_folder(arches "Stones above nothing." USES stones)
     "walls/stones/stone.h": "#pragma once\n",
     "walls/stones/mortar.h": "#pragma once\n",
     "walls/stones/stone.cpp": '#include "walls/stones/stone.h"\n#include "walls/stones/mortar.h"\n',
-    "house/CMakeLists.txt": "throng_module(house SOURCES house.cpp MODULES walls)\n",
+    "house/CMakeLists.txt": HOUSE,
     "house/house.cpp": '#include <vector>\n#include "walls/stones/stone.h"\n#include "walls/wall.h"\n',
     "tests/walls/wall_test.cpp": '#include "walls/brick.h"\n#include "walls/stones/mortar.h"\n#include "walls/spec/width.h"\n',
     "tests/house/house_test.cpp": '#include "../walls/bricks.h"\n#include "walls/wall.h"\n',
@@ -130,14 +136,16 @@ class Rules(unittest.TestCase):
 
     def test_declared_module_without_an_include(self):
         self.refused(
-            {"house/CMakeLists.txt": "throng_module(house SOURCES house.cpp MODULES walls walls/spec)\n"},
+            {"house/CMakeLists.txt": HOUSE.replace("MODULES walls", "MODULES walls walls/spec")},
             "house/CMakeLists.txt: module 'house' declares module 'walls/spec', but includes none of its headers",
         )
 
     def test_module_of_a_higher_layer(self):
         self.refused(
             {
-                "walls/spec/CMakeLists.txt": "throng_module(walls/spec PUBLIC width.h unused.h MODULES walls)\n",
+                "walls/spec/CMakeLists.txt": PROJECT["walls/spec/CMakeLists.txt"].replace(
+                    "unused.h)", "unused.h MODULES walls)"
+                ),
                 "walls/spec/width.h": '#pragma once\n#include "walls/wall.h"\n',
             },
             "walls/spec/CMakeLists.txt: module 'walls/spec' declares 'walls', which does not precede it",
@@ -191,6 +199,12 @@ class Rules(unittest.TestCase):
             "throng_allow_private: tests/walls/wall_test.cpp includes walls/brick.h is an exception that nothing needs",
         )
 
+    def test_a_module_says_what_it_is_for(self):
+        self.refused(
+            {"house/CMakeLists.txt": HOUSE.split("throng_folder")[0]},
+            "house/CMakeLists.txt: folder 'house' is not declared (throng_folder)",
+        )
+
     def test_folders(self):
         self.refused(
             {"walls/stones/mortar.h": '#pragma once\n#include "walls/arches/arch.h"\n'},
@@ -223,7 +237,7 @@ class Rules(unittest.TestCase):
 
     def test_refused_modules(self):
         self.refused(
-            {"house/CMakeLists.txt": "throng_module(house SOURCES house.cpp MODULES walls REFUSES walls/spec)\n"},
+            {"house/CMakeLists.txt": HOUSE.replace("walls)", "walls REFUSES walls/spec)")},
             "house/CMakeLists.txt: module 'house' is linked with module 'walls/spec', which it is to do without",
         )
 
