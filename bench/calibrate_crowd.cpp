@@ -62,9 +62,9 @@ void print(const Tables& tables) {
   fmt::print("  wall  width  specific flow: median (least - greatest)\n");
   for (std::size_t door = 0; door < tables.flows.size(); ++door) {
     const std::vector<double>& flows = tables.flows[door];
-    const auto [min_value, greatest] = std::minmax_element(flows.begin(), flows.end());
+    const auto [least, greatest] = std::minmax_element(flows.begin(), flows.end());
     fmt::print("{:6.1f} {:6.1f} {:6.2f} ({:.2f} - {:.2f})\n", kWalls[door / kWidths.size()],
-               kWidths[door % kWidths.size()], median(flows), *min_value, *greatest);
+               kWidths[door % kWidths.size()], median(flows), *least, *greatest);
   }
 }
 

@@ -261,9 +261,9 @@ std::vector<Eigen::Index> open_directions(const Sparse& scaled) {
   Eigen::VectorXd direction = Eigen::VectorXd::LinSpaced(scaled.rows(), 1, 2).normalized();
   for (int i = 0; i < kRounds; ++i) direction = solver.solve(direction).normalized();
   std::vector<Eigen::Index> entries;
-  const double max_value = direction.cwiseAbs().maxCoeff();
+  const double largest_entry = direction.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
-    if (std::abs(direction[i]) > kTakesPart * max_value) entries.push_back(i);
+    if (std::abs(direction[i]) > kTakesPart * largest_entry) entries.push_back(i);
   }
   return entries;
 }

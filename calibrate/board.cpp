@@ -35,16 +35,18 @@ cv::Mat wrapped(const images::GrayImage& image) {
 }
 
 double smallest_spacing(const std::vector<cv::Point2f>& corners, int columns) {
-  double min_value = INFINITY;
+  double min_distance_px = INFINITY;
   const auto distance = [&](std::size_t a, std::size_t b) {
     return std::hypot(corners[a].x - corners[b].x, corners[a].y - corners[b].y);
   };
   const auto width = static_cast<std::size_t>(columns);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if ((i + 1) % width != 0) min_value = std::min<double>(min_value, distance(i, i + 1));
-    if (i + width < corners.size()) min_value = std::min<double>(min_value, distance(i, i + width));
+    if ((i + 1) % width != 0)
+      min_distance_px = std::min<double>(min_distance_px, distance(i, i + 1));
+    if (i + width < corners.size())
+      min_distance_px = std::min<double>(min_distance_px, distance(i, i + width));
   }
-  return min_value;
+  return min_distance_px;
 }
 
 /// `clear_px`: how far from a corner there is nothing but its own edges.
@@ -210,11 +212,11 @@ std::variant<View, Problem> view_in(const std::filesystem::path& file, const Boa
 
 ImageSize most_frequent(const std::vector<ImageSize>& sizes) {
   ImageSize best;
-  std::ptrdiff_t max_value = 0;
+  std::ptrdiff_t max_times = 0;
   for (const ImageSize& size : sizes) {
     const auto times = std::count(sizes.begin(), sizes.end(), size);
-    if (size.width > 0 && times > max_value) {
-      max_value = times;
+    if (size.width > 0 && times > max_times) {
+      max_times = times;
       best = size;
     }
   }

@@ -56,17 +56,17 @@ void check_image_size(const Correspondences& all) {
     return all_finite(view) && is_of_another_size(view, all.size);
   });
   if (wrong == 0 || kOneIn * wrong < static_cast<std::ptrdiff_t>(all.views.size())) return;
-  Eigen::Vector2d max_value = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max_pixel = Eigen::Vector2d::Zero();
   for (const View& view : all.views) {
     for (const Eigen::Vector2d& pixel : view.pixels) {
-      if (pixel.allFinite()) max_value = max_value.cwiseMax(pixel);
+      if (pixel.allFinite()) max_pixel = max_pixel.cwiseMax(pixel);
     }
   }
   throw InputError(
       Problem{"", "/size", fmt::format("{} x {}", all.size.width, all.size.height),
               fmt::format("the images' own size: {} of {} images have points outside of this one, "
                           "which reach to pixel ({:.0f}, {:.0f})",
-                          wrong, all.views.size(), max_value.x(), max_value.y())});
+                          wrong, all.views.size(), max_pixel.x(), max_pixel.y())});
 }
 
 struct Reading {

@@ -46,9 +46,9 @@ bool mark_outliers(Adjustment& adjustment, double min_px) {
   bool changed = false;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     Observation& seen = adjustment.observations[i];
-    const double max_value = std::max(
+    const double max_residual_px = std::max(
         min_px, kOutlierSigmas * std::clamp(sigmas[seen.view], overall, kMaxUnsharp * overall));
-    const bool used = residuals[i].norm() <= max_value;  // false for NaN
+    const bool used = residuals[i].norm() <= max_residual_px;  // false for NaN
     changed = changed || used != seen.used;
     seen.used = used;
   }

@@ -34,13 +34,13 @@ std::optional<double> spread_of_tilts(const Calibration& calibration) {
     if (!plane) return std::nullopt;
     normals.emplace_back(view.pose.pose().R * plane->axes.col(2));
   }
-  double max_value = 0;
+  double max_angle_rad = 0;
   for (const Eigen::Vector3d& a : normals) {
     for (const Eigen::Vector3d& b : normals) {
-      max_value = std::max(max_value, std::acos(std::min(1.0, std::abs(a.dot(b)))));
+      max_angle_rad = std::max(max_angle_rad, std::acos(std::min(1.0, std::abs(a.dot(b)))));
     }
   }
-  return max_value;
+  return max_angle_rad;
 }
 
 void warn_of_views(const Rules& rules, Calibration& calibration) {

@@ -161,9 +161,9 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
 json comparison(const calibrate::CameraFile& truth, const calibrate::Calibration& found,
                 const TruthError& truth_error) {
   json checks = json::array();
-  const auto check_max = [&](const std::string& what, double value, double max_value) {
+  const auto check_max = [&](const std::string& what, double value, double limit) {
     checks.push_back(
-        {{"check", what}, {"value", value}, {"most", max_value}, {"holds", value <= max_value}});
+        {{"check", what}, {"value", value}, {"most", limit}, {"holds", value <= limit}});
   };
   const auto off = [&](std::size_t place) {
     return std::abs(found.parameters.at(place) - truth.parameters.at(place));

@@ -30,7 +30,7 @@ bool check_mask_fills_box(const Shot& shot, const Person& person, const Bitmap& 
   const std::array<double, 4> off = {whole.x - box.x, whole.y - box.y,
                                      box.x + box.width - (whole.x + whole.width),
                                      box.y + box.height - (whole.y + whole.height)};
-  const double max_value = *std::max_element(off.begin(), off.end());
+  const double max_gap_px = *std::max_element(off.begin(), off.end());
   // Small bodies lose whole limbs between the pixels.
   constexpr std::uint64_t kMinPixels = 60;
   constexpr double kArmM = 0.08;
@@ -42,9 +42,9 @@ bool check_mask_fills_box(const Shot& shot, const Person& person, const Bitmap& 
   const double limb_px = across_px(kArmM) < kThinPx ? across_px(kArmLengthM) : 0;
   const double slack_px =
       kOutlineSlackPx + std::max(0.05 * std::max(box.width, box.height), limb_px);
-  if (!is_inside || whole.area() < kMinPixels || max_value <= slack_px) return true;
+  if (!is_inside || whole.area() < kMinPixels || max_gap_px <= slack_px) return true;
   findings.add("amodal-mask-fills-box", person,
-               fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_value));
+               fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_gap_px));
   return false;
 }
 

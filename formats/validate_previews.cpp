@@ -64,11 +64,11 @@ void check_preview(const DatasetInfo& info, const Image& image, Findings& findin
   expected.rgb = annotate::draw_preview(frame, labels);
   // Both are compressed, one of them twice; the caption's numbers are left out.
   const int caption = std::max(32, image.height / 12);
-  const double max_value =
+  const double max_off =
       12 + 0.3 * (100 -
                   image.record.value("sensor", nlohmann::json::object()).value("jpeg_quality", 95));
   const double off = greatest_difference(expected, shown, caption);
-  if (off <= max_value) return;
+  if (off <= max_off) return;
   findings.add("previews", path, fmt::format("image {}", image.id),
                fmt::format("not the image with its boxes: brightness is up to {:.0f} off", off));
 }

@@ -57,14 +57,14 @@ class SquareMeter {
       for (const auto& [square, people] : last_.front()) square->sum -= people;
       last_.pop_front();
     }
-    double max_value = 0;
+    double max_sum = 0;
     for (auto& [square, people] : now_) {
       people = std::exchange(square->now, 0);
       square->sum += people;
-      max_value = std::max(max_value, square->sum);
+      max_sum = std::max(max_sum, square->sum);
     }
     last_.push_back(std::exchange(now_, {}));
-    return max_value / (static_cast<double>(last_.size()) * kSquareM * kSquareM);
+    return max_sum / (static_cast<double>(last_.size()) * kSquareM * kSquareM);
   }
 
  private:

@@ -71,7 +71,7 @@ double GroundPressure::finish_step() {
     last_.pop_front();
   }
   auto& now = last_.emplace_back();
-  double max_value = 0;
+  double max_mean = 0;
   for (const std::size_t place : touched_) {
     Sums& sums = sums_[place];
     const double pressure = pressure_of(sums.weight, Vector2d(sums.x, sums.y), sums.squares);
@@ -80,10 +80,10 @@ double GroundPressure::finish_step() {
     now.emplace_back(place, pressure);
     sums.mean += pressure;
     // At an empty point the mean cannot be the maximum: it was greater before.
-    max_value = std::max(max_value, sums.mean);
+    max_mean = std::max(max_mean, sums.mean);
   }
   touched_.clear();
-  return max_value / static_cast<double>(last_.size());
+  return max_mean / static_cast<double>(last_.size());
 }
 
 double GroundPressure::mean_at(const Vector2d& place) const {

@@ -10,10 +10,10 @@ namespace throng::metrics {
 
 using Eigen::Vector2d;
 
-Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_value) {
+Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_points) {
   const Vector2d size = (ground.max - ground.min).cwiseMax(0);
   Lattice lattice;
-  lattice.pitch_m = std::max(pitch_m, std::sqrt(size.prod() / max_value));
+  lattice.pitch_m = std::max(pitch_m, std::sqrt(size.prod() / max_points));
   lattice.first = ground.min + Vector2d::Constant(0.5 * lattice.pitch_m);
   lattice.columns = static_cast<int>(std::ceil(size.x() / lattice.pitch_m));
   lattice.rows = static_cast<int>(std::ceil(size.y() / lattice.pitch_m));

@@ -28,8 +28,8 @@ struct Lattice {
   }
 };
 
-/// Every `pitch_m`, or coarser where that would be more than about `most` places.
-Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_value);
+/// Every `pitch_m`, or coarser where that would be more than about `max_points` points.
+Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_points);
 
 /// Per place, whether a building covers it.
 std::vector<bool> covered_by(std::span<const world::Building> buildings, const Lattice& lattice);

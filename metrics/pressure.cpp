@@ -43,9 +43,9 @@ double pressure_at(const Vector2d& place, const geometry::PointGrid& grid,
 
 PressureMeter::PressureMeter(const ControlZone& zone, double dt_s)
     : window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kAverageS / dt_s)))) {
-  const auto max_value = static_cast<int>(std::ceil(zone.radius_m() / kLatticeM));
-  for (int row = -max_value; row < max_value; ++row) {
-    for (int column = -max_value; column < max_value; ++column) {
+  const auto half_size = static_cast<int>(std::ceil(zone.radius_m() / kLatticeM));
+  for (int row = -half_size; row < half_size; ++row) {
+    for (int column = -half_size; column < half_size; ++column) {
       const Vector2d place = zone.middle() + kLatticeM * Vector2d(column + 0.5, row + 0.5);
       if (zone.contains(place)) lattice_.push_back(place);
     }

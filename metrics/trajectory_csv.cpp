@@ -24,11 +24,11 @@ constexpr double kMaxTimeS = 1e6;
 
 char separator_of(std::string_view line) {
   constexpr std::array kSeparators = {',', ';', '\t'};
-  const char max_value =
+  const char most_frequent =
       *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
         return std::count(line.begin(), line.end(), a) < std::count(line.begin(), line.end(), b);
       });
-  return line.find(max_value) == std::string_view::npos ? ' ' : max_value;
+  return line.find(most_frequent) == std::string_view::npos ? ' ' : most_frequent;
 }
 
 std::string_view trimmed(std::string_view field) {

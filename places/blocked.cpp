@@ -46,7 +46,7 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
       static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), starts_late));
   const auto growing =
       static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), does_grow));
-  const int max_value = std::min(kMaxDiscSteps, (kMaxLateDiscs - late) / std::max(1, growing));
+  const int max_steps = std::min(kMaxDiscSteps, (kMaxLateDiscs - late) / std::max(1, growing));
   std::vector<BlockedDisc> discs;
   std::uint32_t next_class = kFirstLateClass;
   const auto take_class = [&] {
@@ -60,9 +60,9 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
     const bool is_apart = starts_late(danger) && late <= kMaxLateDiscs;
     discs.push_back({seen.position, danger.blocked_m, file_time_s(seen.start_s),
                      is_apart ? take_class() : kFirstClass});
-    if (!does_grow(danger) || max_value < 1) continue;
+    if (!does_grow(danger) || max_steps < 1) continue;
     const double grows_m = growth_of(seen);
-    const int steps = std::clamp(static_cast<int>(std::lround(grows_m / kDiscStepM)), 1, max_value);
+    const int steps = std::clamp(static_cast<int>(std::lround(grows_m / kDiscStepM)), 1, max_steps);
     for (int k = 1; k <= steps; ++k) {
       const double more_m = grows_m * k / steps;
       discs.push_back({seen.position, danger.blocked_m + more_m,

@@ -47,14 +47,14 @@ class Site {
   Frame& frame() { return frame_; }
   json& blueprint() { return blueprint_; }
 
-  double gate_width_m(double min_value, double max_value) {
-    const double drawn = random_.uniform(min_value, max_value);
+  double gate_width_m(double min_width_m, double max_width_m) {
+    const double drawn = random_.uniform(min_width_m, max_width_m);
     return spec_.exit_width_m > 0 ? spec_.exit_width_m : drawn;
   }
-  int gate_count(int min_value, int max_value) {
+  int gate_count(int min_count, int max_count) {
     const int drawn =
-        min_value +
-        static_cast<int>(random_.below(static_cast<std::uint32_t>(max_value - min_value + 1)));
+        min_count +
+        static_cast<int>(random_.below(static_cast<std::uint32_t>(max_count - min_count + 1)));
     return spec_.exits > 0 ? spec_.exits : drawn;
   }
 
@@ -140,15 +140,15 @@ class Site {
   json blueprint_;
 };
 
-double drawn_size(const PlaceSpec& spec, double min_value, double max_value) {
+double drawn_size(const PlaceSpec& spec, double min_size_m, double max_size_m) {
   Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size());
-  const double drawn = random.uniform(min_value, max_value);
+  const double drawn = random.uniform(min_size_m, max_size_m);
   return spec.size_m > 0 ? spec.size_m : std::round(drawn);
 }
 
-double drawn_share(const PlaceSpec& spec, double min_value, double max_value) {
+double drawn_share(const PlaceSpec& spec, double min_share, double max_share) {
   Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size() + 1);
-  return random.uniform(min_value, max_value);
+  return random.uniform(min_share, max_share);
 }
 
 const std::vector<Side> kAllSides = {Side::south, Side::east, Side::north, Side::west};

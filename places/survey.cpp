@@ -25,12 +25,12 @@ constexpr double kUsualCellM = 0.2;
 
 float min_radius_m(const LoadedCrowd& loaded) {
   const std::vector<float>& radius = loaded.crowd.agents[crowd::Property::radius];
-  float min_value = std::numeric_limits<float>::max();
+  float min_radius_m = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < loaded.count(); ++i) {
-    if (loaded.is_person[i] != 0) min_value = std::min(min_value, radius[i]);
+    if (loaded.is_person[i] != 0) min_radius_m = std::min(min_radius_m, radius[i]);
   }
   constexpr float kWithoutPeopleM = 0.2F;
-  return min_value < std::numeric_limits<float>::max() ? min_value : kWithoutPeopleM;
+  return min_radius_m < std::numeric_limits<float>::max() ? min_radius_m : kWithoutPeopleM;
 }
 
 std::uint32_t walls_of_people(const LoadedCrowd& loaded) {

@@ -35,12 +35,12 @@ json parsed_or(const std::string& text, json otherwise) {
 // Stage of a job: that of its least advanced run, but simulating once any run is. Runs that have
 // failed hold nothing up.
 jobs::Stage stage_of(const jobs::JobProgress& progress) {
-  jobs::Stage min_value = jobs::Stage::failed;
+  jobs::Stage earliest = jobs::Stage::failed;
   for (const jobs::RunProgress& run : progress.runs) {
     if (run.stage == jobs::Stage::simulating) return run.stage;
-    min_value = std::min(min_value, run.stage);
+    earliest = std::min(earliest, run.stage);
   }
-  return min_value;
+  return earliest;
 }
 
 json with_pace(json value, const jobs::Pace& pace) {

@@ -45,13 +45,13 @@ KeyRow find_key(const Call& call, const std::string& id) {
 }
 
 /// 0 where it is left out or null.
-std::int64_t integer_in(const json& body, const char* name, std::int64_t min_value,
-                        std::int64_t max_value) {
+std::int64_t integer_in(const json& body, const char* name, std::int64_t min_number,
+                        std::int64_t max_number) {
   const json value = body.value(name, json(nullptr));
   if (value.is_null()) return 0;
-  if (value.is_number_integer() && value >= min_value && value <= max_value) return value;
+  if (value.is_number_integer() && value >= min_number && value <= max_number) return value;
   throw wrong_field(kKeyNoun, fmt::format("/{}", name), value.dump(),
-                    fmt::format("an integer from {} to {}, or null", min_value, max_value));
+                    fmt::format("an integer from {} to {}, or null", min_number, max_number));
 }
 
 std::string name_in(const json& body) {

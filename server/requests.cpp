@@ -22,18 +22,18 @@ void write_json(httplib::Response& response, int status, const json& value) {
   response.set_content(text_of(value), "application/json");
 }
 
-std::int64_t number_of(const Request& request, const char* name, std::int64_t min_value,
-                       std::int64_t max_value, std::int64_t usual) {
+std::int64_t number_of(const Request& request, const char* name, std::int64_t min_number,
+                       std::int64_t max_number, std::int64_t usual) {
   if (!request.has_param(name)) return usual;
   const std::string text = request.get_param_value(name);
   std::int64_t number = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < min_value ||
-      number > max_value) {
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < min_number ||
+      number > max_number) {
     throw HttpError{400,
                     fmt::format("{} is wrong", name),
                     {{"", fmt::format("?{}", name), text,
-                      fmt::format("an integer from {} to {}", min_value, max_value)}}};
+                      fmt::format("an integer from {} to {}", min_number, max_number)}}};
   }
   return number;
 }

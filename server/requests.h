@@ -17,10 +17,10 @@ namespace throng::server {
 
 void write_json(httplib::Response& response, int status, const nlohmann::json& value);
 
-/// A parameter of the query that is a whole number in [least, most]; `usual` where it is not given.
-/// Throws HttpError 400.
-std::int64_t number_of(const httplib::Request& request, const char* name, std::int64_t min_value,
-                       std::int64_t max_value, std::int64_t usual);
+/// A parameter of the query that is a whole number in [min_number, max_number]; `usual` where it is
+/// not given. Throws HttpError 400.
+std::int64_t number_of(const httplib::Request& request, const char* name, std::int64_t min_number,
+                       std::int64_t max_number, std::int64_t usual);
 /// A flag of the query: given without a value, or true. Throws HttpError 400.
 bool is_asked(const httplib::Request& request, const char* name);
 /// ?limit= of a list. Throws HttpError.

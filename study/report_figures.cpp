@@ -171,9 +171,8 @@ GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scen
                                              people[i].velocity.norm());
     }
     for (std::size_t i = 0; i < figures.pressure.values.size(); ++i) {
-      double& max_value = figures.pressure.values[i];
-      max_value =
-          std::max(max_value, metrics::pressure_at(figures.pressure.center(i), grid, people));
+      double& pressure = figures.pressure.values[i];
+      pressure = std::max(pressure, metrics::pressure_at(figures.pressure.center(i), grid, people));
     }
   }
   for (double& value : figures.density.values) {

@@ -93,8 +93,8 @@ class Hurry : public VelModifier {
   explicit Hurry(float factor) : factor_(factor) {}
   void modify(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) const override {
     if (crowd.agents.panicked[agent] == 0) return;
-    const float max_value = std::max(preferred.speed, crowd.agents[Property::max_speed][agent]);
-    preferred.speed = std::min(factor_ * preferred.speed, max_value);
+    const float max_speed_mps = std::max(preferred.speed, crowd.agents[Property::max_speed][agent]);
+    preferred.speed = std::min(factor_ * preferred.speed, max_speed_mps);
   }
 
  private:

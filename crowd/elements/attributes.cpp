@@ -144,18 +144,17 @@ std::optional<std::string_view> read_kind(const Element& element, Reader& reader
 void read_limits(const Element& element, Reader& reader, const AttributeSpec& spec,
                  Distribution& made) {
   const std::string prefix(spec.name);
-  const auto min_value = reader.find(prefix + "at_least");
-  const auto max_value = reader.find(prefix + "at_most");
-  if (made.kind == Distribution::Kind::normal && !min_value && !max_value) return;
+  const auto at_least = reader.find(prefix + "at_least");
+  const auto at_most = reader.find(prefix + "at_most");
+  if (made.kind == Distribution::Kind::normal && !at_least && !at_most) return;
   made.at_least = spec.min;
   made.at_most = spec.max;
-  if (min_value) made.at_least = reader.number(prefix + "at_least", *min_value, spec.min, spec.max);
-  if (max_value)
-    made.at_most = reader.number(prefix + "at_most", *max_value, made.at_least, spec.max);
+  if (at_least) made.at_least = reader.number(prefix + "at_least", *at_least, spec.min, spec.max);
+  if (at_most) made.at_most = reader.number(prefix + "at_most", *at_most, made.at_least, spec.max);
   constexpr double kTooFew = 1e-6;
   if (made.share_between_limits() > kTooFew) return;
   element.fail_attribute(
-      prefix + (max_value && !min_value ? "at_most" : "at_least"),
+      prefix + (at_most && !at_least ? "at_most" : "at_least"),
       fmt::format("limits of {:.6g} and {:.6g}, between which there is less than one in a million "
                   "of the values",
                   made.at_least, made.at_most),

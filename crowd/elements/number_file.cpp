@@ -74,11 +74,11 @@ int NumberFile::integer(std::string_view what, int min, int max) {
 
 int NumberFile::count(std::string_view what, int min, int numbers_each) {
   // A number takes two characters or more: itself and a space.
-  const std::size_t max_value =
+  const std::size_t max_count =
       (text_.size() - position_) / 2 / static_cast<std::size_t>(numbers_each);
   constexpr std::size_t kMaxNumbers = 100'000'000;
   const int value = integer(what, min, static_cast<int>(kMaxNumbers));
-  if (static_cast<std::size_t>(value) > max_value + 1) {
+  if (static_cast<std::size_t>(value) > max_count + 1) {
     fail(fmt::format("{}", value), fmt::format("{}: no more than follow in the file", what));
   }
   return value;

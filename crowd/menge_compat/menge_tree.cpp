@@ -71,11 +71,12 @@ float MengeTree::distance_sq(const Node& node, const Eigen::Vector2f& point) {
 }
 
 std::span<const Grid::Neighbor> MengeTree::nearest(const Grid& grid, std::size_t slot, float range,
-                                                   std::size_t max_value, Search& search) const {
+                                                   std::size_t max_neighbors,
+                                                   Search& search) const {
   std::vector<Grid::Neighbor>& found = search.found;
   found.clear();
   search.waiting.clear();
-  if (max_value == 0 || nodes_.empty()) return found;
+  if (max_neighbors == 0 || nodes_.empty()) return found;
   const Eigen::Vector2f& here = grid.position(slot);
   float range_sq = range * range;
   search.waiting.emplace_back(distance_sq(nodes_[0], here), 0);
@@ -98,12 +99,12 @@ std::span<const Grid::Neighbor> MengeTree::nearest(const Grid& grid, std::size_t
       if (other == slot) continue;
       const float there_sq = (here - grid.position(other)).squaredNorm();
       if (there_sq >= range_sq) continue;
-      if (found.size() == max_value) found.pop_back();
+      if (found.size() == max_neighbors) found.pop_back();
       const auto place = std::upper_bound(
           found.begin(), found.end(), there_sq,
           [](float distance, const Grid::Neighbor& n) { return distance < n.distance_sq; });
       found.insert(place, {there_sq, other});
-      if (found.size() == max_value) range_sq = found.back().distance_sq;
+      if (found.size() == max_neighbors) range_sq = found.back().distance_sq;
     }
   }
   return found;

@@ -28,7 +28,7 @@ class MengeTree {
 
   /// The same agents as Grid::nearest, ties in the tree's order.
   std::span<const Grid::Neighbor> nearest(const Grid& grid, std::size_t slot, float range,
-                                          std::size_t max_value, Search& search) const;
+                                          std::size_t max_neighbors, Search& search) const;
 
  private:
   struct Node {

@@ -33,13 +33,13 @@ class Urgent {
     std::uint32_t slot = 0;  // of the other
   };
 
-  explicit Urgent(std::size_t max_value) : max_value_(max_value) {}
+  explicit Urgent(std::size_t max_neighbors) : max_neighbors_(max_neighbors) {}
 
   void add(float time_s, std::uint32_t slot) {
     std::size_t at = count_;
     while (at > 0 && collisions_[at - 1].time_s > time_s) --at;
-    if (at >= max_value_) return;
-    if (count_ < max_value_) ++count_;
+    if (at >= max_neighbors_) return;
+    if (count_ < max_neighbors_) ++count_;
     std::copy_backward(collisions_.begin() + at, collisions_.begin() + count_ - 1,
                        collisions_.begin() + count_);
     collisions_[at] = {time_s, slot};
@@ -48,7 +48,7 @@ class Urgent {
 
  private:
   std::array<Collision, kMaxColliding> collisions_;
-  std::size_t max_value_;
+  std::size_t max_neighbors_;
   std::size_t count_ = 0;
 };
 
@@ -69,8 +69,8 @@ class Karamouzas : public LocalModel {
     const Eigen::Vector2f desired = self.velocity + dt_s * drive(crowd, grid, around, self);
     Eigen::Vector2f force = evade(crowd, grid, around, self, desired) + shiver(crowd, self);
     const float strength = force.norm();
-    const float max_value = agents[Property::max_accel][self.id];
-    if (strength > max_value) force *= max_value / strength;
+    const float max_acceleration_mps2 = agents[Property::max_accel][self.id];
+    if (strength > max_acceleration_mps2) force *= max_acceleration_mps2 / strength;
     return desired + dt_s * force;
   }
 

@@ -22,9 +22,9 @@ float highest_speed(const Crowd& crowd, std::size_t agent) {
 Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
                                   const Eigen::Vector2f& velocity) {
   if (!velocity.allFinite()) return crowd.agents.velocity[agent];
-  const float max_value = highest_speed(crowd, agent);
+  const float max_speed_mps = highest_speed(crowd, agent);
   const float speed = velocity.norm();
-  return speed > max_value ? Eigen::Vector2f(velocity * (max_value / speed)) : velocity;
+  return speed > max_speed_mps ? Eigen::Vector2f(velocity * (max_speed_mps / speed)) : velocity;
 }
 
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise) {

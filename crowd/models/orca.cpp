@@ -49,11 +49,10 @@ class Orca : public Model {
   static constexpr std::size_t kGrain = 64;  // agents per task
 
   static Workspace make_workspace(const Crowd& crowd) {
-    const std::vector<float>& max_value = crowd.agents[Property::max_neighbors];
-    const auto neighbors =
-        max_value.empty()
-            ? 0
-            : static_cast<std::size_t>(*std::max_element(max_value.begin(), max_value.end()));
+    const std::vector<float>& max_neighbors = crowd.agents[Property::max_neighbors];
+    const auto neighbors = max_neighbors.empty() ? 0
+                                                 : static_cast<std::size_t>(*std::max_element(
+                                                       max_neighbors.begin(), max_neighbors.end()));
     const std::size_t walls = crowd.obstacles.segments().size();
     Workspace workspace{OrcaBatch(neighbors, walls), {}, {}};
     workspace.walls.reserve(walls);
@@ -172,7 +171,7 @@ ModelEntry weidmann_model() {
           {{"reach", pace.reach_m, 0.1F, 100, "how far ahead others count, in m"},
            {"jam_density", pace.jam_density, 0.1F, 100, "at which nobody would walk, per m^2"},
            {"decline", pace.decline, 0.01F, 100, "how late speed falls with density, per m^2"},
-           {"least", pace.min_value, 0, 1, "share of the free speed that is left in a jam"},
+           {"least", pace.min_speed_share, 0, 1, "share of the free speed that is left in a jam"},
            {"headway", pace.headway_s, 0.01F, 100, "time to the one ahead in single file, in s"},
            {"keep_right", pace.keep_right, 0, 100,
             "how far one turns right from those who come towards one, in rad m^2"}},

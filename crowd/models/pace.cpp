@@ -15,15 +15,15 @@ Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& aro
   view.free_speed = crowd.agents[Property::pref_speed][id];
   const float reach = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
   view.reach_sq = reach * reach;
-  const auto max_value = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
-  if (!around.neighbors.empty() && around.neighbors.size() == max_value) {
+  const auto max_neighbors = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
+  if (!around.neighbors.empty() && around.neighbors.size() == max_neighbors) {
     view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
   }
   const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
   if (file > 0 && view.free_speed > 0) {
     const float share =
         std::clamp(gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),
-                   spec_.min_value, 1.0F);
+                   spec_.min_speed_share, 1.0F);
     view.file_share = 1 - file * (1 - share);
   }
   return view;
@@ -34,7 +34,7 @@ SpeedRegulation Pace::regulation(const View& view, const Ahead& ahead) const {
   SpeedRegulation regulation{1, 1, direction};
   if (ahead.along > 0) {
     const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
-    regulation.share = std::clamp(share, spec_.min_value, 1.0F);
+    regulation.share = std::clamp(share, spec_.min_speed_share, 1.0F);
   }
   // Slow agents need not look as far; and at a door no one waits for those beside them.
   regulation.horizon_share = regulation.share;

@@ -11,12 +11,12 @@ namespace throng::crowd {
 
 /// Parameters of Pace. How they came about: docs/crowd.md.
 struct PaceSpec {
-  float reach_m = 1.7F;       ///< how far ahead others count
-  float jam_density = 4.82F;  ///< 1/m^2
-  float decline = 1.56F;      ///< 1/m^2
-  float min_value = 0.19F;    ///< share of the free speed that is left in a jam
-  float headway_s = 0.85F;    ///< from touching the one ahead, in single file
-  float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
+  float reach_m = 1.7F;           ///< how far ahead others count
+  float jam_density = 4.82F;      ///< 1/m^2
+  float decline = 1.56F;          ///< 1/m^2
+  float min_speed_share = 0.19F;  ///< share of the free speed that is left in a jam
+  float headway_s = 0.85F;        ///< from touching the one ahead, in single file
+  float keep_right = 6;           ///< rad m^2: turn by the density of those who come towards one
 };
 
 /// An agent's reaction to those ahead.

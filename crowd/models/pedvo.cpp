@@ -19,11 +19,11 @@ struct Workspace {
 };
 
 Workspace make_workspace(const Crowd& crowd) {
-  const std::vector<float>& max_value = crowd.agents[Property::max_neighbors];
+  const std::vector<float>& max_neighbors = crowd.agents[Property::max_neighbors];
   const auto neighbors =
-      max_value.empty()
+      max_neighbors.empty()
           ? 0
-          : static_cast<std::size_t>(*std::max_element(max_value.begin(), max_value.end()));
+          : static_cast<std::size_t>(*std::max_element(max_neighbors.begin(), max_neighbors.end()));
   Workspace workspace;
   workspace.planes.reserve(neighbors + crowd.obstacles.segments().size());
   workspace.scratch.reserve(neighbors + crowd.obstacles.segments().size());

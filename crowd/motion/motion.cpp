@@ -49,13 +49,13 @@ float root(float v) { return std::sqrt(v); }
 Float4 root(Float4 v) { return square_root<4>(v); }
 Float8 root(Float8 v) { return square_root<8>(v); }
 
-/// v moved towards `wanted`, by at most `most`.
+/// v moved towards `wanted`, by at most `max_change`.
 template <typename Float>
 Vector<Float> approach(const Vector<Float>& v, const Vector<Float>& wanted,
-                       const Float& max_value) {
+                       const Float& max_change) {
   const Vector<Float> change = wanted - v;
   const Float size = root(dot(change, change));
-  return select(size > max_value, v + (max_value / size) * change, wanted);
+  return select(size > max_change, v + (max_change / size) * change, wanted);
 }
 
 /// The direction that an agent turns to: its velocity, mixed with the preferred one when it is

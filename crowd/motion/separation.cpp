@@ -108,8 +108,8 @@ void Separation::push_apart(const Crowd& crowd) {
       Body& self = bodies_[slot];
       const float length = self.push.norm();
       if (!(length > 0)) continue;
-      const float max_value = kStride * grid_.radius(slot);
-      const Eigen::Vector2f push = std::min(1.0F, max_value / length) * self.push;
+      const float max_push_m = kStride * grid_.radius(slot);
+      const Eigen::Vector2f push = std::min(1.0F, max_push_m / length) * self.push;
       self.position = kept_off_walls(crowd, slot, self.position + push, walls);
     }
   });

@@ -143,8 +143,9 @@ PreferredVelocity FormationGroup::lead(const Crowd& crowd, std::size_t agent,
   const Eigen::Vector2f velocity = velocity_ + (place - crowd.agents.position[agent]) / kCatchUp_s;
   const float speed = velocity.norm();
   if (speed <= kStanding) return {alone.direction, 0};
-  const float max_value = std::min(kHaste * alone.speed, crowd.agents[Property::max_speed][agent]);
-  return {velocity / speed, std::min(speed, max_value)};
+  const float max_speed_mps =
+      std::min(kHaste * alone.speed, crowd.agents[Property::max_speed][agent]);
+  return {velocity / speed, std::min(speed, max_speed_mps)};
 }
 
 namespace {

@@ -119,8 +119,8 @@ class SocialGroupForces : public VelModifier {
     Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
     // Nobody stops for the group altogether.
     const float along = wanted.dot(preferred.direction);
-    const float min_value = kMinProgress * preferred.speed;
-    if (along < min_value) wanted += (min_value - along) * preferred.direction;
+    const float min_progress_mps = kMinProgress * preferred.speed;
+    if (along < min_progress_mps) wanted += (min_progress_mps - along) * preferred.direction;
     const float speed = wanted.norm();
     preferred.direction = wanted / speed;
     // Members that have fallen behind may hurry a little.

@@ -73,26 +73,26 @@ Grid::Extent Grid::extent_of(const Agents& agents) {
 void Grid::lay_out(const Agents& agents) {
   const std::size_t count = agents.count();
   const Extent all = extent_of(agents);
-  const std::size_t max_value = std::bit_ceil(std::max(kMinBuckets, 2 * count));
-  std::size_t buckets = max_value;
+  const std::size_t max_buckets = std::bit_ceil(std::max(kMinBuckets, 2 * count));
+  std::size_t buckets = max_buckets;
   row_stride_ = 0x9E3779B1U;
   first_cell_ = 0;
   const float columns = (all.high.x() - all.low.x()) / kCellWidth + 2;
   const float rows = (all.high.y() - all.low.y()) / kCellHeight + 2;
-  if (columns > 0 && rows > 0 && columns * rows < static_cast<float>(max_value)) {
+  if (columns > 0 && rows > 0 && columns * rows < static_cast<float>(max_buckets)) {
     row_stride_ = static_cast<std::uint32_t>(columns);
     first_cell_ = static_cast<std::uint32_t>(row_of(all.low.y())) * row_stride_ +
                   static_cast<std::uint32_t>(column_of(all.low.x()));
     const std::size_t cells = std::bit_ceil(static_cast<std::size_t>(columns * rows) + 1);
-    buckets = std::clamp(cells, kMinBuckets, max_value);
+    buckets = std::clamp(cells, kMinBuckets, max_buckets);
   }
   bucket_mask_ = static_cast<std::uint32_t>(buckets - 1);
   const std::size_t parts = std::clamp(std::bit_floor(count / kPartAgents), std::size_t{1}, kParts);
   const std::size_t part_buckets = std::min(buckets / parts, kMaxPartBuckets);
   part_shift_ = std::countr_zero(part_buckets);
   parts_ = buckets / part_buckets;
-  const std::size_t max_parts = std::max(kParts, max_value / kMaxPartBuckets);
-  bucket_begin_.reserve(max_value + 1);
+  const std::size_t max_parts = std::max(kParts, max_buckets / kMaxPartBuckets);
+  bucket_begin_.reserve(max_buckets + 1);
   place_.reserve(runs_of(count) * max_parts);
   part_begin_.reserve(max_parts + 1);
   bucket_begin_.resize(buckets + 1);

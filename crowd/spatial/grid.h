@@ -33,12 +33,12 @@ class Grid {
   /// Memory of searches; kept from one to the next, so that they allocate nothing.
   class Candidates {
    public:
-    /// For searches for at most `most` neighbors.
-    explicit Candidates(std::size_t max_value = 0);
+    /// For searches for at most `max_neighbors` neighbors.
+    explicit Candidates(std::size_t max_neighbors = 0);
 
    private:
     friend struct NearestKernel;
-    void make_room(std::size_t max_value);
+    void make_room(std::size_t max_neighbors);
 
     std::vector<float> distance_sq_;
     std::vector<std::int32_t> slot_;
@@ -58,12 +58,12 @@ class Grid {
   const Eigen::Vector2f& velocity(std::size_t slot) const { return body_[slot].velocity; }
   float radius(std::size_t slot) const { return radius_[slot]; }
 
-  /// The agents nearest to the one in `slot`, nearer than `range`, at most `most`; sorted by
-  /// distance, ties by id. They are in `candidates` until the next search with it. `reach` is a
+  /// The agents nearest to the one in `slot`, nearer than `range`, at most `max_neighbors`; sorted
+  /// by distance, ties by id. They are in `candidates` until the next search with it. `reach` is a
   /// guess of how far they are, which is updated for the next time and does not change the result.
-  std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t max_value,
+  std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t max_neighbors,
                                     float& reach, Candidates& candidates) const {
-    return nearest_(*this, slot, range, max_value, reach, candidates);
+    return nearest_(*this, slot, range, max_neighbors, reach, candidates);
   }
 
   /// Calls visit(slot) once for everybody within the range of a point, and for some beyond.
@@ -79,7 +79,7 @@ class Grid {
  private:
   friend struct NearestKernel;
   using Nearest = std::span<const Neighbor>(const Grid&, std::size_t slot, float range,
-                                            std::size_t max_value, float& reach, Candidates&);
+                                            std::size_t max_neighbors, float& reach, Candidates&);
 
   static constexpr float kCellWidth = 1.0F;   // m; a few people fit in
   static constexpr float kCellHeight = 2.0F;  // m; fewer, longer runs

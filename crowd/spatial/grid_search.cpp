@@ -10,11 +10,11 @@
 
 namespace throng::crowd {
 
-Grid::Candidates::Candidates(std::size_t max_value) { make_room(max_value); }
+Grid::Candidates::Candidates(std::size_t max_neighbors) { make_room(max_neighbors); }
 
-void Grid::Candidates::make_room(std::size_t max_value) {
+void Grid::Candidates::make_room(std::size_t max_neighbors) {
   constexpr std::size_t kMore = 128;  // than are wanted may be within reach
-  const std::size_t capacity = max_value + max_value / 2 + kMore;
+  const std::size_t capacity = max_neighbors + max_neighbors / 2 + kMore;
   if (slot_.size() >= capacity) return;
   distance_sq_.resize(capacity);
   slot_.resize(capacity);
@@ -31,38 +31,38 @@ struct NearestKernel {
     float y = 0;
     float limit_sq = 0;  // m^2; those further away are not wanted
     std::size_t self = 0;
-    std::size_t max_value = 0;
+    std::size_t max_neighbors = 0;
   };
 
   template <int kWidth>
   static std::span<const Neighbor> run(const Grid& grid, std::size_t slot, float range,
-                                       std::size_t max_value, float& reach,
+                                       std::size_t max_neighbors, float& reach,
                                        Candidates& candidates) {
-    if (max_value == 0 || !(range > 0)) return {};
-    candidates.make_room(max_value);
+    if (max_neighbors == 0 || !(range > 0)) return {};
+    candidates.make_room(max_neighbors);
     constexpr float kMinReach = 0.5F;  // m
     float radius = std::clamp(reach, std::min(kMinReach, range), range);
-    collect<kWidth>(grid, slot, radius, max_value, candidates);
-    while (candidates.count_ < max_value && radius < range) {
+    collect<kWidth>(grid, slot, radius, max_neighbors, candidates);
+    while (candidates.count_ < max_neighbors && radius < range) {
       radius = std::min(2 * radius, range);
-      collect<kWidth>(grid, slot, radius, max_value, candidates);
+      collect<kWidth>(grid, slot, radius, max_neighbors, candidates);
     }
     sort<kWidth>(grid, candidates);
-    std::size_t count = std::min(max_value, candidates.count_);
+    std::size_t count = std::min(max_neighbors, candidates.count_);
     const std::vector<Neighbor>& sorted = candidates.sorted_;
     while (count > 0 && !(sorted[count - 1].distance_sq < range * range)) --count;
     constexpr float kMargin = 1.1F;  // people move a little between steps
-    reach = count == max_value ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
+    reach = count == max_neighbors ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
     return {sorted.data(), count};
   }
 
  private:
   /// Finds everybody within the radius; if they are too many for the candidates' memory, at least
-  /// the `most` nearest of them.
+  /// the `max_neighbors` nearest of them.
   template <int kWidth>
-  static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t max_value,
+  static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t max_neighbors,
                       Candidates& candidates) {
-    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, max_value};
+    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, max_neighbors};
     candidates.count_ = 0;
     grid.for_each_run(grid.position(slot), radius,
                       [&](std::size_t begin, std::size_t end, std::optional<int> row) {
@@ -128,13 +128,13 @@ struct NearestKernel {
   template <int kWidth>
   static void keep_nearest(const Grid& grid, Place& place, Candidates& candidates) {
     sort<kWidth>(grid, candidates);
-    const std::size_t kept = std::min(place.max_value, candidates.count_);
+    const std::size_t kept = std::min(place.max_neighbors, candidates.count_);
     for (std::size_t i = 0; i < kept; ++i) {
       candidates.distance_sq_[i] = candidates.sorted_[i].distance_sq;
       candidates.slot_[i] = static_cast<std::int32_t>(candidates.sorted_[i].slot);
     }
     candidates.count_ = kept;
-    if (kept == place.max_value) place.limit_sq = candidates.distance_sq_[kept - 1];
+    if (kept == place.max_neighbors) place.limit_sq = candidates.distance_sq_[kept - 1];
   }
 
   /// Fills sorted_.

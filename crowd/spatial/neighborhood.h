@@ -67,9 +67,9 @@ class Neighborhood {
   AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot, float wall_range_m,
                  Found& found);
   std::span<const Grid::Neighbor> nearest(const Crowd& crowd, const Grid& grid, std::size_t slot,
-                                          std::size_t max_value, Found& found);
+                                          std::size_t max_neighbors, Found& found);
   std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,
-                                                  std::size_t slot, std::size_t max_value,
+                                                  std::size_t slot, std::size_t max_neighbors,
                                                   Found& found);
 
   MengeTree tree_;            // of compatible runs

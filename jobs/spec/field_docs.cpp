@@ -88,11 +88,11 @@ std::string values_text(const ordered_json& rules) {
   if (type == "boolean") return "true or false";
   if (type == "object") return "an object";
   if (type == "array") {
-    const int min_value = rules.value("minItems", 0);
-    const int max_value = rules.at("maxItems");
+    const int min_items = rules.value("minItems", 0);
+    const int max_items = rules.at("maxItems");
     return fmt::format("list of {}: {}",
-                       min_value == max_value ? fmt::format("{}", max_value)
-                                              : fmt::format("{} to {}", min_value, max_value),
+                       min_items == max_items ? fmt::format("{}", max_items)
+                                              : fmt::format("{} to {}", min_items, max_items),
                        items_text(rules.at("items")));
   }
   if (type == "string") {

@@ -47,15 +47,15 @@ std::optional<Vector3d> far_point(const camera::Camera& camera, const Vector2d& 
 double camera_motion_px(const camera::Camera& before, const camera::Camera& after) {
   constexpr int kSteps = 4;
   const camera::Intrinsics& k = before.intrinsics;
-  double max_value = 0;
+  double max_motion_px = 0;
   for (int row = 0; row <= kSteps; ++row) {
     for (int column = 0; column <= kSteps; ++column) {
       const Vector2d pixel((k.width - 1.0) * column / kSteps, (k.height - 1.0) * row / kSteps);
       const std::optional<Vector3d> point = far_point(before, pixel);
-      if (point) max_value = std::max(max_value, moved_px(before, *point, after, *point));
+      if (point) max_motion_px = std::max(max_motion_px, moved_px(before, *point, after, *point));
     }
   }
-  return max_value;
+  return max_motion_px;
 }
 
 /// An odd number, so that one sample is in the middle.
@@ -272,24 +272,25 @@ class ObjectsInStrips {
 }  // namespace
 
 double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
-  double max_value = camera_motion_px(from.camera, to.camera);
+  double max_motion_px = camera_motion_px(from.camera, to.camera);
   std::unordered_map<std::uint32_t, const PersonInstance*> later;
   for (const PersonInstance& person : to.scene->people) later[person.agent] = &person;
   for (const PersonInstance& person : from.scene->people) {
     const auto found = later.find(person.agent);
     if (found == later.end()) continue;
-    max_value = std::max(max_value, moved_px(from.camera, person.position.cast<double>(), to.camera,
-                                             found->second->position.cast<double>()));
+    max_motion_px =
+        std::max(max_motion_px, moved_px(from.camera, person.position.cast<double>(), to.camera,
+                                         found->second->position.cast<double>()));
   }
   for (const DroneInstance& drone : from.scene->drones) {
     if (carries(drone, from.camera.pose.center())) continue;
     for (const DroneInstance& after : to.scene->drones) {
       if (after.drone != drone.drone) continue;
-      max_value =
-          std::max(max_value, moved_px(from.camera, drone.position, to.camera, after.position));
+      max_motion_px =
+          std::max(max_motion_px, moved_px(from.camera, drone.position, to.camera, after.position));
     }
   }
-  return max_value;
+  return max_motion_px;
 }
 
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,

@@ -32,16 +32,17 @@ std::size_t cells(int width, int height) {
 
 /// How many wide pixels per image pixel it takes to lose nothing where the lens magnifies most.
 double magnification(const camera::Intrinsics& lens) {
-  double max_value = 1;
+  double max_magnification = 1;
   for (int y = 0; y < lens.height; y += kCoarse) {
     for (int x = 0; x < lens.width; x += kCoarse) {
       const auto direction = lens.direction_of({x, y});
       if (!direction) continue;
-      max_value = std::max(
-          max_value, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
+      max_magnification =
+          std::max(max_magnification,
+                   lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
     }
   }
-  return std::min(max_value, kMaxMagnification);
+  return std::min(max_magnification, kMaxMagnification);
 }
 
 /// Directions of a row of pixels from `first` on, NaN beyond the model.

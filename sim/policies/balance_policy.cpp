@@ -284,7 +284,7 @@ class BalancePolicy : public Policy {
           (routes_[static_cast<std::size_t>(to)].mouth() - pick).norm() / lead_mps_;
       const double arrive_s = fly_s + kCollectS + lead_s;
       Trip trip{pick, -1, to, here.all, 0};
-      double max_value = 0;
+      double most_wanted = 0;
       for (std::size_t e = 0; e < here.want.size(); ++e) {
         const int from = static_cast<int>(e);
         if (here.want[e] == 0) continue;
@@ -293,8 +293,8 @@ class BalancePolicy : public Policy {
           continue;
         }
         trip.seconds += queues_.saving_s(from, to, arrive_s, here.want[e]);
-        if (here.want[e] > max_value) {
-          max_value = here.want[e];
+        if (here.want[e] > most_wanted) {
+          most_wanted = here.want[e];
           trip.from = from;
         }
       }

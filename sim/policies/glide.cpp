@@ -41,8 +41,8 @@ const Setpoint& Glide::advance(const FlightState& state, double dt_s) {
     wanted = offset / distance_m * std::min({speed_mps_, can_brake_mps, distance_m / dt_s});
   }
   Vector2d change = wanted - velocity_;
-  const double max_value = kGlideMps2 * dt_s;
-  if (change.norm() > max_value) change *= max_value / change.norm();
+  const double max_change_mps = kGlideMps2 * dt_s;
+  if (change.norm() > max_change_mps) change *= max_change_mps / change.norm();
   velocity_ += change;
   setpoint_.position.head<2>() += velocity_ * dt_s;
   setpoint_.velocity.head<2>() = velocity_;

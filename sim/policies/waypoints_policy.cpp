@@ -70,8 +70,8 @@ class WaypointsPolicy : public Policy {
                                            2 * kAcceleration * (leg.length_m - along_m_));
     const double wanted_mps =
         too_far_ahead ? 0.0 : std::max(kCreepMps, std::min(leg.speed_mps, can_brake_mps));
-    const double max_value = kAcceleration * dt_s;
-    const double change_mps = std::clamp(wanted_mps - speed_mps_, -max_value, max_value);
+    const double max_change_mps = kAcceleration * dt_s;
+    const double change_mps = std::clamp(wanted_mps - speed_mps_, -max_change_mps, max_change_mps);
     speed_mps_ += change_mps;
     along_m_ += speed_mps_ * dt_s;
     if (along_m_ < leg.length_m) {

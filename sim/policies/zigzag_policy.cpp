@@ -76,14 +76,14 @@ class ZigzagPolicy : public Policy {
     for (const PersonSeen& person : view.people) {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
-    const auto max_value = std::max_element(heading.begin(), heading.end());
-    if (max_value == heading.end() || *max_value < kWorthATripPeople) return;
-    from_ = static_cast<int>(max_value - heading.begin());
+    const auto most_people = std::max_element(heading.begin(), heading.end());
+    if (most_people == heading.end() || *most_people < kWorthATripPeople) return;
+    from_ = static_cast<int>(most_people - heading.begin());
     to_ = next_in_turn();
     if (to_ < 0) return;
     Vector2d middle = Vector2d::Zero();
     for (const PersonSeen& person : view.people) {
-      if (person.exit == from_) middle += person.position / static_cast<double>(*max_value);
+      if (person.exit == from_) middle += person.position / static_cast<double>(*most_people);
     }
     const LeadRoute route =
         route_through(scenario_.exits[static_cast<std::size_t>(to_)], scenario_.buildings);

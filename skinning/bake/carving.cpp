@@ -60,12 +60,12 @@ Carving::Carving(std::span<const PosedSurface> all) {
         const Eigen::Vector3f offset(static_cast<float>(cell[0]), static_cast<float>(cell[1]),
                                      static_cast<float>(cell[2]));
         const Eigen::Vector3f point = low_ + kCellM * offset;
-        float max_value = -1;
+        float farthest_m = -1;
         for (const Outline& outline : outlines) {
-          max_value = std::max(max_value, outline.distance_m(point));
-          if (max_value >= kFarM) break;
+          farthest_m = std::max(farthest_m, outline.distance_m(point));
+          if (farthest_m >= kFarM) break;
         }
-        distance_m_[place(cell)] = max_value;
+        distance_m_[place(cell)] = farthest_m;
       }
     }
   }

@@ -127,13 +127,13 @@ class Simplifier {
   // The chart that most of the corners lie in.
   std::uint32_t chart_for(const std::array<std::uint32_t, 3>& corners) const {
     std::uint32_t best = chart_[copies_[corners[0]].front()];
-    int max_value = 0;
+    int max_count = 0;
     for (const std::uint32_t point : corners) {
       for (const std::uint32_t vertex : copies_[point]) {
         int count = 0;
         for (const std::uint32_t other : corners) count += find_in(chart_[vertex], other) ? 1 : 0;
-        if (count <= max_value) continue;
-        max_value = count;
+        if (count <= max_count) continue;
+        max_count = count;
         best = chart_[vertex];
       }
     }
@@ -151,11 +151,11 @@ class Simplifier {
   std::uint32_t vertex_in(std::uint32_t chart, std::uint32_t point) const {
     if (const std::uint32_t* vertex = find_in(chart, point)) return *vertex;
     std::uint32_t nearest = chart;
-    float min_value = std::numeric_limits<float>::max();
+    float least_distance = std::numeric_limits<float>::max();
     for (const std::uint32_t vertex : members_.at(chart)) {
       const float distance = (point_of(mesh_->vertices[vertex]) - points_[point]).squaredNorm();
-      if (distance >= min_value) continue;
-      min_value = distance;
+      if (distance >= least_distance) continue;
+      least_distance = distance;
       nearest = vertex;
     }
     return nearest;
@@ -182,9 +182,9 @@ bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
   constexpr float kMaxShrink = 0.05F;  // of the largest extent
   const Eigen::AlignedBox3f now = bounds_of(simple);
   const Eigen::AlignedBox3f then = bounds_of(mesh);
-  const float max_value = kMaxShrink * then.sizes().maxCoeff();
-  return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_value ||
-         (now.max() - then.max()).cwiseAbs().maxCoeff() > max_value;
+  const float max_shrink_m = kMaxShrink * then.sizes().maxCoeff();
+  return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_shrink_m ||
+         (now.max() - then.max()).cwiseAbs().maxCoeff() > max_shrink_m;
 }
 
 }  // namespace

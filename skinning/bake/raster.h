@@ -20,8 +20,8 @@ void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Ei
   if (!(std::abs(area) > 1e-12F)) return;
   const Eigen::Vector2f low = a.cwiseMin(b).cwiseMin(c);
   const Eigen::Vector2f high = a.cwiseMax(b).cwiseMax(c);
-  const auto limit = [](float value, int max_value) {
-    return static_cast<int>(std::clamp(value, 0.0F, static_cast<float>(max_value)));
+  const auto limit = [](float value, int last) {
+    return static_cast<int>(std::clamp(value, 0.0F, static_cast<float>(last)));
   };
   const int left = limit(std::floor(low.x()), width);
   const int right = limit(std::ceil(high.x()), width);

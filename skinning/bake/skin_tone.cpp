@@ -40,14 +40,14 @@ void tone_skin(Image& image) {
   const double green = median(image, 1);
   const double blue = median(image, 2);
   const double light = std::clamp((red - kDark.red) / (kLight.red - kDark.red), 0.0, 1.0);
-  const auto max_value = [&](double dark_ratio, double light_ratio) {
+  const auto max_ratio = [&](double dark_ratio, double light_ratio) {
     return kMargin * std::lerp(dark_ratio, light_ratio, light);
   };
   const double more_green =
-      std::max(1.0, red / green / max_value(kDark.red / kDark.green, kLight.red / kLight.green));
+      std::max(1.0, red / green / max_ratio(kDark.red / kDark.green, kLight.red / kLight.green));
   const double more_blue =
       std::max(1.0, more_green * green / blue /
-                        max_value(kDark.green / kDark.blue, kLight.green / kLight.blue));
+                        max_ratio(kDark.green / kDark.blue, kLight.green / kLight.blue));
   scale(image, 1, more_green);
   scale(image, 2, more_blue);
 }

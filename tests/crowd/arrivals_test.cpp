@@ -97,12 +97,12 @@ TEST(Arrivals, WaitWhileTooManyAreThere) {
       scene_with_arrivals(
           R"(<Arrivals type="rate" per_second="1" end="20" process="regular" max_present="3"/>)"),
       kToTheSink);
-  long max_value = 0;
+  long max_present = 0;
   while (crowd.time_s() < 80 && !crowd.all_final()) {
     crowd.step();
-    max_value = std::max(max_value, present(crowd));
+    max_present = std::max(max_present, present(crowd));
   }
-  EXPECT_EQ(max_value, 3);
+  EXPECT_EQ(max_present, 3);
   EXPECT_TRUE(crowd.all_final());  // in the end everybody came and left
 }
 

@@ -55,14 +55,14 @@ void watch_until(Simulation& crowd, double time_s) {
 template <typename Wanted>
 std::pair<double, double> off_by(const Simulation& crowd, const Wanted& wanted) {
   double sum = 0;
-  double max_value = 0;
+  double max_off_rad = 0;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
     const double off = std::abs(std::remainder(
         static_cast<double>(crowd.yaws_rad()[i]) - wanted(crowd.positions()[i]), 2 * kPi));
     sum += off;
-    max_value = std::max(max_value, off);
+    max_off_rad = std::max(max_off_rad, off);
   }
-  return {sum / static_cast<double>(crowd.agent_count()), max_value};
+  return {sum / static_cast<double>(crowd.agent_count()), max_off_rad};
 }
 
 /// Shares of people who look into each quarter.
@@ -81,9 +81,9 @@ TEST(Facing, AnAudienceLooksAtItsStageAllTheTime) {
   const auto to_stage = [](const Eigen::Vector2f& at) {
     return std::atan2(40.0 - static_cast<double>(at.y()), 4.0 - static_cast<double>(at.x()));
   };
-  const auto [mean, max_value] = off_by(crowd, to_stage);
+  const auto [mean, max_off_rad] = off_by(crowd, to_stage);
   EXPECT_NEAR(mean, 10 * kPi / 180 * std::sqrt(2 / kPi), 0.02) << "10 degrees, normal";
-  EXPECT_LT(max_value, 0.8);
+  EXPECT_LT(max_off_rad, 0.8);
   for (const double time_s : {2.0, 10.0, 19.0}) {
     watch_until(crowd, time_s);
     EXPECT_LT(off_by(crowd, to_stage).first, 0.17) << time_s << " s: those who are pushed shuffle";

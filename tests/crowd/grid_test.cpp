@@ -24,7 +24,7 @@ Agents scattered(std::size_t count, double half_width_m, double half_height_m, s
 }
 
 std::vector<std::uint32_t> brute_force(const Agents& agents, std::size_t self, float range,
-                                       std::size_t max_value) {
+                                       std::size_t max_neighbors) {
   std::vector<std::pair<float, std::uint32_t>> all;
   for (std::size_t i = 0; i < agents.count(); ++i) {
     const float d = (agents.position[i] - agents.position[self]).squaredNorm();
@@ -34,32 +34,34 @@ std::vector<std::uint32_t> brute_force(const Agents& agents, std::size_t self, f
   }
   std::sort(all.begin(), all.end());
   std::vector<std::uint32_t> ids;
-  for (std::size_t i = 0; i < std::min(max_value, all.size()); ++i) ids.push_back(all[i].second);
+  for (std::size_t i = 0; i < std::min(max_neighbors, all.size()); ++i)
+    ids.push_back(all[i].second);
   return ids;
 }
 
-void expect_brute_force(const Agents& agents, float range, std::size_t max_value, float first_reach,
-                        InstructionSet set) {
+void expect_brute_force(const Agents& agents, float range, std::size_t max_neighbors,
+                        float first_reach, InstructionSet set) {
   Grid grid(set);
   grid.build(agents);
-  Grid::Candidates candidates(max_value);
+  Grid::Candidates candidates(max_neighbors);
   for (std::size_t slot = 0; slot < grid.size(); ++slot) {
     float reach = first_reach;
     for (int again = 0; again < 2; ++again) {  // the second time with the reach of the first
       std::vector<std::uint32_t> ids;
-      for (const Grid::Neighbor& found : grid.nearest(slot, range, max_value, reach, candidates)) {
+      for (const Grid::Neighbor& found :
+           grid.nearest(slot, range, max_neighbors, reach, candidates)) {
         ids.push_back(grid.id(found.slot));
       }
-      ASSERT_EQ(ids, brute_force(agents, grid.id(slot), range, max_value))
+      ASSERT_EQ(ids, brute_force(agents, grid.id(slot), range, max_neighbors))
           << "agent " << grid.id(slot) << " range " << range;
     }
   }
 }
 
-void expect_brute_force(const Agents& agents, float range, std::size_t max_value,
+void expect_brute_force(const Agents& agents, float range, std::size_t max_neighbors,
                         float first_reach) {
-  expect_brute_force(agents, range, max_value, first_reach, InstructionSet::baseline);
-  expect_brute_force(agents, range, max_value, first_reach, best_instruction_set());
+  expect_brute_force(agents, range, max_neighbors, first_reach, InstructionSet::baseline);
+  expect_brute_force(agents, range, max_neighbors, first_reach, best_instruction_set());
 }
 
 TEST(Grid, FindsTheNearestAsBruteForceDoes) {

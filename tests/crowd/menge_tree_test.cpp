@@ -36,10 +36,10 @@ TEST(MengeTree, FindsWhomTheGridFinds) {
   MengeTree::Search search;
   Grid::Candidates candidates;
   for (std::size_t slot = 0; slot < grid.size(); ++slot) {
-    for (const std::size_t max_value : {0, 1, 10, 400}) {
+    for (const std::size_t max_neighbors : {0, 1, 10, 400}) {
       float reach = 2;
-      EXPECT_EQ(ids(grid, tree.nearest(grid, slot, 3, max_value, search)),
-                ids(grid, grid.nearest(slot, 3, max_value, reach, candidates)));
+      EXPECT_EQ(ids(grid, tree.nearest(grid, slot, 3, max_neighbors, search)),
+                ids(grid, grid.nearest(slot, 3, max_neighbors, reach, candidates)));
     }
   }
 }

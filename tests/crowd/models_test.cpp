@@ -125,13 +125,13 @@ std::pair<float, float> aside(const std::string& first_extra, const std::string&
       test::load(test::two_profiles_scene(first_extra, second_extra, pedvo,
                                           test::agent_at(-3, 0.02), test::agent_at(3, -0.02)),
                  test::mirror_behavior(), {.model = "pedvo"});
-  std::pair<float, float> max_value;
+  std::pair<float, float> max_offset_m;
   for (int i = 0; i < 60; ++i) {
     crowd.step();
-    max_value.first = std::max(max_value.first, std::abs(crowd.positions()[0].y()));
-    max_value.second = std::max(max_value.second, std::abs(crowd.positions()[1].y()));
+    max_offset_m.first = std::max(max_offset_m.first, std::abs(crowd.positions()[0].y()));
+    max_offset_m.second = std::max(max_offset_m.second, std::abs(crowd.positions()[1].y()));
   }
-  return max_value;
+  return max_offset_m;
 }
 
 TEST(PedVo, WhoHasNoRightOfWayYields) {

@@ -107,7 +107,7 @@ TEST(Pace, EveryInstructionSetGivesTheSameBits) {
 
 TEST(Pace, LeavesALittleInAJam) {
   const float share = PaceOf(crowd_on_lattice(0.3F), 60).share();
-  EXPECT_EQ(share, PaceSpec{}.min_value);
+  EXPECT_EQ(share, PaceSpec{}.min_speed_share);
   EXPECT_GT(share, 0);
 }
 

@@ -23,14 +23,14 @@ const std::filesystem::path kPlaces = source_folder() / "tests/imports/data";
 class Counter : public sim::RunObserver {
  public:
   void step(const world::CrowdStep& step) override {
-    max_value_ =
-        std::max(max_value_, std::count(step.flags.begin(), step.flags.end(), world::kPresent));
+    max_present_ =
+        std::max(max_present_, std::count(step.flags.begin(), step.flags.end(), world::kPresent));
   }
   void event(const world::TraceEvent& event) override {
     if (std::holds_alternative<world::AgentEscaped>(event.kind)) ++escaped_;
   }
   long escaped_ = 0;
-  long max_value_ = 0;
+  long max_present_ = 0;
 };
 
 void expect_it_runs(Place place, int people) {
@@ -49,7 +49,7 @@ void expect_it_runs(Place place, int people) {
   for (const Problem& warning : sim::simulate(scenario, spec, counter)) {
     ADD_FAILURE() << warning.text();
   }
-  EXPECT_GE(counter.max_value_, people);
+  EXPECT_GE(counter.max_present_, people);
   EXPECT_GT(counter.escaped_, people / 3);
 }
 

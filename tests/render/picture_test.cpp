@@ -312,11 +312,11 @@ TEST(Image, PortraitsAreTintedTexelByTexel) {
   const world::Scenario ground = open_ground();
   const Frame parts = Renderer(ground, people, {}, {"software"}).draw(scene, camera);
   const Frame whole = Renderer(ground, portraits, {}, {"software"}).draw(scene, camera);
-  int max_value = 0;
+  int max_difference = 0;
   for (std::size_t i = 0; i < parts.rgb.size(); ++i) {
-    max_value = std::max(max_value, std::abs(parts.rgb[i] - whole.rgb[i]));
+    max_difference = std::max(max_difference, std::abs(parts.rgb[i] - whole.rgb[i]));
   }
-  EXPECT_LE(max_value, 2);
+  EXPECT_LE(max_difference, 2);
 }
 
 TEST(Image, EveryGroundMaterialDrawsAndUnknownOnesAreNamed) {

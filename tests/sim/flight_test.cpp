@@ -44,10 +44,10 @@ Record fly(const std::vector<world::Building>& buildings, const std::vector<Plan
 }
 
 double closest(const std::vector<world::DroneSample>& samples, const Vector3d& point) {
-  double min_value = INFINITY;
+  double min_distance_m = INFINITY;
   for (const auto& sample : samples)
-    min_value = std::min(min_value, (sample.position - point).norm());
-  return min_value;
+    min_distance_m = std::min(min_distance_m, (sample.position - point).norm());
+  return min_distance_m;
 }
 
 TEST(Flight, PassesEveryWaypointAndHoversAtTheLast) {

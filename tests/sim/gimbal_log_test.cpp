@@ -45,14 +45,14 @@ TEST(GimbalLog, AnswersAStepAsASecondOrderSystem) {
   const double size = 40 * kDegree;
   const GimbalLog log(turning(3, [&](double t) { return t > 1 - 1e-9 ? size : 0; }),
                       camera_at(0, -0.5, still()), 1, 0);
-  double max_value = 0;
+  double max_yaw_rad = 0;
   double max_s = 0;
   for (double t = 1; t < 3; t += 0.001) {
-    if (log.view_at(t).yaw <= max_value) continue;
-    max_value = log.view_at(t).yaw;
+    if (log.view_at(t).yaw <= max_yaw_rad) continue;
+    max_yaw_rad = log.view_at(t).yaw;
     max_s = t;
   }
-  EXPECT_NEAR(max_value / size, 1.046, 0.01);
+  EXPECT_NEAR(max_yaw_rad / size, 1.046, 0.01);
   EXPECT_NEAR(max_s - 1, EIGEN_PI / (25 * std::sqrt(1 - 0.49)), 0.02);
   EXPECT_NEAR(log.view_at(3).yaw, size, 1e-6);
   EXPECT_NEAR(log.view_at(2.5).pitch, -0.5, 1e-9);

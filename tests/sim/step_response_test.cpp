@@ -41,10 +41,10 @@ struct Flown {
     return INFINITY;
   }
   double furthest(const Vector3d& axis) const {
-    double max_value = 0;
+    double max_position_m = 0;
     for (std::size_t i = 0; i < time_s.size(); ++i)
-      max_value = std::max(max_value, position_along(i, axis));
-    return max_value;
+      max_position_m = std::max(max_position_m, position_along(i, axis));
+    return max_position_m;
   }
   double settled_within(double tolerance_m, const Vector3d& target) const {
     double last_outside_s = 0;
@@ -54,9 +54,10 @@ struct Flown {
     return last_outside_s;
   }
   double furthest_from(const Vector3d& point) const {
-    double max_value = 0;
-    for (const Vector3d& p : position) max_value = std::max(max_value, (p - point).norm());
-    return max_value;
+    double max_distance_m = 0;
+    for (const Vector3d& p : position)
+      max_distance_m = std::max(max_distance_m, (p - point).norm());
+    return max_distance_m;
   }
 };
 

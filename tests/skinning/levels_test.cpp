@@ -146,10 +146,10 @@ TEST_F(LevelsTest, HaveTheTrianglesTheyAreMeantToHave) {
     ASSERT_EQ(character.levels.size(), kDetailLevels.size());
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const std::size_t triangles = character.levels[level].indices.size() / 3;
-      const std::size_t max_value = kDetailLevels[level].triangles;
-      EXPECT_LE(triangles, max_value) << character.name << " level " << level;
+      const std::size_t max_triangles = kDetailLevels[level].triangles;
+      EXPECT_LE(triangles, max_triangles) << character.name << " level " << level;
       if (level > 0) {
-        EXPECT_GE(triangles, max_value - 20) << character.name << " level " << level;
+        EXPECT_GE(triangles, max_triangles - 20) << character.name << " level " << level;
       }
     }
   }

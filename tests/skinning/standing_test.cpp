@@ -16,12 +16,13 @@ Pose pose_of(const Walker& walker, const Figure& figure) { return solve(walker, 
 double apart(const Pose& a, const Pose& b, const Joints& joints) {
   const Joints at_a = pose_joints(joints, a);
   const Joints at_b = pose_joints(joints, b);
-  double max_value = 0;
+  double max_difference = 0;
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    max_value = std::max<double>(max_value, (at_a[bone] - at_b[bone]).norm());
-    max_value = std::max<double>(max_value, 0.2 * (a.rotation[bone] - b.rotation[bone]).norm());
+    max_difference = std::max<double>(max_difference, (at_a[bone] - at_b[bone]).norm());
+    max_difference =
+        std::max<double>(max_difference, 0.2 * (a.rotation[bone] - b.rotation[bone]).norm());
   }
-  return max_value;
+  return max_difference;
 }
 
 TEST(Standing, EverythingBeginsAndEndsInOneStance) {
