@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSampled = 4000;
 constexpr double kAdultFrom = 18;  // years
-// Of the axis and its bins, in meters.
+// Range of the axis and its bins.
 constexpr double kMinHeightM = 1.36;
 constexpr double kMaxHeightM = 2.04;
 constexpr double kBinWidth = 0.02;

@@ -155,7 +155,7 @@ std::vector<SheetRow> portrait_rows(const Population& population, const SheetOpt
 
 SheetRow drone_row(const Population& population, const SheetOptions& options) {
   constexpr std::array<double, 3> kHeights_m = {15, 30, 50};
-  // Of a camera with 1920 pixels across 78 degrees, of whose image this is the middle.
+  // The image is the middle of that of a camera with 1920 pixels across 78 degrees.
   constexpr double kFocal_px = 1185.5;
   const int width = options.width_px / static_cast<int>(kHeights_m.size());
   const int height = width * 3 / 4;

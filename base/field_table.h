@@ -49,7 +49,7 @@ struct Field : FieldRules {
     deprecated_name = std::move(name);
     return *this;
   }
-  /// Of objects that are there only if they are given: help says what happens without.
+  /// Marks an object that is there only if it is given: help says what happens without it.
   Field& without_default() {
     default_value = nullptr;
     return *this;

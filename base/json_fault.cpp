@@ -249,7 +249,7 @@ class FaultFinder {
     next_ = Next::colon;
   }
 
-  /// Of a text, at `at_`; an escape's second character is skipped.
+  /// Checks the character of a text at `at_`; an escape's second character is skipped.
   void check_character() {
     const auto byte = static_cast<unsigned char>(text_[at_]);
     constexpr unsigned char kFirstPrinted = 0x20;

@@ -146,7 +146,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
     return false;
   }
 
-  /// Of the innermost open array or object.
+  /// The pointer of the innermost open array or object.
   std::string pointer() const {
     json::json_pointer pointer;
     for (std::size_t i = 1; i < open_.size(); ++i) {

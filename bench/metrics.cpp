@@ -49,7 +49,7 @@ world::Trace crowd_of(int people, const world::Scenario& scenario) {
       Random random(1, Stream::run, static_cast<std::uint64_t>(i));
       const int door = i % kDoors;
       const double left_s = std::max(0.0, (i / kDoors) / 4.0 - step * 0.1);
-      // Behind each other in a fan of 2.5 people per square meter.
+      // They stand behind each other in a fan of 2.5 people per square meter.
       const double distance = std::sqrt(2 * (4 * left_s) / (2.5 * 2));
       const double angle = random.uniform(-1, 1);
       const double out = left_s > 0 ? 0 : 1.2 * (step * 0.1 - (i / kDoors) / 4.0);

@@ -22,7 +22,8 @@ struct PointResult {
 struct ViewResult {
   std::string name;
   ViewPose pose;
-  /// Of rotation (rad, about the axes of the rotation vector) and translation; NaN: undetermined.
+  /// Standard deviations of rotation (rad, about the axes of the rotation vector) and translation;
+  /// NaN: undetermined.
   Eigen::Matrix<double, 6, 1> pose_sd = Eigen::Matrix<double, 6, 1>::Zero();
   std::vector<PointResult> points;
   double rms_px = 0;  ///< of used points, OpenCV's convention

@@ -67,13 +67,13 @@ std::optional<ViewPose> resect(const std::vector<Sighting>& all, const camera::I
   std::vector<std::size_t> everything(sightings.size());
   for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
   std::optional<ViewPose> best;
-  double least_miss = std::numeric_limits<double>::infinity();
+  double min_miss = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::optional<ViewPose>& pose) {
     if (!pose) return;
     const double miss = median_miss(sightings, {lens, pose->pose()});
-    if (best && !(miss < least_miss)) return;
+    if (best && !(miss < min_miss)) return;
     best = pose;
-    least_miss = miss;
+    min_miss = miss;
   };
   consider(pose_of(sightings, directions, everything));
   // With five of six right, 60 subsets of five miss an all-right one once in 10^13.

@@ -20,7 +20,7 @@ struct FitOptions {
   /// Keep Cauchy's loss with this scale (px) to the end; 0: plain least squares, so that equal data
   /// give the result of any other such program.
   double loss_px = 0;
-  /// Of pixel coordinates; nothing: from the residuals.
+  /// Standard deviation of pixel coordinates; nothing: estimated from the residuals.
   std::optional<double> sigma_px;
   std::function<bool()> should_continue = {};  ///< as in SolveOptions
 };

@@ -26,7 +26,7 @@ struct ExitRow {
   double operator[](const char* column) const;
 };
 
-/// Of one exit in one run, by frame.
+/// Rows of one exit in one run, by frame.
 using ExitSeries = std::map<std::int64_t, ExitRow>;
 
 /// Columns that follow from others of their row, and rows that follow from earlier ones.

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of 8 bits a sample.
+/// Reads a raster of 8 bits per sample.
 images::Raster read_image(const fs::path& path, int channels, int width, int height) {
   images::Raster raster = images::read_raster(path);
   if (raster.bits != 8 || raster.channels != channels || raster.width != width ||

@@ -33,8 +33,8 @@ struct RunTrajectories {
   }
 };
 
-/// Of a dataset's run. Throws InputError for files of another shape, and what JSON and the disk
-/// throw.
+/// Reads the trajectories of a dataset's run. Throws InputError for files of another shape, and
+/// what JSON and the disk throw.
 RunTrajectories read_run_trajectories(const std::filesystem::path& root, const std::string& run);
 
 }  // namespace throng::formats

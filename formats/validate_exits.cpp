@@ -204,7 +204,7 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
                               ? 0
                               : max_corner_distance_px(camera, known, polygon);
     if (is_new || outline.rounding_m < known.rounding_m) known = std::move(outline);
-    // Of the lens, which is inverted numerically.
+    // The lens is inverted numerically.
     constexpr double kSlackPx = 0.5;
     if (off_px <= kSlackPx) continue;
     findings.add(

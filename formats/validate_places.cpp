@@ -26,7 +26,7 @@ void check_density_is_heads(const Image& image, const std::string& path, const F
   }
   const annotate::DensityMap expected =
       annotate::density_map(heads, image.width, image.height, sigma_px);
-  // Of heads that were not rounded as their records are: that moves a kernel by less than this
+  // Heads were not rounded as their records are, which moves a kernel by less than this
   // share.
   constexpr double kShareOfPeak = 2e-3;
   const double slack = kShareOfPeak / (2 * std::numbers::pi * sigma_px * sigma_px);

@@ -115,7 +115,7 @@ void judge(const Shot& from, const Shot& to, Findings& findings) {
           fmt::format("{} of {} points of {} that {} shows are seen through", tally.seen_through,
                       tally.seen, name_of_still(id), raster_name("depth", from.image)));
     }
-    // Of a place that is hidden nearly everywhere only that remains where it is as far as what
+    // If a surface is hidden nearly everywhere, all that remains visible is as far away as what
     // hides it.
     constexpr double kMaxHiding = 0.15;
     if (is_above_share(tally.other_id, tally.same_place, kMaxOtherId) &&

@@ -31,7 +31,7 @@ struct MapBuildings {
 bool is_building(const Tags& tags);
 bool is_building_part(const Tags& tags);
 
-/// Of all areas those that are buildings or parts of them. A building is drawn by its parts, if
+/// The areas that are buildings or parts of them. A building is drawn by its parts, if
 /// half of a part or more lies in it; parts without heights have the building's. Pieces of one
 /// building come with the highest first: where they overlap on the ground, it is what one sees.
 MapBuildings buildings_of(const std::vector<OsmArea>& areas, const std::string& file);

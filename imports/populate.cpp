@@ -83,7 +83,7 @@ std::string text_of(const Gate& gate) {
                      gate.to.x(), gate.to.y());
 }
 
-// Of all regions with a gate the largest.
+// The largest of all regions with a gate.
 int main_region(const std::vector<Gate>& gates, const world::Rectangle& inside,
                 const FreeGround& ground) {
   int best = FreeGround::kBlocked;

@@ -21,7 +21,8 @@ namespace throng::imports {
 
 /// A geometry in the world.
 struct Body {
-  /// Of what stands upright and is the same at all its heights; simple, counter-clockwise.
+  /// Outline of a shape that stands upright and is the same at all its heights; simple,
+  /// counter-clockwise.
   std::optional<Corners> footprint;
   double from_z = 0;
   double to_z = 0;

@@ -27,7 +27,7 @@ double smoke_of(const jobs::JobSpec& job);
 
 class OnboardCamera {
  public:
-  /// Of the job's first run. Throws EnvironmentError and InputError.
+  /// The camera of the job's first run. Throws EnvironmentError and InputError.
   OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                 const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones);
 

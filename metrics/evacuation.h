@@ -32,15 +32,15 @@ struct RunMetrics {
   EscapeTimes escapes;            ///< each from the later of alarm and arrival
   /// Share of people who have ever left Scenario::inside, at 0, 1, 2, ... s of the run's clock.
   std::vector<double> escape_curve;
-  /// Of `escapes`: times at which 25, 50, 75, 80, 90, 95, 99 and 100 % have escaped; empty if not
+  /// Times at which 25, 50, 75, 80, 90, 95, 99 and 100 % have escaped, from `escapes`; empty if not
   /// reached.
   struct Percentile {
     int percent;
     std::optional<double> time_s;
   };
   std::vector<Percentile> percentiles;
-  /// Of `escapes`: who was still inside, unhurt, after 300 and 600 s, and the restricted mean until
-  /// then; empty where nobody was watched for so long and not everybody was out.
+  /// The share still inside, unhurt, after 300 and 600 s, from `escapes`, and the restricted mean
+  /// until then; empty where nobody was watched for so long and not everybody was out.
   struct Horizon {
     double at_s;
     std::optional<int> not_escaped;

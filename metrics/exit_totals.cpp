@@ -33,7 +33,7 @@ void add(const ExitSample& sample, int net_out_now, double dt_s, ExitTotals& tot
       std::max(totals.max_voronoi_density_per_m2, sample.voronoi_density_per_m2);
 }
 
-// Of the run's time.
+// The share of the run's time in which the exit was open.
 double open_share(const std::vector<ExitSample>& samples) {
   const auto open = std::count_if(samples.begin(), samples.end(), [](const ExitSample& sample) {
     return sample.state != ExitState::closed;

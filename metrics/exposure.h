@@ -13,7 +13,7 @@ namespace throng::metrics {
 /// packed (4), dangerous forces (5 and 5.55; from 5 on control is lost), shock waves (6) (Fruin,
 /// The causes and prevention of crowd disasters, 1993; Still, Introduction to Crowd Science, 2014).
 inline constexpr std::array kExposureDensities = {2.0, 3.57, 4.0, 5.0, 5.55, 6.0};
-/// Of the density at which the crowd can crush people: 5 per m².
+/// Index of the density at which the crowd can crush people: 5 per m².
 inline constexpr std::size_t kCrushDensityIndex = 3;
 /// Crowd pressures from which on exposure is counted, 1/s²: onset of crowd turbulence, and the
 /// value reached where the disaster of Jamarat 2006 began (Helbing, Johansson and Al-Abideen, Phys.

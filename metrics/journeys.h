@@ -32,7 +32,8 @@ struct Journey {
   }
 };
 
-/// Of those who went out through a door; by number of the agent. `distances`: walking_distances().
+/// The journeys of people who left through a door, sorted by agent. `distances`:
+/// walking_distances().
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
                               const std::vector<PersonRecord>& people,

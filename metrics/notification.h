@@ -10,14 +10,15 @@
 
 namespace throng::metrics {
 
-/// Of the evacuees: all but those who left before the alarm.
+/// When evacuees noticed the alarm. Evacuees are all people but those who left before it.
 struct Notification {
   int never = 0;                  ///< people who did not, in the time that the run had
   std::vector<double> times_s;    ///< of the others, from the later of alarm and arrival, in order
   std::optional<double> first_s;  ///< the earliest of all, by the run's clock
-  /// Of all evacuees by the same clock: until they noticed, or escaped without, or the run ended.
+  /// Times of all evacuees since the alarm, until they noticed it, escaped without noticing, or the
+  /// run ended.
   std::vector<Watched> notice;
-  /// Of those who noticed since then: until they escaped, or the run ended.
+  /// Times of evacuees since they noticed the alarm, until they escaped or the run ended.
   std::vector<Watched> escape;
 };
 

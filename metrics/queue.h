@@ -33,7 +33,8 @@ class WaitPredictor {
   static constexpr double kWindowS = 20;
   static constexpr double kPriorS = 10;
 
-  /// Of a door (m) in a trace with steps of dt_s, for people of a mean radius (m).
+  /// Predicts waits at a door of this width, in a trace with steps of dt_s, for people of this mean
+  /// radius.
   WaitPredictor(double width_m, double mean_radius_m, double dt_s);
 
   /// After one more step (s). `crossed_out`: outward crossings since the start.

@@ -82,7 +82,7 @@ void add_goals(const Scenario& scenario, const People& people, BehaviorBuilder& 
     if (can_flee_by(first_to_reach(exit, discs))) fleeing.push_back(leaving.back());
   }
   behavior.comment("Destinations outside of the scenario.").add_goal_set(kAwaySet, std::move(away));
-  // Of those who flee only, there is a set of their own.
+  // If people only flee, their own goal set is enough.
   if (people.dangers.empty() || anybody_leaves(people)) {
     behavior.comment("Just beyond the doors.").add_goal_set(kLeavingSet, std::move(leaving));
   }

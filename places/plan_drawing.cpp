@@ -38,7 +38,7 @@ constexpr std::array<Entry, 10> kLegend = {{{"building", colors::kBuilding},
                                             {"drone", colors::kDrone},
                                             {"hazard", colors::kDanger}}};
 
-/// Of the scale and of the legend below it, in a drawing of this width.
+/// The height of the scale and the legend below it, in a drawing of this width.
 int legend_height_px(int width_px) {
   const int columns = (width_px - kBorderPx) / kLegendColumnPx;
   const int rows = (static_cast<int>(kLegend.size()) + columns - 1) / columns;

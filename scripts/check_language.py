@@ -136,6 +136,7 @@ IDENTIFIERS = (
     ),
     (re.compile(r"\b(?:say_that|take_what|stop_if_wrong|is_anothers)\w*"), "a verb and its object: apply_overrides"),
     (re.compile(r"\b[Tt]old\b"), "given, reported, notified"),
+    (re.compile(r"\b(?:min|max)_value_?\b"), "a quantity and its unit: max_neighbors, max_speed_mps"),
     (re.compile(r"\b(?!picture_test\b)\w*[Pp]icture\w*"), "image, texture, plot"),
 )
 
@@ -151,6 +152,9 @@ def is_term_here(word, path):
 RELATIVE = re.compile(
     r"(?:^|(?<=[.:;!?] )|(?<=\| )|(?<=- )|(?<=\*\*))(Who|Whom|Whoever|What|Whatever|Where|Those who|Those that)\b(?![^.?!]*\?)"
 )
+
+# A fragment such as "Of all jobs." leaves the reader to find its subject.
+FRAGMENT = re.compile(r"(?:Of|Behind) (?!course)")
 
 CODE = (".cpp", ".h", ".glsl", ".js", ".mjs", ".ts", ".tsx")
 TOKEN = re.compile(
@@ -206,6 +210,12 @@ class Report:
         self.coined(text, offset)
         self.clauses(re.sub(r'^(?:R"[^\s()"]*\(|")', lambda mark: " " * len(mark[0]), text).strip(), offset)
 
+    def comment(self, text, offset):
+        """A comment as a whole."""
+        if fragment := FRAGMENT.match(text):
+            self.add(offset, fragment[0] + "...", "a sentence with a subject at the beginning of a comment")
+        self.clauses(text, offset)
+
     def clauses(self, text, offset):
         for clause in RELATIVE.finditer(text):
             self.add(offset + clause.start(), clause[0] + " ...", "a noun or a verb at the beginning of a sentence")
@@ -227,7 +237,7 @@ def check_code(report):
         report.identifiers(between, end)
         comment = token["comment"]
         if block and (comment is None or between.strip() or between.count("\n") > 1):
-            report.clauses(block, start)
+            report.comment(block, start)
             block = ""
         if comment is None:
             report.literal(token[0], token.start())
@@ -242,7 +252,7 @@ def check_code(report):
         end = token.end()
     report.identifiers(text[end:], end)
     if block:
-        report.clauses(block, start)
+        report.comment(block, start)
 
 
 def check_markdown(report):

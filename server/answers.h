@@ -29,7 +29,7 @@ nlohmann::json event_json(const jobs::EventRow& event);
 nlohmann::json error_json(const std::string& kind, const std::string& message,
                           const std::vector<Problem>& problems);
 
-/// Of a job that is partial: {"kind": "partial", "message", "problems": [], "runs": [...]}.
+/// The "error" of a partial job: {"kind": "partial", "message", "problems": [], "runs": [...]}.
 nlohmann::json partial_error_json(const std::vector<jobs::RunFailure>& failures);
 
 /// [{"pointer", "found", "expected", "message"}]

@@ -39,7 +39,7 @@ std::string DiskWatch::look() {
   if (disk.is_read_only) {
     reason = "the disk is read-only";
   } else if (is_full) {
-    // Of the two figures only one changes, and each change is an event.
+    // The free space changes all the time, and each new reason is an event: the first one stays.
     reason = was_full ? reason_
                       : fmt::format("{}: {} MiB are free, {} MiB are needed", kFull,
                                     disk.free_bytes / kMib, min_bytes_ / kMib);

@@ -40,7 +40,7 @@ class DiskWatch {
   std::jthread thread_;  ///< last: ends before what it uses
 };
 
-/// Of the disk where a folder lies. Throws EnvironmentError.
+/// The state of the disk that holds a folder. Throws EnvironmentError.
 DiskState disk_of(const std::filesystem::path& folder);
 
 }  // namespace throng::server

@@ -37,7 +37,7 @@ struct ImageQuery {
 struct ImageList {
   std::vector<ImageFile> images;  ///< [offset, offset + limit) of those that fit, by their paths
   std::int64_t total = 0;         ///< that fit
-  /// Of the whole dataset, by run and camera.
+  /// All frames of the dataset, by run and camera.
   std::map<std::string_view, std::map<std::string_view, CameraFrames>> runs;
 };
 

@@ -51,7 +51,7 @@ class QueueState {
   void finish(const std::string& id);
   /// The jobs that are being worked on.
   std::vector<jobs::JobRow> active_jobs() const;
-  /// Of a job that is being worked on; 0 for others.
+  /// The priority of a job that is being worked on; 0 for others.
   int priority_of(const std::string& id) const;
   void set_priority(const std::string& id, int priority);
   /// Why no task of the job runs although it is being worked on; "" when one does.

@@ -187,7 +187,7 @@ std::vector<std::string_view> values_of(const std::vector<HeaderField>& fields,
   return values;
 }
 
-// Of two values a proxy may follow the first and the library the second.
+// If there are two values, a proxy may follow the first and the library the second.
 void check_single_fields(const std::vector<HeaderField>& fields) {
   constexpr std::array kSingle = {"Host",
                                   "Content-Length",

@@ -36,7 +36,7 @@ std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-/// Of a cluster; "" where tasks run on this machine.
+/// Prometheus figures of a cluster's nodes; "" if tasks run on this machine.
 std::string figures_of_nodes(const std::vector<jobs::NodeWork>& nodes) {
   if (nodes.empty()) return "";
   std::string running =

@@ -83,7 +83,7 @@ class StudyWork {
     write_file_atomically(file, kGenerator);
   }
 
-  // Of workers that died while they wrote.
+  // Removes what workers left that died while they wrote.
   void drop_leftovers() const {
     folder_.remove_leftovers();
     for (const json& one : plan_.at("cases")) {

@@ -56,8 +56,8 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof value);
 }
 
-/// Of everybody who takes part somewhere: the corner of their box, and the step in which places are
-/// counted from it.
+/// The grid of an answer's positions: the corner of the box of all who take part, and the step in
+/// which they are counted from it.
 struct Grid {
   Eigen::Vector2f origin = Eigen::Vector2f::Zero();
   float step_m = kMinStepM;

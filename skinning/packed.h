@@ -11,8 +11,8 @@
 
 namespace throng::skinning {
 
-/// Of one palette: a unit quaternion (x, y, z, w; 16-bit, 32767 is 1) for each bone and the shift
-/// of the hips (3 floats, m), little-endian.
+/// Size of one palette: a unit quaternion (x, y, z, w; 16-bit, 32767 is 1) for each bone and the
+/// shift of the hips (3 floats, m), little-endian.
 inline constexpr std::size_t kPackedBytes = kBoneCount * 4 * 2 + 3 * 4;
 
 /// Palettes of poses of these joints (see pose_palette).

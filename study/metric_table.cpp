@@ -167,7 +167,7 @@ std::string metric_table(const std::vector<const RunMetrics*>& runs) {
       html += "<td>none</td><td></td><td>0</td></tr>\n";
       continue;
     }
-    // Of one run there are none.
+    // A single run has no quartiles.
     const std::string quartiles =
         values.size() < 2
             ? ""

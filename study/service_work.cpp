@@ -31,7 +31,7 @@ std::int64_t memory_mib_of(const Study& study) {
   std::int64_t most = 0;
   for (const auto& policies : study.jobs) {
     for (const jobs::JobSpec& job : policies) {
-      // Of all runs the first stands for the others: nothing that takes memory is drawn.
+      // The first run stands for the others: no value that takes memory is sampled.
       jobs::JobSpec one = job;
       one.runs = 1;
       most =

@@ -86,7 +86,7 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
 /// Every other case against Study::baseline_case; nothing where the study compares no cases.
 std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& outcomes);
 
-/// Of the time by which so many percent are out.
+/// Convergence of the time by which so many percent of the people are out.
 Convergence convergence_of(const std::vector<Outcome>& runs, int percent);
 
 /// The row's figures of one of kSummaryPercents.

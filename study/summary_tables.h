@@ -13,7 +13,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Of one case: a row for each policy with medians, quartiles and comparisons.
+/// The table of one case: a row for each policy with medians, quartiles and comparisons.
 Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::size_t one_case);
 
 /// A sentence for each policy of the case in whose runs people left where there is no exit.

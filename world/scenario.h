@@ -111,7 +111,8 @@ struct Scenario {
   std::vector<Marking> markings;
   /// The file's JSON without its crowd, for those who have the run's trace but not the file.
   std::string document;
-  /// Of a scenario whose crowd is not at hand, as that of a trace; else alarm_of() finds it.
+  /// The alarm of a scenario whose crowd is not at hand, as in a trace; otherwise alarm_of() finds
+  /// it.
   std::optional<Alarm> alarm;
 
   /// Whether it has a crowd to simulate; otherwise it is a place for recorded people.

@@ -42,7 +42,7 @@ class Sampled {
   std::vector<Attribute> attributes_;
 };
 
-// Of a scene.
+// Elements of a scene.
 
 /// A property of a profile, sampled for each agent: `property("pref_speed", Sampled::...)`.
 Node property(std::string_view name, const Sampled& value);
@@ -55,7 +55,7 @@ std::vector<Node> vertices(const Points& points, int decimals = kAllDigits);
 /// A closed outline: solid when counter-clockwise, an outer wall when clockwise.
 Node obstacle(const Points& outline, int decimals = kAllDigits);
 
-// Of a behavior.
+// Elements of a behavior.
 
 Node circle_goal(int id, const Eigen::Vector2d& center, double radius_m, int decimals = kAllDigits);
 Node box_goal(int id, const Eigen::Vector2d& min, const Eigen::Vector2d& max);

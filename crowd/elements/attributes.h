@@ -15,7 +15,7 @@ namespace throng::crowd {
 
 /// Coordinates beyond this (in meters) are mistakes, and floats grow coarse there.
 constexpr double kMaxCoordinate = 1e5;
-/// Of goals, goal sets and agents.
+/// The greatest id of a goal, a goal set or an agent.
 constexpr double kMaxId = 1e9;
 
 enum class AttributeType {

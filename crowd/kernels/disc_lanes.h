@@ -38,7 +38,7 @@ PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes
   const auto overlapping = distance_sq <= radius_sq;
   const Float rate = overlapping ? contact : cutoff;
 
-  // Of the velocity obstacle, a disc at the horizon and the cone behind it, which is nearer?
+  // The velocity obstacle is a disc at the horizon and the cone behind it: is the disc nearer?
   const Float w_x = relative_x - rate * apart_x;
   const Float w_y = relative_y - rate * apart_y;
   const Float w_sq = w_x * w_x + w_y * w_y;

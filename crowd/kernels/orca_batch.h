@@ -42,7 +42,7 @@ class OrcaBatch {
     preferred_y_[i] = preferred.y();
   }
 
-  /// Of each agent, in the order in which they were added, once a kernel has run.
+  /// The new velocity of the i-th agent that was added, once a kernel has run.
   Eigen::Vector2f velocity(std::size_t i) const { return {velocity_x_[i], velocity_y_[i]}; }
 
   /// Computes the velocities; `dt_s` is the time within which those part who overlap. An agent's

@@ -90,7 +90,7 @@ struct CrowdForceKernel {
       const Float<kWidth> x = self.x - other.x;
       const Float<kWidth> y = self.y - other.y;
       const Float<kWidth> separation = square_root<kWidth>(x * x + y * y);
-      // Of two in one place, the one with the lower id has the other on the right.
+      // Two agents in one place: the one with the lower id has the other on its right.
       const auto together = separation == 0;
       Normals<kWidth> normals{together ? Float<kWidth>{} + 1 : x / separation,
                               together ? Float<kWidth>{} : y / separation,

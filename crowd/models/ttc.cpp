@@ -225,7 +225,7 @@ class TimeToCollision : public LocalModel {
     return best_velocity(seen.planes, seen.planes.size(), velocity, max_speed, seen.scratch);
   }
 
-  /// Of the free speed, at a density of people who walk the same way.
+  /// The share of the free speed at a density (1/m²) of people who walk in the same direction.
   float speed_share(float density) const {
     if (density <= 0) return 1;
     const float fall =
@@ -234,8 +234,8 @@ class TimeToCollision : public LocalModel {
     return std::max(fall, constants_[jam_share] * std::exp(-density / kJamDecline));
   }
 
-  /// Of the free speed: where there is room for one only, speed is at most the gap to the one ahead
-  /// by the headway (Seyfried et al. 2005, J. Stat. Mech. P10002).
+  /// The share of the free speed in single file, where speed is at most the gap to the agent ahead
+  /// divided by the headway (Seyfried et al. 2005, J. Stat. Mech. P10002).
   float file_share(const Crowd& crowd, const Grid& grid, const AgentView& around,
                    float free_mps) const {
     const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);

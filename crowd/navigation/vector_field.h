@@ -16,7 +16,7 @@ class VectorField {
   /// the file cannot be read.
   explicit VectorField(const TextFile& source);
 
-  /// Of the cell that holds the point.
+  /// The velocity of the cell that holds the point.
   Eigen::Vector2f nearest(const Eigen::Vector2f& point) const;
   /// Between the four cells around the point.
   Eigen::Vector2f interpolated(const Eigen::Vector2f& point) const;

@@ -18,7 +18,7 @@ struct Spread {
   Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
 };
 
-/// Of the places of all who take part; not a number when nobody does.
+/// The spread of the positions of all agents that take part; NaN if none does.
 Spread spread_of(const Simulation& crowd, double count) {
   Spread spread;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {

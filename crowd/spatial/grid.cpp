@@ -44,7 +44,7 @@ void Grid::build(const Agents& agents) {
   bucket_begin_.back() = static_cast<std::uint32_t>(size_);
 }
 
-// Of those present; empty if nobody is.
+// The extent of the agents that are present; empty if none is.
 Grid::Extent Grid::extent_of(const Agents& agents) {
   constexpr float kFar = 1e9F;
   const Extent nobody{Eigen::Vector2f::Constant(kFar), Eigen::Vector2f::Constant(-kFar)};

@@ -26,7 +26,7 @@ class Archive {
   /// EnvironmentError.
   Archive(std::filesystem::path dataset, const Manifest& manifest, const std::string& root,
           ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {});
-  /// Of the manifest that is in the dataset.
+  /// An archive of the files that the dataset's manifest lists.
   explicit Archive(const std::filesystem::path& dataset, const std::string& root,
                    ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {})
       : Archive(dataset, read_manifest(dataset), root, format, selection) {}

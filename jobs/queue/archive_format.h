@@ -28,7 +28,7 @@ std::string tar_header(const ArchiveMember& member);
 std::string zip_header(const ArchiveMember& member);
 /// The member's entry in the directory at the end.
 std::string zip_entry(const ArchiveMember& member);
-/// Behind the directory, which has so many entries and lies there.
+/// The end record of a zip file, after a directory with this number of entries at this offset.
 std::string zip_end(std::uint64_t entries, std::int64_t directory_offset,
                     std::int64_t directory_bytes);
 

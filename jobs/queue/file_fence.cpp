@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of version 3 of the interface (Linux 6.2); the header of Debian 12's kernel lacks it.
+// The right to truncate came with version 3 of the interface (Linux 6.2); the header of Debian 12's
+// kernel lacks it.
 constexpr std::uint64_t kTruncate = 1ULL << 14U;
 constexpr int kFirstWithRenames = 2;
 constexpr int kFirstWithTruncate = 3;

@@ -21,7 +21,7 @@ inline constexpr const char* kPrivateCredentialsVariable = "THRONG_PRIVATE_CREDE
 struct FileFence {
   /// Files and folders that may be written, read and removed; those that do not exist are left out.
   std::vector<std::filesystem::path> writable;
-  /// Of these folders nothing may be read but what is in `writable` and `readable`.
+  /// Folders whose content may not be read, except for what is in `writable` and `readable`.
   std::vector<std::filesystem::path> hidden = {};
   std::vector<std::filesystem::path> readable;
 };

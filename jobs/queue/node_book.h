@@ -38,11 +38,11 @@ class NodeBook {
   /// It goes on without us, or is given up before it ended: one less runs.
   void leave(const JobFolder& folder, const std::string& node);
 
-  /// Of a job, by name: what earlier processes noted, and what runs now.
+  /// The work of each node for a job, sorted by name: noted by earlier processes, and running now.
   std::vector<NodeWork> of(const JobFolder& folder) const;
   /// Tasks of all jobs that run now.
   int running() const;
-  /// Of all jobs since this process began.
+  /// The work of each node for all jobs since this process began.
   std::vector<NodeWork> all() const;
 
  private:

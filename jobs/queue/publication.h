@@ -14,7 +14,7 @@
 
 namespace throng::jobs {
 
-/// Of the JSON files that people may open.
+/// Indentation of the JSON files that people may open.
 inline constexpr int kJsonIndent = 2;
 
 /// A file of the dataset, as its manifest lists it.

@@ -21,8 +21,8 @@ class ServiceClock {
   /// Milliseconds since any fixed moment; nobody can set it.
   using Steady = std::function<std::int64_t()>;
 
-  /// Of the time since a mark was made, of which only the machine's clock tells, at most a day
-  /// counts. `steady` defaults to the time since the machine was started, sleep included.
+  /// Starts at `wall_ms`. Only the machine's clock says how long ago the mark was made: at most a
+  /// day of it counts. `steady` defaults to the time since the machine was started, sleep included.
   ServiceClock(std::int64_t wall_ms, Steady steady, const std::optional<ClockMark>& last);
 
   std::int64_t now_ms() const { return begin_ms_ + steady_() - begin_steady_ms_; }

@@ -142,7 +142,8 @@ bool is_array_too_large(std::string_view output) {
 }
 
 bool is_controller_away(std::string_view output) {
-  // Of Slurm's slurm_errno.c, and of munge, without which nobody can talk to the controller.
+  // Messages of Slurm's slurm_errno.c, and of munge, without which no program can talk to the
+  // controller.
   static constexpr std::array kTexts = {"Unable to contact slurm controller",
                                         "Socket timed out",
                                         "Connection refused",

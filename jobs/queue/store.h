@@ -71,7 +71,7 @@ struct NewJob {
   std::string owner = {};
   /// A second submission of an owner with the same key is the first one's job; "" for none.
   std::string key = {};
-  /// Of what was sent, to tell a repetition from a key that is used twice.
+  /// The hash of the request, which tells a repetition from a key that is used twice.
   std::string hash = {};
   OwnerLimits limits = {};  ///< of the owner, before this job
   int people = 0;           ///< ResolvedJob::people()
@@ -155,7 +155,7 @@ class Store {
 
   /// Jobs of any kind that have ended and need not be kept, those that ended first before others.
   std::vector<JobRow> ended(int limit) const;
-  /// Of all jobs.
+  /// The size of all jobs' files.
   std::int64_t total_bytes() const;
   /// Forgets events of removed jobs that are older than this. Returns how many.
   int forget_events(std::int64_t before_ms);

@@ -18,7 +18,7 @@ inline constexpr const char* kColumns =
     "job.started_ms, job.ended_ms, job.kind, job.priority, job.labels, job.owner, job.bytes, "
     "job.keep, job.kept_from_ms, job.people";
 
-/// Of the query's current row.
+/// The job in the query's current row.
 JobRow row_of(SQLite::Statement& query);
 /// All rows of a query.
 std::vector<JobRow> rows_of(SQLite::Statement& query);

@@ -35,7 +35,8 @@ constexpr std::array kRefusedTracing = {SCMP_SYS(ptrace), SCMP_SYS(process_vm_re
 constexpr std::array<int, 0> kRefusedTracing = {};
 #endif
 
-// Of -1000 to 1000: whom the kernel ends first when memory runs out.
+// From -1000 to 1000: the kernel ends the process with the greatest score first when memory runs
+// out.
 constexpr int kOomScore = 500;
 
 /// Refuses all sockets but unconnected local ones, unless the network is allowed, and the calls

@@ -18,7 +18,8 @@ constexpr std::int64_t kShardsPerShortRun = 4;
 /// A worker needs longer than this before its first image: driver, people, place.
 constexpr double kMinShardS = 1;
 
-/// Of the job as it is written: shards must not depend on what is sampled for a run.
+/// The CPU time of a frame of the job as it is written: shards must not depend on what is sampled
+/// for a run.
 double frame_cpu_s(const JobSpec& job) {
   const double in_view = kShareInView * job.agents.value_or(0);
   double frame_s = 0;
@@ -64,7 +65,7 @@ std::int64_t image_id(const JobSpec& job, int run, std::size_t camera, std::int6
 }
 
 bool has_preview(const JobSpec& job, std::int64_t frame) {
-  // Of n parts of equal length, the frame in the middle of each.
+  // The frame in the middle of each of n parts of equal length.
   const std::int64_t frames = job.frames_per_camera();
   const std::int64_t parts = std::min<std::int64_t>(job.outputs.previews, frames);
   for (std::int64_t part = 0; part < parts; ++part) {

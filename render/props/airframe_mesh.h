@@ -13,7 +13,7 @@ struct AirframeShape {
   double arm_m = 0;               ///< center to rotor axis
   double height_m = 0;            ///< of the body
   double propeller_radius_m = 0;  ///< half a blade pair
-  /// Of a sphere about the center that holds everything.
+  /// Radius of a sphere about the center that holds everything.
   double reach_m() const { return 1.1 * (arm_m + propeller_radius_m) + height_m; }
 };
 

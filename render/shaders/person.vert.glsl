@@ -31,7 +31,7 @@ mat3x4 rows_of(uvec4 bone) {
                 vec4(products.y - turns.y, products.z + turns.x, 1.0 - squares.x - squares.y, shift.z));
 }
 
-// Of palettes a and b, blend (a float's bits).
+// The rows of palettes a and b, blended (the blend is a float's bits).
 mat3x4 blended_rows_of(uvec3 pose) {
   mat3x4 rows = mat3x4(0.0);
   float b = uintBitsToFloat(pose.z);

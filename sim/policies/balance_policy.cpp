@@ -284,7 +284,7 @@ class BalancePolicy : public Policy {
           (routes_[static_cast<std::size_t>(to)].mouth() - pick).norm() / lead_mps_;
       const double arrive_s = fly_s + kCollectS + lead_s;
       Trip trip{pick, -1, to, here.all, 0};
-      double most_wanted = 0;
+      double max_want = 0;
       for (std::size_t e = 0; e < here.want.size(); ++e) {
         const int from = static_cast<int>(e);
         if (here.want[e] == 0) continue;
@@ -293,13 +293,13 @@ class BalancePolicy : public Policy {
           continue;
         }
         trip.seconds += queues_.saving_s(from, to, arrive_s, here.want[e]);
-        if (here.want[e] > most_wanted) {
-          most_wanted = here.want[e];
+        if (here.want[e] > max_want) {
+          max_want = here.want[e];
           trip.from = from;
         }
       }
       trip.seconds += queues_.saving_of_idle_s(kIdleS, to, arrive_s, here.idle);
-      // Of two that save as much the shorter one leaves time for more.
+      // If two trips save as much, the shorter one leaves time for more.
       trip.seconds /= 1 + arrive_s / kHalfWorthS;
       if (trip.seconds > best.seconds) best = trip;
     }

@@ -36,7 +36,7 @@ class QueueModel {
   double saving_of_idle_s(double idle_s, int to, double arrive_s, double people) const;
 
  private:
-  /// Of those that are open.
+  /// The index of the nearest exit that is open.
   std::size_t nearest_exit(const Eigen::Vector2d& place) const;
   void learn_habits(const WorldView& view);
   void expect(const PersonSeen& unaware);

@@ -76,14 +76,14 @@ class ZigzagPolicy : public Policy {
     for (const PersonSeen& person : view.people) {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
-    const auto most_people = std::max_element(heading.begin(), heading.end());
-    if (most_people == heading.end() || *most_people < kWorthATripPeople) return;
-    from_ = static_cast<int>(most_people - heading.begin());
+    const auto busiest = std::max_element(heading.begin(), heading.end());
+    if (busiest == heading.end() || *busiest < kWorthATripPeople) return;
+    from_ = static_cast<int>(busiest - heading.begin());
     to_ = next_in_turn();
     if (to_ < 0) return;
     Vector2d middle = Vector2d::Zero();
     for (const PersonSeen& person : view.people) {
-      if (person.exit == from_) middle += person.position / static_cast<double>(*most_people);
+      if (person.exit == from_) middle += person.position / static_cast<double>(*busiest);
     }
     const LeadRoute route =
         route_through(scenario_.exits[static_cast<std::size_t>(to_)], scenario_.buildings);
@@ -100,7 +100,7 @@ class ZigzagPolicy : public Policy {
     glide_.go(path_[0], speed_mps_);
   }
 
-  // Of the exits that are open but the one that they run to; -1: there is none.
+  // The next open exit, other than the one that people run to; -1: there is none.
   int next_in_turn() {
     for (std::size_t i = 0; i < choice_.size(); ++i) {
       const int exit = choice_[turn_++ % choice_.size()];

@@ -17,7 +17,7 @@ namespace throng::sim {
 /// People as vehicles meet them: upright capsules that move as they please and cannot be pushed.
 inline constexpr double kPersonRadiusM = 0.25;
 inline constexpr double kPersonHeightM = 1.7;
-/// Of every contact: speed away from each other after it / speed toward each other before it.
+/// Restitution of every contact: speed apart after it / speed of approach before it.
 inline constexpr double kRestitution = 0.4;
 
 /// Somebody near a vehicle, where the next step begins.
@@ -60,7 +60,7 @@ class FlightWorld {
   /// All forces but gravity over mass in the last step, contacts included: what an ideal
   /// accelerometer reads. m/s², body.
   Eigen::Vector3d specific_force(std::size_t vehicle) const;
-  /// Of all rotors in the last step.
+  /// Thrust of all rotors in the last step.
   double thrust_n(std::size_t vehicle) const;
   const Airframe& airframe(std::size_t vehicle) const;
   /// Collisions whose impulse became known in the last step.

@@ -53,7 +53,7 @@ class Quadcopter {
   /// From now on the rotor has no propeller: neither thrust nor torque.
   void break_rotor(std::size_t rotor) { works_[rotor] = 0; }
 
-  /// Of all rotors in the last step.
+  /// Thrust of all rotors in the last step.
   double thrust_n() const { return thrust_n_; }
 
   const Airframe& airframe() const { return airframe_; }

@@ -55,7 +55,7 @@ double share_of(const Clip& clip, std::uint32_t frame) {
   return static_cast<double>(frame) / std::max(intervals, 1U);
 }
 
-// Of a clip that raises something in its first half and then holds it.
+// A figure of a clip that raises something in its first half and then holds it.
 Figure held(const Walker& walker, const Clip& clip, double share) {
   const double raised = std::min(2 * share, 1.0);
   const double phase = std::max(2 * share - 1, 0.0);

@@ -103,7 +103,7 @@ struct OwnGait::Place {
 };
 
 OwnGait::Place OwnGait::place(double phase) const {
-  // Of several strides the first, again and again.
+  // The first of several strides, repeated.
   const double own = phase - std::floor(phase);
   const Neighbors at = around(zero_ + own / strides_, moments_.size());
   return {&moments_[at.before], &moments_[at.after], at.share};

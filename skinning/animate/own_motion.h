@@ -30,7 +30,7 @@ class OwnGait {
   double mean_height_m() const { return mean_height_m_; }
   /// From the hip joint to the ankle.
   Eigen::Vector3f leg(Side side, double own_phase) const;
-  /// Of the foot: toes up.
+  /// Pitch of the foot; positive: toes up.
   double pitch_rad(Side side, double own_phase) const;
 
  private:

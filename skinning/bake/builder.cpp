@@ -80,8 +80,8 @@ std::vector<fs::path> files_used(const fs::path& package, const std::vector<Pers
   return files;
 }
 
-// Of everything that decides about the result, but for this program's code, which kBuilderVersion
-// stands for.
+// The hash of everything that decides about the result, except for this program's code, which
+// kBuilderVersion stands for.
 std::string content_hash(const fs::path& package, const std::vector<PersonSpec>& people,
                          const BuildOptions& options) {
   std::string content =

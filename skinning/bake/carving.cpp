@@ -60,12 +60,12 @@ Carving::Carving(std::span<const PosedSurface> all) {
         const Eigen::Vector3f offset(static_cast<float>(cell[0]), static_cast<float>(cell[1]),
                                      static_cast<float>(cell[2]));
         const Eigen::Vector3f point = low_ + kCellM * offset;
-        float farthest_m = -1;
+        float max_distance_m = -1;
         for (const Outline& outline : outlines) {
-          farthest_m = std::max(farthest_m, outline.distance_m(point));
-          if (farthest_m >= kFarM) break;
+          max_distance_m = std::max(max_distance_m, outline.distance_m(point));
+          if (max_distance_m >= kFarM) break;
         }
-        distance_m_[place(cell)] = farthest_m;
+        distance_m_[place(cell)] = max_distance_m;
       }
     }
   }

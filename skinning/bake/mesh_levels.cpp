@@ -151,11 +151,11 @@ class Simplifier {
   std::uint32_t vertex_in(std::uint32_t chart, std::uint32_t point) const {
     if (const std::uint32_t* vertex = find_in(chart, point)) return *vertex;
     std::uint32_t nearest = chart;
-    float least_distance = std::numeric_limits<float>::max();
+    float min_distance = std::numeric_limits<float>::max();
     for (const std::uint32_t vertex : members_.at(chart)) {
       const float distance = (point_of(mesh_->vertices[vertex]) - points_[point]).squaredNorm();
-      if (distance >= least_distance) continue;
-      least_distance = distance;
+      if (distance >= min_distance) continue;
+      min_distance = distance;
       nearest = vertex;
     }
     return nearest;

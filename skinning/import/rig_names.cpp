@@ -212,7 +212,8 @@ class Mapper {
     }
   }
 
-  // Of several that a name fits the one that moves vertices, then the one nearest to the root.
+  // If a name fits several bones, the one that moves vertices is better, then the one nearest to
+  // the root.
   bool better(std::size_t a, int b) const {
     if (b < 0) return true;
     const auto other = static_cast<std::size_t>(b);

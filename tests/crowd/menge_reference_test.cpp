@@ -27,7 +27,7 @@ struct Agreement {
   double states_until_s = 1000;  ///< share of the agents in each state, within 0.05
   double end_share = 0.05;       ///< of the time at which all are final; 0: it has no end
   double run_until_s = 1000;
-  /// Of the file's first `prob` target: its states in the order in which Menge went through them,
+  /// States of the file's first `prob` target in the order in which Menge went through them,
   /// which was that of their addresses in memory. All other orders lead elsewhere in a second.
   std::vector<std::string> target_order = {};
 };

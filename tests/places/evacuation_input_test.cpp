@@ -126,7 +126,7 @@ TEST_F(EvacuationInput, PreMovementTimesAreThoseOfTheBlueprint) {
   ASSERT_EQ(lognormal.size(), kPeople);
   EXPECT_LE(sample_of(lognormal).max, 15.3);
   std::sort(lognormal.begin(), lognormal.end());
-  // Of times up to 15 s, 85.3 % of all, the median is the 42.6 % quantile: 8 exp(0.6 * -0.185).
+  // 85.3 % of all times are up to 15 s; their median is the 42.6 % quantile: 8 exp(0.6 * -0.185).
   EXPECT_NEAR(lognormal[kPeople / 2], 7.2, 0.9);
 }
 

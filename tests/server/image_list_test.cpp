@@ -80,7 +80,7 @@ TEST(ImageList, FramesNeedNotBeginAtZero) {
 
 TEST(ImageList, AHundredThousandImagesTakeAMoment) {
   const auto files = dataset_of(100, {"d1", "d2"}, 500);
-  // Of the processor, with sanitizers too: a search per image would take minutes.
+  // CPU time, with sanitizers too: a search per image would take minutes.
   const std::clock_t start = std::clock();
   EXPECT_EQ(list_images(files, {"", "", 50'000, 48}).total, 100'000);
   EXPECT_LT(std::clock() - start, 20 * CLOCKS_PER_SEC);

@@ -81,7 +81,7 @@ TEST_F(SessionTest, AKeyBecomesACookieThatScriptsCannotRead) {
   EXPECT_EQ(status("/v1/jobs", {{"Cookie", "x" + cookie}}), 401);
   EXPECT_EQ(status("/v1/jobs", {{"Cookie", cookie + "x"}}), 401);
   EXPECT_EQ(status("/v1/webhooks", {{"Cookie", cookie}}), 403) << "the scope is the key's";
-  // Behind a proxy with TLS.
+  // The service is behind a proxy with TLS.
   const std::string secure = sign_in(key, {{"Host", "localhost"}, {"Origin", "https://localhost"}})
                                  ->get_header_value("Set-Cookie");
   EXPECT_THAT(secure, HasSubstr("throng_session="));

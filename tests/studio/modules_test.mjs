@@ -610,7 +610,7 @@ test("people of a flight walk as far as they have gone, and lie where they have 
   close(aLook.getW(0), 1);
   close(aTo.getW(1) - aFrom.getW(1), 0);
   close(aLook.getW(1), -1);
-  // Of thousands only those next to the drone have legs.
+  // Only people next to the drone have legs if there are thousands.
   const many = {
     timeS: 0,
     people: {

@@ -162,7 +162,7 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Definitions,
                          ::testing::ValuesIn(world::list_scenarios(kScenarioFolder)), test_name);
 
-// Of 250 people of the header many arrive after the run's end.
+// Many of the header's 250 people arrive after the run's end.
 TEST(WhoCounts, AreThoseWhoArrive) {
   const world::Scenario scenario = places::find_scenario(kScenarioFolder, "city_square/emergency");
   sim::RunSpec spec;

@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Of two people, all watched for 100 s.
+/// A run of two people, both watched for 100 s.
 Outcome run_with(std::vector<double> escape_s) {
   Outcome outcome;
   outcome.escapes.people = 2;

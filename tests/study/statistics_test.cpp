@@ -75,7 +75,7 @@ TEST(Statistics, TheBootstrapCoversTheMean) {
   std::vector<double> values;
   for (int i = 0; i < 100; ++i) values.push_back(i % 10);
   const Interval interval = bootstrap_mean(values, 0.95, 1);
-  // Of a mean of 4.5 and a deviation of 2.87 / 10, the normal interval is 4.5 +- 0.56.
+  // The normal interval of a mean of 4.5 with a deviation of 2.87 / 10 is 4.5 +- 0.56.
   EXPECT_NEAR(interval.low, 3.94, 0.06);
   EXPECT_NEAR(interval.high, 5.06, 0.06);
   EXPECT_EQ(interval.low, bootstrap_mean(values, 0.95, 1).low) << "the same for the same seed";

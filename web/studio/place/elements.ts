@@ -122,7 +122,7 @@ export function withCorner(document: JsonObject, element: Element, index: number
     if (opposite[0] === x || opposite[1] === y) return document;
     const neighbors = [(index + 1) % 4, (index + 3) % 4];
     for (const neighbor of neighbors) {
-      // Of the two neighbors one shares the corner's x, the other its y.
+      // One of the two neighbors shares the corner's x, the other its y.
       const axis = points[neighbor]![0] === points[index]![0] ? 0 : 1;
       points[neighbor]![axis] = axis === 0 ? x : y;
     }
