@@ -12,6 +12,7 @@
 #include "annotate/color_name.h"
 #include "annotate/exit_view.h"
 #include "base/error.h"
+#include "base/words.h"
 #include "render/animator.h"
 #include "skinning/clothes.h"
 #include "skinning/items.h"
@@ -33,11 +34,7 @@ std::string_view age_band(double age_years) {
 }
 
 bool says_follow(std::string_view state) {
-  constexpr std::string_view kWord = "follow";
-  const auto found =
-      std::search(state.begin(), state.end(), kWord.begin(), kWord.end(),
-                  [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
-  return found != state.end();
+  return lower_case(state).find("follow") != std::string::npos;
 }
 
 /// Whether a texture is light and shade only at a part's corners, so that the tint is the color.

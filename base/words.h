@@ -1,4 +1,4 @@
-// Words of messages: counted nouns, and words of any case.
+// Words: counted nouns of messages, words of any case, texts without blanks at their ends.
 #pragma once
 
 #include <fmt/core.h>
@@ -23,6 +23,13 @@ inline std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+/// The text without blanks at its ends.
+inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n") {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 }  // namespace throng

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.h"
 #include "calibrate/pnp.h"
 #include "calibrate/projection.h"
 
@@ -33,12 +34,6 @@ Matrix3d normalization(const std::vector<Vector2d>& points) {
 Eigen::VectorXd null_vector(const MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a.transpose() * a);
   return solver.eigenvectors().col(0);
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Zhang's v_ij (2000, eq. 7) for columns i and j of a homography.
@@ -197,7 +192,7 @@ std::optional<Matrix3d> homography(const std::vector<Vector2d>& from,
     }
     constexpr double kMinScale = 1e-12;
     constexpr double kFarByMedian = 3;
-    const double scale = kFarByMedian * std::max(median_of(errors), kMinScale);
+    const double scale = kFarByMedian * std::max(median(errors), kMinScale);
     for (Eigen::Index i = 0; i < count; ++i) {
       const double r = errors[static_cast<std::size_t>(i)] / scale;
       weights[i] = 1 / (1 + r * r);

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/words.h"
 
 namespace throng::cli {
 
@@ -23,10 +24,9 @@ constexpr std::size_t kMaxBundleBytes = 64 << 20;
 std::string name_of(const fs::path& from) {
   fs::path name = fs::absolute(from).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
-  std::string word = name.filename().string();
+  std::string word = lower_case(name.filename().string());
   if (!fs::is_directory(from)) word.resize(std::min(word.find('.'), word.size()));
   for (char& c : word) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   }
   return word;

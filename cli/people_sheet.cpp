@@ -14,6 +14,7 @@
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/words.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -38,12 +39,7 @@ struct SheetArguments {
   int width_px = 2400;
 };
 
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
 
 // All input is checked before anything is rendered.
 void check_arguments(const SheetArguments& arguments) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "annotate/spec/license.h"
+#include "base/words.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -65,9 +66,7 @@ class ImageFolderExporter : public Exporter {
 
  private:
   std::string card() const {
-    std::string license(annotate::kImageLicense);
-    std::transform(license.begin(), license.end(), license.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string license = lower_case(annotate::kImageLicense);
     std::string classes;
     for (std::size_t i = 0; i < info_.categories.size(); ++i) {
       classes += fmt::format("| {} | {} |\n", i, info_.categories[i]);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "annotate/color_name.h"
+#include "base/words.h"
 #include "formats/json_vectors.h"
 #include "formats/run_checks.h"
 #include "geometry/angle.h"
@@ -77,10 +78,8 @@ const char* age_band_of(double years) {
   return years < 13 ? "child" : years < 18 ? "teenager" : years < 65 ? "adult" : "senior";
 }
 
-bool contains_follow(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.find("follow") != std::string::npos;
+bool contains_follow(std::string_view text) {
+  return lower_case(text).find("follow") != std::string::npos;
 }
 
 /// Speeds that contradict states; "" if none does. Speeds are rounded.

@@ -4,7 +4,6 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/multi_linestring.hpp>
-#include <boost/geometry/geometries/multi_point.hpp>
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
@@ -214,14 +213,6 @@ std::vector<Corners> simple_parts(const Area& area, double min_area_m2) {
     }
   }
   return parts;
-}
-
-Corners hull_of(const std::vector<Vector2d>& points) {
-  bg::model::multi_point<Point> cloud;
-  for (const Vector2d& point : points) cloud.emplace_back(point.x(), point.y());
-  Polygon hull;
-  bg::convex_hull(cloud, hull);
-  return thinned(corners_in(hull.outer()));
 }
 
 Corners corners_of(const world::Rectangle& rectangle) {

@@ -41,9 +41,6 @@ double shared_m2(const Area& a, const Area& b);
 /// smaller than `min_area_m2` are left out.
 std::vector<Corners> simple_parts(const Area& area, double min_area_m2 = 0.01);
 
-/// The smallest convex polygon around points; empty where they lie on a line.
-Corners hull_of(const std::vector<Eigen::Vector2d>& points);
-
 /// A rectangle's corners; a regular polygon of 24 corners in place of a circle.
 Corners corners_of(const world::Rectangle& rectangle);
 Corners circle(const Eigen::Vector2d& center, double radius_m);

@@ -1,12 +1,11 @@
 #include "metrics/gaps.h"
+#include "base/quantile.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "metrics/quantile.h"
 
 namespace throng::metrics {
 

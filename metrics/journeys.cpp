@@ -1,10 +1,9 @@
 #include "metrics/journeys.h"
+#include "base/quantile.h"
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-
-#include "metrics/quantile.h"
 
 namespace throng::metrics {
 

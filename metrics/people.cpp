@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/words.h"
 #include "geometry/polygon.h"
 
 namespace throng::metrics {
@@ -13,11 +14,6 @@ namespace throng::metrics {
 using Eigen::Vector2d;
 
 namespace {
-
-std::string in_lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 // A state without a name in the header has none of the properties that follow from names.
 bool holds(const std::vector<bool>& states, std::uint8_t state) {
@@ -54,7 +50,7 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
       is_recorded_(header.crowd.model == world::kRecordedCrowd) {
   for (const std::string& name : header.state_names) {
     const auto& aware = alarm_.aware_states;
-    follows_.push_back(in_lower_case(name).find("follow") != std::string::npos);
+    follows_.push_back(lower_case(name).find("follow") != std::string::npos);
     is_aware_.push_back(std::find(aware.begin(), aware.end(), name) != aware.end());
   }
   is_down_ = header.lying_states();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "metrics/number_in.h"
 #include "metrics/trajectory_file.h"
 #include "metrics/trajectory_words.h"
@@ -31,10 +32,8 @@ char separator_of(std::string_view line) {
   return line.find(most_frequent) == std::string_view::npos ? ' ' : most_frequent;
 }
 
-std::string_view trimmed(std::string_view field) {
-  const std::size_t first = field.find_first_not_of(" \r");
-  if (first == std::string_view::npos) return {};
-  field = field.substr(first, field.find_last_not_of(" \r") - first + 1);
+std::string_view unquoted(std::string_view text) {
+  std::string_view field = trimmed(text, " \r");
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
     field = field.substr(1, field.size() - 2);
   }
@@ -48,10 +47,10 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') quoted = !quoted;
     if (line[i] != separator || quoted) continue;
-    fields.push_back(trimmed(line.substr(start, i - start)));
+    fields.push_back(unquoted(line.substr(start, i - start)));
     start = i + 1;
   }
-  fields.push_back(trimmed(line.substr(start)));
+  fields.push_back(unquoted(line.substr(start)));
   if (separator == ' ') std::erase_if(fields, [](std::string_view field) { return field.empty(); });
   return fields;
 }
@@ -122,7 +121,7 @@ class TableReader {
   }
 
   void read_line(std::string_view line) {
-    if (trimmed(line).empty()) return;
+    if (unquoted(line).empty()) return;
     if (line.front() == '#') return read_comment(line);
     if (separator_ == 0) {
       separator_ = separator_of(line);

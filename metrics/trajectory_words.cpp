@@ -1,4 +1,5 @@
 #include "metrics/trajectory_words.h"
+#include "base/words.h"
 
 #include <array>
 #include <charconv>
@@ -12,14 +13,6 @@ namespace {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
 
 // The first number from a place on that is not part of a word, unless "fps" ends that.
 std::optional<double> rate_from(std::string_view text, std::size_t at) {

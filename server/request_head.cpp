@@ -1,4 +1,5 @@
 #include "server/request_head.h"
+#include "base/words.h"
 
 #include <fmt/core.h>
 
@@ -46,18 +47,15 @@ bool are_equal(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+/// The text without optional white space (RFC 9110, 5.6.3) at its ends.
+std::string_view without_blanks(std::string_view text) { return trimmed(text, " \t"); }
 
 /// The elements of a comma-separated list, without empty ones.
 std::vector<std::string_view> elements_of(std::string_view list) {
   std::vector<std::string_view> elements;
   while (!list.empty()) {
     const auto comma = std::min(list.find(','), list.size());
-    if (const auto element = trimmed(list.substr(0, comma)); !element.empty()) {
+    if (const auto element = without_blanks(list.substr(0, comma)); !element.empty()) {
       elements.push_back(element);
     }
     list.remove_prefix(std::min(comma + 1, list.size()));
@@ -69,7 +67,7 @@ std::vector<std::string_view> elements_of(std::string_view list) {
 bool is_refused(std::string_view parameters) {
   const auto mark = parameters.find("q=");
   if (mark == std::string_view::npos) return false;
-  const std::string_view quality = trimmed(parameters.substr(mark + 2));
+  const std::string_view quality = without_blanks(parameters.substr(mark + 2));
   return quality.starts_with('0') && quality.find_first_not_of("0.") == std::string_view::npos;
 }
 
@@ -77,7 +75,7 @@ bool names_gzip(std::string_view codings) {
   const auto elements = elements_of(codings);
   return std::any_of(elements.begin(), elements.end(), [](std::string_view element) {
     const auto end = std::min(element.find(';'), element.size());
-    const std::string_view coding = trimmed(element.substr(0, end));
+    const std::string_view coding = without_blanks(element.substr(0, end));
     return (are_equal(coding, "gzip") || are_equal(coding, "x-gzip")) &&
            !is_refused(element.substr(end));
   });
@@ -157,7 +155,7 @@ HeaderField field_in(std::string_view line) {
     // Also a blank before the colon, and a line that continues the one before it.
     refuse(400, "a header field has to be: NAME: VALUE, with a token as its name");
   }
-  const std::string_view value = trimmed(line.substr(colon + 1));
+  const std::string_view value = without_blanks(line.substr(colon + 1));
   const auto is_wrong = [](unsigned char c) { return is_control(c) && c != '\t'; };
   if (std::any_of(value.begin(), value.end(), is_wrong)) {
     refuse(400, "a header field holds a control character");

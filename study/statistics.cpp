@@ -72,17 +72,6 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double quantile(std::vector<double> values, double p) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double place = p * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(below);
-  // No sums of infinite values, which would be NaN.
-  if (part == 0 || values[below] == values[below + 1]) return values[below];
-  return values[below] + part * (values[below + 1] - values[below]);
-}
-
 Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed) {
   if (values.empty()) {
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -4,14 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/quantile.h"
+
 namespace throng::study {
 
 double mean(const std::vector<double>& values);
-
-/// The value below which a share `p` of the values lies, linear between the order statistics
-/// (Hyndman and Fan 1996, type 7). Infinite values sort last. NaN for an empty sample.
-double quantile(std::vector<double> values, double p);
-inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
 struct Interval {
   double low = 0;

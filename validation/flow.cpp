@@ -135,10 +135,4 @@ double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::ui
   return central_rate(times_s, bottleneck.people) / bottleneck.width_m;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace throng::validation

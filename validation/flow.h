@@ -50,6 +50,4 @@ double central_rate(const std::vector<double>& times_s, std::size_t people);
 /// measured in experiments; 0 when they do not get so far within 300 s.
 double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::uint64_t seed);
 
-double median(std::vector<double> values);
-
 }  // namespace throng::validation

@@ -1,4 +1,5 @@
 // Our own tests of flows: those that decide whether evacuation times can be believed.
+#include "base/quantile.h"
 #include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/suite.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/quantile.h"
 #include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/run.h"

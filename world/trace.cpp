@@ -5,14 +5,13 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "geometry/angle.h"
 
 namespace throng::world {
 
 bool implies_lying(std::string_view state_name) {
-  std::string lower(state_name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(state_name);
   constexpr std::array<std::string_view, 10> kWords = {
       "fallen",  "incapacitated", "dead",  "unconscious", "collapsed",
       "fainted", "casualty",      "lying", "trampled",    "killed"};

@@ -10,18 +10,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "crowd/elements/suggest.h"
 
 namespace throng::crowd {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kSpace);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
 
 template <typename Number>
 std::optional<Number> parse(std::string_view text) {

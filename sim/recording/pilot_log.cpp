@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "geometry/angle.h"
 
 namespace throng::sim {
@@ -15,12 +16,6 @@ namespace throng::sim {
 namespace {
 
 constexpr std::size_t kColumns = 6;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  return text;
-}
 
 class LogReader {
  public:
@@ -33,7 +28,7 @@ class LogReader {
 
   void read_line(std::string_view text) {
     ++line_;
-    text = trimmed(text);
+    text = trimmed(text, " \r");
     if (line_ == 1) {
       if (text != kPilotLogHeader) {
         fail(fmt::format("\"{:.60}\"", text), fmt::format("the header \"{}\"", kPilotLogHeader));
@@ -56,7 +51,7 @@ class LogReader {
       if ((comma == std::string_view::npos) != (i + 1 == kColumns)) {
         fail("another number of values", fmt::format("{} values", kColumns));
       }
-      values[i] = number(trimmed(text.substr(0, comma)));
+      values[i] = number(trimmed(text.substr(0, comma), " \r"));
       text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
     }
     if (!samples_.empty() && !(values[0] > samples_.back().time_s)) {

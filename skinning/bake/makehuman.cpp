@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "skinning/bake/makehuman_json.h"
 
 namespace throng::skinning {
@@ -220,10 +221,7 @@ void MakeHuman::load_targets() {
   std::vector<std::string> names;
   as_known(path, [&] {
     for (const auto& [name, unused] : list.at("targets").items()) {
-      std::string lower = name;
-      std::transform(lower.begin(), lower.end(), lower.begin(),
-                     [](unsigned char letter) { return std::tolower(letter); });
-      names.push_back(std::move(lower));
+      names.push_back(lower_case(name));
     }
   });
   std::sort(names.begin(), names.end());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/words.h"
 #include "skinning/bake/raster.h"
 
 namespace throng::skinning {
@@ -90,9 +91,7 @@ fs::path diffuse_image(const fs::path& folder) {
   std::vector<fs::path> images;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder / "textures", error)) {
-    std::string name = entry.path().filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return std::tolower(letter); });
+    const std::string name = lower_case(entry.path().filename().string());
     const bool other_map =
         name.find("normal") != std::string::npos || name.find("_nrm") != std::string::npos ||
         name.find("displacement") != std::string::npos || name.find("_ao") != std::string::npos ||
