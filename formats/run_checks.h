@@ -45,7 +45,7 @@ class ExitsCheck : public GroundTruthCheck {
     std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< where each corner may be
     double rounding_m = 0;                                 ///< the farthest of these
   };
-  struct Place {
+  struct ExitOutlines {
     Outline door;
     Outline zone;
   };
@@ -55,7 +55,7 @@ class ExitsCheck : public GroundTruthCheck {
   static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
                                        const nlohmann::json& polygon);
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
-  static std::string shape_fault(const std::string& id, const Place& place);
+  static std::string shape_fault(const std::string& id, const ExitOutlines& place);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);
   void count_everybody(const DatasetInfo& info, const std::string& name, const Run& run,
@@ -65,7 +65,7 @@ class ExitsCheck : public GroundTruthCheck {
 
   std::map<std::string, Run> runs_;
   /// By scenario and exit: the place is one in all runs there.
-  std::map<std::pair<std::string, std::string>, Place> places_;
+  std::map<std::pair<std::string, std::string>, ExitOutlines> places_;
 };
 
 /// fields/RUN/FRAME.npy against the people that cameras see.

@@ -192,7 +192,7 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
 void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& findings) {
   const auto id = exit.at("id").get<std::string>();
   const camera::Camera camera = camera_of(image);
-  Place& place = places_[{image.scenario(), id}];
+  ExitOutlines& place = places_[{image.scenario(), id}];
   for (const char* key : {"door", "zone"}) {
     const json& polygon = exit.at(key);
     if (polygon.empty()) continue;
@@ -217,7 +217,7 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
 }
 
 /// The door is a strip 0.5 m deep, and the zone a half disc about its middle. "" if they are.
-std::string ExitsCheck::shape_fault(const std::string& id, const Place& place) {
+std::string ExitsCheck::shape_fault(const std::string& id, const ExitOutlines& place) {
   const std::vector<Vector2d>& door = place.door.corners;
   const std::vector<Vector2d>& zone = place.zone.corners;
   if (door.size() < 4 || zone.size() < 3) return "";

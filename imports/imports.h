@@ -3,6 +3,6 @@
 #pragma once
 
 #include "imports/osm_map.h"
-#include "imports/place_writer.h"
 #include "imports/populate.h"
+#include "imports/scenario_writer.h"
 #include "imports/sdf_world.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 
 namespace throng::imports {
 

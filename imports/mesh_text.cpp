@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <iterator>
 
-#include "imports/place_writer.h"
+#include "imports/scenario_writer.h"
 
 namespace throng::imports {
 
@@ -37,7 +37,7 @@ MeshText mesh_text(const Object& object, const std::string& materials_file) {
   return text;
 }
 
-std::string mesh_name(const Place& place, std::size_t object) {
+std::string mesh_name(const ImportedScenario& place, std::size_t object) {
   const std::string word = place_name_of(place.objects[object].name);
   return fmt::format("{}_meshes/{:03}_{}", place.name, object, word.substr(0, 40));
 }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 
 namespace throng::imports {
 
@@ -15,6 +15,6 @@ struct MeshText {
 MeshText mesh_text(const Object& object, const std::string& materials_file);
 
 /// Path of an object's files below the scenario's folder, without suffix; unique.
-std::string mesh_name(const Place& place, std::size_t object);
+std::string mesh_name(const ImportedScenario& place, std::size_t object);
 
 }  // namespace throng::imports

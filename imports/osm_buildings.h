@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "imports/areas.h"
+#include "imports/imported_scenario.h"
 #include "imports/osm_file.h"
-#include "imports/place.h"
 
 namespace throng::imports {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "imports/areas.h"
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 #include "world/scenario.h"
 
 namespace throng::imports {

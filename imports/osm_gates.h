@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "imports/imported_scenario.h"
 #include "imports/osm_tags.h"
-#include "imports/place.h"
 
 namespace throng::imports {
 

@@ -15,8 +15,8 @@
 #include "imports/osm_buildings.h"
 #include "imports/osm_gates.h"
 #include "imports/osm_tags.h"
-#include "imports/place_writer.h"
 #include "imports/populate.h"
+#include "imports/scenario_writer.h"
 #include "imports/solids.h"
 
 namespace throng::imports {
@@ -40,7 +40,7 @@ class MapReader {
     ground_ = ground_of(place_);
   }
 
-  Place read();
+  ImportedScenario read();
 
  private:
   void skip(const std::string& element, const std::string& reason) {
@@ -66,7 +66,7 @@ class MapReader {
   OsmFile file_;
   std::string source_;
   world::Rectangle ground_;
-  Place place_;
+  ImportedScenario place_;
   std::vector<geometry::Rectangle> building_bounds_;
   std::vector<Area> openings_;        // in barriers
   std::set<std::int64_t> crossings_;  // nodes
@@ -309,7 +309,7 @@ void MapReader::add_prop(const OsmPoint& point) {
   }
 }
 
-Place MapReader::read() {
+ImportedScenario MapReader::read() {
   constexpr double kGateM = 2.4;
   for (const OsmPoint& point : file_.points) {
     const std::string& barrier = value_of(point.tags, "barrier");
@@ -333,7 +333,7 @@ Place MapReader::read() {
 
 }  // namespace
 
-Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
+ImportedScenario read_osm(const std::filesystem::path& file, const OsmOptions& options) {
   OsmFile extract = read_osm_file(file, options.origin);
   constexpr double kMinSizeM = 20;
   constexpr double kAroundM = 8;
@@ -349,12 +349,12 @@ Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
                       "at least 20 m x 20 m"});
   }
   const auto read = [&] {
-    Place place = MapReader(extract, file.string()).read();
+    ImportedScenario place = MapReader(extract, file.string()).read();
     place.gates_asked = !options.gates.empty();
     if (place.gates_asked) place.gates = options.gates;
     return place;
   };
-  Place place = read();
+  ImportedScenario place = read();
   // Larger ones are not walled up, and take long to look at.
   constexpr double kSmallM = 500;
   const bool small = size().maxCoeff() < kSmallM;

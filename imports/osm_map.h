@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "imports/imported_scenario.h"
 #include "imports/osm_file.h"
-#include "imports/place.h"
 
 namespace throng::imports {
 
@@ -19,7 +19,8 @@ struct OsmOptions {
 /// are drawn, and people pass below), ways by their widths, crossings, areas of green and of
 /// paving, water, barriers with the gates in them, trees, lamps, benches, bins and bollards. Ways
 /// that leave the bounds have gates there, shared by their widths, a footway counting in full
-/// and a road as three tenths. The rest is listed in Place::skipped. Throws as read_osm_file().
-Place read_osm(const std::filesystem::path& file, const OsmOptions& options);
+/// and a road as three tenths. The rest is listed in ImportedScenario::skipped. Throws as
+/// read_osm_file().
+ImportedScenario read_osm(const std::filesystem::path& file, const OsmOptions& options);
 
 }  // namespace throng::imports

@@ -97,7 +97,7 @@ int main_region(const std::vector<Gate>& gates, const world::Rectangle& inside,
   return best;
 }
 
-bool is_in_the_way(const world::Prop& prop, const Place& place,
+bool is_in_the_way(const world::Prop& prop, const ImportedScenario& place,
                    const std::vector<geometry::Rectangle>& bounds, const std::vector<Gate>& gates) {
   constexpr double kSlackM = 0.1;
   const geometry::Rectangle around{prop.position - Vector2d::Constant(kSlackM),
@@ -117,7 +117,7 @@ bool is_in_the_way(const world::Prop& prop, const Place& place,
   return false;
 }
 
-void take_props_away(Place& place, const std::vector<Gate>& gates) {
+void take_props_away(ImportedScenario& place, const std::vector<Gate>& gates) {
   std::vector<geometry::Rectangle> bounds;
   for (const world::Building& building : place.buildings) {
     bounds.push_back(geometry::bounds_of(building.footprint));
@@ -134,7 +134,7 @@ void take_props_away(Place& place, const std::vector<Gate>& gates) {
   });
 }
 
-std::vector<Corners> obstacles_with_props(const Place& place) {
+std::vector<Corners> obstacles_with_props(const ImportedScenario& place) {
   std::vector<Corners> obstacles = place.obstacles;
   for (const world::Prop& prop : place.props) {
     const auto corners = world::footprint_of(prop);
@@ -144,7 +144,7 @@ std::vector<Corners> obstacles_with_props(const Place& place) {
 }
 
 // Yards and rooms that nobody can leave are part of what the file has.
-void note_enclosed(Place& place, const FreeGround& ground, int main) {
+void note_enclosed(ImportedScenario& place, const FreeGround& ground, int main) {
   constexpr double kWorthSayingM2 = 20;
   double enclosed_m2 = 0;
   for (int region = 0; region < ground.regions(); ++region) {
@@ -193,7 +193,7 @@ std::vector<Vector2d> draw_starts(std::vector<Vector2d> cells, const PopulateOpt
 
 }  // namespace
 
-world::Rectangle ground_of(const Place& place) {
+world::Rectangle ground_of(const ImportedScenario& place) {
   const Vector2d beyond = Vector2d::Constant(kGroundBeyondM);
   return {place.inside.min - beyond, place.inside.max + beyond};
 }
@@ -205,7 +205,7 @@ Vector2d outward_of(const Gate& gate, const world::Rectangle& inside) {
   return normal.dot(from_middle) >= 0 ? normal : Vector2d(-normal);
 }
 
-double open_ground_m2(const Place& place) {
+double open_ground_m2(const ImportedScenario& place) {
   const FreeGround ground(ground_of(place), obstacles_with_props(place));
   int region = main_region(place.gates, place.inside, ground);
   if (region == FreeGround::kBlocked && !place.gates_asked) {
@@ -219,7 +219,7 @@ double open_ground_m2(const Place& place) {
   return static_cast<double>(inside) * kCellM2;
 }
 
-Population populate(Place& place, const PopulateOptions& options) {
+Population populate(ImportedScenario& place, const PopulateOptions& options) {
   const world::Rectangle ground_area = ground_of(place);
   const FreeGround ground(ground_area, obstacles_with_props(place));
   std::vector<Gate> candidates = place.gates;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 
 namespace throng::imports {
 
@@ -24,10 +24,10 @@ struct Population {
 /// everywhere that is connected with the gates, 0.9 m apart. Gates that cannot be reached, props
 /// that stand in buildings or before gates, and people without room are noted in `place.skipped`;
 /// such props are taken away. Throws InputError for a place that nobody can leave.
-Population populate(Place& place, const PopulateOptions& options);
+Population populate(ImportedScenario& place, const PopulateOptions& options);
 
 /// How much ground populate() would find from where people can leave: 0 where it would throw (m²).
-double open_ground_m2(const Place& place);
+double open_ground_m2(const ImportedScenario& place);
 
 /// The direction out of a gate: a unit vector away from the middle of the place.
 Eigen::Vector2d outward_of(const Gate& gate, const world::Rectangle& inside);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "imports/imported_scenario.h"
 #include "imports/local_files.h"
-#include "imports/place.h"
 #include "imports/sdf_text.h"
 
 namespace sdf {

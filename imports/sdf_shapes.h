@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "imports/imported_scenario.h"
 #include "imports/local_files.h"
-#include "imports/place.h"
 #include "imports/solids.h"
 
 namespace sdf {

@@ -15,8 +15,8 @@
 #include "base/error.h"
 #include "geometry/rectangle.h"
 #include "imports/local_files.h"
-#include "imports/place_writer.h"
 #include "imports/populate.h"
+#include "imports/scenario_writer.h"
 #include "imports/sdf_root.h"
 #include "imports/sdf_shapes.h"
 
@@ -63,7 +63,7 @@ class SdfReader {
   SdfReader(const fs::path& file, const SdfOptions& options)
       : file_(file), gates_(options.gates), files_(folders_of(file, options)) {}
 
-  Place read();
+  ImportedScenario read();
 
  private:
   static std::vector<fs::path> folders_of(const fs::path& file, const SdfOptions& options) {
@@ -95,7 +95,7 @@ class SdfReader {
   std::vector<Gate> gates_;
   LocalFiles files_;
   std::optional<SdfText> text_;
-  Place place_;
+  ImportedScenario place_;
   std::vector<geometry::Rectangle> building_bounds_;
   std::vector<FlatArea> flat_;
   Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -352,7 +352,7 @@ void SdfReader::finish() {
   }
 }
 
-Place SdfReader::read() {
+ImportedScenario SdfReader::read() {
   sdf::Root root;
   text_ = load_root(file_, files_, root, place_.skipped);
   place_.name = place_name_of(file_);
@@ -376,7 +376,7 @@ Place SdfReader::read() {
 
 }  // namespace
 
-Place read_sdf(const fs::path& file, const SdfOptions& options) {
+ImportedScenario read_sdf(const fs::path& file, const SdfOptions& options) {
   return SdfReader(file, options).read();
 }
 

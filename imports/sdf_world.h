@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 
 namespace throng::imports {
 
@@ -19,8 +19,8 @@ struct SdfOptions {
 /// upright on the ground and are 2 m high or more become buildings, flat ones areas of ground, all
 /// others objects that are drawn as they are. Collisions between 0.2 and 2 m are obstacles for
 /// people.
-/// Lamps become lamp posts. The rest is listed in Place::skipped. Throws InputError (file, line)
-/// where there is no world in the file, and EnvironmentError.
-Place read_sdf(const std::filesystem::path& file, const SdfOptions& options);
+/// Lamps become lamp posts. The rest is listed in ImportedScenario::skipped. Throws InputError
+/// (file, line) where there is no world in the file, and EnvironmentError.
+ImportedScenario read_sdf(const std::filesystem::path& file, const SdfOptions& options);
 
 }  // namespace throng::imports

@@ -22,8 +22,8 @@ render::RenderOptions draft() {
 
 }  // namespace
 
-OnboardCamera::Place OnboardCamera::place_of(const jobs::JobSpec& whole_job,
-                                             world::Scenario scenario) {
+OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_job,
+                                                    world::Scenario scenario) {
   const jobs::JobSpec job = jobs::job_of_run(whole_job, 0);
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   world::thin_out(scenario, job.props_density, seed);
@@ -51,7 +51,7 @@ OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                              const std::vector<sim::PlannedDrone>& drones)
     : OnboardCamera(place_of(job, std::move(scenario)), header, drones) {}
 
-OnboardCamera::OnboardCamera(Place place, const world::TraceHeader& header,
+OnboardCamera::OnboardCamera(Surroundings place, const world::TraceHeader& header,
                              const std::vector<sim::PlannedDrone>& drones)
     : scenario_(std::move(place.scenario)),
       population_(skinning::load_population(skinning::population_folder())),

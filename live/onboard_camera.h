@@ -36,13 +36,13 @@ class OnboardCamera {
 
  private:
   /// As the run has it.
-  struct Place {
+  struct Surroundings {
     world::Scenario scenario;
     render::Environment light;
     skinning::Styling styling;
   };
-  static Place place_of(const jobs::JobSpec& whole_job, world::Scenario scenario);
-  OnboardCamera(Place place, const world::TraceHeader& header,
+  static Surroundings place_of(const jobs::JobSpec& whole_job, world::Scenario scenario);
+  OnboardCamera(Surroundings place, const world::TraceHeader& header,
                 const std::vector<sim::PlannedDrone>& drones);
 
   world::Scenario scenario_;

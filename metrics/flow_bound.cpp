@@ -122,7 +122,7 @@ class DoorFlow {
   static constexpr int kNone = -1;
 
   /// A second of a door.
-  struct Place {
+  struct DoorSecond {
     std::size_t exit = 0;
     int second = 0;
   };
@@ -158,12 +158,12 @@ class DoorFlow {
   }
 
   // Breadth first, backward from the slot, over what the flow leaves free, to anybody without one.
-  bool reroute(const Place& slot) {
+  bool reroute(const DoorSecond& slot) {
     ++search_;
     next_.clear();
     reach(slot, On::Kind::arrived);
     while (!next_.empty()) {
-      const Place place = next_.front();
+      const DoorSecond place = next_.front();
       next_.pop_front();
       const std::vector<int>& waiting = doors_[place.exit].waiting;
       if (place.second > 0) reach({place.exit, place.second - 1}, On::Kind::waits);
@@ -175,7 +175,7 @@ class DoorFlow {
     return false;
   }
 
-  void reach(const Place& place, On::Kind kind, std::size_t person = 0) {
+  void reach(const DoorSecond& place, On::Kind kind, std::size_t person = 0) {
     On& on = doors_[place.exit].on[static_cast<std::size_t>(place.second)];
     if (on.search == search_) return;
     on = {search_, kind, person};
@@ -184,7 +184,7 @@ class DoorFlow {
 
   // The person who comes to the node and continues elsewhere: the end of the search if there is
   // none.
-  bool take_from(const Place& place) {
+  bool take_from(const DoorSecond& place) {
     const auto e = static_cast<std::ptrdiff_t>(place.exit);
     const std::vector<std::size_t>& people = doors_[place.exit].people;
     const auto by_entry = [&](std::size_t person) { return entry_[person][place.exit]; };
@@ -208,7 +208,7 @@ class DoorFlow {
   // Moves the flow along the augmenting path.
   void follow(std::size_t person) {
     for (;;) {
-      Place place = target_[person];
+      DoorSecond place = target_[person];
       Door& door = doors_[place.exit];
       exit_of_[person] = static_cast<int>(place.exit);
       const On* on = &door.on[static_cast<std::size_t>(place.second)];
@@ -228,9 +228,9 @@ class DoorFlow {
   std::vector<Door> doors_;
   std::vector<std::vector<int>> entry_;  ///< per person and exit, the second; kNone: never
   std::vector<int> exit_of_;             ///< per person; kNone: no slot
-  std::vector<Place> target_;            ///< per person, where the search would have them go
+  std::vector<DoorSecond> target_;       ///< per person, where the search would have them go
   std::vector<int> seen_;                ///< per person, the last search that did
-  std::deque<Place> next_;
+  std::deque<DoorSecond> next_;
   int search_ = 0;
   int last_entry_ = 0;
   std::size_t left_ = 0;

@@ -42,7 +42,7 @@ std::uint32_t place_of(std::uint64_t seed, std::uint32_t agent, std::uint32_t co
 
 // A place in the row of people that is dealt out again and again: a character, and how often it
 // stands further ahead in the row.
-struct Place {
+struct CharacterCopy {
   std::uint32_t character;
   std::uint32_t copy;
 };
@@ -80,8 +80,8 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
 
 // Everybody without an umbrella once, and so many with one, again and again from the front, as make
 // up their share. If all characters have umbrellas, all come with them.
-std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
-                           const Styling& styling) {
+std::vector<CharacterCopy> cast_of(const Population& population, std::uint64_t seed,
+                                   const Styling& styling) {
   const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
   std::vector<std::uint32_t> bare = take_part(population, false, seed, styling);
   if (dry.empty() && bare.empty()) refuse_ages(population, styling);
@@ -93,7 +93,7 @@ std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
           ? 0
           : static_cast<std::size_t>(std::lround(static_cast<double>(bare.size()) *
                                                  styling.umbrellas / (1 - styling.umbrellas)));
-  std::vector<Place> cast;
+  std::vector<CharacterCopy> cast;
   cast.reserve(bare.size() + under);
   for (const std::uint32_t character : bare) cast.push_back({character, 0});
   for (std::size_t i = 0; i < under; ++i) {
@@ -161,9 +161,9 @@ Appearance shown(const Population& population, std::uint32_t number, std::uint64
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
                          const Styling& styling) {
   check(!population.characters.empty(), "a population has characters");
-  const std::vector<Place> cast = cast_of(population, run_seed, styling);
+  const std::vector<CharacterCopy> cast = cast_of(population, run_seed, styling);
   const auto count = static_cast<std::uint32_t>(cast.size());
-  const Place& place = cast[place_of(run_seed, agent, count)];
+  const CharacterCopy& place = cast[place_of(run_seed, agent, count)];
   return shown(population, place.character, run_seed, agent, agent / count + place.copy, styling);
 }
 

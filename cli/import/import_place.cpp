@@ -55,7 +55,7 @@ std::vector<imports::Gate> gates_of(const ImportOptions& options) {
   return gates;
 }
 
-imports::Place place_of(const ImportOptions& options) {
+imports::ImportedScenario place_of(const ImportOptions& options) {
   const fs::path file = options.file;
   const std::string suffix = file.extension().string();
   if (!fs::is_regular_file(file)) {
@@ -83,7 +83,7 @@ imports::Place place_of(const ImportOptions& options) {
 }  // namespace
 
 void import_place(const ImportOptions& options) {
-  imports::Place place = place_of(options);
+  imports::ImportedScenario place = place_of(options);
   const imports::Population population = imports::populate(place, {options.people, options.seed});
   const fs::path written = imports::write_place(place, population, options.folder);
   for (const imports::Skipped& skipped : place.skipped) {

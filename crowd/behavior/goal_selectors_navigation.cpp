@@ -17,12 +17,12 @@ class ByWay : public GoalSelector {
 
   Choice select(const Crowd& crowd, std::size_t agent) override {
     const Eigen::Vector2f& p = crowd.agents.position[agent];
-    const NavMesh::Place from = file_->mesh.nearest(p);
+    const NavMesh::Location from = file_->mesh.nearest(p);
     Choice best{-1, p};
     float best_key = std::numeric_limits<float>::infinity();
     for (const int goal : crowd.goals.set(set_).goals) {
       if (!crowd.goals[goal].has_room()) continue;
-      const NavMesh::Place to = file_->mesh.nearest(crowd.goals[goal].shape->center());
+      const NavMesh::Location to = file_->mesh.nearest(crowd.goals[goal].shape->center());
       if (!finder_.find(from, to, crowd.agents[Property::radius][agent])) continue;
       const float key = nearest_ ? finder_.length_m() : -finder_.length_m();
       if (key >= best_key) continue;

@@ -111,10 +111,10 @@ bool AutoNavigation::is_time_to_look(const Crowd& crowd, std::size_t agent) cons
   return (crowd.step + agent) % every == 0;
 }
 
-NavMesh::Place AutoNavigation::place_on(const NavMesh& mesh, const Eigen::Vector2f& point,
-                                        int hint) {
+NavMesh::Location AutoNavigation::place_on(const NavMesh& mesh, const Eigen::Vector2f& point,
+                                           int hint) {
   const int polygon = mesh.find(point, hint);
-  return polygon >= 0 ? NavMesh::Place{polygon, point} : mesh.nearest(point);
+  return polygon >= 0 ? NavMesh::Location{polygon, point} : mesh.nearest(point);
 }
 
 /// Checks the path, goes on to the next bend if that is in sight, and plans again if necessary.
@@ -124,7 +124,7 @@ void AutoNavigation::look(const Crowd& crowd, std::size_t agent, Route& route) {
   // How far the goal may move, as a share of its distance, before the way is looked for again.
   constexpr float kMoved = 0.05F;
   const float moved = (goal_place(crowd, agent, route.target) - route.target).norm();
-  const NavMesh::Place here = place_on(mesh, p, route.polygon);
+  const NavMesh::Location here = place_on(mesh, p, route.polygon);
   route.polygon = here.polygon;
   const auto sees = [&](int bend) {
     return mesh.is_clear(here, route.bends[static_cast<std::size_t>(bend)]);
@@ -149,10 +149,10 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   Ground& ground = *grounds_[static_cast<std::size_t>(route.ground)];
   const NavMesh& mesh = ground.mesh;
   const Eigen::Vector2f& p = crowd.agents.position[agent];
-  const NavMesh::Place from = place_on(mesh, p, route.polygon);
+  const NavMesh::Location from = place_on(mesh, p, route.polygon);
   const int island = mesh[from.polygon].island;
   route.target = goal_place(crowd, agent, p);
-  NavMesh::Place to{mesh.find(route.target), route.target};
+  NavMesh::Location to{mesh.find(route.target), route.target};
   if (to.polygon < 0 || mesh[to.polygon].island != island) to = mesh.nearest(route.target, island);
 
   // Places beside a wall are off the mesh by a radius; so may be whom others push against one.
@@ -202,7 +202,7 @@ void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
     route.lane_of = route.next;
   }
   if (!route.lane) return;
-  const NavMesh::Place here = place_on(ground.mesh, p, route.polygon);
+  const NavMesh::Location here = place_on(ground.mesh, p, route.polygon);
   Eigen::Vector2f aside = route.lane->pass(p) - route.lane->corner;
   aside *= std::min(1.0F, kMaxAside / std::max(aside.norm(), 1e-3F)) *
            std::min(1.0F, route.crowding / kCrowded);

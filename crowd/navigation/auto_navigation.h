@@ -72,7 +72,7 @@ class AutoNavigation {
   static bool fits(float agent_radius, float mesh_radius);
   float mesh_radius(const Crowd& crowd, std::size_t agent) const;
   bool is_time_to_look(const Crowd& crowd, std::size_t agent) const;
-  static NavMesh::Place place_on(const NavMesh& mesh, const Eigen::Vector2f& point, int hint);
+  static NavMesh::Location place_on(const NavMesh& mesh, const Eigen::Vector2f& point, int hint);
   void look(const Crowd& crowd, std::size_t agent, Route& route);
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
   static void notice_crowding(const Crowd& crowd, std::size_t agent, Route& route);

@@ -19,7 +19,7 @@ class OfMesh : public Elevation {
  public:
   explicit OfMesh(std::shared_ptr<const NavMeshFile> file) : file_(std::move(file)) {}
   float height_m(const Eigen::Vector2f& point) const override {
-    const NavMesh::Place place = place_of(point);
+    const NavMesh::Location place = place_of(point);
     const Eigen::Vector3f& plane = file_->mesh[place.polygon].plane;
     return plane.x() * place.point.x() + plane.y() * place.point.y() + plane.z();
   }
@@ -28,9 +28,9 @@ class OfMesh : public Elevation {
   }
 
  private:
-  NavMesh::Place place_of(const Eigen::Vector2f& point) const {
+  NavMesh::Location place_of(const Eigen::Vector2f& point) const {
     const int polygon = file_->mesh.find(point);
-    return polygon >= 0 ? NavMesh::Place{polygon, point} : file_->mesh.nearest(point);
+    return polygon >= 0 ? NavMesh::Location{polygon, point} : file_->mesh.nearest(point);
   }
 
   std::shared_ptr<const NavMeshFile> file_;

@@ -90,8 +90,8 @@ int NavMesh::find(const Eigen::Vector2f& point, int hint) const {
   return found;
 }
 
-NavMesh::Place NavMesh::nearest(const Eigen::Vector2f& point, int island) const {
-  Place best;
+NavMesh::Location NavMesh::nearest(const Eigen::Vector2f& point, int island) const {
+  Location best;
   float best_sq = std::numeric_limits<float>::infinity();
   tree_.near(point, best_sq, [&](int i) {
     const int polygon = tree_.order()[static_cast<std::size_t>(i)];
@@ -107,7 +107,7 @@ NavMesh::Place NavMesh::nearest(const Eigen::Vector2f& point, int island) const 
   return best;
 }
 
-bool NavMesh::is_clear(const Place& from, const Eigen::Vector2f& to) const {
+bool NavMesh::is_clear(const Location& from, const Eigen::Vector2f& to) const {
   const Eigen::Vector2f way = to - from.point;
   const float slack = kTolerance * way.norm();
   int polygon = from.polygon;

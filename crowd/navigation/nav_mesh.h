@@ -28,7 +28,7 @@ struct NavPolygon {
 
 class NavMesh {
  public:
-  struct Place {
+  struct Location {
     int polygon = -1;  ///< -1: there is none
     Eigen::Vector2f point = Eigen::Vector2f::Zero();
   };
@@ -48,9 +48,9 @@ class NavMesh {
   /// polygons around it: where the point was a moment ago.
   int find(const Eigen::Vector2f& point, int hint = -1) const;
   /// The place of the mesh that is nearest to the point and, unless island is -1, on that island.
-  Place nearest(const Eigen::Vector2f& point, int island = -1) const;
+  Location nearest(const Eigen::Vector2f& point, int island = -1) const;
   /// Whether the straight segment from a place to a point stays on the mesh.
-  bool is_clear(const Place& from, const Eigen::Vector2f& to) const;
+  bool is_clear(const Location& from, const Eigen::Vector2f& to) const;
 
  private:
   void find_islands();

@@ -110,9 +110,9 @@ void NavMeshRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   const NavMesh& mesh = file_->mesh;
   const Eigen::Vector2f& p = crowd.agents.position[agent];
   const Eigen::Vector2f target = goal_place(crowd, agent, p);
-  NavMesh::Place from{mesh.find(p, route.polygon), p};
+  NavMesh::Location from{mesh.find(p, route.polygon), p};
   if (from.polygon < 0) from = mesh.nearest(p);
-  NavMesh::Place to{mesh.find(target), target};
+  NavMesh::Location to{mesh.find(target), target};
   const int island = from.polygon < 0 ? -1 : mesh[from.polygon].island;
   if (to.polygon < 0 || mesh[to.polygon].island != island) to = mesh.nearest(target, island);
 

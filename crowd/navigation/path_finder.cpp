@@ -59,7 +59,7 @@ PathFinder::PathFinder(const NavMesh& mesh, Lengths lengths) : mesh_(&mesh), len
   bends_.reserve(mesh.polygons().size() + 1);
 }
 
-bool PathFinder::find(const NavMesh::Place& from, const NavMesh::Place& to, float radius) {
+bool PathFinder::find(const NavMesh::Location& from, const NavMesh::Location& to, float radius) {
   gates_.clear();
   if (from.polygon < 0 || to.polygon < 0) return false;
   if ((*mesh_)[from.polygon].island != (*mesh_)[to.polygon].island) return false;
@@ -87,7 +87,7 @@ void PathFinder::find_through(std::span<const Gate> gates, const Eigen::Vector2f
   pull_tight(start, end);
 }
 
-bool PathFinder::find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to,
+bool PathFinder::find_by(Pass pass, const NavMesh::Location& from, const NavMesh::Location& to,
                          float radius) {
   Search how{from.point, to.point, radius, pass, false};
   if (pass == Pass::center_behind) {

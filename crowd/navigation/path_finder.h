@@ -36,7 +36,7 @@ class PathFinder {
 
   /// Finds a path for a disc of this radius from one place of the mesh to another. Portals that are
   /// too narrow for it count only if there is no other way. Returns false if there is none at all.
-  bool find(const NavMesh::Place& from, const NavMesh::Place& to, float radius);
+  bool find(const NavMesh::Location& from, const NavMesh::Location& to, float radius);
 
   /// The shortest path through portals that are known: finds where it passes and bends.
   void find_through(std::span<const Gate> gates, const Eigen::Vector2f& start,
@@ -82,7 +82,7 @@ class PathFinder {
     bool narrow = false;  // portals that are too narrow, too
   };
 
-  bool find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to, float radius);
+  bool find_by(Pass pass, const NavMesh::Location& from, const NavMesh::Location& to, float radius);
   bool search(const Search& how, int from, int to);
   void expand(const Search& how, int polygon, int before);
   Eigen::Vector2f passing_point(const Search& how, const Gate& gate,

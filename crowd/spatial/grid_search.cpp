@@ -26,7 +26,7 @@ struct NearestKernel {
   using Neighbor = Grid::Neighbor;
 
   /// A place to search.
-  struct Place {
+  struct Query {
     float x = 0;
     float y = 0;
     float limit_sq = 0;  // m^2; those further away are not wanted
@@ -62,7 +62,7 @@ struct NearestKernel {
   template <int kWidth>
   static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t max_neighbors,
                       Candidates& candidates) {
-    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, max_neighbors};
+    Query place{grid.x_[slot], grid.y_[slot], radius * radius, slot, max_neighbors};
     candidates.count_ = 0;
     grid.for_each_run(grid.position(slot), radius,
                       [&](std::size_t begin, std::size_t end, std::optional<int> row) {
@@ -77,7 +77,7 @@ struct NearestKernel {
   /// Adds those in the slots from `begin` to `end` that are near enough; with kRow, only those of
   /// the row, since buckets may be shared with others, which would be found twice.
   template <int kWidth, bool kRow>
-  static void scan(const Grid& grid, std::size_t begin, std::size_t end, int row, Place& place,
+  static void scan(const Grid& grid, std::size_t begin, std::size_t end, int row, Query& place,
                    Candidates& candidates) {
     while (begin < end) {
       std::size_t room = candidates.slot_.size() - candidates.count_;
@@ -96,7 +96,7 @@ struct NearestKernel {
   /// is of other rows, or too far away.
   template <int kWidth, bool kRow>
   static void scan_some(const Grid& grid, std::size_t begin, std::size_t end, int row,
-                        const Place& place, Candidates& candidates) {
+                        const Query& place, Candidates& candidates) {
     using V = Vectors<kWidth>;
     const auto x = broadcast<kWidth>(place.x);
     const auto y = broadcast<kWidth>(place.y);
@@ -126,7 +126,7 @@ struct NearestKernel {
 
   /// Makes room.
   template <int kWidth>
-  static void keep_nearest(const Grid& grid, Place& place, Candidates& candidates) {
+  static void keep_nearest(const Grid& grid, Query& place, Candidates& candidates) {
     sort<kWidth>(grid, candidates);
     const std::size_t kept = std::min(place.max_neighbors, candidates.count_);
     for (std::size_t i = 0; i < kept; ++i) {

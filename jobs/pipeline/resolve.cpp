@@ -178,7 +178,7 @@ bool is_of_trace(const world::Scenario& scenario) {
 }
 
 /// A scenario of the job: where its runs are checked.
-struct Place {
+struct ScenarioRuns {
   JobSpec job;  ///< of this scenario only
   const world::Scenario& scenario;
   std::vector<int> runs;
@@ -186,7 +186,7 @@ struct Place {
 };
 
 /// Nobody where the crowd cannot be loaded, which the simulation will explain.
-std::vector<Eigen::Vector2d> people_in(const Place& place) {
+std::vector<Eigen::Vector2d> people_in(const ScenarioRuns& place) {
   const JobSpec job = job_of_run(place.job, place.runs.front());
   const bool aims = std::any_of(job.drones.begin(), job.drones.end(), [](const DroneSpec& drone) {
     return drone.mission.aim.has_value();
@@ -201,7 +201,7 @@ std::vector<Eigen::Vector2d> people_in(const Place& place) {
   }
 }
 
-void check_flight(const Place& place, const JobSpec& run_job, int run,
+void check_flight(const ScenarioRuns& place, const JobSpec& run_job, int run,
                   std::vector<Problem>& problems) {
   const std::uint64_t seed = plan_runs(run_job).at(static_cast<std::size_t>(run)).seed;
   std::vector<sim::DroneMission> missions = missions_of(run_job, seed);
@@ -210,7 +210,8 @@ void check_flight(const Place& place, const JobSpec& run_job, int run,
 }
 
 // Checks that need the simulation: whether the drones can fly and whether there are people enough.
-void check_with_simulation(const Place& place, const JobSpec& job, std::vector<Problem>& problems) {
+void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
+                           std::vector<Problem>& problems) {
   const world::Scenario& scenario = place.scenario;
   check_flight(place, job, place.runs.front(), problems);
   try {
@@ -253,7 +254,7 @@ bool has_own_airframe(const JobSpec& job) {
 
 // Checks the fields that may differ between runs in each of them, and the largest of their crowds.
 // Problems are reported at the distributions.
-void check_runs(const Place& place, std::vector<Problem>& problems) {
+void check_runs(const ScenarioRuns& place, std::vector<Problem>& problems) {
   JobSpec largest = place.job;
   const std::size_t before = problems.size();
   for (const int run : place.runs) {
@@ -273,7 +274,7 @@ void check_runs(const Place& place, std::vector<Problem>& problems) {
 }
 
 /// `is_sound`: nothing else is wrong with the job.
-std::vector<Problem> problems_in(const Place& place, bool is_sound) {
+std::vector<Problem> problems_in(const ScenarioRuns& place, bool is_sound) {
   std::vector<Problem> problems;
   if (is_sound && !place.job.randomize.empty()) {
     check_runs(place, problems);
@@ -290,7 +291,8 @@ void check_places(const JobSpec& job, const std::vector<world::Scenario>& scenar
   const std::vector<int> first = first_runs(job);
   const bool is_sound = problems.empty();
   for (std::size_t i = 0; i < first.size(); ++i) {
-    Place place{in_scenario_of_run(job, first[i]), scenarios[i], runs_alike(job, first[i]), {}};
+    ScenarioRuns place{
+        in_scenario_of_run(job, first[i]), scenarios[i], runs_alike(job, first[i]), {}};
     place.people = people_in(place);
     for (Problem& problem : problems_in(place, is_sound)) {
       if (!job.mix.empty()) problem.found += fmt::format(" in {}", place.scenario.id);

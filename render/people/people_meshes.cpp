@@ -102,12 +102,12 @@ class Packer {
 
  private:
   /// Position and normal of a vertex; also its index in the mesh, if that matters.
-  using Place = std::array<std::uint32_t, 7>;
+  using VertexKey = std::array<std::uint32_t, 7>;
 
-  static Place place_of(const skinning::Vertex& vertex, std::uint32_t own) {
+  static VertexKey place_of(const skinning::Vertex& vertex, std::uint32_t own) {
     DeviceVertex skin{};
     pack_skin(vertex, skin);
-    Place place{0, 0, 0, skin.bones, skin.weights, octahedral(vertex.normal), own};
+    VertexKey place{0, 0, 0, skin.bones, skin.weights, octahedral(vertex.normal), own};
     std::memcpy(place.data(), vertex.position.data(), sizeof(vertex.position));
     return place;
   }
@@ -127,7 +127,7 @@ class Packer {
   /// A part has its own copies of its vertices, since a vertex on the device belongs to one part.
   void add_part(const skinning::Mesh& mesh, const skinning::Part& part, bool weld) {
     const std::size_t first = vertices_.size();
-    std::map<Place, std::uint32_t> copy_of;
+    std::map<VertexKey, std::uint32_t> copy_of;
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
       const std::uint32_t index = mesh.indices[i];
       const skinning::Vertex& vertex = mesh.vertices[index];

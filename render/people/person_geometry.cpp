@@ -137,9 +137,9 @@ std::vector<skinning::Part> parts_of(const skinning::Character& character,
 
 BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> its_parts)
     : mesh(&of_mesh), parts(std::move(its_parts)) {
-  using Place =
+  using VertexKey =
       std::tuple<std::array<float, 3>, std::array<std::uint8_t, 4>, std::array<std::uint8_t, 4>>;
-  std::set<Place> known;
+  std::set<VertexKey> known;
   for (const skinning::Part& part : parts) {
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
       const skinning::Vertex& vertex = mesh->vertices[mesh->indices[i]];

@@ -100,7 +100,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
   }
 }
 
-GimbalLog::Place GimbalLog::place_of(double time_s) const {
+GimbalLog::Interval GimbalLog::place_of(double time_s) const {
   const auto after =
       std::upper_bound(points_.begin(), points_.end(), time_s,
                        [](double t, const Point& point) { return t < point.time_s; });
@@ -111,7 +111,7 @@ GimbalLog::Place GimbalLog::place_of(double time_s) const {
 }
 
 ViewAngles GimbalLog::view_at(double time_s) const {
-  const Place place = place_of(time_s);
+  const Interval place = place_of(time_s);
   return mixed(place.before.view, place.after.view, place.share);
 }
 

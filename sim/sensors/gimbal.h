@@ -44,12 +44,12 @@ class GimbalLog {
     ViewAngles reading;
   };
   /// The points around a time, and how far it is between them.
-  struct Place {
+  struct Interval {
     const Point& before;
     const Point& after;
     double share;
   };
-  Place place_of(double time_s) const;
+  Interval place_of(double time_s) const;
 
   std::vector<Point> points_;
 };

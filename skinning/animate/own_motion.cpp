@@ -96,13 +96,13 @@ void OwnGait::find_stride(const Walker& walker, const std::vector<Joints>& joint
   zero_ = passes.front() - middle / strides_;
 }
 
-struct OwnGait::Place {
+struct OwnGait::Blend {
   const Moment* before;
   const Moment* after;
   double share;
 };
 
-OwnGait::Place OwnGait::place(double phase) const {
+OwnGait::Blend OwnGait::place(double phase) const {
   // The first of several strides, repeated.
   const double own = phase - std::floor(phase);
   const Neighbors at = around(zero_ + own / strides_, moments_.size());
@@ -110,18 +110,18 @@ OwnGait::Place OwnGait::place(double phase) const {
 }
 
 Pose OwnGait::trunk(double phase) const {
-  const Place at = place(phase);
+  const Blend at = place(phase);
   return mix(at.before->pose, at.after->pose, at.share);
 }
 
 Eigen::Vector3f OwnGait::leg(Side side, double own_phase) const {
-  const Place at = place(side == Side::left ? own_phase : own_phase + 0.5);
+  const Blend at = place(side == Side::left ? own_phase : own_phase + 0.5);
   const std::size_t i = index_of_side(side);
   return at.before->leg[i] + static_cast<float>(at.share) * (at.after->leg[i] - at.before->leg[i]);
 }
 
 double OwnGait::pitch_rad(Side side, double own_phase) const {
-  const Place at = place(side == Side::left ? own_phase : own_phase + 0.5);
+  const Blend at = place(side == Side::left ? own_phase : own_phase + 0.5);
   const std::size_t i = index_of_side(side);
   return std::lerp(at.before->pitch_rad[i], at.after->pitch_rad[i], at.share);
 }

@@ -39,9 +39,9 @@ class OwnGait {
     std::array<Eigen::Vector3f, 2> leg;
     std::array<double, 2> pitch_rad;
   };
-  struct Place;
+  struct Blend;
   void find_stride(const Walker& walker, const std::vector<Joints>& joints, double middle);
-  Place place(double phase) const;
+  Blend place(double phase) const;
 
   std::vector<Moment> moments_;  ///< over the whole clip
   double duration_s_;

@@ -28,8 +28,8 @@ void read(std::string_view kind, const crowd::fuzz::Folder& folder, std::string_
     return read_trajectory(folder.write("walk", text), kind);
   }
   // A small one: the fuzzer's time is for the readers.
-  Place place = kind == "sdf" ? read_sdf(folder.write("w.sdf", text), {})
-                              : read_osm(folder.write("m.osm", text), {});
+  ImportedScenario place = kind == "sdf" ? read_sdf(folder.write("w.sdf", text), {})
+                                         : read_osm(folder.write("m.osm", text), {});
   constexpr double kMaxSizeM = 300;
   if ((place.inside.max - place.inside.min).maxCoeff() < kMaxSizeM) populate(place, {5, 1});
 }

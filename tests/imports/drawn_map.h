@@ -18,8 +18,8 @@ namespace throng::imports_testing {
 using imports::Corners;
 using imports::Gate;
 using imports::GeoPoint;
+using imports::ImportedScenario;
 using imports::OsmFile;
-using imports::Place;
 using imports::read_osm;
 using imports::read_osm_file;
 
@@ -66,7 +66,7 @@ class DrawnMap {
            "maxlon='0.0005'/>" +
            text_ + "</osm>";
   }
-  Place read(const std::vector<Gate>& gates = {}) const {
+  ImportedScenario read(const std::vector<Gate>& gates = {}) const {
     const throng::testing::TemporaryFolder folder;
     write_file_atomically(folder.path() / "m.osm", text());
     return read_osm(folder.path() / "m.osm", {GeoPoint{0, 0}, gates});
@@ -98,14 +98,14 @@ class DrawnMap {
   int last_ = 0;
 };
 
-inline double height_at(const Place& place, const Eigen::Vector2d& point) {
+inline double height_at(const ImportedScenario& place, const Eigen::Vector2d& point) {
   for (const world::Building& building : place.buildings) {
     if (geometry::distance_to(building.footprint, point) == 0) return building.height_m;
   }
   return 0;
 }
 
-inline bool stops_people(const Place& place, const Eigen::Vector2d& point) {
+inline bool stops_people(const ImportedScenario& place, const Eigen::Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& corners) {
     return geometry::distance_to(corners, point) == 0;
   });

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/resources.h"
 #include "imports/osm_map.h"
-#include "imports/place_writer.h"
 #include "imports/populate.h"
+#include "imports/scenario_writer.h"
 #include "imports/sdf_world.h"
 #include "places/check.h"
 #include "places/load_scenario.h"
@@ -33,7 +33,7 @@ class Counter : public sim::RunObserver {
   long max_present_ = 0;
 };
 
-void expect_it_runs(Place place, int people) {
+void expect_it_runs(ImportedScenario place, int people) {
   const throng::testing::TemporaryFolder folder;
   const Population population = populate(place, {people, 3});
   EXPECT_EQ(population.starts.size(), static_cast<std::size_t>(people));
@@ -58,7 +58,8 @@ TEST(ImportRun, AGazeboWorld) {
 }
 
 TEST(ImportRun, AGazeboWorldWithAnExitOfOnesOwn) {
-  Place place = read_sdf(kPlaces / "yard.sdf", {{kPlaces / "models"}, {{{-14, 0}, {-14, 5}, 1}}});
+  ImportedScenario place =
+      read_sdf(kPlaces / "yard.sdf", {{kPlaces / "models"}, {{{-14, 0}, {-14, 5}, 1}}});
   const Population population = populate(place, {10, 1});
   ASSERT_EQ(population.gates.size(), 1U);
   EXPECT_EQ(population.gates[0].from, Eigen::Vector2d(-14, 0));
@@ -67,7 +68,7 @@ TEST(ImportRun, AGazeboWorldWithAnExitOfOnesOwn) {
 TEST(ImportRun, AMap) { expect_it_runs(read_osm(kPlaces / "quarter.osm", {}), 60); }
 
 TEST(ImportRun, APlaceThatNobodyCanLeaveIsRefused) {
-  Place place;
+  ImportedScenario place;
   place.name = "cell";
   place.inside = {{0, 0}, {20, 20}};
   for (const world::Rectangle& wall : {world::Rectangle{{-1, -1}, {21, 0.5}},

@@ -22,7 +22,7 @@ using imports_testing::stops_people;
 using imports_testing::way_text;
 
 /// The material of the uppermost area at a point; empty: bare ground.
-std::string ground_at(const Place& place, const Vector2d& point) {
+std::string ground_at(const ImportedScenario& place, const Vector2d& point) {
   std::string material;
   for (const world::GroundArea& area : place.areas) {
     if (geometry::distance_to(area.corners, point) == 0) material = area.material;
@@ -30,7 +30,7 @@ std::string ground_at(const Place& place, const Vector2d& point) {
   return material;
 }
 
-const Object* object_called(const Place& place, const std::string& name) {
+const Object* object_called(const ImportedScenario& place, const std::string& name) {
   for (const Object& object : place.objects) {
     if (object.name == name) return &object;
   }
@@ -51,7 +51,7 @@ std::pair<double, double> heights_of(const Object& object) {
   return heights;
 }
 
-std::vector<world::Marking> markings_of(const Place& place, const std::string& kind) {
+std::vector<world::Marking> markings_of(const ImportedScenario& place, const std::string& kind) {
   std::vector<world::Marking> found;
   for (const world::Marking& marking : place.markings) {
     if (marking.kind == kind) found.push_back(marking);
@@ -65,7 +65,7 @@ TEST(MapStreets, LieOnPathsAndThoseOnGreen) {
   map.way({map.node(-40, 0), map.node(40, 0)}, "highway=residential");
   map.way({map.node(0, -40), map.node(0, 40)}, "highway=footway");
   map.way(map.box(20, 20, 30, 30), "amenity=parking");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_EQ(ground_at(place, {-20, 20}), "grass");
   EXPECT_EQ(ground_at(place, {25, 25}), "asphalt");
   EXPECT_EQ(ground_at(place, {0, 20}), "pavers");
@@ -83,7 +83,7 @@ TEST(MapStreets, AreMarked) {
   with_tag.tagged_node(10, 0, "highway=crossing");
   with_tag.way({with_tag.node(-40, 0), 1, with_tag.node(40, 0)}, "highway=tertiary");
   EXPECT_TRUE(markings_of(map.read(), "crossing").empty());
-  const Place place = with_tag.read();
+  const ImportedScenario place = with_tag.read();
   const auto bars = markings_of(place, "crossing");
   ASSERT_EQ(bars.size(), 1);
   EXPECT_NEAR(bars[0].from.x(), 10, 0.05);
@@ -103,7 +103,7 @@ TEST(MapStreets, AboveAndBelowTheGroundAreSkipped) {
   }
   map.way({map.node(-40, 10), map.node(40, 10)}, "highway=motorway");
   map.way({map.node(-40, 20), map.node(40, 20)}, "highway=footway layer=-1");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_EQ(ground_at(place, {0, 0}), "");
   EXPECT_EQ(ground_at(place, {0, 10}), "");
   EXPECT_EQ(ground_at(place, {0, 20}), "pavers");
@@ -117,7 +117,7 @@ TEST(MapBarriers, HaveGatesWhereMapsSay) {
   map.tagged_node(5, 0, "barrier=gate");
   map.way({map.node(-20, 20), map.node(20, 20)}, "barrier=hedge");
   map.way({map.node(-20, 30), map.node(20, 30)}, "barrier=kerb");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_TRUE(stops_people(place, {0, 0}));
   EXPECT_TRUE(stops_people(place, {0, 0.14})) << "0.3 m wide";
   EXPECT_FALSE(stops_people(place, {0, 0.2}));
@@ -139,7 +139,7 @@ TEST(MapWater, IsDrawnAndStopsPeople) {
   const int island = map.way(map.box(-5, -5, 5, 5), "");
   const int pond = map.relation(map.member(outer, "outer") + map.member(island, "inner"),
                                 "type=multipolygon natural=water");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_TRUE(stops_people(place, {10, 10}));
   EXPECT_FALSE(stops_people(place, {0, 0}));
   const Object* object = object_called(place, fmt::format("relation {}", pond));
@@ -153,7 +153,7 @@ TEST(MapBuildings, OnStiltsAndUndergroundAreNoObstacles) {
   const int high = map.way(map.box(10, 0, 30, 10), "building=yes min_height=4 height=10");
   const int cellar = map.way(map.box(10, 20, 30, 30), "building=yes location=underground");
   const int low = map.way(map.box(-30, 20, -10, 30), "building=yes min_height=1.5 height=6");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_FALSE(stops_people(place, {-20, 5}));
   EXPECT_FALSE(stops_people(place, {20, 5}));
   EXPECT_FALSE(stops_people(place, {20, 25}));
@@ -174,7 +174,7 @@ TEST(MapBuildings, DoNotOverlap) {
   DrawnMap map;
   map.way(map.box(0, 0, 20, 20), "building=yes height=8");
   const int second = map.way(map.box(10, 0, 30, 20), "building=yes height=12");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_NEAR(height_at(place, {15, 10}), 8, 1e-9) << "the first keeps its ground";
   EXPECT_NEAR(height_at(place, {25, 10}), 12, 1e-9);
   double total = 0;
@@ -191,7 +191,7 @@ TEST(MapBuildings, PartsTakeTheirBuildingsHeightsAndRoofs) {
   map.way(map.box(0, 0, 20, 12), "building:part=yes");
   map.way(map.box(0, 12, 20, 20), "building:part=yes building:levels=1");
   map.way(map.box(-30, -30, -20, -20), "building:part=yes height=7");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_NEAR(height_at(place, {10, 6}), 4 * 3 + 2, 1e-9);
   EXPECT_NEAR(height_at(place, {10, 16}), 3, 1e-9) << "its own levels, no roof";
   EXPECT_NEAR(height_at(place, {-25, -25}), 7, 1e-9) << "a part of no building";
@@ -206,7 +206,7 @@ TEST(MapProps, AreTreesLampsBenchesBinsAndBollards) {
   map.tagged_node(40, 0, "natural=tree height=1");
   map.tagged_node(500, 0, "natural=tree");
   map.tagged_node(-10, 0, "amenity=cafe");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   ASSERT_EQ(place.props.size(), 5) << "one is outside, one is none";
   EXPECT_EQ(place.props[0].kind, world::PropKind::tree);
   EXPECT_NEAR(place.props[0].scale, 1.5, 1e-9) << "of 8 m";
@@ -222,7 +222,7 @@ TEST(MapProps, AreTreesLampsBenchesBinsAndBollards) {
 TEST(MapProps, StandInRowsEightMetersApart) {
   DrawnMap map;
   map.way({map.node(-20, 0), map.node(0, 0), map.node(0, 20)}, "natural=tree_row");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   ASSERT_EQ(place.props.size(), 6) << "0, 8, ..., 40 m along the row";
   const std::vector<Vector2d> expected = {{-20, 0}, {-12, 0}, {-4, 0}, {0, 4}, {0, 12}, {0, 20}};
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -237,7 +237,7 @@ TEST(MapSkipped, NamesLinesAndAreasThatAreNotDrawn) {
   map.way({map.node(-20, 9), map.node(20, 9)}, "name=nothing");
   const int cliff = map.way(map.box(0, 20, 10, 30), "natural=cape");
   map.way(map.box(20, 20, 30, 30), "landuse=residential");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_TRUE(mentions(place.skipped, "power=line is not drawn"));
   EXPECT_TRUE(mentions(place.skipped, "waterway=stream is not drawn"));
   EXPECT_TRUE(mentions(place.skipped, way_text(cliff) + ": an area that is not drawn"));
@@ -248,7 +248,7 @@ TEST(MapGates, AreWhereStreetsCrossTheEdge) {
   DrawnMap map;
   map.way({map.node(-90, 0), map.node(90, 0)}, "highway=residential");
   map.way({map.node(0, -90), map.node(0, 30)}, "highway=footway");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   ASSERT_EQ(place.gates.size(), 3);
   double shares = 0;
   for (const Gate& gate : place.gates) {
@@ -267,7 +267,7 @@ TEST(MapGates, AreWhereStreetsCrossTheEdge) {
 TEST(MapGates, AreThoseOfTheUserIfAny) {
   DrawnMap map;
   map.way({map.node(-90, 0), map.node(90, 0)}, "highway=residential");
-  const Place place = map.read({Gate{{-10, -55}, {-5, -55}, 1}});
+  const ImportedScenario place = map.read({Gate{{-10, -55}, {-5, -55}, 1}});
   ASSERT_EQ(place.gates.size(), 1);
   EXPECT_EQ(place.gates[0].from, Vector2d(-10, -55));
   EXPECT_TRUE(place.gates_asked);
@@ -343,7 +343,7 @@ TEST(MapErrors, AnEmptyMapHasANameAndOpenGround) {
   write_file_atomically(folder.path() / "Old Town.osm",
                         "<osm version='0.6'><bounds minlat='0' minlon='0' maxlat='0.001' "
                         "maxlon='0.001'/></osm>");
-  const Place place = read_osm(folder.path() / "Old Town.osm", {});
+  const ImportedScenario place = read_osm(folder.path() / "Old Town.osm", {});
   EXPECT_EQ(place.name, "old_town");
   EXPECT_THAT(place.description, ::testing::HasSubstr("Old Town.osm"));
   EXPECT_TRUE(place.gates.empty());

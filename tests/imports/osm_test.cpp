@@ -48,7 +48,7 @@ class Quarter : public ::testing::Test {
     });
   }
 
-  Place place = read_osm(kMaps / "quarter.osm", {GeoPoint{50, 10}, {}});
+  ImportedScenario place = read_osm(kMaps / "quarter.osm", {GeoPoint{50, 10}, {}});
 };
 
 TEST_F(Quarter, IsProjectedToMeters) {
@@ -136,7 +136,7 @@ TEST(OsmBuildings, AreDrawnByTheirParts) {
   map.way(map.box(0, 0, 20, 20), "building:part=yes height=6");
   map.way(map.box(5, 5, 15, 15), "building:part=yes height=30 min_height=6");   // a tower on it
   map.way(map.box(20, 0, 30, 10), "building:part=yes height=10 min_height=4");  // on stilts
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_NEAR(height_at(place, {2, 2}), 6, 1e-9);
   EXPECT_NEAR(height_at(place, {10, 10}), 30, 1e-9);
   EXPECT_EQ(height_at(place, {25, 5}), 0);
@@ -170,7 +170,7 @@ TEST(OsmFile, RepairsWhatLibosmiumGivesUp) {
                            "role='inner'/><member type='node' ref='{}' role='label'/>",
                            outer, inner, label),
                "type=multipolygon building=yes height=8");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_NEAR(height_at(place, {-30, 10}), 7, 1e-9);
   EXPECT_NEAR(height_at(place, {5, 5}), 8, 1e-9);
   EXPECT_EQ(height_at(place, {15, 15}), 0);
@@ -187,7 +187,7 @@ TEST(OsmFile, KnowsTagsOnOuterWaysAndWhatJosmDeleted) {
                "type=multipolygon");
   map.way(map.box(-30, 0, -10, 20), "building=yes", "action='delete'");
   map.way(map.box(-30, -30, -10, -10), "leisure=pitch barrier=fence");
-  const Place place = map.read();
+  const ImportedScenario place = map.read();
   EXPECT_NEAR(height_at(place, {5, 5}), 8, 1e-9);
   EXPECT_EQ(height_at(place, {15, 15}), 0);
   EXPECT_EQ(height_at(place, {-20, 10}), 0);
@@ -205,7 +205,7 @@ TEST(OsmFile, ReadsWaysThatCarryTheirPlaces) {  // Overpass's "out geom"
       "<nd ref='1' lat='0' lon='0'/><nd ref='2' lat='0' lon='0.001'/>"
       "<nd ref='3' lat='0.001' lon='0.001'/><nd ref='4' lat='0.001' lon='0'/>"
       "<nd ref='1' lat='0' lon='0'/><tag k='building' v='yes'/></way></osm>");
-  const Place place = read_osm(folder.path() / "m.osm", {});
+  const ImportedScenario place = read_osm(folder.path() / "m.osm", {});
   ASSERT_EQ(place.buildings.size(), 1U);
   EXPECT_NEAR(geometry::signed_area(place.buildings[0].footprint), 111.3 * 110.6, 50);
 }

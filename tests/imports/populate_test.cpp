@@ -16,7 +16,7 @@
 #include "base/files.h"
 #include "geometry/polygon.h"
 #include "geometry/rectangle.h"
-#include "imports/place_writer.h"
+#include "imports/scenario_writer.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng::imports {
@@ -27,8 +27,8 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 /// 40 m x 20 m of open ground with a house of 10 m x 10 m in its middle.
-Place field() {
-  Place place;
+ImportedScenario field() {
+  ImportedScenario place;
   place.name = "field";
   place.inside = {{0, 0}, {40, 20}};
   place.obstacles = {corners_of({{15, 5}, {25, 15}})};
@@ -37,7 +37,7 @@ Place field() {
 }
 
 /// Walls 0.5 m thick along a rectangle's sides.
-void wall_in(Place& place, const world::Rectangle& around) {
+void wall_in(ImportedScenario& place, const world::Rectangle& around) {
   const auto& [low, high] = around;
   for (const world::Rectangle& wall :
        {world::Rectangle{low - Vector2d(1, 1), {high.x() + 1, low.y()}},
@@ -48,14 +48,14 @@ void wall_in(Place& place, const world::Rectangle& around) {
   }
 }
 
-bool noted(const Place& place, const std::string& words) {
+bool noted(const ImportedScenario& place, const std::string& words) {
   return std::any_of(place.skipped.begin(), place.skipped.end(), [&](const Skipped& skipped) {
     return skipped.text().find(words) != std::string::npos;
   });
 }
 
 TEST(Starts, AreApartInsideAndOnFreeGround) {
-  Place place = field();
+  ImportedScenario place = field();
   const Population population = populate(place, {150, 5});
   ASSERT_EQ(population.starts.size(), 150);
   for (std::size_t i = 0; i < 150; ++i) {
@@ -70,7 +70,7 @@ TEST(Starts, AreApartInsideAndOnFreeGround) {
 
 TEST(Starts, FollowTheSeed) {
   const auto starts = [](std::uint64_t seed) {
-    Place place = field();
+    ImportedScenario place = field();
     return populate(place, {40, seed}).starts;
   };
   EXPECT_EQ(starts(1), starts(1));
@@ -78,7 +78,7 @@ TEST(Starts, FollowTheSeed) {
 }
 
 TEST(Starts, AreAsManyAsHaveRoom) {
-  Place place = field();
+  ImportedScenario place = field();
   place.inside = {{0, 0}, {12, 12}};
   place.obstacles.clear();
   place.buildings.clear();
@@ -90,7 +90,7 @@ TEST(Starts, AreAsManyAsHaveRoom) {
 }
 
 TEST(FoundGates, AreOnTheOpenEdge) {
-  Place place = field();
+  ImportedScenario place = field();
   const Population population = populate(place, {10, 1});
   ASSERT_EQ(population.gates.size(), 4) << "one per side";
   for (const Gate& gate : population.gates) {
@@ -104,7 +104,7 @@ TEST(FoundGates, AreOnTheOpenEdge) {
 }
 
 TEST(FoundGates, AreBetweenWallsWideEnough) {
-  Place place;
+  ImportedScenario place;
   place.name = "yard";
   place.inside = {{0, 0}, {30, 30}};
   wall_in(place, {{0, 0}, {30, 30}});
@@ -120,7 +120,7 @@ TEST(FoundGates, AreBetweenWallsWideEnough) {
 }
 
 TEST(GivenGates, ThatCannotBeReachedAreNoted) {
-  Place place = field();
+  ImportedScenario place = field();
   wall_in(place, {{30, 0}, {40, 20}});  // a cell in the east
   place.gates = {{{0, 8}, {0, 12}, 1}, {{40, 8}, {40, 12}, 1}};
   const Population population = populate(place, {10, 1});
@@ -131,7 +131,7 @@ TEST(GivenGates, ThatCannotBeReachedAreNoted) {
 }
 
 TEST(GivenGates, ThatAreWalledUpGiveWayToOpenGround) {
-  Place place = field();
+  ImportedScenario place = field();
   place.obstacles.push_back(corners_of({{-2, 6}, {2, 14}}));
   place.gates = {{{0, 8}, {0, 12}, 1}};
   EXPECT_FALSE(populate(place, {5, 1}).gates.empty());
@@ -147,7 +147,7 @@ TEST(GivenGates, ThatAreWalledUpGiveWayToOpenGround) {
 }
 
 TEST(Enclosed, GroundIsMeasured) {
-  Place place = field();
+  ImportedScenario place = field();
   wall_in(place, {{30, 5}, {38, 15}});  // 8 m x 10 m that nobody reaches
   populate(place, {5, 1});
   bool found = false;
@@ -161,7 +161,7 @@ TEST(Enclosed, GroundIsMeasured) {
 }
 
 TEST(OpenGround, IsTheFreeAreaInside) {
-  Place place = field();
+  ImportedScenario place = field();
   const double free_m2 = 40 * 20 - 10.7 * 10.7;
   EXPECT_NEAR(open_ground_m2(place), free_m2, 0.05 * free_m2);
   place.obstacles = {corners_of({{-20, -20}, {60, 40}})};
@@ -169,7 +169,7 @@ TEST(OpenGround, IsTheFreeAreaInside) {
 }
 
 TEST(Props, InBuildingsAndBeforeExitsAreTakenAway) {
-  Place place = field();
+  ImportedScenario place = field();
   place.gates = {{{0, 8}, {0, 12}, 1}};
   const auto tree = [](double x, double y) {
     world::Prop prop;
@@ -218,7 +218,7 @@ struct Written {
   std::string skipped;
 };
 
-Written written(const Place& place, const Population& population) {
+Written written(const ImportedScenario& place, const Population& population) {
   const throng::testing::TemporaryFolder folder;
   const auto file = write_place(place, population, folder.path());
   EXPECT_EQ(file.filename(), place.name + ".json");
@@ -238,7 +238,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 }
 
 TEST(WritePlace, HasExitsBuildingsAndPeople) {
-  Place place = field();
+  ImportedScenario place = field();
   place.gates = {{{0, 8}, {0, 12.00049}, 1}, {{40, 8}, {40, 12}, 3}};
   place.people_come = true;
   place.skipped.push_back({"w.sdf", 7, "model a", "lost"});
@@ -262,10 +262,10 @@ TEST(WritePlace, HasExitsBuildingsAndPeople) {
 }
 
 TEST(WritePlace, PutsTheDroneAboveRoofs) {
-  Place place = field();
+  ImportedScenario place = field();
   const auto height_of = [&](double building_m) {
     place.buildings[0].height_m = building_m;
-    Place copy = place;
+    ImportedScenario copy = place;
     const Population population = populate(copy, {1, 1});
     return written(copy, population).scenario.at("drones")[0].at("start")[2].get<double>();
   };

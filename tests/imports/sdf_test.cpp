@@ -19,15 +19,15 @@ using throng::testing::TemporaryFolder;
 
 const std::filesystem::path kWorlds = source_folder() / "tests/imports/data";
 
-Place yard() { return read_sdf(kWorlds / "yard.sdf", {{kWorlds / "models"}, {}}); }
+ImportedScenario yard() { return read_sdf(kWorlds / "yard.sdf", {{kWorlds / "models"}, {}}); }
 
-bool is_blocked(const Place& place, const Eigen::Vector2d& point) {
+bool is_blocked(const ImportedScenario& place, const Eigen::Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& obstacle) {
     return geometry::distance_to(obstacle, point) == 0;
   });
 }
 
-const Skipped* skipped_with(const Place& place, const std::string& words) {
+const Skipped* skipped_with(const ImportedScenario& place, const std::string& words) {
   for (const Skipped& one : place.skipped) {
     if (one.text().find(words) != std::string::npos) return &one;
   }
@@ -35,7 +35,7 @@ const Skipped* skipped_with(const Place& place, const std::string& words) {
 }
 
 TEST(Sdf, TallUprightBodiesAreBuildingsWhereTheirPosesSay) {
-  const Place place = yard();
+  const ImportedScenario place = yard();
   ASSERT_EQ(place.buildings.size(), 3U);
   EXPECT_NEAR(place.buildings[0].height_m, 6, 1e-6);  // the hall, relative to a frame
   EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {15, 10}), 0);
@@ -50,7 +50,7 @@ TEST(Sdf, TallUprightBodiesAreBuildingsWhereTheirPosesSay) {
 }
 
 TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
-  const Place place = yard();
+  const ImportedScenario place = yard();
   EXPECT_TRUE(is_blocked(place, {15, 10}));
   EXPECT_TRUE(is_blocked(place, {-15, -12}));
   EXPECT_TRUE(is_blocked(place, {3.9, 2.4}));  // the kiosk of the included model
@@ -67,7 +67,7 @@ TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
 }
 
 TEST(Sdf, WhatItDoesNotTakeIsListedWithItsLine) {
-  const Place place = yard();
+  const ImportedScenario place = yard();
   for (const char* words : {"<plugin>", "<physics>", "<sensor>", "world/sun", "nowhere"}) {
     const Skipped* skipped = skipped_with(place, words);
     ASSERT_NE(skipped, nullptr) << words;
@@ -96,7 +96,7 @@ TEST(Sdf, RefusesWhatIsNoWorldAndSkipsWhatCannotBe) {
         "<sphere><radius>1e9</radius></sphere>",
         "<cylinder><radius>0</radius><length>1</length></cylinder>",
         "<mesh><uri>file:///etc/passwd</uri></mesh>", "<mesh><uri>../../etc/passwd</uri></mesh>"}) {
-    const Place place = read(world_with(geometry));
+    const ImportedScenario place = read(world_with(geometry));
     EXPECT_TRUE(place.buildings.empty() && place.objects.empty()) << geometry;
     EXPECT_FALSE(place.skipped.empty()) << geometry;
   }
@@ -118,8 +118,8 @@ TEST(Sdf, AModelThatIncludesItselfEnds) {
   }
 }
 
-Place world_of(const std::string& body, const std::string& before = "",
-               const std::string& version = "1.7") {
+ImportedScenario world_of(const std::string& body, const std::string& before = "",
+                          const std::string& version = "1.7") {
   const TemporaryFolder folder;
   write_file_atomically(
       folder.path() / "w.world",
@@ -136,7 +136,7 @@ std::string model_of(const std::string& name, const std::string& geometry,
 const std::string kTower = model_of("tower", "<box><size>4 4 6</size></box>");
 
 TEST(Sdf, OneOddElementCostsOnlyItself) {
-  const Place place = world_of(
+  const ImportedScenario place = world_of(
       kTower + "<model name='lost'><pose>1 two 3 0 0 0</pose><link name='l'/></model>\n" +
       model_of("unsized", "<box><size>one</size></box>") + "<light name='untyped'/>\n" +
       "<model><link name='nameless'/></model>\n<include><uri>model://nowhere</uri></include>" +
@@ -167,7 +167,7 @@ TEST(Sdf, ReadsOldNewAndUntidyFiles) {
 }
 
 TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
-  const Place place = world_of(
+  const ImportedScenario place = world_of(
       "<model name='hall'><pose>20 0 0 0 0 0</pose><link name='l'><visual name='v'><geometry>"
       "<polyline><point>0 0</point><point>10 0</point><point>0 10</point><height>5</height>"
       "</polyline></geometry></visual></link></model>" +
@@ -186,7 +186,7 @@ TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
 }
 
 TEST(Sdf, ALinkWithoutItsMeshIsDrawnByItsCollisions) {
-  const Place place = world_of(
+  const ImportedScenario place = world_of(
       "<model name='cafe'><link name='l'><visual name='v'><geometry><mesh>"
       "<uri>model://cafe/cafe.dae</uri></mesh></geometry></visual><collision name='wall'>"
       "<pose>0 0 1.5 0 0 0</pose><geometry><box><size>8 1 3</size></box></geometry></collision>"
@@ -202,7 +202,8 @@ TEST(Sdf, AClosedRoomHasGroundAroundIt) {
     walls += std::string("<collision name='c") + wall + "'><pose>" + wall +
              "</pose><geometry><box><size>20.2 0.2 3</size></box></geometry></collision>";
   }
-  Place place = world_of("<model name='room'><link name='l'>" + walls + "</link></model>");
+  ImportedScenario place =
+      world_of("<model name='room'><link name='l'>" + walls + "</link></model>");
   EXPECT_NE(skipped_with(place, "walled up"), nullptr);
   EXPECT_FALSE(populate(place, {10, 1}).gates.empty());
   EXPECT_NE(skipped_with(place, "no exit can be reached from"), nullptr);

@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using throng::testing::TemporaryFolder;
 
-Place read_world(const std::string& body) {
+ImportedScenario read_world(const std::string& body) {
   const TemporaryFolder folder;
   write_file_atomically(folder.path() / "w.sdf",
                         "<sdf version='1.7'><world name='w'>" + body + "</world></sdf>");
@@ -48,25 +48,25 @@ std::string box(double x, double y, double z) {
   return fmt::format("<box><size>{} {} {}</size></box>", x, y, z);
 }
 
-std::vector<std::string> reasons_in(const Place& place) {
+std::vector<std::string> reasons_in(const ImportedScenario& place) {
   std::vector<std::string> reasons;
   for (const Skipped& skipped : place.skipped) reasons.push_back(skipped.text());
   return reasons;
 }
 
-bool blocked(const Place& place, const Vector2d& point) {
+bool blocked(const ImportedScenario& place, const Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& corners) {
     return geometry::distance_to(corners, point) == 0;
   });
 }
 
-geometry::Rectangle building_bounds(const Place& place) {
+geometry::Rectangle building_bounds(const ImportedScenario& place) {
   EXPECT_EQ(place.buildings.size(), 1);
   return geometry::bounds_of(place.buildings.at(0).footprint);
 }
 
 /// Bounds of all that is drawn as it is, from low to high.
-std::pair<Vector3d, Vector3d> seen_bounds(const Place& place) {
+std::pair<Vector3d, Vector3d> seen_bounds(const ImportedScenario& place) {
   Vector3d low = Vector3d::Constant(1e9);
   Vector3d high = -low;
   for (const Object& object : place.objects) {
@@ -82,20 +82,21 @@ std::pair<Vector3d, Vector3d> seen_bounds(const Place& place) {
   return {low, high};
 }
 
-void expect_seen(const Place& place, const Vector3d& low, const Vector3d& high, double within) {
+void expect_seen(const ImportedScenario& place, const Vector3d& low, const Vector3d& high,
+                 double within) {
   const auto [seen_low, seen_high] = seen_bounds(place);
   EXPECT_LT((seen_low - low).cwiseAbs().maxCoeff(), within) << seen_low.transpose();
   EXPECT_LT((seen_high - high).cwiseAbs().maxCoeff(), within) << seen_high.transpose();
 }
 
 TEST(SdfShapes, BoxesAndCylindersBecomeBuildings) {
-  const Place place = read_world(body_of(box(4, 2, 3), "10 20 1.5 0 0 0"));
+  const ImportedScenario place = read_world(body_of(box(4, 2, 3), "10 20 1.5 0 0 0"));
   const geometry::Rectangle bounds = building_bounds(place);
   EXPECT_LT((bounds.min - Vector2d(8, 19)).norm(), 1e-9);
   EXPECT_LT((bounds.max - Vector2d(12, 21)).norm(), 1e-9);
   EXPECT_NEAR(place.buildings[0].height_m, 3, 1e-9);
   EXPECT_TRUE(blocked(place, {10, 20}));
-  const Place silo = read_world(
+  const ImportedScenario silo = read_world(
       body_of("<cylinder><radius>3</radius><length>8</length></cylinder>", "0 0 4 0 0 0"));
   EXPECT_NEAR(geometry::signed_area(silo.buildings.at(0).footprint),
               12 * 9 * std::sin(std::numbers::pi / 12), 1e-6);
@@ -106,10 +107,10 @@ TEST(SdfShapes, OnlyTallOnesOnTheGroundBecomeBuildings) {
   EXPECT_EQ(read_world(body_of(box(4, 4, 2.02), "0 0 1 0 0 0")).buildings.size(), 1);
   EXPECT_TRUE(read_world(body_of(box(4, 4, 1.9), "0 0 0.95 0 0 0")).buildings.empty()) << "low";
   EXPECT_EQ(read_world(body_of(box(4, 4, 4), "0 0 2.4 0 0 0")).buildings.size(), 1) << "0.4 m off";
-  const Place high = read_world(body_of(box(4, 4, 4), "0 0 2.6 0 0 0"));
+  const ImportedScenario high = read_world(body_of(box(4, 4, 4), "0 0 2.6 0 0 0"));
   EXPECT_TRUE(high.buildings.empty()) << "0.6 m off the ground";
   EXPECT_TRUE(blocked(high, {0, 0})) << "but in the way";
-  const Place thin = read_world(body_of(box(0.5, 0.5, 4), "0 0 2 0 0 0"));
+  const ImportedScenario thin = read_world(body_of(box(0.5, 0.5, 4), "0 0 2 0 0 0"));
   EXPECT_TRUE(thin.buildings.empty()) << "a post of 0.25 m^2";
   EXPECT_EQ(thin.objects.size(), 1);
 }
@@ -140,16 +141,18 @@ TEST(SdfShapes, APlaneIsGroundOfItsSizeAndColor) {
   };
   const std::string plane = "<plane><normal>0 0 1</normal><size>{} {}</size></plane>";
   const auto ground = [&](const char* rgb) {
-    const Place place = read_world(body_of(box(20, 20, 0.1), "0 0 0 0 0 0", material(rgb)));
+    const ImportedScenario place =
+        read_world(body_of(box(20, 20, 0.1), "0 0 0 0 0 0", material(rgb)));
     return place.areas.empty() ? std::string("none") : place.areas.at(0).material;
   };
   EXPECT_EQ(ground("0.2 0.5 0.2"), "grass");
   EXPECT_EQ(ground("0.5 0.4 0.2"), "dirt");
   EXPECT_EQ(ground("0.1 0.1 0.1"), "asphalt");
   EXPECT_EQ(ground("0.6 0.6 0.6"), "concrete");
-  const Place place = read_world(body_of("<plane><normal>0 0 1</normal><size>6 10</size></plane>",
-                                         "3 4 0 0 0 0", material("0.2 0.5 0.2")) +
-                                 body_of(box(4, 4, 4), "20 20 2 0 0 0"));
+  const ImportedScenario place =
+      read_world(body_of("<plane><normal>0 0 1</normal><size>6 10</size></plane>", "3 4 0 0 0 0",
+                         material("0.2 0.5 0.2")) +
+                 body_of(box(4, 4, 4), "20 20 2 0 0 0"));
   ASSERT_EQ(place.areas.size(), 1);
   const geometry::Rectangle bounds = geometry::bounds_of(place.areas[0].corners);
   EXPECT_LT((bounds.min - Vector2d(0, -1)).norm(), 1e-9);
@@ -159,7 +162,7 @@ TEST(SdfShapes, APlaneIsGroundOfItsSizeAndColor) {
                                      std::pair("1 0 0", "3 4 0 0 -1.5707963267948966 0"),
                                      std::pair("0 0 -1", "3 4 0 3.141592653589793 0 0"),
                                      std::pair("0 0 -1", "3 4 0 0 3.141592653589793 0")}) {
-    const Place turned = read_world(
+    const ImportedScenario turned = read_world(
         body_of(fmt::format("<plane><normal>{}</normal><size>6 10</size></plane>", normal), pose,
                 material("0.2 0.5 0.2")) +
         body_of(box(4, 4, 4), "20 20 2 0 0 0"));
@@ -168,15 +171,15 @@ TEST(SdfShapes, APlaneIsGroundOfItsSizeAndColor) {
     EXPECT_LT((shown.min - Vector2d(0, -1)).norm(), 1e-6) << normal << " at " << pose;
     EXPECT_LT((shown.max - Vector2d(6, 9)).norm(), 1e-6) << normal << " at " << pose;
   }
-  const Place tilted =
+  const ImportedScenario tilted =
       read_world(body_of("<plane><normal>0 1 1</normal><size>6 10</size></plane>", "0 0 0 0 0 0"));
   EXPECT_THAT(reasons_in(tilted), ::testing::Contains(HasSubstr("a plane that is not level")));
 }
 
 TEST(SdfShapes, FlatBodiesLieOnEachOtherByHeight) {
   const std::string green = "<material><diffuse>0.2 0.5 0.2 1</diffuse></material>";
-  const Place place = read_world(body_of(box(4, 4, 0.1), "0 0 0.1 0 0 0") +
-                                 body_of(box(20, 20, 0.1), "0 0 0 0 0 0", green));
+  const ImportedScenario place = read_world(body_of(box(4, 4, 0.1), "0 0 0.1 0 0 0") +
+                                            body_of(box(20, 20, 0.1), "0 0 0 0 0 0", green));
   ASSERT_EQ(place.areas.size(), 2);
   EXPECT_EQ(place.areas[0].material, "grass") << "the lower one first";
   EXPECT_EQ(place.areas[1].material, "concrete");
@@ -188,7 +191,7 @@ TEST(SdfShapes, PolylinesHaveHoles) {
       "<polyline><point>0 0</point><point>20 0</point><point>20 20</point><point>0 20</point>"
       "<height>4</height></polyline><polyline><point>5 5</point><point>15 5</point>"
       "<point>15 15</point><point>5 15</point><height>4</height></polyline>";
-  const Place place = read_world(body_of(hall, "0 0 0 0 0 0"));
+  const ImportedScenario place = read_world(body_of(hall, "0 0 0 0 0 0"));
   const auto [low, high] = seen_bounds(place);
   EXPECT_NEAR(high.z(), 4, 1e-9);
   for (const double x : {0.0, 5.0, 15.0, 20.0}) EXPECT_TRUE(blocked(place, {x, 10})) << x;
@@ -232,7 +235,7 @@ TEST(SdfShapes, OthersAreNamed) {
 TEST(SdfPoses, AddUpFromWorldToVisual) {
   // World: model at (10, 0) turned by 90 degrees; link 5 m ahead of it, that is at (10, 5), turned
   // by 90 more; visual 2 m ahead of that: along -x, at (8, 5). A box of 4 x 2 keeps 4 m along x.
-  const Place place = read_world(
+  const ImportedScenario place = read_world(
       "<model name='m'><pose>10 0 0 0 0 1.5707963</pose><link name='l'>"
       "<pose>5 0 0 0 0 1.5707963</pose><visual name='v'><pose>2 0 1.5 0 0 0</pose><geometry>" +
       box(4, 2, 3) + "</geometry></visual></link></model>");
@@ -242,7 +245,7 @@ TEST(SdfPoses, AddUpFromWorldToVisual) {
 }
 
 TEST(SdfPoses, NestedModelsMoveWithTheirParents) {
-  const Place place = read_world(
+  const ImportedScenario place = read_world(
       "<model name='a'><pose>10 10 0 0 0 3.14159265</pose><link name='x'/><model name='b'>"
       "<pose>3 1 2 0 0 0</pose><link name='l'><visual name='v'><geometry>" +
       box(2, 2, 4) + "</geometry></visual></link></model></model>");
@@ -264,13 +267,13 @@ TEST(SdfPoses, MayBeRelativeToFramesAndInDegrees) {
 }
 
 TEST(SdfPoses, FarAwayAndUnknownOnesAreSkipped) {
-  const Place far = read_world(body_of(box(4, 4, 4), "6000 0 2 0 0 0"));
+  const ImportedScenario far = read_world(body_of(box(4, 4, 4), "6000 0 2 0 0 0"));
   EXPECT_THAT(reasons_in(far), ::testing::Contains(HasSubstr("more than 5 km away")));
   EXPECT_TRUE(far.buildings.empty());
 }
 
 TEST(SdfBuildings, AreCutWhereTheyOverlap) {
-  const Place place =
+  const ImportedScenario place =
       read_world(body_of(box(10, 10, 4), "0 0 2 0 0 0") + body_of(box(10, 10, 6), "5 0 3 0 0 0"));
   double total = 0;
   for (const world::Building& building : place.buildings) {
@@ -280,19 +283,20 @@ TEST(SdfBuildings, AreCutWhereTheyOverlap) {
 }
 
 TEST(SdfVisuals, AndCollisionsAreTakenForWhatTheyAre) {
-  const Place ghost =
+  const ImportedScenario ghost =
       read_world("<model name='g'><link name='l'><visual name='v'><geometry>" + box(4, 4, 1) +
                  "</geometry></visual><collision name='c'><pose>20 0 0 0 0 0</pose><geometry>" +
                  box(2, 2, 1) + "</geometry></collision></link></model>");
   EXPECT_FALSE(blocked(ghost, {0, 0})) << "seen only";
   EXPECT_TRUE(blocked(ghost, {20, 0})) << "felt only";
-  const Place seen = read_world("<model name='s'><link name='l'><visual name='v'><geometry>" +
-                                box(4, 4, 1) + "</geometry></visual></link></model>");
+  const ImportedScenario seen =
+      read_world("<model name='s'><link name='l'><visual name='v'><geometry>" + box(4, 4, 1) +
+                 "</geometry></visual></link></model>");
   EXPECT_TRUE(blocked(seen, {0, 0})) << "a link without collisions is felt as it is seen";
 }
 
 TEST(SdfLights, BecomeLampPostsOfTheirHeight) {
-  const Place place = read_world(
+  const ImportedScenario place = read_world(
       "<light name='a' type='point'><pose>3 4 9.2 0 0 0</pose></light>"
       "<light name='b' type='spot'><pose>5 4 1 0 0 0</pose></light>"
       "<light name='c' type='point'><pose>5 4 13 0 0 0</pose></light>"
@@ -317,7 +321,7 @@ TEST(SdfModels, MayStandAlone) {
                         "<sdf version='1.7'><model name='m'><link name='l'><visual name='v'>"
                         "<geometry>" +
                             box(4, 4, 8) + "</geometry></visual></link></model></sdf>");
-  const Place place = read_sdf(folder.path() / "Tower 2.sdf", {});
+  const ImportedScenario place = read_sdf(folder.path() / "Tower 2.sdf", {});
   EXPECT_EQ(place.name, "tower_2");
   EXPECT_EQ(place.buildings.size(), 1);
 }
@@ -335,10 +339,11 @@ TEST(SdfModels, AreIncludedFromFoldersWithTheirPoses) {
                         "<name>one</name><pose>10 0 0 0 0 0</pose></include><include>"
                         "<uri>model://hut</uri><name>two</name><pose>30 0 0 0 0 0</pose></include>"
                         "</world></sdf>");
-  const Place without = read_sdf(folder.path() / "worlds/w.sdf", {});
+  const ImportedScenario without = read_sdf(folder.path() / "worlds/w.sdf", {});
   EXPECT_TRUE(without.buildings.empty());
   EXPECT_THAT(reasons_in(without), ::testing::Contains(HasSubstr("--models")));
-  const Place place = read_sdf(folder.path() / "worlds/w.sdf", {{folder.path() / "extra"}, {}});
+  const ImportedScenario place =
+      read_sdf(folder.path() / "worlds/w.sdf", {{folder.path() / "extra"}, {}});
   ASSERT_EQ(place.buildings.size(), 2);
   EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {10, 0}), 0)
       << "the pose of <include> replaces the model's";
@@ -346,7 +351,7 @@ TEST(SdfModels, AreIncludedFromFoldersWithTheirPoses) {
 }
 
 TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {
-  const Place place = read_world(
+  const ImportedScenario place = read_world(
       "<actor name='walker'><pose>0 0 0 0 0 0</pose></actor><model name='m'><link name='a'/>"
       "<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>"
       "<plugin name='p' filename='p.so'/></model><model name='hollow'/>");
@@ -357,11 +362,11 @@ TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {
 }
 
 TEST(SdfPlaces, ReachAsFarAsWhatStandsInThem) {
-  const Place place = read_world(body_of(box(4, 4, 3), "-20 -10 1.5 0 0 0") +
-                                 body_of(box(4, 4, 3), "20 10 1.5 0 0 0"));
+  const ImportedScenario place = read_world(body_of(box(4, 4, 3), "-20 -10 1.5 0 0 0") +
+                                            body_of(box(4, 4, 3), "20 10 1.5 0 0 0"));
   EXPECT_LT((place.inside.min - Vector2d(-22, -12)).norm(), 1e-9);
   EXPECT_LT((place.inside.max - Vector2d(22, 12)).norm(), 1e-9);
-  const Place small = read_world(body_of(box(4, 4, 3), "0 0 1.5 0 0 0"));
+  const ImportedScenario small = read_world(body_of(box(4, 4, 3), "0 0 1.5 0 0 0"));
   EXPECT_LT((small.inside.min - Vector2d(-10, -10)).norm(), 1e-9) << "8 m of ground around it";
   EXPECT_THROW(read_world(body_of(box(4, 4, 3), "-2000 0 1.5 0 0 0") +
                           body_of(box(4, 4, 3), "2000 0 1.5 0 0 0")),

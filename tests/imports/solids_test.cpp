@@ -225,7 +225,7 @@ TEST(MeshText, IsReadAgainWithYUp) {
 }
 
 TEST(MeshNames, AreUniqueWords) {
-  Place place;
+  ImportedScenario place;
   place.name = "yard";
   place.objects = {{"Big Tree!", {}}, {"Big Tree!", {}}, {std::string(90, 'x'), {}}};
   EXPECT_EQ(mesh_name(place, 0), "yard_meshes/000_big_tree");

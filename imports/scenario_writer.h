@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "imports/place.h"
+#include "imports/imported_scenario.h"
 #include "imports/populate.h"
 
 namespace throng::imports {
@@ -13,7 +13,7 @@ namespace throng::imports {
 /// draft), NAME.skipped.txt and, where there are objects, NAME_meshes/. Each file is complete or
 /// absent, the scenario comes last. NAME is the place's name, which must be one for scenarios:
 /// words of a to z, 0 to 9 and '_'. Returns the scenario's file. Throws EnvironmentError.
-std::filesystem::path write_place(const Place& place, const Population& population,
+std::filesystem::path write_place(const ImportedScenario& place, const Population& population,
                                   const std::filesystem::path& folder);
 
 /// A file's stem as such a name: "My World.sdf" as "my_world".

@@ -42,7 +42,7 @@ struct Gate {
   double share = 0;  ///< of those who come in, relative to other gates
 };
 
-struct Place {
+struct ImportedScenario {
   std::string name;
   std::string description;
   world::Rectangle inside;  ///< whom the scenario counts; the ground reaches farther
@@ -59,10 +59,10 @@ struct Place {
   std::vector<Skipped> skipped;
 };
 
-/// How far the drawn ground reaches beyond Place::inside (m).
+/// How far the drawn ground reaches beyond ImportedScenario::inside (m).
 inline constexpr double kGroundBeyondM = 12;
 
 /// The ground that is drawn.
-world::Rectangle ground_of(const Place& place);
+world::Rectangle ground_of(const ImportedScenario& place);
 
 }  // namespace throng::imports

@@ -1,4 +1,4 @@
-#include "imports/place_writer.h"
+#include "imports/scenario_writer.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ json corners_json(const Corners& corners) {
   return list;
 }
 
-json ground_json(const Place& place) {
+json ground_json(const ImportedScenario& place) {
   const world::Rectangle ground = ground_of(place);
   json areas = json::array();
   for (const world::GroundArea& area : place.areas) {
@@ -58,7 +58,7 @@ json ground_json(const Place& place) {
           {"markings", markings}};
 }
 
-json buildings_json(const Place& place) {
+json buildings_json(const ImportedScenario& place) {
   json buildings = json::array();
   for (const world::Building& building : place.buildings) {
     buildings.push_back({{"id", building.id},
@@ -69,7 +69,7 @@ json buildings_json(const Place& place) {
   return buildings;
 }
 
-json props_json(const Place& place) {
+json props_json(const ImportedScenario& place) {
   json props = json::array();
   for (const world::Prop& prop : place.props) {
     props.push_back({{"kind", world::prop_types().at(static_cast<std::size_t>(prop.kind)).name},
@@ -81,7 +81,7 @@ json props_json(const Place& place) {
   return props;
 }
 
-json exits_json(const Place& place, const std::vector<Gate>& gates) {
+json exits_json(const ImportedScenario& place, const std::vector<Gate>& gates) {
   json exits = json::array();
   for (std::size_t i = 0; i < gates.size(); ++i) {
     const Vector2d out = outward_of(gates[i], place.inside);
@@ -95,7 +95,7 @@ json exits_json(const Place& place, const std::vector<Gate>& gates) {
 }
 
 // South of the middle and above all roofs, so that the camera sees the middle.
-json drone_json(const Place& place) {
+json drone_json(const ImportedScenario& place) {
   const Vector2d size = place.inside.max - place.inside.min;
   const Vector2d middle = 0.5 * (place.inside.min + place.inside.max);
   constexpr double kAboveRoofsM = 6;
@@ -111,7 +111,7 @@ json drone_json(const Place& place) {
           {"yaw_deg", 90}};
 }
 
-json scenario_json(const Place& place, const Population& population) {
+json scenario_json(const ImportedScenario& place, const Population& population) {
   json meshes = json::array();
   for (std::size_t i = 0; i < place.objects.size(); ++i) {
     meshes.push_back({{"file", mesh_name(place, i) + ".obj"}, {"position", {0, 0, 0}}});
@@ -129,7 +129,7 @@ json scenario_json(const Place& place, const Population& population) {
       {"meshes", meshes}};
 }
 
-json job_json(const Place& place) {
+json job_json(const ImportedScenario& place) {
   return {{"name", place.name},
           {"scenario", place.name},
           {"quality", "draft"},
@@ -139,7 +139,8 @@ json job_json(const Place& place) {
 
 // As many come in as a place of this size with so many people loses, when everybody walks across it
 // once (Little's law).
-void add_arrivals(const Place& place, const Population& population, SceneBuilder& scene) {
+void add_arrivals(const ImportedScenario& place, const Population& population,
+                  SceneBuilder& scene) {
   constexpr double kInM = 2;
   constexpr double kUntilS = 600;
   const double across_s = (place.inside.max - place.inside.min).maxCoeff() / kUsualSpeedMps;
@@ -163,7 +164,7 @@ void add_arrivals(const Place& place, const Population& population, SceneBuilder
   }
 }
 
-crowd::SceneDescription scene_of(const Place& place, const Population& population) {
+crowd::SceneDescription scene_of(const ImportedScenario& place, const Population& population) {
   SceneBuilder scene;
   scene.add_profile({.name = "person",
                      .common = {{"max_angle_vel", 360},
@@ -191,7 +192,8 @@ crowd::SceneDescription scene_of(const Place& place, const Population& populatio
   return scene.build();
 }
 
-crowd::BehaviorDescription behavior_of(const Place& place, const Population& population) {
+crowd::BehaviorDescription behavior_of(const ImportedScenario& place,
+                                       const Population& population) {
   std::vector<Node> goals;
   for (const Gate& gate : population.gates) {
     const Vector2d goal =
@@ -234,7 +236,8 @@ std::string place_name_of(const fs::path& file) {
   return name.empty() ? "place" : name;
 }
 
-fs::path write_place(const Place& place, const Population& population, const fs::path& folder) {
+fs::path write_place(const ImportedScenario& place, const Population& population,
+                     const fs::path& folder) {
   constexpr int kIndent = 1;
   for (std::size_t i = 0; i < place.objects.size(); ++i) {
     const std::string name = mesh_name(place, i);
