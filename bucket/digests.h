@@ -9,7 +9,7 @@
 
 namespace throng::bucket {
 
-/// Of some bytes: both from one pass over them.
+/// Digests of some bytes, both from one pass over them.
 struct Digest {
   std::string sha256_hex;
   std::string md5;  ///< 16 bytes

@@ -252,7 +252,7 @@ class Publisher {
         address_.text(), right, manifest_.files.size(), jobs::kManifestName));
   }
 
-  /// Of attempts whose answer was lost, or of a file that was made again.
+  /// Removes uploads of attempts whose answer was lost, or of a file that was made again.
   void remove_stale_uploads() {
     if (std::none_of(manifest_.files.begin(), manifest_.files.end(), &is_large)) return;
     for (const ListedUpload& upload : list_uploads(asked_, folder_of(address_))) {

@@ -196,7 +196,7 @@ def main():
     print(
         "\n## Folders\n\nModules are in bold, from the lowest layer to the highest, with the modules that they use; below them their folders.\n"
     )
-    print_table(["folder", "what it is for", "uses", "files"], folder_rows(roots[-1]))
+    print_table(["folder", "purpose", "uses", "files"], folder_rows(roots[-1]))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kScheme = "s3://";
 constexpr std::string_view kExpected =
     "s3://BUCKET/PREFIX: a bucket's name, and segments of letters, digits, '.', '_', '-' and '='";
-// Of the 1024 bytes of a key; the rest is for the names of files.
+// A key has 1024 bytes; the rest of them is for the names of files.
 constexpr std::size_t kMaxPrefixBytes = 512;
 
 bool is_small(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
