@@ -8,13 +8,13 @@
 #include <opencv2/core.hpp>
 
 #include "base/files.h"
-#include "boards.h"
 #include "calibrate/control_points.h"
 #include "calibrate/intrinsics.h"
 #include "calibrate/request.h"
 #include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
+#include "tests/calibrate/boards.h"
 
 namespace throng::calibrate {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "boards.h"
 #include "calibrate/initialize.h"
+#include "tests/calibrate/boards.h"
 
 namespace throng::calibrate {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "boards.h"
 #include "geometry/angle.h"
+#include "tests/calibrate/boards.h"
 
 namespace throng::calibrate {
 namespace {

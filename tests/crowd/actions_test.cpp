@@ -1,7 +1,7 @@
 // Actions beyond setting a property, and what compatible runs do otherwise.
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

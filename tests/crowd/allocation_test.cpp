@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "crowd_files.h"
-#include "model_scenes.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/model_scenes.h"
 
 namespace {
 

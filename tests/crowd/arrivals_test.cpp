@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -3,7 +3,7 @@
 #include <tbb/global_control.h>
 
 #include "crowd/motion/bodies.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -1,7 +1,7 @@
 // Every condition, seen through what agents do.
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -12,7 +12,7 @@
 #include "crowd/menge_files/read.h"
 #include "crowd/menge_files/write.h"
 #include "crowd/simulation.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "crowd/model.h"
-#include "crowd_files.h"
-#include "model_scenes.h"
 #include "tests/base/wait_until.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/model_scenes.h"
 
 namespace throng::crowd {
 namespace {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

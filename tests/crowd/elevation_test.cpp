@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

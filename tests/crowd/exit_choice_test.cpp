@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "base/simd.h"
 #include "crowd/model.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -1,7 +1,7 @@
 // The elements that the paper's authors added to Menge, as they were, in compatible runs.
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowd_files.h"
-#include "navigation_files.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/navigation_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "crowd/elements/distribution.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/resources.h"
 #include "crowd/project.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd::test {
 

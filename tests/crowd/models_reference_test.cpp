@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/resources.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

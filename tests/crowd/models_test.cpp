@@ -6,8 +6,8 @@
 
 #include "crowd/model.h"
 #include "crowd/models/ellipse.h"
-#include "crowd_files.h"
-#include "model_scenes.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/model_scenes.h"
 
 namespace throng::crowd {
 namespace {

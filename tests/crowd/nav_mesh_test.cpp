@@ -8,8 +8,8 @@
 #include "crowd/navigation/nav_mesh_file.h"
 #include "crowd/navigation/path_finder.h"
 #include "crowd/navigation/walkable_mesh.h"
-#include "crowd_files.h"
-#include "navigation_files.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/navigation_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/random.h"
 #include "crowd/kernels/orca_batch.h"
 #include "crowd/models/orca_lines.h"
-#include "crowd_files.h"
 #include "geometry/polygon.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crowd/spatial/grid.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

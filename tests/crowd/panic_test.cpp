@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

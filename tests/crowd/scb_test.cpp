@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "base/error.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

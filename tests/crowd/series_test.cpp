@@ -11,7 +11,7 @@
 #include "crowd/output/csv.h"
 #include "crowd/output/pair_distances.h"
 #include "crowd/output/positions.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

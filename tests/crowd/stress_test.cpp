@@ -1,7 +1,7 @@
 // Stress: how it grows, what it does, and how it ends.
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -1,8 +1,8 @@
 // The option test_visibility: walls hide neighbors.
 #include <gtest/gtest.h>
 
-#include "crowd_files.h"
-#include "navigation_files.h"
+#include "tests/crowd/crowd_files.h"
+#include "tests/crowd/navigation_files.h"
 
 namespace throng::crowd {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "crowd/elements/element.h"
 #include "crowd/elements/suggest.h"
-#include "crowd_files.h"
+#include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {
 namespace {

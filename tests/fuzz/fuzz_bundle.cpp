@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/unpack.h"
-#include "fuzz_folder.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 namespace {
 

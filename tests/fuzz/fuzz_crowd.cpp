@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "crowd/model.h"
-#include "fuzz_folder.h"
-#include "fuzz_steps.h"
+#include "tests/fuzz/fuzz_folder.h"
+#include "tests/fuzz/fuzz_steps.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace throng::crowd;

@@ -7,8 +7,8 @@
 
 #include "crowd/output/scb.h"
 #include "crowd/project.h"
-#include "fuzz_folder.h"
-#include "fuzz_steps.h"
+#include "tests/fuzz/fuzz_folder.h"
+#include "tests/fuzz/fuzz_steps.h"
 
 namespace throng::crowd::fuzz {
 namespace {

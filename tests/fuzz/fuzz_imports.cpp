@@ -5,9 +5,9 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "fuzz_folder.h"
 #include "imports/imports.h"
 #include "metrics/trajectory_file.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 namespace throng::imports::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include "render/lens/exposure.h"
 #include "render/lens/lens.h"
 #include "render/truth/objects_in_view.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

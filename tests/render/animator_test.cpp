@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

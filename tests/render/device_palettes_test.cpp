@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "synthetic_people.h"
+#include "tests/render/synthetic_people.h"
 
 namespace throng::render {
 namespace {

@@ -4,7 +4,7 @@
 #include "geometry/angle.h"
 #include "render/place/daylight.h"
 #include "render/place/lamps.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "render/people/person_geometry.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/srgb.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "base/random.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

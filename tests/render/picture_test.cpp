@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "geometry/angle.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

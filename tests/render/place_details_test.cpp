@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

@@ -12,7 +12,7 @@
 #include "geometry/angle.h"
 #include "render/props/prop_shapes.h"
 #include "render/props/vehicles.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

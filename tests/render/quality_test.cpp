@@ -5,7 +5,7 @@
 
 #include "geometry/angle.h"
 #include "render/passes/smooth_edges.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

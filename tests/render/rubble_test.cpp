@@ -7,7 +7,7 @@
 
 #include "render/place/lamps.h"
 #include "render/place/place_details.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

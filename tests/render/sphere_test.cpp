@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "render/lens/lens.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

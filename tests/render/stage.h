@@ -6,7 +6,7 @@
 
 #include "geometry/angle.h"
 #include "render/renderer.h"
-#include "synthetic_people.h"
+#include "tests/render/synthetic_people.h"
 
 namespace throng::render {
 

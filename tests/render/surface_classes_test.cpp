@@ -9,7 +9,7 @@
 
 #include "render/lens/exposure.h"
 #include "render/lens/lens.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 #include "world/semantic_class.h"
 
 namespace throng::render {

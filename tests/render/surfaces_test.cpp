@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

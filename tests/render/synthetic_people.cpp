@@ -1,4 +1,4 @@
-#include "synthetic_people.h"
+#include "tests/render/synthetic_people.h"
 
 #include <array>
 #include <cmath>

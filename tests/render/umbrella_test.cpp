@@ -2,7 +2,7 @@
 // of the person holds it.
 #include <gtest/gtest.h>
 
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

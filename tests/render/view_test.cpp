@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "render/place/lighting.h"
 #include "skinning/levels.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

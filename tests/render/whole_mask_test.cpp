@@ -7,7 +7,7 @@
 
 #include "render/lens/exposure.h"
 #include "render/lens/lens.h"
-#include "stage.h"
+#include "tests/render/stage.h"
 
 namespace throng::render {
 namespace {

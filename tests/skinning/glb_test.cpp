@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "made_up.h"
+#include "tests/skinning/made_up.h"
 
 namespace throng::skinning {
 namespace {

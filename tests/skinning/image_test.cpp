@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "made_up.h"
+#include "tests/skinning/made_up.h"
 
 namespace throng::skinning {
 namespace {

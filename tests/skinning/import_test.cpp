@@ -9,13 +9,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "rigged_scene.h"
 #include "skinning/image.h"
 #include "skinning/import/description.h"
 #include "skinning/levels.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
-#include "walkers.h"
+#include "tests/skinning/rigged_scene.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "made_up.h"
 #include "skinning/items.h"
+#include "tests/skinning/made_up.h"
 
 namespace throng::skinning {
 namespace {

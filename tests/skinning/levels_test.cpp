@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baked_people.h"
 #include "geometry/angle.h"
 #include "skinning/animate/motion.h"
 #include "skinning/bake/raster.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
+#include "tests/skinning/baked_people.h"
 
 namespace throng::skinning {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "walkers.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 namespace {

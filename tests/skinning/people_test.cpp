@@ -7,12 +7,12 @@
 #include <cmath>
 #include <set>
 
-#include "baked_people.h"
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
 #include "skinning/bake/raster.h"
 #include "skinning/levels.h"
-#include "walkers.h"
+#include "tests/skinning/baked_people.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "geometry/angle.h"
 #include "skinning/animate/footsteps.h"
-#include "walkers.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 namespace {

@@ -1,4 +1,4 @@
-#include "rigged_scene.h"
+#include "tests/skinning/rigged_scene.h"
 
 #include <Eigen/Geometry>
 #include <assimp/Exporter.hpp>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "skinning/animate/gait.h"
-#include "walkers.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "made_up.h"
+#include "tests/skinning/made_up.h"
 
 namespace throng::skinning {
 

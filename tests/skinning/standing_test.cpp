@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "geometry/angle.h"
-#include "walkers.h"
+#include "tests/skinning/walkers.h"
 
 namespace throng::skinning {
 namespace {

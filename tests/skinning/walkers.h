@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "made_up.h"
 #include "skinning/animate/clips.h"
 #include "skinning/animate/figure.h"
 #include "skinning/animate/plan.h"
+#include "tests/skinning/made_up.h"
 
 namespace throng::skinning {
 

@@ -69,7 +69,5 @@ TEST(UntilAllLeft, GivesUpOnAJam) {
   EXPECT_LT(crowd.time_s(), 200);
 }
 
-TEST(Median, IsTheMiddleOne) { EXPECT_EQ(median({5, 1, 3}), 3); }
-
 }  // namespace
 }  // namespace throng::validation

@@ -111,12 +111,6 @@ TEST(CentralRate, IsTheSlopeBetweenTwoPercentiles) {
   EXPECT_DOUBLE_EQ(central_rate(ends, 20), 1);
 }
 
-TEST(Median, TakesTheUpperOfTwoMiddleOnes) {
-  EXPECT_EQ(median({4}), 4);
-  EXPECT_EQ(median({4, 1}), 4);
-  EXPECT_EQ(median({9, 1, 5, 7, 3}), 5);
-}
-
 TEST(RingSpeed, IsTheFreeSpeedOfPeopleAlone) {
   Ring spec;
   spec.people = 10;

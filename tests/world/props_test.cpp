@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "temporary_folder.h"
+#include "tests/world/temporary_folder.h"
 #include "world/scenario.h"
 
 namespace throng::world {
