@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "../tests/calibrate/boards.h"
 #include "base/random.h"
 #include "calibrate/intrinsics.h"
 #include "calibrate/pose.h"
+#include "tests/calibrate/boards.h"
 
 namespace {
 

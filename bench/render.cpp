@@ -21,7 +21,6 @@
 #include <thread>
 #include <vector>
 
-#include "../tests/render/synthetic_people.h"
 #include "annotate/coco.h"
 #include "annotate/labels.h"
 #include "annotate/png.h"
@@ -32,6 +31,7 @@
 #include "jobs/queue/publication.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
+#include "tests/render/synthetic_people.h"
 
 namespace throng {
 namespace {

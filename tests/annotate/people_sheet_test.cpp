@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "../render/synthetic_people.h"
 #include "base/error.h"
+#include "tests/render/synthetic_people.h"
 
 namespace throng::annotate {
 namespace {
