@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "annotate/coco.h"
-#include "annotate/decimals.h"
-#include "annotate/exit_view.h"
-#include "metrics/people.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/decimals.h"
+#include "annotate/people/exit_view.h"
+#include "metrics/basis/people.h"
 
 namespace throng::annotate {
 

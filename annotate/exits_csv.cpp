@@ -4,9 +4,9 @@
 
 #include <iterator>
 
-#include "annotate/exit_view.h"
-#include "annotate/spec/table_columns.h"
+#include "annotate/people/exit_view.h"
 #include "base/error.h"
+#include "spec/annotate/table_columns.h"
 
 namespace throng::annotate {
 

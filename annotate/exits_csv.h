@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/exits.h"
+#include "metrics/exits/exits.h"
 
 namespace throng::annotate {
 

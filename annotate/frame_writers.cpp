@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "annotate/decimals.h"
-#include "annotate/density.h"
-#include "annotate/difficulty.h"
-#include "annotate/head_labels.h"
-#include "annotate/keypoints.h"
-#include "annotate/png.h"
-#include "annotate/zone_counts.h"
+#include "annotate/people/decimals.h"
+#include "annotate/people/difficulty.h"
+#include "annotate/people/head_labels.h"
+#include "annotate/people/keypoints.h"
+#include "annotate/rasters/density.h"
+#include "annotate/rasters/png.h"
+#include "annotate/rasters/zone_counts.h"
 
 namespace throng::annotate {
 

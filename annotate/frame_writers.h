@@ -1,5 +1,6 @@
 // Contributions of each kind of ground truth to a frame's output: files, or values of its COCO
-// record. One table; those to a whole run's output are written by jobs/pipeline/run_writers.h.
+// record. One table; those to a whole run's output are written by
+// jobs/pipeline/frames/run_writers.h.
 #pragma once
 
 #include <functional>
@@ -8,14 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "annotate/actions.h"
-#include "annotate/coco.h"
-#include "annotate/exit_view.h"
-#include "annotate/hazard_view.h"
-#include "annotate/labels.h"
-#include "annotate/spec/count_areas.h"
-#include "annotate/spec/ground_truth.h"
+#include "annotate/people/actions.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/exit_view.h"
+#include "annotate/people/hazard_view.h"
+#include "annotate/people/labels.h"
 #include "render/frame.h"
+#include "spec/annotate/count_areas.h"
+#include "spec/annotate/ground_truth.h"
 
 namespace throng::annotate {
 
@@ -31,7 +32,7 @@ struct FrameOutput {
   double density_sigma_px = 0;
   /// Adds a file of the dataset.
   std::function<void(const std::string& path, std::string_view bytes)> add;
-  /// Assigns the time since the last call to a stage (base/stage_clock.h).
+  /// Assigns the time since the last call to a stage (base/compute/stage_clock.h).
   std::function<void(std::string_view stage)> lap;
 
   /// The frame's file of a kind.

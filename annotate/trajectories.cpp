@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "annotate/density.h"
+#include "annotate/rasters/density.h"
 #include "base/error.h"
 
 namespace throng::annotate {

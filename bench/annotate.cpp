@@ -5,11 +5,11 @@
 #include <map>
 #include <vector>
 
-#include "annotate/coco.h"
-#include "annotate/density.h"
-#include "annotate/keypoints.h"
-#include "annotate/labels.h"
-#include "annotate/preview.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/keypoints.h"
+#include "annotate/people/labels.h"
+#include "annotate/rasters/density.h"
+#include "annotate/rasters/preview.h"
 #include "tests/annotate/synthetic_frame.h"
 
 namespace throng::annotate {

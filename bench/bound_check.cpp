@@ -1,5 +1,5 @@
-// Whether any run beats its lower bound (metrics/run_bound.h): over all shipped scenarios, seeds,
-// numbers of people and lengths.
+// Whether any run beats its lower bound (metrics/bounds/run_bound.h): over all shipped scenarios,
+// seeds, numbers of people and lengths.
 //
 //   build/release/bench/bound_check [RUNS [FIRST_SEED]]
 //
@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "metrics/run_bound.h"
-#include "places/load_scenario.h"
+#include "metrics/bounds/run_bound.h"
+#include "places/blueprint/load_scenario.h"
 #include "sim/run.h"
 
 namespace {

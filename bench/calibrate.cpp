@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "base/random.h"
-#include "calibrate/intrinsics.h"
-#include "calibrate/pose.h"
-#include "tests/calibrate/boards.h"
+#include "base/compute/random.h"
+#include "camera/calibration/intrinsics.h"
+#include "camera/calibration/pose.h"
+#include "tests/camera/calibration/boards.h"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "crowd/model.h"
-#include "validation/flow.h"
+#include "crowd/validation/flow.h"
 
 namespace throng::validation {
 namespace {

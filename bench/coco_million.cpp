@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "annotate/coco.h"
-#include "annotate/keypoints.h"
-#include "base/files.h"
-#include "formats/exporter.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/keypoints.h"
+#include "base/files/files.h"
+#include "formats/export/exporter.h"
 #include "tests/annotate/synthetic_frame.h"
 
 namespace throng {

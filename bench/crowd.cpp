@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/resources.h"
+#include "base/files/resources.h"
 #include "crowd/description/builder.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"

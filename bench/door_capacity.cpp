@@ -1,5 +1,5 @@
-// The saturated flow of the pedestrian models through doors: what metrics/door_capacity.cpp has its
-// table from.
+// The saturated flow of the pedestrian models through doors: what metrics/exits/door_capacity.cpp
+// has its table from.
 //
 //   build/release/bench/door_capacity [MODEL ...]
 //
@@ -19,7 +19,7 @@
 #include "crowd/description/builder.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"
-#include "metrics/crossings.h"
+#include "metrics/basis/crossings.h"
 
 namespace {
 

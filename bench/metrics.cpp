@@ -4,9 +4,9 @@
 #include <tbb/global_control.h>
 #include <cmath>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "metrics/evacuation.h"
-#include "metrics/exits.h"
+#include "metrics/exits/exits.h"
 
 namespace throng::metrics {
 namespace {

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "annotate/preview.h"
-#include "base/files.h"
-#include "geometry/angle.h"
-#include "places/load_scenario.h"
+#include "annotate/rasters/preview.h"
+#include "base/files/files.h"
+#include "base/geometry/angle.h"
+#include "places/blueprint/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"

@@ -21,14 +21,14 @@
 #include <thread>
 #include <vector>
 
-#include "annotate/coco.h"
-#include "annotate/labels.h"
-#include "annotate/png.h"
-#include "annotate/preview.h"
-#include "base/files.h"
-#include "base/random.h"
-#include "geometry/angle.h"
-#include "jobs/queue/publication.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/labels.h"
+#include "annotate/rasters/png.h"
+#include "annotate/rasters/preview.h"
+#include "base/compute/random.h"
+#include "base/files/files.h"
+#include "base/geometry/angle.h"
+#include "jobs/queue/dataset/publication.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
 #include "tests/render/synthetic_people.h"

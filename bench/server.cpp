@@ -16,9 +16,9 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/resources.h"
-#include "jobs/queue/executor.h"
-#include "server/api.h"
+#include "base/files/resources.h"
+#include "jobs/queue/workers/executor.h"
+#include "server/api/api.h"
 
 namespace throng::server {
 namespace {

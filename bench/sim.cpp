@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/resources.h"
-#include "places/load_scenario.h"
+#include "base/files/resources.h"
+#include "places/blueprint/load_scenario.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 namespace throng::camera {
 

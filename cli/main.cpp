@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "cli/command_line.h"
-#include "cli/commands.h"
-#include "cli/parse_error.h"
-#include "cli/spec/exit_code.h"
+#include "cli/common/exit_code.h"
+#include "cli/shell/command_line.h"
+#include "cli/shell/commands.h"
+#include "cli/shell/parse_error.h"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "bucket/publish.h"
-#include "bucket/spec/address.h"
-#include "cli/commands.h"
-#include "cli/interrupt.h"
-#include "cli/progress_bar.h"
+#include "cli/shell/commands.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/progress_bar.h"
+#include "jobs/bucket/publish.h"
+#include "spec/bucket/address.h"
 
 namespace throng::cli {
 

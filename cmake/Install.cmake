@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 
 # Modules that other programs may link. Libraries that they use must be in the list, and their third-party libraries in
 # cmake/throngConfig.cmake.in.
-set(THRONG_LIBRARY_MODULES base schemas geometry crowd/description crowd/menge_files world crowd)
+set(THRONG_LIBRARY_MODULES base crowd/description world crowd)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/throng")
 
 set(targets throng_recast)

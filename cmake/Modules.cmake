@@ -1,15 +1,15 @@
 # One library per module. A module declares its public headers, and the modules and libraries it may use; an #include of
 # any other module, or of a private header of one, stops the configuration (scripts/module_rules.py). A module may lie in
-# a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
+# a folder of another ("jobs/queue"): its library is throng_jobs_queue. Other folders in a module are part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 
 # These compute. The others are compiled with less optimization (release) or without (sanitizers), which takes half the time.
-set(THRONG_OPTIMIZED_MODULES base geometry crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
+set(THRONG_OPTIMIZED_MODULES base crowd/description world crowd camera camera/calibration places sim metrics crowd/validation skinning render)
 # These are optimized with sanitizers too: their tests look at every pixel.
 set(THRONG_PIXEL_MODULES annotate formats)
 # The modules that the fuzz targets (tests/fuzz) cover.
-set(THRONG_FUZZED_MODULES base geometry crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
+set(THRONG_FUZZED_MODULES base crowd/description world crowd places/imports spec metrics)
 
 # throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...
 #   REFUSES module...)
@@ -52,7 +52,7 @@ function(throng_module name)
   endif()
 endfunction()
 
-# throng_kernels(file...): files with loops for several instruction sets (base/instruction_set.h). Square roots do not
+# throng_kernels(file...): files with loops for several instruction sets (base/compute/instruction_set.h). Square roots do not
 # report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
 function(throng_kernels)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi"

@@ -62,7 +62,7 @@ function(throng_bundle target symbol file)
   throng_embed(${target} ${symbol} "${bundle}")
 endfunction()
 
-# throng_studio(TARGET): web/studio as files of a web page, in TARGET as throng::embedded::kStudio (server/studio.h).
+# throng_studio(TARGET): web/studio as files of a web page, in TARGET as throng::embedded::kStudio (server/api/studio.h).
 function(throng_studio target)
   throng_web_packages()
   find_program(NODE_PROGRAM NAMES node nodejs REQUIRED)

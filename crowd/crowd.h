@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/instruction_set.h"
+#include "base/compute/instruction_set.h"
 #include "crowd/agents.h"
 #include "crowd/behavior/goals.h"
 #include "crowd/elements/shared_parts.h"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
-#include "crowd/menge_files/read.h"
 #include "crowd/model.h"
 
 namespace throng::crowd {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "crowd/navigation/obstacle_sets.h"
 #include "crowd/population/agent_groups.h"
 #include "crowd/population/profile.h"
-#include "crowd/spatial/obstacle_sets.h"
 
 namespace throng::crowd {
 

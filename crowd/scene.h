@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/crowd.h"
 #include "crowd/elements/attributes.h"
 #include "crowd/elements/element.h"
-#include "crowd/menge_compat/menge_random.h"
+#include "crowd/elements/menge_random.h"
 #include "crowd/model.h"
 
 namespace throng::crowd {

@@ -6,11 +6,11 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/behavior/machine.h"
 #include "crowd/crowd.h"
+#include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
-#include "crowd/menge_files/read.h"
 #include "crowd/model.h"
 #include "crowd/motion/bodies.h"
 #include "crowd/motion/motion.h"

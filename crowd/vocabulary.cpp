@@ -4,13 +4,14 @@
 #include <fmt/ranges.h>
 
 #include "crowd/agents.h"
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
+#include "crowd/behavior/events.h"
 #include "crowd/behavior/goals.h"
 #include "crowd/behavior/panic.h"
-#include "crowd/events/events.h"
 #include "crowd/model.h"
 #include "crowd/motion/facing.h"
 #include "crowd/navigation/elevation.h"
+#include "crowd/navigation/obstacle_sets.h"
 #include "crowd/population/agent_groups.h"
 #include "crowd/population/arrivals.h"
 #include "crowd/population/generators.h"
@@ -18,7 +19,6 @@
 #include "crowd/population/social_groups.h"
 #include "crowd/project.h"
 #include "crowd/scene.h"
-#include "crowd/spatial/obstacle_sets.h"
 
 namespace throng::crowd {
 

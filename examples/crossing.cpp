@@ -8,9 +8,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "crowd/description/builder.h"
-#include "crowd/menge_files/write.h"
+#include "crowd/description/menge_files/write.h"
 #include "crowd/simulation.h"
 
 namespace {

@@ -1,5 +1,5 @@
 #include "formats/card.h"
-#include "base/words.h"
+#include "base/text/words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,9 @@
 #include <array>
 #include <span>
 
-#include "annotate/spec/ground_truth.h"
-#include "annotate/spec/license.h"
-#include "formats/class_mappings.h"
+#include "formats/dataset/class_mappings.h"
+#include "spec/annotate/ground_truth.h"
+#include "spec/annotate/license.h"
 #include "world/semantic_class.h"
 
 namespace throng::formats {

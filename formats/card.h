@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "formats/exporter.h"
+#include "formats/export/exporter.h"
 
 namespace throng::formats {
 

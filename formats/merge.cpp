@@ -12,18 +12,18 @@
 #include <string>
 #include <string_view>
 
-#include "annotate/coco.h"
+#include "annotate/people/coco.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
-#include "base/json_describe.h"
-#include "base/json_text.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "base/json/json_describe.h"
+#include "base/json/json_text.h"
 #include "base/version.h"
 #include "formats/card.h"
-#include "formats/dataset.h"
-#include "formats/exporter.h"
+#include "formats/dataset/dataset.h"
+#include "formats/dataset/output.h"
+#include "formats/export/exporter.h"
 #include "formats/merged_ids.h"
-#include "formats/output.h"
 
 namespace throng::formats {
 

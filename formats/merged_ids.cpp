@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "annotate/coco.h"
+#include "annotate/people/coco.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
 
 namespace throng::formats {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "metrics/basis/percents.h"
+#include "metrics/basis/walking_distance.h"
 #include "metrics/definitions.h"
-#include "metrics/percents.h"
-#include "metrics/person_table.h"
-#include "metrics/walking_distance.h"
+#include "metrics/people/person_table.h"
 #include "world/trace.h"
 
 namespace throng::metrics {

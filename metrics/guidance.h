@@ -4,8 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "metrics/basis/people.h"
 #include "metrics/drones.h"
-#include "metrics/people.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes throng/job.py from jobs/spec/job.schema.json and throng/api_types.py from server/openapi.json.
+"""Writes throng/job.py from spec/job/job.schema.json and throng/api_types.py from server/openapi.json.
 
 usage: python/generate_types.py [--check]    --check writes nothing and exits with 1 if a file is not up to date
 """
@@ -90,7 +90,7 @@ class JobTypes:
     def text(self) -> str:
         head = '''"""The parts of a job as dataclasses: a typed way to write docs/job.md's JSON.
 
-Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. Values that are None are left out and
+Made by python/generate_types.py from spec/job/job.schema.json; do not edit. Values that are None are left out and
 have the default of the schema. The service and the program check values; types are for editors and mypy.
 """
 
@@ -185,7 +185,7 @@ from typing import Any, Literal, NotRequired, TypedDict
 
 
 def generated() -> dict[Path, str]:
-    schema = json.loads((ROOT / "jobs/spec/job.schema.json").read_text())
+    schema = json.loads((ROOT / "spec/job/job.schema.json").read_text())
     document = json.loads((ROOT / "server/openapi.json").read_text())
     package = ROOT / "python/throng"
     return {package / "job.py": JobTypes(schema).text(), package / "api_types.py": ApiTypes(document).text()}

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "base/random.h"
-#include "geometry/angle.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
 
 namespace throng::render {
 

@@ -14,7 +14,6 @@
 #include "render/lens/metering.h"
 #include "render/passes/airframe_pass.h"
 #include "render/passes/contact_pass.h"
-#include "render/passes/people_pass.h"
 #include "render/passes/place_pass.h"
 #include "render/passes/prop_pass.h"
 #include "render/passes/sky_pass.h"
@@ -22,12 +21,13 @@
 #include "render/passes/smooth_edges.h"
 #include "render/passes/still_surfaces.h"
 #include "render/people/people_in_view.h"
+#include "render/people/people_pass.h"
 #include "render/place/lamps.h"
 #include "render/place/lighting.h"
+#include "render/place/surface_classes.h"
 #include "render/truth/coverage.h"
 #include "render/truth/objects_in_view.h"
 #include "render/truth/silhouettes.h"
-#include "render/truth/surface_classes.h"
 #include "render/view.h"
 
 namespace throng::render {

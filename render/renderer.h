@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "base/stage_clock.h"
+#include "base/compute/stage_clock.h"
 #include "camera/camera.h"
 #include "render/frame.h"
 #include "render/pixel_weights.h"
 #include "render/props/vehicles.h"
 #include "render/scene.h"
-#include "render/spec/environment.h"
-#include "render/spec/quality.h"
 #include "skinning/population.h"
+#include "spec/render/environment.h"
+#include "spec/render/quality.h"
 #include "world/scenario.h"
 
 namespace throng::render {

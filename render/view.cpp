@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 #include "skinning/levels.h"
 
 namespace throng::render {

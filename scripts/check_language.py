@@ -122,7 +122,7 @@ COINED = {
 }
 
 # String literals that stay as they are: they are written into datasets, whose bytes do not change for spelling.
-LITERALS_KEPT = ("annotate/spec/ground_truth.cpp",)
+LITERALS_KEPT = ("spec/annotate/ground_truth.cpp",)
 
 # Identifiers: pattern -> the field's term.
 IDENTIFIERS = (
@@ -142,7 +142,7 @@ IDENTIFIERS = (
 
 # A term of its own in some folders: in OpenStreetMap's data model an ordered list of nodes is a "way"
 # (wiki.openstreetmap.org/wiki/Way).
-TERMS_BY_FOLDER = {"ways": ("imports/", "tests/imports/")}
+TERMS_BY_FOLDER = {"ways": ("places/imports/", "tests/places/imports/")}
 
 
 def is_term_here(word, path):

@@ -108,7 +108,7 @@ class Structure:
 
     @functools.cache
     def module_of(self, path):
-        """The innermost module that a path belongs to: jobs/queue/store.h is in jobs/queue, and sim/sensors/wind.h in sim, since
+        """The innermost module that a path belongs to: jobs/queue/store/store.h is in jobs/queue, and sim/sensors/wind.h in sim, since
         sim/sensors is no module. None for a path in no module."""
         folder = os.path.dirname(path)
         while folder and folder not in self.order:

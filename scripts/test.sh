@@ -57,7 +57,7 @@ cpp_format() { sources | xargs clang-format --dry-run --Werror; }
 # Text becomes JSON in one place, which has limits. Tests read what the program wrote by the library itself.
 json_readers() {
   if sources | grep -v -e '^tests/' -e '^bench/' -e '^base/json_text\.cpp$' | xargs grep -nE 'json::(parse|accept|sax_parse|from_)|>> *(json|document)\b'; then
-    echo "base/json_text.h parses JSON; nothing else may" >&2
+    echo "base/json/json_text.h parses JSON; nothing else may" >&2
     return 1
   fi
 }

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "server/answers.h"
+#include "server/catalog/answers.h"
 
 namespace throng::server {
 

@@ -19,19 +19,19 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "bucket/access.h"
+#include "base/files/files.h"
+#include "jobs/bucket/access.h"
+#include "jobs/queue/confine/file_fence.h"
+#include "jobs/queue/confine/machine_memory.h"
+#include "jobs/queue/confine/worker_limits.h"
+#include "jobs/queue/dataset/folder_lock.h"
 #include "jobs/queue/executors.h"
-#include "jobs/queue/file_fence.h"
-#include "jobs/queue/folder_lock.h"
-#include "jobs/queue/machine_memory.h"
-#include "jobs/queue/worker_limits.h"
-#include "server/api.h"
-#include "server/first_key.h"
+#include "server/access/first_key.h"
+#include "server/access/keys.h"
+#include "server/api/api.h"
+#include "server/api/service.h"
 #include "server/json_log.h"
-#include "server/keys.h"
-#include "server/service.h"
-#include "server/webhook_sender.h"
+#include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
 

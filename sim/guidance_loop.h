@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/people/crowd_source.h"
-#include "sim/planning/planned_drone.h"
+#include "sim/policies/planned_drone.h"
 #include "sim/recording/crowd_recorder.h"
 #include "sim/sensors/perception.h"
 #include "sim/vehicle/flight.h"

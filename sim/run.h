@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "crowd/simulation.h"
 #include "sim/run_observer.h"
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 

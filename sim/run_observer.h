@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/trace.h"
 
 namespace throng::sim {

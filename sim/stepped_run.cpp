@@ -19,9 +19,9 @@
 #include "sim/planning/plan.h"
 #include "sim/planning/separation.h"
 #include "sim/recording/crowd_recorder.h"
-#include "sim/recording/hold_warnings.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
+#include "sim/vehicle/hold_warnings.h"
 
 namespace throng::sim {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/planning/planned_drone.h"
+#include "sim/policies/planned_drone.h"
 #include "sim/run_observer.h"
-#include "sim/spec/run_spec.h"
 #include "sim/vehicle/pilot.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
 
 namespace throng::skinning {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "skinning/population.h"
-#include "skinning/spec/styling.h"
+#include "spec/skinning/styling.h"
 
 namespace throng::skinning {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/srgb.h"
+#include "base/compute/srgb.h"
 
 namespace throng::skinning {
 

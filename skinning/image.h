@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "images/rgba_image.h"
+#include "base/graphics/images/rgba_image.h"
 
 namespace throng::skinning {
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/hash.h"
-#include "base/resources.h"
+#include "base/files/hash.h"
+#include "base/files/resources.h"
 #include "skinning/glb.h"
 #include "skinning/image.h"
 #include "skinning/population_files.h"

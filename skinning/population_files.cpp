@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
 #include "skinning/items.h"
 #include "skinning/packed.h"
 #include "skinning/skeleton.h"

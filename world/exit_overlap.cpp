@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::world {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
-#include "base/confine.h"
-#include "base/files.h"
-#include "base/json_text.h"
+#include "base/files/confine.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
 #include "world/json_reader.h"
 
 namespace throng::world {

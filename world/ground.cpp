@@ -7,7 +7,7 @@
 #include <array>
 #include <string_view>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 #include "world/json_reader.h"
 
 namespace throng::world {

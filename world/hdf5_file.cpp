@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/deflate.h"
+#include "base/files/deflate.h"
 
 namespace throng::world::hdf5 {
 

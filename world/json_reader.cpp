@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/deprecation.h"
-#include "base/json_describe.h"
-#include "base/suggest.h"
+#include "base/json/deprecation.h"
+#include "base/json/json_describe.h"
+#include "base/text/suggest.h"
 
 namespace throng::world {
 

@@ -10,11 +10,11 @@
 #include <optional>
 #include <string>
 
-#include "base/random.h"
-#include "geometry/angle.h"
-#include "geometry/polygon.h"
-#include "geometry/rectangle.h"
-#include "geometry/triangulate.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/rectangle.h"
+#include "base/geometry/triangulate.h"
 #include "world/json_reader.h"
 #include "world/scenario.h"
 

@@ -12,14 +12,14 @@
 #include <span>
 #include <string_view>
 
-#include "base/confine.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
-#include "base/resources.h"
-#include "base/suggest.h"
-#include "geometry/polygon.h"
-#include "schemas/schemas.h"
+#include "base/files/confine.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "base/geometry/polygon.h"
+#include "base/json/json_text.h"
+#include "base/schemas/schemas.h"
+#include "base/text/suggest.h"
 #include "world/exit_overlap.h"
 #include "world/extended_document.h"
 #include "world/json_reader.h"

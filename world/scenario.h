@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/rectangle.h"
+#include "base/geometry/rectangle.h"
 #include "world/alarm.h"
 #include "world/disasters.h"
 #include "world/ground.h"
@@ -138,7 +138,7 @@ void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 /// source tree's.
 std::filesystem::path scenarios_folder();
 
-/// Ending of the files of blueprints (places/blueprint.h).
+/// Ending of the files of blueprints (places/blueprint/blueprint.h).
 inline constexpr std::string_view kBlueprintEnding = ".place.json";
 
 /// `<folder>/<id>.json`, else the blueprint `<folder>/<id>.place.json`. Ids are words of [a-z0-9_]

@@ -1,7 +1,7 @@
 #include "world/scenario_crowd.h"
 
 #include "base/error.h"
-#include "crowd/menge_files/read.h"
+#include "crowd/description/menge_files/read.h"
 
 namespace throng::world {
 

@@ -10,10 +10,10 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
-#include "base/resources.h"
-#include "base/suggest.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "base/json/json_text.h"
+#include "base/text/suggest.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
 

@@ -5,8 +5,8 @@
 #include <cctype>
 
 #include "base/error.h"
-#include "base/words.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
+#include "base/text/words.h"
 
 namespace throng::world {
 

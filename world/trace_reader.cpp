@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/read_only_file.h"
-#include "base/utf8.h"
+#include "base/files/read_only_file.h"
+#include "base/text/utf8.h"
 #include "world/hdf5_file.h"
 #include "world/trace.h"
 #include "world/trace_layout.h"

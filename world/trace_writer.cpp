@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/files/staging.h"
 #include "base/resource_exhaustion.h"
-#include "base/staging.h"
 #include "world/hdf5_file.h"
 #include "world/trace.h"
 #include "world/trace_layout.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/read_only_file.h"
+#include "base/files/read_only_file.h"
 #include "world/hdf5_file.h"
 #include "world/trace_layout.h"
 

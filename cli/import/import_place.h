@@ -1,7 +1,7 @@
 // Worlds and maps of others as scenarios: the work of `throng scenario import`.
 #pragma once
 
-#include "cli/spec/import_options.h"
+#include "cli/common/import_options.h"
 
 namespace throng::cli {
 

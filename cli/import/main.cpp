@@ -1,12 +1,12 @@
-// throng-import: `throng scenario import` as a program of its own (cli/spec/import_options.h).
+// throng-import: `throng scenario import` as a program of its own (cli/common/import_options.h).
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "cli/common/exit_code.h"
+#include "cli/common/import_options.h"
 #include "cli/import/import_place.h"
-#include "cli/spec/exit_code.h"
-#include "cli/spec/import_options.h"
 
 namespace {
 

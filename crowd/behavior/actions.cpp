@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/behavior/panic.h"
 #include "crowd/behavior/saved.h"
 

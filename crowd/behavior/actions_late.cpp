@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/behavior/machine.h"
 
 namespace throng::crowd {

@@ -1,4 +1,4 @@
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

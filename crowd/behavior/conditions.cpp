@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/behavior/panic.h"
 
 namespace throng::crowd {

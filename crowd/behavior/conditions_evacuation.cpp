@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

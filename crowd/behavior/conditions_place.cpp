@@ -1,4 +1,4 @@
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/elements/shape_attributes.h"
 
 namespace throng::crowd {

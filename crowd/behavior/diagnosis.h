@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

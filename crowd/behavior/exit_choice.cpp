@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "base/random.h"
-#include "crowd/behavior/behavior.h"
+#include "base/compute/random.h"
+#include "crowd/behavior.h"
 #include "crowd/behavior/machine.h"
 
 namespace throng::crowd {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/navigation/navigation.h"
 
 namespace throng::crowd {

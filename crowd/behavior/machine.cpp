@@ -3,7 +3,7 @@
 #include <bitset>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/compute/parallel.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 
 namespace throng::crowd {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

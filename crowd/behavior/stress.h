@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/words.h"
+#include "base/text/words.h"
 #include "crowd/elements/suggest.h"
 
 namespace throng::crowd {

@@ -10,8 +10,8 @@
 #include <span>
 #include <string_view>
 
-#include "base/random.h"
-#include "crowd/menge_compat/menge_random.h"
+#include "base/compute/random.h"
+#include "crowd/elements/menge_random.h"
 
 namespace throng::crowd {
 

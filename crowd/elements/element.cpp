@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "base/confine.h"
+#include "base/files/confine.h"
 #include "crowd/elements/suggest.h"
 
 namespace throng::crowd {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/files.h"
+#include "base/files/files.h"
 
 namespace throng::crowd {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "crowd/elements/distribution.h"
-#include "crowd/menge_compat/menge_random.h"
+#include "crowd/elements/menge_random.h"
 
 namespace throng::crowd {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "geometry/polygon.h"
-#include "geometry/rectangle.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/rectangle.h"
 
 namespace throng::crowd {
 

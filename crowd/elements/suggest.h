@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/suggest.h"  // closest(), did_you_mean()
+#include "base/text/suggest.h"  // closest(), did_you_mean()
 
 namespace throng::crowd {
 

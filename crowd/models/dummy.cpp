@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "crowd/models/local_model.h"
 
 namespace throng::crowd {

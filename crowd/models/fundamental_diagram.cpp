@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/geometry/polygon.h"
 #include "crowd/models/local_model.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

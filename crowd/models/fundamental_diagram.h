@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/spatial/neighborhood.h"
 
 namespace throng::crowd {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowd/kernels/disc_lanes.h"
-#include "crowd/kernels/lane_batch.h"
+#include "base/geometry/polygon.h"
 #include "crowd/model.h"
+#include "crowd/models/disc_lanes.h"
+#include "crowd/models/lane_batch.h"
 #include "crowd/models/local_model.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::crowd {
 

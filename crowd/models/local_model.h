@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "crowd/model.h"
 #include "crowd/spatial/neighborhood.h"
 

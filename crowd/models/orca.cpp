@@ -2,8 +2,8 @@
 #include <limits>
 #include <optional>
 
-#include "crowd/kernels/orca_batch.h"
 #include "crowd/model.h"
+#include "crowd/models/orca_batch.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/pace.h"
 #include "crowd/models/single_file.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::crowd {
 

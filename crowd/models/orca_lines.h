@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "crowd/kernels/half_planes.h"
+#include "crowd/models/half_planes.h"
 #include "crowd/spatial/grid.h"
 #include "crowd/spatial/obstacles.h"
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "base/instruction_set.h"
-#include "crowd/kernels/lane_batch.h"
+#include "base/compute/instruction_set.h"
+#include "crowd/models/lane_batch.h"
 #include "crowd/spatial/neighborhood.h"
 
 namespace throng::crowd {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/geometry/polygon.h"
 #include "crowd/models/fundamental_diagram.h"
 #include "crowd/models/local_model.h"
 #include "crowd/models/orca_lines.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

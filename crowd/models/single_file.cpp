@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/geometry/polygon.h"
 #include "crowd/models/oncoming.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <vector>
 
-#include "crowd/kernels/half_planes.h"
+#include "base/geometry/polygon.h"
+#include "crowd/models/half_planes.h"
 #include "crowd/models/local_model.h"
 #include "crowd/models/oncoming.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/single_file.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

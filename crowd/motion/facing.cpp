@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
-#include "geometry/angle.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
 
 namespace throng::crowd {
 

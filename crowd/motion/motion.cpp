@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/parallel.h"
-#include "base/simd.h"
+#include "base/compute/parallel.h"
+#include "base/compute/simd.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/compute/parallel.h"
 #include "crowd/crowd.h"
 #include "crowd/spatial/grid.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/geometry/rectangle.h"
 #include "crowd/navigation/navigation.h"
-#include "geometry/rectangle.h"
 
 namespace throng::crowd {
 

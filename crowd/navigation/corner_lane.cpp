@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::crowd {
 

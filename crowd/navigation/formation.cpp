@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/geometry/polygon.h"
 #include "crowd/elements/number_file.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/elements/text_file.h"
 
 namespace throng::crowd {

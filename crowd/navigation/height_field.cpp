@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/files.h"
+#include "base/files/files.h"
+#include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
-#include "crowd/menge_files/read.h"
 #include "crowd/navigation/navigation.h"
 
 namespace throng::crowd {

@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "base/geometry/polygon.h"
+#include "base/geometry/rectangle.h"
 #include "crowd/spatial/obstacles.h"
-#include "geometry/polygon.h"
-#include "geometry/rectangle.h"
 
 namespace throng::crowd {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/geometry/polygon.h"
 #include "crowd/elements/number_file.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/geometry/polygon.h"
 #include "crowd/navigation/navigation.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

@@ -4,8 +4,8 @@
 #include <bit>
 #include <limits>
 
+#include "base/geometry/polygon.h"
 #include "crowd/spatial/obstacles.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

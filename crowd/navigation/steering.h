@@ -1,7 +1,7 @@
 // Common parts of velocity components: the goal's position, and walking straight to a point.
 #pragma once
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 
 namespace throng::crowd {
 

@@ -1,4 +1,4 @@
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/models/fundamental_diagram.h"
 #include "crowd/navigation/navigation.h"
 

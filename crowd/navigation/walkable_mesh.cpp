@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/geometry/polygon.h"
 #include "crowd/navigation/walkable_grid.h"
-#include "geometry/polygon.h"
 
 namespace throng::crowd {
 

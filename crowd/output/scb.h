@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "crowd/output/recorder.h"
 
 namespace throng::crowd {

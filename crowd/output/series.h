@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "crowd/output/pair_distances.h"
 #include "crowd/output/recorder.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "crowd/crowd.h"
+#include "crowd/elements/menge_random.h"
 #include "crowd/elements/registry.h"
-#include "crowd/menge_compat/menge_random.h"
 #include "crowd/population/profile.h"
 #include "crowd/population/social_groups.h"
 #include "crowd/process.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "crowd/behavior/machine.h"
 #include "crowd/population/generators.h"
 

@@ -10,8 +10,8 @@
 
 #include "crowd/agents.h"
 #include "crowd/navigation/nav_mesh_file.h"
+#include "crowd/navigation/obstacle_sets.h"
 #include "crowd/population/scatter.h"
-#include "crowd/spatial/obstacle_sets.h"
 
 namespace throng::crowd {
 

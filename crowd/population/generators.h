@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "crowd/crowd.h"
+#include "crowd/elements/menge_random.h"
 #include "crowd/elements/registry.h"
-#include "crowd/menge_compat/menge_random.h"
 
 namespace throng::crowd {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "crowd/spatial/obstacles.h"
 
 namespace throng::crowd {

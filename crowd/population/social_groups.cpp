@@ -6,8 +6,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "base/random.h"
-#include "geometry/polygon.h"
+#include "base/compute/random.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/parallel.h"
+#include "base/compute/parallel.h"
 
 namespace throng::crowd {
 

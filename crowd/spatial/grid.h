@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/instruction_set.h"
+#include "base/compute/instruction_set.h"
 #include "crowd/agents.h"
 
 namespace throng::crowd {

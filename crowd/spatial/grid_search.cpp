@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/simd.h"
+#include "base/compute/simd.h"
 #include "crowd/spatial/grid.h"
 
 namespace throng::crowd {

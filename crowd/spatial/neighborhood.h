@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/compute/parallel.h"
 #include "crowd/crowd.h"
-#include "crowd/menge_compat/menge_tree.h"
 #include "crowd/spatial/grid.h"
+#include "crowd/spatial/menge_tree.h"
 
 namespace throng::crowd {
 

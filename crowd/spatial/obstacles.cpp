@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::crowd {
 

@@ -4,21 +4,21 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "annotate/coco.h"
+#include "annotate/people/coco.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
 #include "base/version.h"
 #include "formats/card.h"
-#include "formats/exporter.h"
+#include "formats/export/exporter.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/queue/dataset/manifest.h"
+#include "jobs/queue/dataset/publication.h"
 #include "jobs/queue/failed_runs.h"
-#include "jobs/queue/manifest.h"
 #include "jobs/queue/people.h"
-#include "jobs/queue/publication.h"
-#include "jobs/spec/environment.h"
-#include "jobs/spec/scenario_mix.h"
-#include "jobs/spec/spec.h"
+#include "spec/job/environment.h"
+#include "spec/job/scenario_mix.h"
+#include "spec/job/spec.h"
 
 namespace throng::jobs {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "places/generated.h"
-#include "places/load_scenario.h"
+#include "places/blueprint/generated.h"
+#include "places/blueprint/load_scenario.h"
 #include "world/trace_scenario.h"
 
 namespace throng::jobs {

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <string>
 
-#include "jobs/spec/spec.h"
+#include "spec/job/spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
 namespace throng::jobs {
 
 /// The scenario that the job names, or the one that is generated for it; of a job of several, that
-/// of in_scenario_of_run() (jobs/spec/scenario_mix.h). Throws InputError: at `pointer` of `source`,
+/// of in_scenario_of_run() (spec/job/scenario_mix.h). Throws InputError: at `pointer` of `source`,
 /// the job's file or "", if there is none of the name or none can be generated; a broken scenario
 /// file names itself.
 world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,

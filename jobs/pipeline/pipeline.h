@@ -7,12 +7,12 @@
 #include <functional>
 #include <stop_token>
 
-#include "annotate/spec/ground_truth.h"
-#include "jobs/queue/executor.h"
-#include "jobs/queue/folder.h"
-#include "jobs/spec/plan.h"
-#include "jobs/spec/resolved_job.h"
+#include "jobs/queue/dataset/folder.h"
+#include "jobs/queue/workers/executor.h"
 #include "sim/run.h"
+#include "spec/annotate/ground_truth.h"
+#include "spec/job/plan.h"
+#include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 

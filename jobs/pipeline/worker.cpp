@@ -18,12 +18,12 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/redact.h"
-#include "base/staging.h"
+#include "base/files/staging.h"
+#include "base/text/redact.h"
 #include "jobs/pipeline/pipeline.h"
-#include "jobs/queue/faults.h"
-#include "jobs/queue/file_fence.h"
-#include "jobs/queue/worker_side.h"
+#include "jobs/queue/confine/file_fence.h"
+#include "jobs/queue/workers/faults.h"
+#include "jobs/queue/workers/worker_side.h"
 #include "render/allocator.h"
 #include "world/scenario.h"
 

@@ -1,5 +1,6 @@
 // The worker: one process, one task. It reports to its supervisor through stdout, one JSON object
-// per line, and its exit code (jobs/queue/worker_protocol.h); everything else goes to stderr.
+// per line, and its exit code (jobs/queue/workers/worker_protocol.h); everything else goes to
+// stderr.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +23,8 @@ using OtherTasks =
 ///   {"done":3,"total":30}
 /// lines as it goes on, {} lines as signs of life in between and, when it fails,
 ///   {"error":{"kind":"input"|"environment"|"bug","message":...,"problems":[{"source","where","found","expected"}]}}
-/// Dies with the process that started it, and is limited as jobs/queue/worker_limits.h says.
+/// Dies with the process that started it, and is limited as jobs/queue/confine/worker_limits.h
+/// says.
 int run_worker(const std::filesystem::path& job_folder, const std::string& task_name,
                const OtherTasks& others = {});
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
-#include "jobs/queue/publication.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "jobs/queue/dataset/publication.h"
 
 namespace throng::jobs {
 

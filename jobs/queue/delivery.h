@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "jobs/queue/folder.h"
+#include "jobs/queue/dataset/folder.h"
 
 namespace throng::jobs {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "jobs/queue/slurm_arrays.h"
+#include "jobs/queue/slurm/slurm_arrays.h"
 
 namespace throng::jobs {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "jobs/queue/executor.h"
-#include "jobs/queue/local_processes.h"
-#include "jobs/queue/slurm_options.h"
+#include "jobs/queue/slurm/slurm_options.h"
+#include "jobs/queue/workers/executor.h"
+#include "jobs/queue/workers/local_processes.h"
 
 namespace throng::jobs {
 

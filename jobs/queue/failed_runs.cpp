@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/json_text.h"
-#include "jobs/spec/plan.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "spec/job/plan.h"
 
 namespace throng::jobs {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/queue/folder.h"
+#include "jobs/queue/dataset/folder.h"
 
 namespace throng::jobs {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "jobs/queue/folder.h"
+#include "jobs/queue/dataset/folder.h"
 
 namespace throng::jobs {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/files.h"
-#include "base/json_text.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
 
 namespace throng::jobs {
 

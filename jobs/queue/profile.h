@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
-#include "base/stage_clock.h"
-#include "jobs/queue/folder.h"
-#include "jobs/spec/plan.h"
-#include "jobs/spec/spec.h"
+#include "base/compute/stage_clock.h"
+#include "jobs/queue/dataset/folder.h"
+#include "spec/job/plan.h"
+#include "spec/job/spec.h"
 
 namespace throng::jobs {
 

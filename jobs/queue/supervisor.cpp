@@ -10,9 +10,9 @@
 #include <set>
 #include <span>
 
+#include "jobs/queue/dataset/folder_lock.h"
 #include "jobs/queue/delivery.h"
 #include "jobs/queue/failed_runs.h"
-#include "jobs/queue/folder_lock.h"
 #include "jobs/queue/trace_seal.h"
 
 namespace throng::jobs {

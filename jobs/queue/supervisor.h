@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "jobs/queue/executor.h"
-#include "jobs/queue/folder.h"
-#include "jobs/spec/plan.h"
-#include "jobs/spec/resolved_job.h"
+#include "jobs/queue/dataset/folder.h"
+#include "jobs/queue/workers/executor.h"
+#include "spec/job/plan.h"
+#include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 

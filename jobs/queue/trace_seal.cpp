@@ -1,7 +1,7 @@
 #include "jobs/queue/trace_seal.h"
 
-#include "base/files.h"
-#include "base/hash.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
 
 namespace throng::jobs {
 

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/compute/srgb.h"
 #include "base/error.h"
-#include "base/srgb.h"
 
 namespace throng::render {
 

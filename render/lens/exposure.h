@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
 #include "render/lens/lens.h"
+#include "spec/camera/camera_spec.h"
 
 namespace throng::render {
 

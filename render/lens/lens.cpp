@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/compute/parallel.h"
 #include "base/error.h"
-#include "base/parallel.h"
 #include "render/lens/depth_between.h"
 #include "render/truth/objects_in_view.h"
 

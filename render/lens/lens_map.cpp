@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
+#include "base/compute/parallel.h"
 #include "base/error.h"
-#include "base/parallel.h"
 
 namespace throng::render {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 namespace throng::render {
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
+#include "base/compute/parallel.h"
+#include "base/compute/random.h"
+#include "base/compute/srgb.h"
 #include "base/error.h"
-#include "base/parallel.h"
-#include "base/random.h"
-#include "base/srgb.h"
 
 namespace throng::render {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
+#include "spec/camera/camera_spec.h"
 
 namespace throng::render {
 

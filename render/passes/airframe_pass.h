@@ -8,7 +8,7 @@
 #include "camera/camera.h"
 #include "render/gl/gl_objects.h"
 #include "render/props/airframe_mesh.h"
-#include "render/spec/quality.h"
+#include "spec/render/quality.h"
 
 namespace throng::render {
 

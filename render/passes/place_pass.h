@@ -9,8 +9,8 @@
 #include "render/gl/gl_objects.h"
 #include "render/place/ground_layers.h"
 #include "render/place/place.h"
-#include "render/spec/environment.h"
-#include "render/spec/quality.h"
+#include "spec/render/environment.h"
+#include "spec/render/quality.h"
 #include "world/scenario.h"
 
 namespace throng::render {

@@ -6,8 +6,8 @@
 #include "render/frame.h"
 #include "render/gl/shaders.h"
 #include "render/place/rubble.h"
+#include "render/place/surface_classes.h"
 #include "render/props/mesh_file.h"
-#include "render/truth/surface_classes.h"
 
 namespace throng::render {
 

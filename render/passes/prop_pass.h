@@ -9,8 +9,8 @@
 #include "render/gl/gl_objects.h"
 #include "render/place/place.h"
 #include "render/props/prop_shapes.h"
-#include "render/spec/quality.h"
 #include "render/view.h"
+#include "spec/render/quality.h"
 #include "world/scenario.h"
 
 namespace throng::render {

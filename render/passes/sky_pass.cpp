@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/place/lighting.h"

@@ -5,7 +5,7 @@
 
 #include "camera/camera.h"
 #include "render/gl/gl_objects.h"
-#include "render/spec/environment.h"
+#include "spec/render/environment.h"
 
 namespace throng::render {
 

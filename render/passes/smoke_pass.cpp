@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/place/lighting.h"

@@ -6,7 +6,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/scene.h"
-#include "render/spec/environment.h"
+#include "spec/render/environment.h"
 #include "world/disasters.h"
 
 namespace throng::render {

@@ -8,13 +8,13 @@
 
 #include "camera/camera.h"
 #include "render/frame.h"
-#include "render/passes/people_pass.h"
 #include "render/people/body_boxes.h"
+#include "render/people/people_pass.h"
 #include "render/people/person_geometry.h"
 #include "render/scene.h"
-#include "render/spec/quality.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"
+#include "spec/render/quality.h"
 
 namespace throng::render {
 

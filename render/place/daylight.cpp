@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/angle.h"
-#include "geometry/smoothstep.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/smoothstep.h"
 
 namespace throng::render {
 

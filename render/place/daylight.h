@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "render/spec/environment.h"
+#include "spec/render/environment.h"
 
 namespace throng::render {
 

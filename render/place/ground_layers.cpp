@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/polygon.h"
-#include "geometry/triangulate.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/triangulate.h"
 #include "render/frame.h"
 
 namespace throng::render {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "base/random.h"
-#include "geometry/polygon.h"
-#include "geometry/triangulate.h"
+#include "base/compute/random.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/triangulate.h"
 #include "render/frame.h"
 #include "render/place/place_details.h"
 

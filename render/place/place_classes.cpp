@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "render/place/place_details.h"
-#include "render/truth/surface_classes.h"
+#include "render/place/surface_classes.h"
 
 namespace throng::render {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "base/random.h"
-#include "geometry/angle.h"
-#include "geometry/polygon.h"
-#include "geometry/rectangle.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/rectangle.h"
 #include "render/frame.h"
 
 namespace throng::render {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/props/prop_builder.h"
 
 namespace throng::render {

@@ -8,7 +8,7 @@
 
 namespace throng::render {
 
-/// Parameters of a quadcopter's appearance (sim/spec/airframe.h has all of them).
+/// Parameters of a quadcopter's appearance (spec/sim/airframe.h has all of them).
 struct AirframeShape {
   double arm_m = 0;               ///< center to rotor axis
   double height_m = 0;            ///< of the body

@@ -12,8 +12,8 @@
 #include <cmath>
 #include <memory>
 
-#include "base/confine.h"
 #include "base/error.h"
+#include "base/files/confine.h"
 
 namespace throng::render {
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/props/prop_shapes.h"
 
 namespace throng::render {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/props/large_props.h"
 #include "render/props/prop_builder.h"
 

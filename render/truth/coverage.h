@@ -10,7 +10,7 @@
 
 #include "camera/camera.h"
 #include "render/gl/gl_objects.h"
-#include "render/passes/people_pass.h"
+#include "render/people/people_pass.h"
 #include "render/pixel_mask.h"
 #include "render/pixel_weights.h"
 

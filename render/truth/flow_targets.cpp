@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compute/parallel.h"
 #include "base/error.h"
-#include "base/parallel.h"
 
 namespace throng::render {
 

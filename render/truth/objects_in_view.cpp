@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 #include "render/view.h"
 
 namespace throng::render {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 
 namespace throng::sim {
 

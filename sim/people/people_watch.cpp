@@ -1,5 +1,5 @@
 #include "sim/people/people_watch.h"
-#include "base/words.h"
+#include "base/text/words.h"
 
 #include <fmt/core.h>
 

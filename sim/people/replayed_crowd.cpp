@@ -2,9 +2,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/random.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
 #include "base/version.h"
-#include "geometry/angle.h"
 #include "sim/people/crowd_source.h"
 
 namespace throng::sim {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "sim/people/crowd_source.h"
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 

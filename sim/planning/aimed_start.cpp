@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "base/random.h"
-#include "geometry/angle.h"
+#include "base/compute/random.h"
+#include "base/geometry/angle.h"
 #include "sim/people/starting_people.h"
 #include "sim/planning/clearance.h"
 

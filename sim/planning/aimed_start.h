@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 #include "sim/planning/separation.h"
 
 namespace throng::sim {

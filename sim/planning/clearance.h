@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/spec/airframe.h"
+#include "spec/sim/airframe.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

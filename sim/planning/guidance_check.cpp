@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 
 namespace throng::sim {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

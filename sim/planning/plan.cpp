@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/suggest.h"
+#include "base/text/suggest.h"
 #include "sim/planning/clearance.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"

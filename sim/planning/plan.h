@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/planning/planned_drone.h"
-#include "sim/spec/run_spec.h"
+#include "sim/policies/planned_drone.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

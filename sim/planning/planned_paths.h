@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/drone_path.h"
 
 namespace throng::sim {

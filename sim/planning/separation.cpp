@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "sim/planning/planned_motion.h"
-#include "sim/recording/near_misses.h"
+#include "sim/vehicle/near_misses.h"
 
 namespace throng::sim {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/planning/planned_drone.h"
+#include "sim/policies/planned_drone.h"
 
 namespace throng::sim {
 

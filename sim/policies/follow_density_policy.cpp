@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "sim/policies/glide.h"
 
 namespace throng::sim {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/vehicle/controller.h"
+#include "sim/controller.h"
 
 namespace throng::sim {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 
 namespace throng::sim {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "sim/controller.h"
 #include "sim/sensors/world_view.h"
-#include "sim/spec/run_spec.h"
-#include "sim/vehicle/controller.h"
+#include "spec/sim/run_spec.h"
 
 namespace throng::sim {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "base/words.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
+#include "base/text/words.h"
 
 namespace throng::sim {
 

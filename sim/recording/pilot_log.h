@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 
 namespace throng::sim {
 

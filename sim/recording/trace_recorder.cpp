@@ -1,6 +1,6 @@
 #include "sim/recording/trace_recorder.h"
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "sim/recording/pilot_log.h"
 
 namespace throng::sim {

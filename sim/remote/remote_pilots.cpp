@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "sim/planning/clearance.h"
 
 namespace throng::sim {

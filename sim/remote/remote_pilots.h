@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/spec/run_spec.h"
 #include "sim/stepped_run.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

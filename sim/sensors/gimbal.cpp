@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 namespace throng::sim {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "camera/spec/camera_spec.h"
+#include "spec/camera/camera_spec.h"
 #include "world/trace.h"
 
 namespace throng::sim {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 
 namespace throng::sim {
 

@@ -7,7 +7,7 @@
 #include "sim/people/crowd_source.h"
 #include "sim/recording/crowd_recorder.h"
 #include "sim/sensors/world_view.h"
-#include "sim/spec/run_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

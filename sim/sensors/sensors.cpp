@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
 
 namespace throng::sim {
 

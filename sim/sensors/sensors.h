@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "world/trace.h"
 
 namespace throng::sim {

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "sim/spec/airframe.h"
 #include "sim/vehicle/quadcopter.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::sim {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "sim/spec/airframe.h"
 #include "sim/vehicle/contact_log.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::sim {
 

@@ -1,7 +1,7 @@
 // The air that a vehicle blows down to stay up.
 #pragma once
 
-#include "sim/spec/airframe.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::sim {
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "sim/people/people_nearby.h"
-#include "sim/planning/planned_drone.h"
-#include "sim/recording/downwash_exposure.h"
-#include "sim/recording/fall_warning.h"
-#include "sim/recording/near_misses.h"
+#include "sim/policies/planned_drone.h"
 #include "sim/vehicle/damage.h"
+#include "sim/vehicle/downwash_exposure.h"
+#include "sim/vehicle/fall_warning.h"
 #include "sim/vehicle/flight_world.h"
+#include "sim/vehicle/near_misses.h"
+#include "sim/vehicle/people_nearby.h"
 #include "sim/vehicle/pilot.h"
 #include "sim/vehicle/wind.h"
 #include "world/trace.h"

@@ -3,7 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "base/error.h"
-#include "geometry/triangulate.h"
+#include "base/geometry/triangulate.h"
 #include "sim/vehicle/damage.h"
 
 namespace throng::sim {

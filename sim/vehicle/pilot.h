@@ -5,9 +5,9 @@
 #include <functional>
 #include <memory>
 
-#include "sim/planning/planned_drone.h"
+#include "sim/controller.h"
+#include "sim/policies/planned_drone.h"
 #include "sim/vehicle/battery.h"
-#include "sim/vehicle/controller.h"
 #include "sim/vehicle/damage.h"
 #include "world/trace_event.h"
 

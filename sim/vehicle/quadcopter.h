@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "sim/spec/airframe.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::sim {
 

@@ -1,11 +1,11 @@
-// The gusts that each vehicle meets on its own, on top of the mean wind (sim/spec/wind_spec.h).
+// The gusts that each vehicle meets on its own, on top of the mean wind (spec/sim/wind_spec.h).
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "base/random.h"
-#include "sim/spec/wind_spec.h"
+#include "base/compute/random.h"
+#include "spec/sim/wind_spec.h"
 
 namespace throng::sim {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
 #include "skinning/animate/standing.h"

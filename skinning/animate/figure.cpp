@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "skinning/population.h"
 
 namespace throng::skinning {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/angle.h"
-#include "geometry/smoothstep.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/smoothstep.h"
 #include "skinning/animate/gait_tables.h"
 #include "skinning/animate/posture.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "geometry/smoothstep.h"
+#include "base/geometry/smoothstep.h"
 
 namespace throng::skinning {
 

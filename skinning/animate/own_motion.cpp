@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "geometry/smoothstep.h"
+#include "base/geometry/smoothstep.h"
 #include "skinning/animate/standing.h"
 
 namespace throng::skinning {

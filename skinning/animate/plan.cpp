@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
 #include "skinning/animate/footsteps.h"
 #include "skinning/animate/rest.h"
 #include "skinning/animate/standing.h"

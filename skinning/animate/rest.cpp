@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "skinning/animate/plan.h"
 
 namespace throng::skinning {

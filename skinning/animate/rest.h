@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "skinning/animate/motion.h"
 #include "skinning/animate/trajectory.h"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "geometry/angle.h"
-#include "geometry/smoothstep.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/smoothstep.h"
 #include "skinning/animate/posture.h"
 
 namespace throng::skinning {

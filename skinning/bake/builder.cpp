@@ -7,23 +7,23 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/compute/parallel.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
-#include "base/json_text.h"
-#include "base/parallel.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "base/json/json_text.h"
 #include "skinning/animate/clips.h"
 #include "skinning/bake/hull.h"
-#include "skinning/bake/makehuman.h"
 #include "skinning/bake/notice.h"
-#include "skinning/bake/person.h"
 #include "skinning/bake/workbench.h"
+#include "skinning/body/makehuman.h"
 #include "skinning/glb.h"
 #include "skinning/levels.h"
 #include "skinning/packed.h"
 #include "skinning/population_files.h"
 #include "skinning/wardrobe/dress.h"
 #include "skinning/wardrobe/item_shapes.h"
+#include "skinning/wardrobe/person.h"
 #include "skinning/wardrobe/wardrobe.h"
 
 namespace throng::skinning {

@@ -7,7 +7,7 @@
 #include <array>
 #include <limits>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "skinning/bake/person.h"
+#include "skinning/wardrobe/person.h"
 #include "skinning/wardrobe/wardrobe.h"
 
 namespace throng::skinning {

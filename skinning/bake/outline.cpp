@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "skinning/bake/raster.h"
+#include "skinning/body/raster.h"
 
 namespace throng::skinning {
 

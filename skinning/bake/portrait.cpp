@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/srgb.h"
-#include "geometry/angle.h"
-#include "skinning/bake/raster.h"
+#include "base/compute/srgb.h"
+#include "base/geometry/angle.h"
+#include "skinning/body/raster.h"
 
 namespace throng::skinning {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "skinning/bake/posed.h"
-#include "skinning/bake/surface.h"
+#include "skinning/body/surface.h"
 #include "skinning/image.h"
 
 namespace throng::skinning {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "skinning/bake/surface.h"
+#include "skinning/body/surface.h"
 #include "skinning/image.h"
 
 namespace throng::skinning {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "skinning/bake/person.h"
 #include "skinning/population_files.h"
+#include "skinning/wardrobe/person.h"
 
 namespace throng::skinning {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/field_table.h"
-#include "base/files.h"
-#include "base/json_describe.h"
-#include "base/json_text.h"
-#include "schemas/schemas.h"
+#include "base/files/files.h"
+#include "base/json/field_table.h"
+#include "base/json/json_describe.h"
+#include "base/json/json_text.h"
+#include "base/schemas/schemas.h"
 
 namespace throng::skinning {
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
 #include "skinning/animate/clips.h"
 #include "skinning/import/import_character.h"
 #include "skinning/packed.h"

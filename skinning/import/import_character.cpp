@@ -12,7 +12,7 @@
 #include "skinning/animate/clips.h"
 #include "skinning/animate/gait.h"
 #include "skinning/bake/mesh_levels.h"
-#include "skinning/bake/surface.h"
+#include "skinning/body/surface.h"
 #include "skinning/glb.h"
 #include "skinning/import/rig.h"
 #include "skinning/packed.h"

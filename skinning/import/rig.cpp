@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "skinning/bake/neutral.h"
+#include "skinning/body/neutral.h"
 
 namespace throng::skinning {
 

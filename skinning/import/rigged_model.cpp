@@ -10,9 +10,9 @@
 #include <assimp/Importer.hpp>
 #include <map>
 
+#include "base/compute/srgb.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/srgb.h"
+#include "base/files/files.h"
 
 namespace throng::skinning {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/words.h"
-#include "skinning/bake/raster.h"
+#include "base/text/words.h"
+#include "skinning/body/raster.h"
 
 namespace throng::skinning {
 

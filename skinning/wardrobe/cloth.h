@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "skinning/bake/makehuman.h"
+#include "skinning/body/makehuman.h"
 #include "skinning/image.h"
 #include "skinning/wardrobe/outfit.h"
 

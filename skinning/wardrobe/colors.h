@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "skinning/population.h"
 
 namespace throng::skinning {

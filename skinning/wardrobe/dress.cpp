@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-#include "skinning/bake/stance.h"
+#include "skinning/body/stance.h"
 
 namespace throng::skinning {
 

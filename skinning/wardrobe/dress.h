@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "skinning/bake/makehuman.h"
-#include "skinning/bake/person.h"
-#include "skinning/bake/surface.h"
+#include "skinning/body/makehuman.h"
+#include "skinning/body/surface.h"
 #include "skinning/skeleton.h"
+#include "skinning/wardrobe/person.h"
 #include "skinning/wardrobe/wardrobe.h"
 
 namespace throng::skinning {

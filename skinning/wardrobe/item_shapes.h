@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "skinning/bake/surface.h"
+#include "skinning/body/surface.h"
 #include "skinning/image.h"
 #include "skinning/population.h"
 #include "skinning/wardrobe/dress.h"

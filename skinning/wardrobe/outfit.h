@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "skinning/population.h"
 
 namespace throng::skinning {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "skinning/bake/makehuman.h"
+#include "skinning/body/makehuman.h"
 
 namespace throng::skinning {
 

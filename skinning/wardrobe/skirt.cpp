@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "geometry/smoothstep.h"
+#include "base/geometry/smoothstep.h"
 #include "skinning/skeleton.h"
 #include "skinning/wardrobe/cloth.h"
 #include "skinning/wardrobe/garments.h"

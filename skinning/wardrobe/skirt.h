@@ -2,7 +2,7 @@
 // cone from the waist to the ankles that morphs with the body.
 #pragma once
 
-#include "skinning/bake/makehuman.h"
+#include "skinning/body/makehuman.h"
 #include "skinning/image.h"
 
 namespace throng::skinning {

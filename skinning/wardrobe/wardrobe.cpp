@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "skinning/bake/skin_tone.h"
+#include "skinning/body/skin_tone.h"
 #include "skinning/skeleton.h"
 #include "skinning/wardrobe/cloth.h"
 #include "skinning/wardrobe/reveal.h"

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <vector>
 
-#include "skinning/bake/makehuman.h"
-#include "skinning/bake/person.h"
+#include "skinning/body/makehuman.h"
 #include "skinning/image.h"
 #include "skinning/wardrobe/garments.h"
+#include "skinning/wardrobe/person.h"
 
 namespace throng::skinning {
 

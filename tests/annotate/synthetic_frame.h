@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/frame.h"
 
 namespace throng::annotate {

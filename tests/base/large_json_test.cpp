@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/json_text.h"
+#include "base/json/json_text.h"
 
 namespace throng {
 namespace {

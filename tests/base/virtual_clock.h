@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "base/steady_time.h"
+#include "base/compute/steady_time.h"
 
 namespace throng {
 

@@ -28,7 +28,7 @@ TASK_S = 60  # that a task is taken to last
 MIN_JOB_AGE_S = 300  # after which a task that has ended is forgotten
 NODE_REPAIR_S = 600
 REQUEUE_DELAY_S = 120
-WORKER_NOT_BEGUN = 75  # jobs/queue/worker_protocol.h
+WORKER_NOT_BEGUN = 75  # jobs/queue/workers/worker_protocol.h
 ENDS_WHILE_CUT_OFF = 10  # of other tasks: time enough to give the task to others
 CALLS = (40, 160)  # of a simulation, and of a shard of ten frames
 

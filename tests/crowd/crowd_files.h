@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/resources.h"
+#include "base/files/resources.h"
 #include "crowd/simulation.h"
 
 namespace throng::crowd::test {

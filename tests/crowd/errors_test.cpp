@@ -4,8 +4,8 @@
 
 #include <sstream>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/resources.h"
+#include "base/files/resources.h"
 #include "crowd/project.h"
 #include "tests/crowd/crowd_files.h"
 

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "base/resources.h"
+#include "base/files/resources.h"
 #include "tests/crowd/crowd_files.h"
 
 namespace throng::crowd {

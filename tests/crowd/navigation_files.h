@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "crowd/spatial/obstacles.h"
 
 namespace throng::crowd::test {

@@ -1,6 +1,6 @@
 // Project files: what they say, what they leave out, and what is wrong with them.
 #include "crowd/project.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

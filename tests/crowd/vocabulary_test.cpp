@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "crowd/behavior/behavior.h"
+#include "crowd/behavior.h"
 #include "crowd/model.h"
 
 namespace throng::crowd {

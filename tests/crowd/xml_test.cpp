@@ -1,5 +1,5 @@
 // Files that are no proper XML, and names that are nearly right.
-#include "crowd/menge_files/read.h"
+#include "crowd/description/menge_files/read.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

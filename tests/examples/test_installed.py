@@ -29,7 +29,7 @@ class Installed(unittest.TestCase):
                 {
                     "crowd/simulation.h",
                     "crowd/description/builder.h",
-                    "crowd/menge_files/write.h",
+                    "crowd/description/menge_files/write.h",
                     "world/scenario.h",
                     "base/error.h",
                 },
@@ -37,7 +37,7 @@ class Installed(unittest.TestCase):
             )
             # Private headers are not installed, and the installed ones need no others.
             self.assertNotIn("crowd/behavior/machine.h", headers)
-            self.assertNotIn("crowd/menge_files/utf8.h", headers)
+            self.assertNotIn("crowd/description/menge_files/utf8.h", headers)
             every = folder / "every.cpp"
             every.write_text("".join(f'#include "{header}"\n' for header in sorted(headers)))
             libraries = run("pkg-config", "--cflags", "eigen3", "hdf5").split()

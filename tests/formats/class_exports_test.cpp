@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <map>
 
-#include "base/files.h"
-#include "base/resources.h"
-#include "formats/class_mappings.h"
-#include "formats/raster_files.h"
-#include "images/raster.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "base/graphics/images/raster.h"
+#include "formats/dataset/class_mappings.h"
+#include "formats/dataset/raster_files.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
 

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "annotate/coco.h"
-#include "annotate/density.h"
-#include "annotate/keypoints.h"
-#include "annotate/png.h"
-#include "annotate/preview.h"
-#include "base/files.h"
-#include "base/hash.h"
+#include "annotate/people/coco.h"
+#include "annotate/people/keypoints.h"
+#include "annotate/rasters/density.h"
+#include "annotate/rasters/png.h"
+#include "annotate/rasters/preview.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
 #include "base/version.h"
-#include "formats/exporter.h"
+#include "formats/export/exporter.h"
 #include "tests/annotate/synthetic_frame.h"
 #include "world/semantic_class.h"
 

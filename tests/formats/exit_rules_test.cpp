@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "annotate/spec/table_columns.h"
 #include "base/error.h"
-#include "formats/run_checks.h"
+#include "formats/validate/run_checks.h"
+#include "spec/annotate/table_columns.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "formats/mask.h"
-#include "images/raster.h"
+#include "base/graphics/images/raster.h"
+#include "formats/dataset/mask.h"
 #include "tests/annotate/rle.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "formats/run_checks.h"
-#include "formats/validate_figures.h"
+#include "formats/validate/run_checks.h"
+#include "formats/validate/validate_figures.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

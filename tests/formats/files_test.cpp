@@ -7,14 +7,14 @@
 #include <cstring>
 #include <set>
 
-#include "annotate/png.h"
+#include "annotate/rasters/png.h"
 #include "base/error.h"
-#include "base/zip_member.h"
-#include "formats/comparison.h"
-#include "formats/csv_table.h"
-#include "formats/image_camera.h"
-#include "formats/npy.h"
-#include "formats/raster_files.h"
+#include "base/files/zip_member.h"
+#include "formats/dataset/comparison.h"
+#include "formats/dataset/image_camera.h"
+#include "formats/dataset/raster_files.h"
+#include "formats/files/csv_table.h"
+#include "formats/files/npy.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "annotate/spec/table_columns.h"
 #include "base/error.h"
-#include "formats/flight_checks.h"
-#include "formats/run_checks.h"
+#include "formats/validate/flight_checks.h"
+#include "formats/validate/run_checks.h"
+#include "spec/annotate/table_columns.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "base/files.h"
-#include "formats/exporter.h"
-#include "formats/findings.h"
-#include "formats/mask.h"
+#include "base/files/files.h"
+#include "formats/dataset/mask.h"
+#include "formats/export/exporter.h"
+#include "formats/validate/findings.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng::formats::hand_made {

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "annotate/png.h"
+#include "annotate/rasters/png.h"
 #include "formats/card.h"
 #include "tests/formats/hand_made.h"
 #include "tests/formats/readers.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "annotate/preview.h"
+#include "annotate/rasters/preview.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -15,11 +15,11 @@
 #include <numeric>
 #include <sstream>
 
-#include "annotate/png.h"
+#include "annotate/rasters/png.h"
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
-#include "formats/npy.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "formats/files/npy.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
 

@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "annotate/preview.h"
-#include "images/jpeg_file.h"
+#include "annotate/rasters/preview.h"
+#include "base/graphics/images/jpeg_file.h"
 #include "tests/formats/hand_made.h"
 #include "tests/formats/readers.h"
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "formats/ground_truth_checks.h"
-#include "formats/instances.h"
-#include "formats/run_checks.h"
+#include "formats/dataset/instances.h"
+#include "formats/validate/ground_truth_checks.h"
+#include "formats/validate/run_checks.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "formats/run_checks.h"
+#include "formats/validate/run_checks.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

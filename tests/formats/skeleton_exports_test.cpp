@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/joints.h"
+#include "formats/dataset/joints.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

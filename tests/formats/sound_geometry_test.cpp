@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "base/files.h"
-#include "formats/run_checks.h"
-#include "formats/shot.h"
+#include "base/files/files.h"
+#include "formats/validate/run_checks.h"
+#include "formats/validate/shot.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {

@@ -7,14 +7,14 @@
 #include <functional>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "camera/camera.h"
-#include "formats/csv_table.h"
-#include "formats/flight_checks.h"
-#include "formats/ground_truth_checks.h"
-#include "formats/median.h"
-#include "formats/shares.h"
-#include "formats/shot.h"
+#include "formats/files/csv_table.h"
+#include "formats/validate/flight_checks.h"
+#include "formats/validate/ground_truth_checks.h"
+#include "formats/validate/median.h"
+#include "formats/validate/shares.h"
+#include "formats/validate/shot.h"
 #include "world/semantic_class.h"
 
 namespace throng::formats {

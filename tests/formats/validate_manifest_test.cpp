@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "formats/validate.h"
+#include "formats/validate/validate.h"
 #include "tests/formats/dataset_fixture.h"
 
 namespace throng::formats {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/unpack.h"
+#include "base/files/unpack.h"
 #include "tests/fuzz/fuzz_folder.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "imports/imports.h"
-#include "metrics/trajectory_file.h"
+#include "metrics/trajectories/trajectory_file.h"
+#include "places/imports/imports.h"
 #include "tests/fuzz/fuzz_folder.h"
 
 namespace throng::imports::fuzz {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/json_text.h"
-#include "base/utf8.h"
+#include "base/json/json_text.h"
+#include "base/text/utf8.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 #include "world/alarm.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "metrics/people.h"
+#include "metrics/basis/people.h"
 #include "tests/metrics/walks.h"
 #include "tests/world/temporary_folder.h"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "metrics/clogs.h"
-#include "metrics/exit_totals.h"
-#include "metrics/exits.h"
-#include "metrics/pressure.h"
-#include "metrics/queue.h"
+#include "metrics/density/pressure.h"
+#include "metrics/exits/clogs.h"
+#include "metrics/exits/exit_totals.h"
+#include "metrics/exits/exits.h"
+#include "metrics/exits/queue.h"
 #include "tests/metrics/walks.h"
 
 namespace throng::metrics {

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "geometry/point_grid.h"
+#include "base/geometry/point_grid.h"
+#include "metrics/basis/walking_distance.h"
+#include "metrics/density/ground_pressure.h"
+#include "metrics/density/pressure.h"
 #include "metrics/evacuation.h"
-#include "metrics/ground_pressure.h"
-#include "metrics/pressure.h"
-#include "metrics/walking_distance.h"
 #include "tests/metrics/walks.h"
 
 namespace throng::metrics {

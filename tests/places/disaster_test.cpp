@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "crowd/simulation.h"
-#include "places/blocked.h"
-#include "places/blueprint.h"
-#include "places/people.h"
-#include "places/survey.h"
+#include "places/blueprint/blocked.h"
+#include "places/blueprint/blueprint.h"
+#include "places/blueprint/people.h"
+#include "places/check/survey.h"
 #include "tests/places/square.h"
 #include "tests/world/temporary_folder.h"
 #include "world/json_reader.h"

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
-#include "places/blueprint.h"
+#include "places/blueprint/blueprint.h"
 #include "tests/places/square.h"
 #include "tests/world/temporary_folder.h"
 #include "world/scenario.h"

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/resources.h"
-#include "places/blueprint.h"
-#include "places/check.h"
-#include "places/load_scenario.h"
+#include "base/files/resources.h"
+#include "places/blueprint/blueprint.h"
+#include "places/blueprint/load_scenario.h"
+#include "places/check/check.h"
 #include "tests/world/temporary_folder.h"
 #include "world/alarm.h"
 #include "world/scenario_crowd.h"

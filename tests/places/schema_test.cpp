@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/resources.h"
-#include "places/blueprint.h"
-#include "schemas/schemas.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "base/schemas/schemas.h"
+#include "places/blueprint/blueprint.h"
 #include "world/scenario.h"
 #include "world/semantic_class.h"
 

@@ -11,7 +11,7 @@ import common
 import numpy as np
 from throng import api_types, client, job
 
-SCHEMA = json.loads((common.ROOT / "jobs/spec/job.schema.json").read_text())
+SCHEMA = json.loads((common.ROOT / "spec/job/job.schema.json").read_text())
 DOCUMENT = json.loads((common.ROOT / "server/openapi.json").read_text())
 
 

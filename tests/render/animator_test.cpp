@@ -1,5 +1,5 @@
 #include "render/animator.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 #include <gtest/gtest.h>
 

@@ -12,10 +12,10 @@
 #include <tuple>
 #include <vector>
 
-#include "base/resources.h"
-#include "geometry/polygon.h"
-#include "places/generated.h"
-#include "places/load_scenario.h"
+#include "base/files/resources.h"
+#include "base/geometry/polygon.h"
+#include "places/blueprint/generated.h"
+#include "places/blueprint/load_scenario.h"
 #include "render/frame.h"
 #include "render/place/ground_layers.h"
 #include "render/place/place.h"

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "base/compute/random.h"
 #include "base/error.h"
-#include "base/random.h"
 #include "tests/render/synthetic_people.h"
 
 namespace throng::render {

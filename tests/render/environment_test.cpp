@@ -1,7 +1,7 @@
 // Light and weather on pixels.
 #include <gtest/gtest.h>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "render/place/daylight.h"
 #include "render/place/lamps.h"
 #include "tests/render/stage.h"

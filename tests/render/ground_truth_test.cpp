@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/people/person_geometry.h"
 #include "tests/render/stage.h"
 

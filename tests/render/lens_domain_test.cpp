@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/lens/lens.h"
 #include "tests/render/stage.h"
 

@@ -1,7 +1,7 @@
 // Motion in images through distorting lenses.
 #include <gtest/gtest.h>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/lens/lens.h"
 #include "tests/render/stage.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

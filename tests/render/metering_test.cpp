@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/srgb.h"
+#include "base/compute/srgb.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

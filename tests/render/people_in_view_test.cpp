@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

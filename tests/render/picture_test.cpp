@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

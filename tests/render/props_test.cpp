@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "geometry/angle.h"
+#include "base/files/files.h"
+#include "base/geometry/angle.h"
 #include "render/props/prop_shapes.h"
 #include "render/props/vehicles.h"
 #include "tests/render/stage.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "render/passes/smooth_edges.h"
 #include "tests/render/stage.h"
 

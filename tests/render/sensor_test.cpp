@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/srgb.h"
+#include "base/compute/srgb.h"
 
 namespace throng::render {
 namespace {

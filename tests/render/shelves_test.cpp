@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 
 namespace throng::render {
 namespace {

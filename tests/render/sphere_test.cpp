@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "render/lens/lens.h"
 #include "tests/render/stage.h"
 

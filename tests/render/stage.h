@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "render/renderer.h"
 #include "tests/render/synthetic_people.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/random.h"
+#include "base/compute/random.h"
 #include "render/place/lighting.h"
 #include "skinning/levels.h"
 #include "tests/render/stage.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "server/audit_log.h"
+#include "server/access/audit_log.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "server/api.h"
-#include "server/http.h"
+#include "server/api/api.h"
+#include "server/http/http.h"
 #include "tests/server/http_client.h"
 #include "tests/server/service_fixture.h"
 

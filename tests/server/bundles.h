@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "tests/base/packed.h"
 #include "tests/places/yard.h"
 

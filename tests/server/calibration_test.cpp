@@ -12,10 +12,10 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/hash.h"
-#include "calibrate/spec/request_files.h"
-#include "jobs/queue/file_fence.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "jobs/queue/confine/file_fence.h"
+#include "spec/calibration/request_files.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {

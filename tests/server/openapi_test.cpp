@@ -9,7 +9,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-#include "base/files.h"
+#include "base/files/files.h"
 #include "tests/server/api_fixture.h"
 #include "tests/server/bundles.h"
 

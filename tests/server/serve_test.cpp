@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::server {

@@ -10,9 +10,9 @@
 #include <memory>
 #include <thread>
 
-#include "base/files.h"
-#include "jobs/queue/local_processes.h"
-#include "server/service.h"
+#include "base/files/files.h"
+#include "jobs/queue/workers/local_processes.h"
+#include "server/api/service.h"
 #include "tests/base/wait_until.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"

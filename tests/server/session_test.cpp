@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "server/sessions.h"
+#include "server/access/sessions.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {

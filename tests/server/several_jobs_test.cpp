@@ -6,7 +6,7 @@
 #include <set>
 #include <thread>
 
-#include "server/service.h"
+#include "server/api/service.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {

@@ -1,5 +1,5 @@
 // Checks of what users send, for tests: by the program's own confined children, or, where the
-// program is not part of the build, as far as jobs/spec knows.
+// program is not part of the build, as far as spec knows.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/resources.h"
-#include "jobs/queue/checked_scenarios.h"
-#include "jobs/queue/confined_task.h"
-#include "jobs/spec/job_cost.h"
-#include "jobs/spec/scenario_summary.h"
-#include "jobs/spec/spec.h"
+#include "base/files/resources.h"
+#include "jobs/queue/confine/checked_scenarios.h"
+#include "jobs/queue/confine/confined_task.h"
+#include "spec/estimates/job_cost.h"
+#include "spec/job/spec.h"
+#include "spec/places/scenario_summary.h"
 #include "world/scenario.h"
 
 namespace throng::server {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/geometry/angle.h"
 #include "camera/camera.h"
-#include "geometry/angle.h"
 #include "sim/planning/plan.h"
 
 namespace throng::sim {

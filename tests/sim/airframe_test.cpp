@@ -1,5 +1,5 @@
-#include "sim/spec/airframe.h"
-#include "base/resources.h"
+#include "spec/sim/airframe.h"
+#include "base/files/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {
@@ -18,7 +18,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 json f450() {
-  const std::string text = read_file(source_folder().string() + "/sim/spec/airframes.json");
+  const std::string text = read_file(source_folder().string() + "/spec/sim/airframes.json");
   return {{"mine", json::parse(text)["f450"]}};
 }
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sim/spec/airframe.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::sim::testing {
 

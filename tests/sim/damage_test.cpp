@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/recording/fall_warning.h"
+#include "sim/vehicle/fall_warning.h"
 #include "tests/sim/missions.h"
 
 namespace throng::sim {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "geometry/polygon.h"
+#include "base/geometry/polygon.h"
 #include "tests/sim/airframes.h"
 #include "tests/sim/missions.h"
 

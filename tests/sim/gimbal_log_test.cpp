@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 namespace throng::sim {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/files.h"
-#include "base/resources.h"
-#include "places/load_scenario.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "places/blueprint/load_scenario.h"
 #include "sim/guidance_loop.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"

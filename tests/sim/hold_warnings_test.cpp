@@ -1,4 +1,4 @@
-#include "sim/recording/hold_warnings.h"
+#include "sim/vehicle/hold_warnings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sim/recording/near_misses.h"
+#include "sim/vehicle/near_misses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Drones flown by commands: their pilot logs repeat the flight exactly.
 #include "sim/remote/remote_pilots.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "base/files.h"
-#include "places/load_scenario.h"
+#include "base/files/files.h"
+#include "places/blueprint/load_scenario.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/recording/trace_recorder.h"
 #include "sim/run.h"

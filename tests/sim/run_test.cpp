@@ -1,5 +1,5 @@
 #include "sim/run.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/hash.h"
-#include "places/load_scenario.h"
+#include "base/files/hash.h"
+#include "places/blueprint/load_scenario.h"
 #include "tests/world/temporary_folder.h"
 #include "world/trace.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 
 namespace throng::sim {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/angle.h"
-#include "sim/spec/airframe.h"
-#include "sim/vehicle/controller.h"
+#include "base/geometry/angle.h"
+#include "sim/controller.h"
 #include "sim/vehicle/flight_world.h"
 #include "sim/vehicle/wind.h"
+#include "spec/sim/airframe.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "skinning/bake/person.h"
+#include "skinning/wardrobe/person.h"
 
 namespace throng::skinning {
 namespace {

@@ -1,5 +1,5 @@
 #include "skinning/bake/builder.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,7 +9,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "skinning/bake/notice.h"
 #include "skinning/bake/workbench.h"
 #include "skinning/population.h"

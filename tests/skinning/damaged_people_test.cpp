@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
 

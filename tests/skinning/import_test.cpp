@@ -8,7 +8,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
 #include "skinning/image.h"
 #include "skinning/import/description.h"
 #include "skinning/levels.h"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "skinning/animate/motion.h"
-#include "skinning/bake/raster.h"
+#include "skinning/body/raster.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
 #include "tests/skinning/baked_people.h"

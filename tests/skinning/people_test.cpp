@@ -9,7 +9,7 @@
 
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
-#include "skinning/bake/raster.h"
+#include "skinning/body/raster.h"
 #include "skinning/levels.h"
 #include "tests/skinning/baked_people.h"
 #include "tests/skinning/walkers.h"

@@ -1,4 +1,4 @@
-#include "skinning/bake/person.h"
+#include "skinning/wardrobe/person.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "skinning/animate/footsteps.h"
 #include "tests/skinning/walkers.h"
 

@@ -1,4 +1,4 @@
-#include "skinning/bake/skin_tone.h"
+#include "skinning/body/skin_tone.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "geometry/angle.h"
+#include "base/geometry/angle.h"
 #include "tests/skinning/walkers.h"
 
 namespace throng::skinning {

@@ -1,6 +1,6 @@
 // The scenario that a trace holds.
 #include "world/trace_scenario.h"
-#include "base/resources.h"
+#include "base/files/resources.h"
 
 #include <gtest/gtest.h>
 

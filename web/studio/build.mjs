@@ -114,7 +114,7 @@ function page(metafile) {
     .replace("<!--CHUNKS-->", chunks.map((name) => `<link rel="modulepreload" href="/assets/${name}">`).join("\n"));
 }
 
-/// studio_bytes.S holds the bytes, studio_files.cpp the table of server/studio.h.
+/// studio_bytes.S holds the bytes, studio_files.cpp the table of server/api/studio.h.
 function writeSources() {
   const rows = [];
   const bytes = ["  .section .rodata\n"];
@@ -150,7 +150,7 @@ function writeSources() {
   const table = `// Written by web/studio/build.mjs.  NOLINTBEGIN
 #include <array>
 
-#include "server/studio.h"
+#include "server/api/studio.h"
 
 extern "C" {
 ${symbols}}

@@ -1,5 +1,5 @@
 // Every kind of ground truth of the table is written and checked by code that is registered for it.
-#include "annotate/spec/ground_truth.h"
+#include "spec/annotate/ground_truth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <set>
 
 #include "annotate/frame_writers.h"
-#include "formats/exporter.h"
-#include "formats/ground_truth_checks.h"
-#include "jobs/pipeline/run_writers.h"
-#include "jobs/spec/spec.h"
+#include "formats/export/exporter.h"
+#include "formats/validate/ground_truth_checks.h"
+#include "jobs/pipeline/frames/run_writers.h"
+#include "spec/job/spec.h"
 
 namespace throng::jobs {
 namespace {

@@ -6,11 +6,11 @@
 #include <set>
 #include <string>
 
-#include "base/files.h"
-#include "base/resources.h"
-#include "jobs/pipeline/resolve.h"
-#include "jobs/spec/spec.h"
-#include "places/load_scenario.h"
+#include "base/files/files.h"
+#include "base/files/resources.h"
+#include "jobs/pipeline/checks/resolve.h"
+#include "places/blueprint/load_scenario.h"
+#include "spec/job/spec.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {

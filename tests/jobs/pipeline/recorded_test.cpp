@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/files/files.h"
+#include "jobs/pipeline/checks/resolve.h"
+#include "jobs/pipeline/frames/recording.h"
 #include "jobs/pipeline/pipeline.h"
-#include "jobs/pipeline/recording.h"
-#include "jobs/pipeline/resolve.h"
-#include "jobs/queue/folder.h"
-#include "jobs/spec/spec.h"
+#include "jobs/queue/dataset/folder.h"
 #include "metrics/evacuation.h"
-#include "metrics/exits.h"
-#include "places/load_scenario.h"
+#include "metrics/exits/exits.h"
+#include "places/blueprint/load_scenario.h"
+#include "spec/job/spec.h"
 #include "tests/jobs/yard.h"
 #include "world/scenario.h"
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "base/files.h"
-#include "base/hash.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/delivery.h"
-#include "jobs/queue/executor.h"
-#include "jobs/queue/manifest.h"
+#include "jobs/queue/workers/executor.h"
 
 namespace throng::jobs {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "jobs/queue/confined_task.h"
-#include "jobs/queue/fork_server.h"
+#include "jobs/queue/confine/confined_task.h"
+#include "jobs/queue/confine/fork_server.h"
 
 namespace {
 

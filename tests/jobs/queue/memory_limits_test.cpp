@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "jobs/queue/worker_limits.h"
+#include "jobs/queue/confine/worker_limits.h"
 #include "tests/jobs/queue/perform_in_child.h"
 
 namespace throng::jobs {

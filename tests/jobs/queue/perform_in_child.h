@@ -9,8 +9,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
-#include "jobs/queue/confined_task.h"
+#include "base/files/files.h"
+#include "jobs/queue/confine/confined_task.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {

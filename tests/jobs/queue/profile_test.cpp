@@ -1,6 +1,6 @@
 // Profile of a job's rendering, as workers write it and users read it.
 #include "jobs/queue/profile.h"
-#include "jobs/spec/spec.h"
+#include "spec/job/spec.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/queue/store.h"
+#include "jobs/queue/store/store.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {

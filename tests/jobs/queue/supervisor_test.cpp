@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "jobs/queue/failed_runs.h"
-#include "jobs/spec/spec.h"
+#include "spec/job/spec.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
 

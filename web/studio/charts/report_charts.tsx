@@ -1,4 +1,4 @@
-// The charts of Studio in an HTML report, whose figures are in the page (study/report_figures.h).
+// The charts of Studio in an HTML report, whose figures are in the page (jobs/study/report_figures.h).
 import { type JSX, render } from "preact";
 import { useState } from "preact/hooks";
 import { type ExitHistory, type ExitState, kExitStates, stateAt } from "../run/exit_states";

@@ -1,4 +1,4 @@
-// The job's schema (jobs/spec/job.schema.json), as far as forms need it.
+// The job's schema (spec/job/job.schema.json), as far as forms need it.
 import { isEqual, isObject, type Json, type JsonObject } from "./json";
 
 export interface Schema {

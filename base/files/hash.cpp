@@ -1,0 +1,88 @@
+#include "base/files/hash.h"
+
+#include <fmt/format.h>
+#include <isa-l/crc.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng {
+
+namespace {
+
+class Sha256 {
+ public:
+  static constexpr std::size_t kBytes = 32;
+  using Digest = std::array<unsigned char, kBytes>;
+
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
+  void add(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
+  std::string hex() {
+    std::string text;
+    for (const unsigned char byte : digest()) text += fmt::format("{:02x}", byte);
+    return text;
+  }
+  std::string base64() {
+    const Digest bytes = digest();
+    std::array<unsigned char, 4 * ((kBytes + 2) / 3) + 1> text{};
+    const int length = EVP_EncodeBlock(text.data(), bytes.data(), static_cast<int>(kBytes));
+    return {text.begin(), text.begin() + length};
+  }
+
+ private:
+  Digest digest() {
+    Digest digest{};
+    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
+    return digest;
+  }
+
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.hex();
+}
+
+std::string sha256_base64(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.base64();
+}
+
+std::uint32_t crc32_of(std::string_view bytes) {
+  return crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+}
+
+FileHashes hashes_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
+  Sha256 hash;
+  FileHashes hashes;
+  std::vector<unsigned char> block(1 << 20);
+  while (file) {
+    file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
+    const auto count = static_cast<std::size_t>(file.gcount());
+    hash.add(block.data(), count);
+    hashes.crc32 = crc32_gzip_refl(hashes.crc32, block.data(), count);
+  }
+  if (file.bad()) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
+  hashes.sha256_hex = hash.hex();
+  return hashes;
+}
+
+std::string sha256_hex_of_file(const std::filesystem::path& path) {
+  return hashes_of_file(path).sha256_hex;
+}
+
+}  // namespace throng

@@ -1,0 +1,256 @@
+#include "base/files/unpack.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/resource_exhaustion.h"
+#include "base/text/words.h"
+
+namespace throng {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSource = "bundle";
+constexpr const char* kPlainName =
+    "a relative path of printable ASCII characters without \\ : * ? \" < > |";
+
+using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kMaxPrintedBytes = 120;
+  std::string out;
+  for (const char c : text.substr(0, kMaxPrintedBytes)) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte >= ' ' && byte < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+  }
+  return text.size() > kMaxPrintedBytes ? out + "..." : out;
+}
+
+[[noreturn]] void refuse(std::string_view entry, std::string found, std::string expected) {
+  throw InputError(Problem{kSource, entry.empty() ? "" : fmt::format("\"{}\"", printable(entry)),
+                           std::move(found), std::move(expected)});
+}
+
+// Names that stand for devices on other systems, with or without a suffix.
+bool is_reserved(std::string_view component) {
+  constexpr std::array<std::string_view, 4> kDevices = {"con", "prn", "aux", "nul"};
+  const std::string stem = lower_case(component.substr(0, component.find('.')));
+  if (std::find(kDevices.begin(), kDevices.end(), stem) != kDevices.end()) return true;
+  constexpr std::size_t kNumbered = 4;
+  return stem.size() == kNumbered && (stem.starts_with("com") || stem.starts_with("lpt")) &&
+         std::isdigit(static_cast<unsigned char>(stem.back())) != 0;
+}
+
+bool is_plain(char c) {
+  return c >= ' ' && c <= '~' && std::string_view("\\:*?\"<>|").find(c) == std::string_view::npos;
+}
+
+/// An entry's path in its parts. Throws InputError.
+std::vector<std::string> parts_of(std::string_view name, const UnpackLimits& limits) {
+  if (name.size() > limits.max_path_bytes) {
+    refuse(name, fmt::format("a path of {} characters", name.size()),
+           fmt::format("at most {}", limits.max_path_bytes));
+  }
+  if (name.starts_with('/') || !std::all_of(name.begin(), name.end(), is_plain)) {
+    refuse(name, "this path", kPlainName);
+  }
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from < name.size();) {
+    const std::size_t to = std::min(name.find('/', from), name.size());
+    const std::string_view part = name.substr(from, to - from);
+    from = to + 1;
+    if (part.empty() || part == ".") continue;
+    if (part == "..") refuse(name, "a path with \"..\"", kPlainName);
+    if (part.ends_with('.') || part.ends_with(' ') || part.starts_with(' ')) {
+      refuse(name, "a name that begins or ends with a space or ends with a dot", kPlainName);
+    }
+    if (is_reserved(part)) refuse(name, "a name that is reserved for devices", kPlainName);
+    parts.emplace_back(part);
+  }
+  if (parts.size() > limits.max_depth) {
+    refuse(name, fmt::format("a path of {} levels", parts.size()),
+           fmt::format("at most {}", limits.max_depth));
+  }
+  return parts;
+}
+
+/// Detects two entries of the same name, also for case-insensitive systems.
+class Names {
+ public:
+  /// Notes the entry and the folders it lies in.
+  void add(std::string_view name, const std::vector<std::string>& parts, bool is_folder) {
+    std::string path;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      path += (i == 0 ? "" : "/") + parts[i];
+      const bool folder = is_folder || i + 1 < parts.size();
+      const auto [known, is_new] = names_.try_emplace(lower_case(path), Known{path, folder});
+      if (is_new) continue;
+      if (known->second.path != path) {
+        refuse(name, fmt::format("also \"{}\"", printable(known->second.path)),
+               "names that differ in more than their case");
+      }
+      if (!folder || !known->second.is_folder)
+        refuse(name, "the same path again", "each path once");
+    }
+  }
+
+ private:
+  struct Known {
+    std::string path;
+    bool is_folder;
+  };
+  std::map<std::string, Known> names_;
+};
+
+/// Skipped entries, which macOS adds by itself.
+bool is_clutter(const std::vector<std::string>& parts) {
+  return parts.empty() || parts.front() == "__MACOSX" || parts.back() == ".DS_Store";
+}
+
+class Unpacking {
+ public:
+  Unpacking(std::string_view bytes, const fs::path& folder, const UnpackLimits& limits)
+      : folder_(folder),
+        limits_(limits),
+        packed_bytes_(static_cast<std::int64_t>(bytes.size())),
+        archive_(archive_read_new(), archive_read_free) {
+    if (!archive_) throw EnvironmentError("no memory for an archive's reader");
+    archive_read_support_format_zip_seekable(archive_.get());
+    archive_read_support_format_tar(archive_.get());
+    archive_read_support_filter_gzip(archive_.get());
+    if (archive_read_open_memory(archive_.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) {
+      fail("");
+    }
+    constexpr int kOneFilter = 2;  // and the source, which counts
+    if (archive_filter_count(archive_.get()) > kOneFilter) {
+      refuse("", "an archive that is compressed several times", "a zip, tar or tar.gz file");
+    }
+  }
+
+  Unpacked run() {
+    archive_entry* entry = nullptr;
+    std::size_t entries = 0;
+    while (true) {
+      const int status = archive_read_next_header(archive_.get(), &entry);
+      if (status == ARCHIVE_EOF) break;
+      if (status != ARCHIVE_OK && status != ARCHIVE_WARN) fail("");
+      if (++entries > limits_.max_entries) {
+        refuse("", "more entries", fmt::format("at most {}", limits_.max_entries));
+      }
+      take(entry);
+    }
+    if (result_.files == 0) refuse("", "no file", "a zip, tar or tar.gz file with files");
+    return result_;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view entry) {
+    const char* message = archive_error_string(archive_.get());
+    const std::string text = message == nullptr ? "what cannot be read" : message;
+    if (archive_errno(archive_.get()) == ENOMEM) throw EnvironmentError("unpacking: " + text);
+    refuse(entry, printable(text), "a whole zip, tar or tar.gz file");
+  }
+
+  void take(archive_entry* entry) {
+    const char* text = archive_entry_pathname(entry);
+    if (text == nullptr) refuse("", "an entry whose name is no text", kPlainName);
+    const std::string name = text;
+    const std::vector<std::string> parts = parts_of(name, limits_);
+    if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
+      refuse(name, "a link", "files and folders");
+    }
+    const auto type = archive_entry_filetype(entry);
+    if (type != AE_IFREG && type != AE_IFDIR) refuse(name, "a special file", "files and folders");
+    if (archive_entry_is_encrypted(entry) != 0)
+      refuse(name, "an encrypted entry", "one that is not");
+    require_known_compression(name);
+    // Skipped entries, and entries that should have no bytes, count too: reading past them is work.
+    if (is_clutter(parts)) return pass_on(name, [](std::string_view) {});
+    names_.add(name, parts, type == AE_IFDIR);
+    fs::path place = folder_;
+    for (const std::string& part : parts) place /= part;
+    fs::create_directories(type == AE_IFDIR ? place : place.parent_path());
+    if (type == AE_IFDIR) return pass_on(name, [](std::string_view) {});
+    write(name, place);
+  }
+
+  // Others may ask for gigabytes of memory before the first byte.
+  void require_known_compression(const std::string& name) {
+    if (archive_format(archive_.get()) != ARCHIVE_FORMAT_ZIP) return;
+    const std::string format = archive_format_name(archive_.get());
+    if (format.find("(deflation)") != std::string::npos) return;
+    if (format.find("(uncompressed)") != std::string::npos) return;
+    refuse(name, format, "zip entries that are stored or deflated");
+  }
+
+  template <typename Sink>
+  void pass_on(const std::string& name, const Sink& sink) {
+    std::int64_t file_bytes = 0;
+    while (true) {
+      const la_ssize_t count = archive_read_data(archive_.get(), block_.data(), block_.size());
+      if (count < 0) fail(name);
+      if (count == 0) return;
+      file_bytes += count;
+      result_.bytes += count;
+      require_allowed(name, file_bytes);
+      sink(std::string_view(block_.data(), static_cast<std::size_t>(count)));
+    }
+  }
+
+  void write(const std::string& name, const fs::path& place) {
+    errno = 0;
+    std::ofstream file(place, std::ios::binary | std::ios::trunc);
+    pass_on(name, [&](std::string_view bytes) {
+      file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    });
+    file.close();
+    if (!file) throw_write_error(place, errno);
+    ++result_.files;
+  }
+
+  void require_allowed(const std::string& name, std::int64_t file_bytes) const {
+    if (file_bytes > limits_.max_file_bytes) {
+      refuse(name, "a larger file", fmt::format("at most {} bytes", limits_.max_file_bytes));
+    }
+    if (result_.bytes > limits_.max_bytes) {
+      refuse(name, "more bytes so far",
+             fmt::format("at most {} in all files together", limits_.max_bytes));
+    }
+    constexpr std::int64_t kAlwaysFine = 4 << 20;
+    if (result_.bytes > kAlwaysFine && result_.bytes / packed_bytes_ > limits_.max_ratio) {
+      refuse(name, "a file that was packed too well",
+             fmt::format("at most {} bytes for each byte of the archive", limits_.max_ratio));
+    }
+  }
+
+  const fs::path& folder_;
+  const UnpackLimits& limits_;
+  std::int64_t packed_bytes_;
+  ArchiveHandle archive_;
+  Names names_;
+  Unpacked result_;
+  std::vector<char> block_ = std::vector<char>(64 << 10);
+};
+
+}  // namespace
+
+Unpacked unpack_archive(std::string_view bytes, const fs::path& folder,
+                        const UnpackLimits& limits) {
+  return Unpacking(bytes, folder, limits).run();
+}
+
+}  // namespace throng

@@ -1,0 +1,70 @@
+#include "base/geometry/polygon.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace throng::geometry {
+
+using Eigen::Vector2d;
+
+namespace {
+
+// Whether they cross, or one meets the other at one of its ends.
+bool segments_touch(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  return segments_cross(a, b, c, d) ||
+         std::min({distance_to_segment(a, b, c), distance_to_segment(a, b, d),
+                   distance_to_segment(c, d, a), distance_to_segment(c, d, b)}) == 0;
+}
+
+}  // namespace
+
+double distance_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
+  return (p - a - nearest_share(a, b, p) * (b - a)).norm();
+}
+
+double signed_area(std::span<const Vector2d> corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    twice += cross(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  return 0.5 * twice;
+}
+
+bool is_simple(std::span<const Vector2d> corners) {
+  const std::size_t n = corners.size();
+  if (n < 3) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d& a = corners[i];
+    const Vector2d& b = corners[(i + 1) % n];
+    const Vector2d& next = corners[(i + 2) % n];
+    // Neighbors share a corner; they may not fold back over each other.
+    if (a == b || (cross(b - a, next - b) == 0 && (b - a).dot(next - b) < 0)) return false;
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if ((j + 1) % n == i) continue;
+      if (segments_touch(a, b, corners[j], corners[(j + 1) % n])) return false;
+    }
+  }
+  return true;
+}
+
+double signed_distance_to(std::span<const Vector2d> corners, const Vector2d& point) {
+  bool inside = false;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d& a = corners[i];
+    const Vector2d& b = corners[(i + 1) % corners.size()];
+    distance = std::min(distance, distance_to_segment(a, b, point));
+    // A ray to +x leaves an area after an odd number of edges.
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
+      inside = !inside;
+    }
+  }
+  return inside ? -distance : distance;
+}
+
+double distance_to(std::span<const Vector2d> corners, const Vector2d& point) {
+  return std::max(0.0, signed_distance_to(corners, point));
+}
+
+}  // namespace throng::geometry

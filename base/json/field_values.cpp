@@ -1,0 +1,114 @@
+#include "base/json/field_values.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace throng::fields {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kIdentifier = "^[A-Za-z0-9_-]{1,32}$";
+
+/// A number without a point where it is whole.
+ordered_json plain(double number) {
+  constexpr double kExact = 9'007'199'254'740'992;
+  if (std::abs(number) <= kExact && number == std::trunc(number)) {
+    return static_cast<std::int64_t>(number);
+  }
+  return number;
+}
+
+}  // namespace
+
+Quantity number_quantity(double low, double high) {
+  return {fmt::format("a number from {} to {}", low, high),
+          [low, high](const json& value) -> std::optional<double> {
+            if (!value.is_number()) return std::nullopt;
+            const auto number = value.get<double>();
+            return number >= low && number <= high ? std::optional(number) : std::nullopt;
+          },
+          [](double number) { return json(number); },
+          low,
+          high,
+          true};
+}
+
+Values integers(std::int64_t low, std::int64_t high) {
+  Quantity quantity = number_quantity(static_cast<double>(low), static_cast<double>(high));
+  quantity.expected = fmt::format("an integer from {} to {}", low, high);
+  quantity.number = [number = quantity.number](const json& value) {
+    return value.is_number_integer() ? number(value) : std::nullopt;
+  };
+  quantity.json = [](double value) { return json(std::llround(value)); };
+  return {{{"type", "integer"}, {"minimum", low}, {"maximum", high}}, "", std::move(quantity)};
+}
+
+Values numbers(double low, double high) {
+  return {{{"type", "number"}, {"minimum", plain(low)}, {"maximum", plain(high)}},
+          "",
+          number_quantity(low, high)};
+}
+
+Values numbers_above(double low, double high) {
+  return {{{"type", "number"}, {"exclusiveMinimum", plain(low)}, {"maximum", plain(high)}}};
+}
+
+Values booleans() { return {{{"type", "boolean"}}}; }
+
+Values texts(int min_length, int max_length) {
+  return {{{"type", "string"}, {"minLength", min_length}, {"maxLength", max_length}}};
+}
+
+Values identifiers() { return texts_like(kIdentifier, "1 to 32 letters, digits, '_' or '-'"); }
+
+Values texts_like(const std::string& pattern, const std::string& expected) {
+  return {{{"type", "string"}, {"pattern", pattern}}, expected};
+}
+
+Values lists(int min_items, int max_items, ordered_json items) {
+  return {{{"type", "array"},
+           {"minItems", min_items},
+           {"maxItems", max_items},
+           {"items", std::move(items)}}};
+}
+
+Values object_of(const ordered_json& fields) {
+  ordered_json rules = {{"type", "object"}};
+  rules.update(fields);
+  return {std::move(rules)};
+}
+
+Values raw(ordered_json rules, std::string expected) {
+  return {std::move(rules), std::move(expected)};
+}
+
+Values one_of(std::span<const std::string> words) {
+  ordered_json list = ordered_json::array();
+  for (const std::string& word : words) list.push_back(word);
+  return {{{"type", "string"}, {"enum", std::move(list)}}};
+}
+
+ordered_json plain_numbers(const json& value) {
+  if (value.is_number_float()) return plain(value.get<double>());
+  return value;
+}
+
+const json* value_at(const json& object, std::string_view path) {
+  const json* value = &object;
+  while (true) {
+    const std::size_t end = path.find('/');
+    const auto found = value->find(path.substr(0, end));
+    if (found == value->end()) return nullptr;
+    value = &*found;
+    if (end == std::string_view::npos) return value;
+    path.remove_prefix(end + 1);
+  }
+}
+
+json::json_pointer pointer_below(const std::string& path) { return json::json_pointer("/" + path); }
+
+}  // namespace throng::fields

@@ -1,0 +1,62 @@
+#include "base/schemas/schemas.h"
+
+#include "base/json/json_text.h"
+
+namespace throng::embedded {
+extern const std::string_view kScenarioSchema;
+extern const std::string_view kBlueprintSchema;
+extern const std::string_view kStudySchema;
+extern const std::string_view kAirframeSchema;
+extern const std::string_view kCharacterSchema;
+extern const std::string_view kCameraSchema;
+}  // namespace throng::embedded
+
+namespace throng::schemas {
+
+namespace {
+
+template <Kind kind>
+const JsonSchema& compiled() {
+  static const Entry& entry = entries().at(static_cast<std::size_t>(kind));
+  static const JsonSchema schema(parse_json(entry.text, std::string(entry.name)));
+  return schema;
+}
+
+}  // namespace
+
+const std::array<Entry, 6>& entries() {
+  static const std::array<Entry, 6> all = {{
+      {Kind::scenario, "scenario", embedded::kScenarioSchema},
+      {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
+      {Kind::study, "study", embedded::kStudySchema},
+      {Kind::airframe, "airframe", embedded::kAirframeSchema},
+      {Kind::character, "character", embedded::kCharacterSchema},
+      {Kind::camera, "camera", embedded::kCameraSchema},
+  }};
+  return all;
+}
+
+const JsonSchema& schema_of(Kind kind) {
+  switch (kind) {
+    case Kind::scenario:
+      return compiled<Kind::scenario>();
+    case Kind::blueprint:
+      return compiled<Kind::blueprint>();
+    case Kind::study:
+      return compiled<Kind::study>();
+    case Kind::airframe:
+      return compiled<Kind::airframe>();
+    case Kind::character:
+      return compiled<Kind::character>();
+    case Kind::camera:
+      break;
+  }
+  return compiled<Kind::camera>();
+}
+
+void add_schema_problems(Kind kind, const nlohmann::json& document, const std::string& source,
+                         std::vector<Problem>& problems) {
+  add_other_places(problems, schema_of(kind).problems(document, source));
+}
+
+}  // namespace throng::schemas

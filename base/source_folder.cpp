@@ -1,8 +1,0 @@
-// A file of its own: only it is compiled again in another checkout, all else comes from ccache.
-#include "base/resources.h"
-
-namespace throng {
-
-std::filesystem::path source_folder() { return THRONG_SOURCE_FOLDER; }
-
-}  // namespace throng

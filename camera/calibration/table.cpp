@@ -1,0 +1,89 @@
+#include "camera/calibration/table.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/files/files.h"
+
+namespace throng::calibrate {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* kBlank = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(trimmed(cell));
+  return cells;
+}
+
+// A byte-order mark, as spreadsheets write it.
+constexpr std::string_view kMark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = result.ec == std::errc() && result.ptr == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+Table read_table(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                 const std::vector<std::string>& optional_columns) {
+  std::string text = read_file(file);
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  std::istringstream lines(text);
+  Table table;
+  std::vector<std::size_t> places;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::string content = trimmed(line);
+    if (content.empty() || content.starts_with('#')) continue;
+    const std::vector<std::string> cells = cells_of(content);
+    if (places.empty()) {
+      std::vector<std::string> wanted = columns;
+      wanted.insert(wanted.end(), optional_columns.begin(), optional_columns.end());
+      for (const std::string& column : wanted) {
+        const auto found = std::find(cells.begin(), cells.end(), column);
+        places.push_back(static_cast<std::size_t>(found - cells.begin()));
+        if (found == cells.end() && places.size() <= columns.size()) {
+          throw InputError(
+              Problem{file.string(), fmt::format("line {}", number),
+                      fmt::format("a header without the column \"{}\"", column),
+                      fmt::format("a header with the columns {}", fmt::join(columns, ","))});
+        }
+      }
+      continue;
+    }
+    TableRow row{number, {}};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      row.cells.push_back(places[i] < cells.size() ? cells[places[i]] : "");
+    }
+    const bool short_line = std::any_of(
+        row.cells.begin(), row.cells.begin() + static_cast<std::ptrdiff_t>(columns.size()),
+        [](const std::string& cell) { return cell.empty(); });
+    if (short_line) table.short_lines.push_back(number);
+    table.rows.push_back(std::move(row));
+  }
+  if (table.rows.empty()) {
+    throw InputError(Problem{file.string(), "", "no rows", "a header and at least one row"});
+  }
+  return table;
+}
+
+}  // namespace throng::calibrate

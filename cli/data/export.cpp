@@ -1,0 +1,182 @@
+// throng export: a finished dataset in other formats.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "cli/shell/commands.h"
+#include "formats/export/exporter.h"
+
+namespace throng::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ExportArguments {
+  std::string dataset;
+  std::string output;
+  std::vector<std::string> formats;
+  std::vector<std::string> splits;
+  double min_visibility = 0;
+  double min_height_px = 0;
+  std::optional<double> max_truncation;
+  double min_contrast = 0;
+  double shard_mb = formats::WebDatasetOptions{}.shard_mb;
+  std::string classes = "none";
+  std::vector<std::string> class_names;
+};
+
+/// "left=right" as its two sides.
+std::pair<std::string, std::string> sides_of(const std::string& text, const std::string& option) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({"", option, text, "NAME=VALUE"});
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// train=0.8, val=0.2 or val=run003: shares or runs.
+formats::SplitOptions splits_of(const std::vector<std::string>& words) {
+  formats::SplitOptions splits;
+  bool has_train = false;
+  for (const std::string& word : words) {
+    const auto [name, value] = sides_of(word, "--split");
+    const auto found = std::find(formats::kSplitNames.begin(), formats::kSplitNames.end(), name);
+    if (found == formats::kSplitNames.end()) {
+      throw InputError({"", "--split", name, "train, val or test"});
+    }
+    const auto index = static_cast<std::size_t>(found - formats::kSplitNames.begin());
+    if (value.starts_with("run")) {
+      splits.runs[value] = static_cast<formats::Split>(index);
+      continue;
+    }
+    has_train = has_train || index == static_cast<std::size_t>(formats::Split::train);
+    char* end = nullptr;
+    splits.share[index] = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !(splits.share[index] >= 0 && splits.share[index] <= 1)) {
+      throw InputError(
+          {"", "--split " + name, value, "a share from 0 to 1, or a run such as run003"});
+    }
+  }
+  std::vector<Problem> problems;
+  formats::settle_shares(has_train, "--split", splits, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return splits;
+}
+
+formats::ExportOptions options_of(const ExportArguments& arguments) {
+  formats::ExportOptions options;
+  options.splits = splits_of(arguments.splits);
+  options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation,
+                     arguments.min_contrast};
+  options.webdataset.shard_mb = arguments.shard_mb;
+  options.classes.by = arguments.classes;
+  for (const std::string& word : arguments.class_names) {
+    formats::add_class_name(word, "--class-name", options.classes);
+  }
+  return options;
+}
+
+void export_formats(const ExportArguments& arguments) {
+  const fs::path root = arguments.dataset;
+  const formats::DatasetInfo info =
+      formats::describe_dataset(root, formats::read_manifest(root), options_of(arguments));
+  if (arguments.min_contrast > 0 && !info.has(annotate::GroundTruth::difficulty)) {
+    throw InputError({"", "--min-contrast", "a dataset without the annotation difficulty",
+                      "one whose job has \"difficulty\" in outputs.annotations"});
+  }
+  const auto chosen = formats::choose_formats(arguments.formats, info.annotations, "--formats");
+  if (fs::exists(arguments.output)) {
+    throw InputError({"", "--output", arguments.output + ", which exists", "a new folder"});
+  }
+  StagingFolder staging(arguments.output);
+  std::vector<Problem> warnings = formats::split_warnings(info, chosen);
+  for (Problem& warning : formats::export_dataset(info, chosen, staging.path())) {
+    warnings.push_back(std::move(warning));
+  }
+  staging.commit();
+  for (const Problem& warning : warnings) {
+    fmt::print(stderr, "throng: warning: {}\n", warning.text());
+  }
+  for (const formats::Format* format : chosen) {
+    fmt::print("{}\n", (fs::path(arguments.output) / format->name).string());
+  }
+}
+
+}  // namespace
+
+void add_export(CLI::App& app) {
+  auto* command = app.add_subcommand("export", "Write a finished dataset in other formats");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("dataset", arguments->dataset, "Folder of the dataset");
+  command->add_option("-o,--output", arguments->output, "Output folder, which must not exist");
+  command->add_option("--formats", arguments->formats, "Formats, separated by commas (see --list)")
+      ->delimiter(',');
+  command
+      ->add_option("--split", arguments->splits,
+                   "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
+                   "gets the remaining runs")
+      ->delimiter(',');
+  command
+      ->add_option("--min-visibility", arguments->min_visibility,
+                   "People less visible than this become ignore regions")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--max-truncation", arguments->max_truncation,
+                   "People farther outside of the image become ignore regions")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option(
+          "--min-contrast", arguments->min_contrast,
+          "People whose color differs less than this (CIELAB) from the surroundings become "
+          "ignore regions; needs the annotation difficulty")
+      ->check(CLI::Range(0.0, 100.0));
+  command
+      ->add_option("--min-height", arguments->min_height_px,
+                   "People smaller than this height in pixels become ignore regions")
+      ->check(CLI::Range(0.0, 1e6));
+  command
+      ->add_option("--shard-mb", arguments->shard_mb, "Size of WebDataset's tar files (10^6 bytes)")
+      ->check(CLI::Range(1.0, 1e5))
+      ->capture_default_str();
+  command->add_option("--classes", arguments->classes, "Attribute that defines the classes")
+      ->check(CLI::IsMember([] {
+        std::vector<std::string> names;
+        for (const std::string_view name : formats::class_properties()) names.emplace_back(name);
+        return names;
+      }()));
+  command
+      ->add_option("--class-name", arguments->class_names,
+                   "Another name for a value: female=woman,male=man")
+      ->delimiter(',');
+  const auto list = std::make_shared<bool>(false);
+  command->add_flag("--list", *list, "List the formats and exit");
+  command->callback([arguments, list] {
+    if (*list) {
+      for (const formats::Format& format : formats::all_formats()) {
+        fmt::print("{:<26}{}\n", format.name, format.summary);
+      }
+      return;
+    }
+    for (const auto& [name, is_missing] : {std::pair{"DATASET", arguments->dataset.empty()},
+                                           {"--output", arguments->output.empty()},
+                                           {"--formats", arguments->formats.empty()}}) {
+      if (is_missing) {
+        throw InputError(
+            {"throng export", "", fmt::format("missing {} (`throng export --help`)", name), ""});
+      }
+    }
+    export_formats(*arguments);
+  });
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,67 @@
+#include "cli/shell/document_kind.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/json/json_text.h"
+
+namespace throng::cli {
+
+namespace {
+
+struct KindWords {
+  std::string_view name;
+  std::string_view command;  ///< that takes such a file
+};
+constexpr std::array kWords = {
+    KindWords{"a file of an unknown kind", ""},
+    KindWords{"a job", "`throng run`"},
+    KindWords{"a scenario", "`throng scenario check`, and a job names it"},
+    KindWords{"a blueprint", "`throng scenario check`, and a job names it"},
+    KindWords{"a study", "`throng study`"},
+};
+
+const KindWords& words_of(DocumentKind kind) { return kWords.at(static_cast<std::size_t>(kind)); }
+
+}  // namespace
+
+std::string_view name_of(DocumentKind kind) { return words_of(kind).name; }
+
+DocumentKind document_kind(std::string_view text, const std::string& file) {
+  const nlohmann::json value = parse_json_or_discard(text);
+  if (!value.is_object()) return DocumentKind::unknown;
+  const auto has_any = [&](std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const char* key) { return value.contains(key); });
+  };
+  if (has_any({"scenario", "generate"})) return DocumentKind::job;
+  if (has_any({"policies", "cases"})) return DocumentKind::study;
+  if (file.ends_with(".place.json") || has_any({"people", "rows"})) return DocumentKind::blueprint;
+  if (has_any({"inside", "disaster_agents"})) return DocumentKind::scenario;
+  if (has_any({"ground", "buildings", "exits"})) {
+    return value.contains("crowd") ? DocumentKind::scenario : DocumentKind::blueprint;
+  }
+  return has_any({"capture", "drones", "runs", "outputs"}) ? DocumentKind::job
+                                                           : DocumentKind::unknown;
+}
+
+void require_scenario(std::string_view text, const std::string& file) {
+  if (document_kind(text, file) != DocumentKind::blueprint) {
+    require_kind(DocumentKind::scenario, text, file);
+  }
+}
+
+void require_kind(DocumentKind expected, std::string_view text, const std::string& file) {
+  const DocumentKind kind = document_kind(text, file);
+  if (kind == expected || kind == DocumentKind::unknown) return;
+  throw InputError({file, "", std::string(words_of(kind).name),
+                    fmt::format("{}; {} is for {}", words_of(expected).name, words_of(kind).name,
+                                words_of(kind).command)});
+}
+
+}  // namespace throng::cli

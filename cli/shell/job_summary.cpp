@@ -1,0 +1,72 @@
+#include "cli/shell/job_summary.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text/words.h"
+
+namespace throng::cli {
+
+using nlohmann::json;
+
+namespace {
+
+std::string duration_text(double seconds) {
+  constexpr double kMinuteS = 60;
+  constexpr double kHourS = 3600;
+  if (seconds < 2 * kMinuteS) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
+  if (seconds < 2 * kHourS) return fmt::format("{:.0f} min", seconds / kMinuteS);
+  return fmt::format("{:.1f} h", seconds / kHourS);
+}
+
+std::string size_text(double bytes) {
+  constexpr double kStep = 1000;
+  constexpr std::array kUnits = {"kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  double value = bytes / kStep;
+  for (; value >= kStep && unit + 1 < kUnits.size(); ++unit) value /= kStep;
+  return value < 10 ? fmt::format("{:.1f} {}", value, kUnits.at(unit))
+                    : fmt::format("{:.0f} {}", value, kUnits.at(unit));
+}
+
+void print_view(const json& view) {
+  constexpr double kPercent = 100;
+  const double share = view["max_area_share"];
+  const double pixels = view["max_person_px"];
+  std::string line = fmt::format("  {:<10}shows up to {:.0f} % of the area",
+                                 view["drone"].get<std::string>() + ":", kPercent * share);
+  if (share < 1) line += ", which every image cuts";
+  if (pixels > 0) line += fmt::format("; people up to {:.0f} px tall", pixels);
+  fmt::print("{}\n", line);
+}
+
+}  // namespace
+
+void print_job_summary(const json& answer, const std::string& file, int cores) {
+  const json& estimate = answer["estimate"];
+  const json& warnings = answer["warnings"];
+  fmt::print("{}: {}\n", file,
+             warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning"));
+  fmt::print("  {:<10}{}, {}\n", "people", answer["people"].get<std::int64_t>(),
+             counted(answer["runs"], "run"));
+  const std::int64_t images = answer["frames"];
+  fmt::print("  {:<10}{}\n", "images",
+             images == 0 ? "none without drones: the job makes traces and figures"
+                         : fmt::format("{} in {}", images, counted(answer["shards"], "shard")));
+  fmt::print("  {:<10}about {} on {}\n", "time",
+             duration_text(estimate["cpu_s"].get<double>() / cores), counted(cores, "core"));
+  fmt::print("  {:<10}about {}\n", "disk", size_text(estimate["disk_bytes"].get<double>()));
+  fmt::print("  {:<10}about {} MiB for each worker process\n", "memory",
+             estimate["memory_mib"].get<std::int64_t>());
+  for (const json& view : answer["views"]) print_view(view);
+  for (const json& warning : warnings) {
+    fmt::print("warning: {}\n",
+               Problem{file, warning["pointer"], warning["found"], warning["expected"]}.text());
+  }
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,42 @@
+// A scenario as a user names it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/shell/document_kind.h"
+#include "cli/shell/input_file.h"
+#include "places/blueprint/load_scenario.h"
+#include "world/scenario.h"
+#include "world/scenario_id.h"
+#include "world/trace_scenario.h"
+
+namespace throng::cli {
+
+/// Throws InputError for a file that is not there; its path may end with the id of a scenario.
+[[noreturn]] inline void refuse_missing_scenario(const std::string& name) {
+  const auto id = world::scenario_id_in(world::scenarios_folder(), name);
+  throw InputError({name, "", "no such file",
+                    id ? "a scenario file, or its id: \"" + *id + '"' : "a scenario file"});
+}
+
+/// A file where the name ends like one (.json), else the id of a shipped scenario. Throws
+/// InputError.
+inline world::Scenario scenario_named(const std::string& name) {
+  const std::filesystem::path file(name);
+  if (file.extension() != ".json") return places::find_scenario(world::scenarios_folder(), name);
+  if (!std::filesystem::exists(file)) refuse_missing_scenario(name);
+  require_scenario(read_input_file(name, "a scenario file"), name);
+  return places::load_scenario(file, world::id_from_file(file));
+}
+
+/// The scenario that the user names; where `name` is empty the one that the trace holds, else the
+/// shipped one of its id. Throws InputError.
+inline world::Scenario scenario_of_trace(const std::string& name, const world::TraceHeader& header,
+                                         const std::string& file) {
+  if (!name.empty()) return scenario_named(name);
+  auto kept = world::scenario_in_trace(header, file, world::TraceMeshes::left_out);
+  return kept ? *std::move(kept) : scenario_named(header.scenario_id);
+}
+
+}  // namespace throng::cli

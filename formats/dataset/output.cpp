@@ -1,0 +1,86 @@
+#include "formats/dataset/output.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "base/error.h"
+#include "formats/dataset/comparison.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path with_folder(fs::path path) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  return path;
+}
+
+}  // namespace
+
+OutputStream::OutputStream(fs::path path)
+    : path_(with_folder(std::move(path))), file_(path_, std::ios::binary) {
+  require_good();
+}
+
+OutputStream::OutputStream(fs::path path, Comparison* comparison, fs::path compared)
+    : OutputStream(std::move(path)) {
+  comparison_ = comparison;
+  compared_ = std::move(compared);
+}
+
+void OutputStream::write(std::string_view text) {
+  file_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  require_good();
+}
+
+void OutputStream::close() {
+  file_.close();
+  require_good();
+  if (comparison_ == nullptr) return;
+  comparison_->file(compared_, path_);
+  fs::remove(path_);
+}
+
+void OutputStream::require_good() const {
+  if (file_) return;
+  throw EnvironmentError(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+}
+
+void Output::written(const fs::path& path) const {
+  if (comparison_ == nullptr) return;
+  comparison_->file(path, folder_ / path);
+  fs::remove(folder_ / path);
+}
+
+void Output::write(const fs::path& path, std::string_view bytes) const {
+  if (comparison_ != nullptr) {
+    comparison_->bytes(path, bytes);
+    return;
+  }
+  OutputStream file(folder_ / path);
+  file.write(bytes);
+  file.close();
+}
+
+void Output::link(const fs::path& path, const fs::path& source) const {
+  if (comparison_ != nullptr) {
+    comparison_->file(path, source);
+    return;
+  }
+  const fs::path place = with_folder(folder_ / path);
+  std::error_code error;
+  fs::create_hard_link(source, place, error);
+  if (error) fs::copy_file(source, place, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot copy {} to {}: {}", source.string(), place.string(), error.message()));
+  }
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,43 @@
+// Lists of what is in each split, a text each.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "formats/dataset/output.h"
+#include "spec/formats/options.h"
+
+namespace throng::formats {
+
+/// Texts that are there for splits with lines only.
+class SplitLists {
+ public:
+  /// `pattern` with SPLIT for the split's name is the text's path: "SPLIT.txt". The output outlives
+  /// the lists.
+  SplitLists(const Output& output, std::string pattern)
+      : output_(&output), pattern_(std::move(pattern)) {}
+
+  void add(Split split, std::string_view line) {
+    auto found = lists_.find(split);
+    if (found == lists_.end()) {
+      std::string path = pattern_;
+      constexpr std::string_view kSplit = "SPLIT";
+      path.replace(path.find(kSplit), kSplit.size(), name_of(split));
+      found = lists_.emplace(split, output_->open(path)).first;
+    }
+    found->second.write(line);
+    found->second.write("\n");
+  }
+  void close() {
+    for (auto& [split, list] : lists_) list.close();
+    lists_.clear();
+  }
+
+ private:
+  const Output* output_;
+  std::string pattern_;
+  std::map<Split, OutputStream> lists_;
+};
+
+}  // namespace throng::formats

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/compute/quantile.h"
+
+namespace throng::formats {
+
+/// Three standard errors of the median of these values, whose spread is estimated from the median
+/// of the distances from it (1.48 of these are a standard deviation of normal values, and 1.25 of
+/// that over the root of the count is the standard error of their median); infinite of few values,
+/// of which the spread is not known either.
+inline double median_error(std::vector<double> values) {
+  constexpr std::size_t kMinCount = 8;
+  if (values.size() < kMinCount) return std::numeric_limits<double>::infinity();
+  const double middle = median(values);
+  for (double& value : values) value = std::abs(value - middle);
+  constexpr double kSigmas = 3;
+  constexpr double kSigmaPerDistance = 1.48;
+  constexpr double kErrorPerSigma = 1.25;
+  const auto count = static_cast<double>(values.size());
+  return kSigmas * kErrorPerSigma * kSigmaPerDistance * median(std::move(values)) /
+         std::sqrt(count);
+}
+
+}  // namespace throng::formats

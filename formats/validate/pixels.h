@@ -1,0 +1,60 @@
+// A dataset's values per pixel of one image, read once for all checks.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/dataset/dataset.h"
+#include "formats/validate/findings.h"
+
+namespace throng::formats {
+
+/// Row by row; a plane is empty where the dataset has none or where its file is damaged, which is a
+/// finding.
+struct Pixels {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;              ///< the image, 3 a pixel
+  std::vector<std::uint32_t> ids;             ///< instances
+  std::vector<std::uint16_t> depth_cm;        ///< camera z; 0: sky
+  std::vector<std::uint16_t> normals;         ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> flow;            ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> flow_backward;   ///< the same
+  std::vector<std::uint16_t> flow_occlusion;  ///< as in the file
+  std::vector<std::uint16_t> scene_flow;      ///< 3 a pixel, as in the file
+  std::vector<std::uint16_t> hazard_opacity;  ///< 3 a pixel
+  std::vector<std::uint16_t> parts;
+  std::vector<std::uint16_t> semantic;  ///< world::SemanticClass
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+  bool holds(int x, int y, int margin = 0) const {
+    return x >= margin && y >= margin && x < width - margin && y < height - margin;
+  }
+  double depth_m(std::size_t pixel) const { return depth_cm[pixel] / 100.0; }
+  /// Brightness, 0 to 255 (ITU-R BT.601).
+  double luma(std::size_t pixel) const {
+    const std::uint8_t* c = &rgb[3 * pixel];
+    return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
+  }
+};
+
+/// Reads the image and every raster that the dataset has of it; what is missing, damaged or of
+/// another size or kind is a finding.
+Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
+
+/// Motion (px) that a sample of flow/ or flow_backward/ holds; nothing if it is unknown.
+std::optional<Eigen::Vector2d> flow_of(const std::uint16_t* sample);
+
+/// "depth/run000/d1/000003.png"
+std::string raster_name(const char* kind, const Image& image);
+
+}  // namespace throng::formats

@@ -1,0 +1,261 @@
+// Files that hold a whole run, against the images' records and against themselves. Fed image by
+// image in the order of the COCO file.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "formats/dataset/dataset.h"
+#include "formats/files/csv_table.h"
+#include "formats/validate/exit_series.h"
+#include "formats/validate/findings.h"
+#include "formats/validate/ground_truth_checks.h"
+
+namespace throng::formats {
+
+/// exits/RUN.csv: its columns against each other, over time and against the images' `exits`; and
+/// the polygons of these against each other.
+class ExitsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  /// Most people leave by the exit that their records said last.
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Run {
+    std::map<std::string, ExitSeries> exits;
+    std::vector<std::string> order;
+    std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
+    std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
+    std::map<std::int64_t, std::string> wanted;  ///< the last exit in records, by track
+    /// Exits in the records of a frame by track, "" without one.
+    std::map<std::int64_t, std::map<std::int64_t, std::string>> headed;
+    std::string scenario;
+  };
+  /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
+  /// 0.01 px, which is meters on ground far away.
+  struct Outline {
+    std::vector<Eigen::Vector2d> corners;
+    std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< where each corner may be
+    double rounding_m = 0;                                 ///< the farthest of these
+  };
+  struct ExitOutlines {
+    Outline door;
+    Outline zone;
+  };
+
+  Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
+  static Outline outline_of(const camera::Camera& camera, const nlohmann::json& polygon);
+  static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
+                                       const nlohmann::json& polygon);
+  void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
+  static std::string shape_fault(const std::string& id, const ExitOutlines& place);
+  static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
+                           const Run& run, Findings& findings);
+  void count_everybody(const DatasetInfo& info, const std::string& name, const Run& run,
+                       Findings& findings) const;
+  void count_people(const std::string& file, const Image& image, Run& run,
+                    Findings& findings) const;
+
+  std::map<std::string, Run> runs_;
+  /// By scenario and exit: the place is one in all runs there.
+  std::map<std::pair<std::string, std::string>, ExitOutlines> places_;
+};
+
+/// fields/RUN/FRAME.npy against the people that cameras see.
+class FieldsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Walker {
+    Eigen::Vector2d position;
+    Eigen::Vector2d velocity;
+  };
+  std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
+};
+
+/// counts/RUN.csv and the images' `zones` against the people that cameras see.
+class CountsCheck : public GroundTruthCheck {
+ public:
+  using Places = std::map<std::int64_t, Eigen::Vector2d>;  ///< by track
+
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Visible {
+    std::int64_t id = 0;
+    nlohmann::json zones;
+    std::vector<Eigen::Vector2d> places;  ///< of the people whom the image shows
+  };
+  static void check_visible(const std::string& id, const std::vector<Eigen::Vector2d>& corners,
+                            const Visible& image, std::size_t zone, Findings& findings);
+
+  std::map<std::string, std::map<std::int64_t, Places>> seen_;  ///< by run and frame
+  std::map<std::string, std::vector<Visible>> images_;          ///< by run
+};
+
+/// trajectories/RUN.npy against the people in the images, and against how fast people run.
+class TrajectoriesCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+  struct Seen {
+    Eigen::Vector2d position;
+    double heading_rad = 0;
+    std::string behavior;
+  };
+  struct Frame {
+    double time_s = 0;
+    std::map<std::int64_t, Seen> people;  ///< by track
+  };
+
+ private:
+  std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
+};
+
+/// events/RUN.jsonl against frames and the people in the images.
+class EventsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+  struct Frame {
+    double time_s = 0;
+    std::map<std::int64_t, Eigen::Vector2d> people;  ///< places by track
+  };
+  using Frames = std::map<std::int64_t, Frame>;
+
+ private:
+  std::map<std::string, Frames> runs_;
+};
+
+/// actions/RUN.csv and the actions in the images' records.
+class ActionsCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  struct Seen {
+    std::int64_t id = 0;  ///< of the annotation
+    std::int64_t track_id = 0;
+    double time_s = 0;
+    std::set<std::string> actions;
+  };
+
+  static void check_names(const Person& person, const nlohmann::json& names, Findings& findings);
+  static void check_together(const Person& person,
+                             const std::map<std::int64_t, const Person*>& by_track,
+                             Findings& findings);
+  static void check_table(const CsvTable& table, const std::string& file,
+                          const std::vector<Seen>& seen, Findings& findings);
+
+  std::map<std::string, std::vector<Seen>> seen_;  ///< by run
+};
+
+/// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
+class ConstancyCheck {
+ public:
+  explicit ConstancyCheck(const nlohmann::json& manifest) : manifest_(manifest) {}
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+  void finish(const DatasetInfo& info, Findings& findings);
+
+ private:
+  void check_environment(const Image& image, Findings& findings);
+  void check_camera(const Image& image, Findings& findings);
+  void check_person(const Person& person, Findings& findings);
+  void check_track(const Image& image, const Person& person, Findings& findings);
+
+  const nlohmann::json& manifest_;
+  std::map<std::string, nlohmann::json> lenses_;       ///< by run and camera
+  std::map<std::int64_t, std::vector<double>> bones_;  ///< m, by track
+  std::map<std::string, std::pair<std::int64_t, nlohmann::json>> characters_;
+  std::set<std::int64_t> tracks_;
+  std::map<std::string, std::set<std::int64_t>> tracks_of_run_;
+  std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
+};
+
+/// Places and sizes of vehicles in the images of a run.
+class VehicleCheck {
+ public:
+  void add(const Image& image, Findings& findings);
+
+ private:
+  std::map<std::int64_t, nlohmann::json> poses_;  ///< by track
+};
+
+/// Hazards of the images of a run, and the danger to people.
+class HazardCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+
+ private:
+  struct Known {
+    double time_s = 0;
+    nlohmann::json record;
+  };
+  struct Inside {
+    double time_s = 0;
+    double inside_s = 0;
+  };
+
+  void check_hazard(const Image& image, const nlohmann::json& hazard, Findings& findings);
+  void check_danger(const Image& image, const Person& person, const nlohmann::json& hazards,
+                    Findings& findings);
+
+  std::map<std::pair<std::string, int>, Known> last_;  ///< by run and hazard
+  std::map<std::int64_t, Inside> inside_;              ///< by track
+};
+
+/// hazard_opacity/ against the hazards of the images of a run.
+class HazardOpacityCheck : public GroundTruthCheck {
+ public:
+  void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                  Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+ private:
+  /// Something that none of an image's hazards makes.
+  struct Unexplained {
+    std::string run;
+    std::string file;
+    std::string record;
+    std::string text;
+  };
+
+  std::set<std::string> runs_with_hazards_;
+  std::vector<Unexplained> without_hazard_;
+};
+
+/// A person in the records of the frames before and after is in those of the frame between.
+class PresenceCheck {
+ public:
+  void add(const Image& image, Findings& findings);
+
+ private:
+  struct Moment {
+    Image image;  ///< without images and masks
+  };
+  std::map<std::string, std::vector<Moment>> last_;  ///< two of each camera
+};
+
+/// metrics.json against metrics/RUN.json and the tables that it sums up.
+void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
+
+/// Compares an image's record with the manifest's job: camera, sensor, light, weather and wind.
+void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
+
+/// previews/ against the images and boxes that they show.
+void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);
+
+}  // namespace throng::formats

@@ -1,0 +1,83 @@
+#include "jobs/live/onboard_camera.h"
+
+#include <utility>
+
+#include "annotate/rasters/preview.h"
+#include "base/geometry/angle.h"
+#include "jobs/pipeline/frames/gimbal.h"
+#include "jobs/pipeline/pipeline.h"
+#include "spec/job/environment.h"
+
+namespace throng::live {
+
+namespace {
+
+constexpr int kJpegQuality = 70;
+
+render::RenderOptions draft() {
+  render::RenderOptions options;
+  options.quality = render::Quality::draft;
+  return options;
+}
+
+}  // namespace
+
+OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_job,
+                                                    world::Scenario scenario) {
+  const jobs::JobSpec job = jobs::job_of_run(whole_job, 0);
+  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  world::thin_out(scenario, job.props_density, seed);
+  const jobs::RunEnvironment environment = jobs::environment_of_run(job.environment, seed);
+  return {std::move(scenario), environment.light, jobs::styling_in(job, environment.light.weather)};
+}
+
+double smoke_of(const jobs::JobSpec& job) {
+  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed).light.smoke;
+}
+
+camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {
+  camera::CameraSpec shown;
+  shown.width = kImageWidth;
+  shown.height = kImageHeight;
+  shown.hfov_deg = camera.pinhole_hfov_rad() / kDegree;
+  shown.pitch_deg = camera.pitch_deg;
+  shown.yaw_deg = camera.yaw_deg;
+  return shown;
+}
+
+OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
+                             const world::TraceHeader& header,
+                             const std::vector<sim::PlannedDrone>& drones)
+    : OnboardCamera(place_of(job, std::move(scenario)), header, drones) {}
+
+OnboardCamera::OnboardCamera(Surroundings place, const world::TraceHeader& header,
+                             const std::vector<sim::PlannedDrone>& drones)
+    : scenario_(std::move(place.scenario)),
+      population_(skinning::load_population(skinning::population_folder())),
+      people_(header, header.seed, population_, place.styling),
+      renderer_(scenario_, population_, place.light, {}, draft()) {
+  for (const sim::PlannedDrone& drone : drones) {
+    cameras_.push_back(shown_camera(drone.mission.camera));
+    shapes_.push_back(
+        {drone.airframe.arm_m, drone.airframe.height_m, drone.airframe.propeller_radius_m});
+  }
+}
+
+std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double time_s) {
+  render::Scene scene = people_.scene_at(moment, time_s);
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const world::DroneSample sample = moment.flown.drone_at(i, time_s);
+    scene.drones.push_back({static_cast<std::uint32_t>(i), sample.position, sample.velocity,
+                            sample.orientation, shapes_[i]});
+  }
+  const camera::Camera view =
+      jobs::camera_on(moment.flown.drone_at(drone, time_s), cameras_.at(drone));
+  render::Frame frame = renderer_.draw(
+      scene, view, nullptr, {.truth = false, .exposure_gain = renderer_.metered_gain(scene, view)});
+  std::string jpeg = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), kJpegQuality);
+  renderer_.recycle(std::move(frame));
+  return jpeg;
+}
+
+}  // namespace throng::live

@@ -1,0 +1,349 @@
+#include "jobs/live/session.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <mutex>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "base/json/problem_json.h"
+#include "base/text/redact.h"
+#include "jobs/live/flight.h"
+#include "jobs/live/onboard_camera.h"
+#include "jobs/live/state_message.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/queue/confine/file_fence.h"
+#include "jobs/queue/workers/worker_side.h"
+#include "render/allocator.h"
+#include "spec/job/resolved_job.h"
+#include "spec/live/commands.h"
+#include "spec/live/messages.h"
+
+namespace throng::live {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// The way to the service: takes stdout for itself, so that a driver that prints there cannot spoil
+/// a message.
+class Output {
+ public:
+  Output() : output_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)) {
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~Output() { ::close(output_); }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  void send(MessageType type, std::string bytes) {
+    const std::string message = framed({type, std::move(bytes)});
+    const std::lock_guard lock(mutex_);
+    std::string_view rest = message;
+    while (!rest.empty()) {
+      const ssize_t count = ::write(output_, rest.data(), rest.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) std::_Exit(jobs::worker_environment_error);  // nobody is there
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  int output_;
+  std::mutex mutex_;
+};
+
+/// Everything that is asked for from outside.
+struct Wishes {
+  std::vector<sim::RemoteCommand> commands;  ///< per drone
+  std::uint32_t sequence = 0;
+  double factor = 1;
+  bool paused = false;
+  std::size_t view = 0;  ///< the drone whose camera is shown
+  int viewers = 0;
+  bool stop = false;
+
+  bool runs() const { return viewers > 0 && !paused && !stop; }
+};
+
+void merge(const Commands& given, const std::vector<std::string>& ids, Wishes& wishes) {
+  const auto number = [&](const std::string& id) {
+    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+  };
+  if (given.sequence) wishes.sequence = static_cast<std::uint32_t>(*given.sequence);
+  if (given.paused) wishes.paused = *given.paused;
+  if (given.factor) wishes.factor = *given.factor;
+  if (given.view) wishes.view = number(*given.view);
+  for (const DroneCommand& drone : given.drones) {
+    sim::RemoteCommand& command = wishes.commands.at(number(drone.id));
+    if (drone.velocity_mps) {
+      const auto& [ahead, left, up] = *drone.velocity_mps;
+      command.velocity_mps = {ahead, left, up};
+      // The pilot steers again.
+      if (!command.velocity_mps.isZero()) command.goes_home = false;
+    }
+    if (drone.yaw_rate_deg_s) command.yaw_rate_deg_s = *drone.yaw_rate_deg_s;
+    if (drone.beacon) command.beacon = *drone.beacon;
+    if (drone.return_home) command.goes_home = *drone.return_home;
+  }
+}
+
+class Session {
+ public:
+  /// `give_up` reports the current exception and ends the process.
+  Session(const jobs::JobSpec& job, const world::Scenario& scenario, const fs::path& folder,
+          Output& output, std::function<void()> give_up)
+      : scenario_(scenario),
+        job_(job),
+        output_(output),
+        give_up_(std::move(give_up)),
+        flight_(job, scenario, folder) {
+    for (const sim::PlannedDrone& drone : flight_.drones()) ids_.push_back(drone.mission.id);
+    wishes_.commands.resize(ids_.size());
+    moment_ = flight_.moment(0);
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Ends the process: the reader waits for input, and nothing can end that.
+  [[noreturn]] void run() {
+    std::thread([this] { read(); }).detach();
+    try {
+      output_.send(MessageType::hello, hello_of(flight_, scenario_, smoke_of(job_)).dump());
+      output_.send(MessageType::state, state_bytes(*moment_, 0, true));
+      {
+        const std::jthread camera([this](const std::stop_token& stop) { show(stop); });
+        fly();
+      }
+      if (failure_) std::rethrow_exception(failure_);
+      output_.send(MessageType::result, flight_.finish().dump());
+    } catch (...) {
+      give_up_();
+    }
+    std::_Exit(jobs::worker_succeeded);
+  }
+
+ private:
+  /// Without somebody at the other end there is no flight.
+  void read() {
+    std::string line;
+    while (std::getline(std::cin, line)) {
+      const json message = parse_own_json(line, "the service's message");
+      const std::lock_guard lock(mutex_);
+      if (const auto given = message.find("commands"); given != message.end()) {
+        merge(commands_from_json(*given, ids_), ids_, wishes_);
+        commanded_ = Clock::now();
+      }
+      wishes_.viewers = message.value("viewers", wishes_.viewers);
+      wishes_.stop |= message.value("stop", false);
+      changed_.notify_all();
+    }
+    std::_Exit(jobs::worker_environment_error);
+  }
+
+  /// A step whenever its time has come.
+  void fly() {
+    auto next = Clock::now();
+    std::optional<double> mean_step_s;  // lately; none after a rest
+    std::optional<Clock::time_point> last;
+    while (flight_.time_s() + flight_.dt_s() <= kMaxFlightS) {
+      std::unique_lock lock(mutex_);
+      if (!wishes_.runs() && !wishes_.stop) {
+        output_.send(MessageType::state, state_bytes(*moment_, 0, true));
+        changed_.wait(lock, [this] { return wishes_.runs() || wishes_.stop || failure_; });
+        next = Clock::now();
+        last.reset();
+        mean_step_s.reset();
+      }
+      if (wishes_.stop || failure_) return;
+      changed_.wait_until(lock, next, [this] { return !wishes_.runs() || failure_; });
+      if (!wishes_.runs() || failure_) continue;
+      const Wishes wishes = in_force();
+      lock.unlock();
+
+      std::shared_ptr<const Moment> moment = flight_.step(wishes.commands, wishes.sequence);
+      for (const json& event : flight_.take_events()) {
+        output_.send(MessageType::event, event.dump());
+      }
+      const double reached_factor = mean_step_s ? flight_.dt_s() / *mean_step_s : wishes.factor;
+      output_.send(MessageType::state, state_bytes(*moment, reached_factor, false));
+
+      const auto now = Clock::now();
+      lock.lock();
+      moment_ = std::move(moment);
+      stepped_ = now;
+      factor_ = wishes.factor;
+      lock.unlock();
+      changed_.notify_all();
+      constexpr double kNew = 0.1;  // share of the newest in the mean
+      if (last && now > *last) {
+        const double step_s = std::chrono::duration<double>(now - *last).count();
+        mean_step_s = mean_step_s ? *mean_step_s + kNew * (step_s - *mean_step_s) : step_s;
+      }
+      last = now;
+      next += std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(flight_.dt_s() / wishes.factor));
+      // A machine that is too slow flies slower, and does not catch up.
+      next = std::max(next, now - std::chrono::milliseconds(50));
+    }
+  }
+
+  /// Drones whose pilot is gone stop.
+  Wishes in_force() const {
+    constexpr std::chrono::milliseconds kSilence(1000);
+    Wishes wishes = wishes_;
+    if (Clock::now() - commanded_ > kSilence) {
+      for (sim::RemoteCommand& command : wishes.commands) {
+        command.velocity_mps.setZero();
+        command.yaw_rate_deg_s = 0;
+      }
+    }
+    return wishes;
+  }
+
+  /// The time to be shown now, in the newest step.
+  double shown_time(const Moment& moment) const {
+    const double since_s = std::chrono::duration<double>(Clock::now() - stepped_).count();
+    return std::min(moment.time_s, moment.time_s - moment.dt_s + since_s * factor_);
+  }
+
+  /// Images, as fast as they can be made.
+  void show(const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds kMinPause(33);
+    constexpr std::chrono::milliseconds kStill(500);  // between images of a world that rests
+    try {
+      OnboardCamera camera(job_, scenario_, flight_.header(), flight_.drones());
+      double shown_s = -1;
+      std::size_t shown_view = 0;
+      auto last = Clock::now() - kStill;
+      while (!stop.stop_requested()) {
+        std::unique_lock lock(mutex_);
+        changed_.wait_until(lock, last + kMinPause, [&] { return stop.stop_requested(); });
+        if (stop.stop_requested()) return;
+        const std::shared_ptr<const Moment> moment = moment_;
+        const double time_s = shown_time(*moment);
+        const std::size_t view = wishes_.view;
+        const bool is_seen = wishes_.viewers > 0;
+        lock.unlock();
+        const auto now = Clock::now();
+        const bool is_new = time_s != shown_s || view != shown_view || now - last >= kStill;
+        if (!is_seen || !is_new) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          continue;
+        }
+        last = now;
+        output_.send(MessageType::image,
+                     image_bytes(*moment, time_s, view, camera.image(*moment, view, time_s)));
+        shown_s = time_s;
+        shown_view = view;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+      changed_.notify_all();
+    }
+  }
+
+  const world::Scenario& scenario_;
+  const jobs::JobSpec& job_;
+  Output& output_;
+  std::function<void()> give_up_;
+  Flight flight_;  ///< of the thread that flies, but for what never changes
+  std::vector<std::string> ids_;
+  std::mutex mutex_;  ///< of all below
+  std::condition_variable changed_;
+  Wishes wishes_;
+  Clock::time_point commanded_;
+  std::shared_ptr<const Moment> moment_;
+  Clock::time_point stepped_;
+  double factor_ = 1;
+  std::exception_ptr failure_;
+};
+
+// A flight without its service would be one that nobody can end.
+void die_with_service() {
+  const char* service = std::getenv(jobs::kSupervisorVariable);
+  if (service == nullptr) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (std::to_string(::getppid()) != service) std::_Exit(jobs::worker_environment_error);
+}
+
+void confine(const fs::path& folder) {
+  jobs::FileFence fence = jobs::fence_of_folder(folder);
+  if (const fs::path cache = jobs::shader_cache_folder(); !cache.empty()) {
+    std::error_code error;
+    fs::create_directories(cache, error);
+    fence.writable.push_back(cache);
+  }
+  for (const std::string& unlimited :
+       {jobs::limit_this_process(), jobs::fence_this_process(fence)}) {
+    if (!unlimited.empty()) {
+      fmt::print(stderr, "warning: the kernel lets nobody limit {}\n", unlimited);
+    }
+  }
+}
+
+[[noreturn]] void fail(Output& output, jobs::WorkerExit code, const char* kind,
+                       const std::string& message, const std::vector<Problem>& problems = {}) {
+  fmt::print(stderr, "{}\n", message);
+  output.send(MessageType::failure,
+              json({{"kind", kind}, {"message", message}, {"problems", problems}})
+                  .dump(-1, ' ', false, json::error_handler_t::replace));
+  std::_Exit(code);
+}
+
+}  // namespace
+
+int run_session(const fs::path& folder) {
+  die_with_service();
+  const fs::path scenarios = world::scenarios_folder();
+  confine(folder);
+  render::tune_allocator();
+  Output output;
+  const auto give_up = [&] {
+    const auto named = [&](const std::string& text) {
+      return without_folders(text, {folder, scenarios});
+    };
+    try {
+      throw;
+    } catch (const InputError& error) {
+      fail(output, jobs::worker_input_error, "input", named(error.what()), error.problems());
+    } catch (const std::bad_alloc&) {
+      fail(output, jobs::worker_out_of_memory, "environment", "out of memory");
+    } catch (const std::exception& error) {
+      fail(output, jobs::worker_environment_error, "environment", named(error.what()));
+    }
+  };
+  try {
+    const jobs::ResolvedJob job =
+        jobs::read_resolved_job(read_file(folder / "job.json"), (folder / "job.json").string());
+    const world::Scenario scenario = jobs::scenario_of(job.spec(), scenarios);
+    Session(job.spec(), scenario, folder, output, give_up).run();
+  } catch (...) {
+    give_up();
+  }
+  return jobs::worker_bug;
+}
+
+}  // namespace throng::live

@@ -1,0 +1,172 @@
+#include "jobs/pipeline/checks/job_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "jobs/pipeline/checks/job_warnings.h"
+#include "jobs/pipeline/checks/rehearsal.h"
+#include "jobs/pipeline/checks/resolve.h"
+#include "jobs/pipeline/frames/recording.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "sim/run.h"
+#include "spec/job/plan.h"
+#include "spec/job/scenario_mix.h"
+#include "spec/job/schema_problems.h"
+#include "spec/job/spec.h"
+
+namespace throng::jobs {
+
+namespace {
+
+constexpr double kRecordedSpeedMps = 2;
+constexpr std::size_t kRecordedSteps = 200;  // that are looked at, evenly spread
+
+StartingCrowd recorded_crowd(const world::Trace& recording) {
+  StartingCrowd crowd{.max_speed_mps = kRecordedSpeedMps};
+  const std::size_t stride = std::max<std::size_t>(1, recording.steps() / kRecordedSteps);
+  for (std::size_t step = 0; step < recording.steps(); step += stride) {
+    for (std::size_t agent = 0; agent < recording.agents(); ++agent) {
+      if (!recording.present(step, agent)) continue;
+      crowd.places.push_back(recording.position[recording.at(step, agent)].cast<double>());
+    }
+  }
+  return crowd;
+}
+
+StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simulation,
+                             const std::set<int>& hazards) {
+  StartingCrowd crowd;
+  if (job.agents == 0) return crowd;
+  for (std::size_t agent = 0; agent < simulation.agent_count(); ++agent) {
+    if (hazards.contains(static_cast<int>(agent))) continue;
+    crowd.max_speed_mps =
+        std::max<double>(crowd.max_speed_mps, simulation.desired_speeds_mps()[agent]);
+    if (simulation.present()[agent] == 0) {
+      crowd.has_arrivals = true;
+    } else {
+      crowd.places.push_back(simulation.positions()[agent].cast<double>());
+    }
+  }
+  // Nobody wants to walk before the first step.
+  constexpr double kUsualSpeedMps = 1.4;
+  crowd.max_speed_mps = std::max(crowd.max_speed_mps, kUsualSpeedMps);
+  return crowd;
+}
+
+/// A job in one of its scenarios.
+struct InPlace {
+  ExpectedRun expected;
+  double taking_part = 0;  ///< people at the start, and those who come while it lasts
+  std::vector<CameraView> views;
+  std::vector<Problem> warnings;
+};
+
+/// People who come while the run lasts: sources of blueprints bring people for ten minutes if
+/// nothing else is said.
+double arrivals_of(double all, double at_start, double duration_s) {
+  constexpr double kArrivalsS = 600;
+  return std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
+}
+
+InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int run) {
+  InPlace checked;
+  StartingCrowd crowd;
+  if (job.recorded) {
+    const world::Trace recording = read_recording(*job.recorded);
+    checked.expected.people = static_cast<std::int64_t>(recording.agents());
+    crowd = recorded_crowd(recording);
+  } else {
+    const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
+    const crowd::Simulation simulation =
+        sim::load_crowd(scenario, plan_runs(job).at(static_cast<std::size_t>(run)).seed, job.crowd);
+    checked.expected.people = static_cast<std::int64_t>(simulation.agent_count() - hazards.size());
+    crowd = starting_crowd(job, simulation, hazards);
+  }
+  const world::Rectangle& ground = scenario.ground;
+  checked.expected.ground_m2 = (ground.max - ground.min).prod();
+  checked.expected.is_fled = !scenario.disasters.empty();
+  // People who take part are drawn from all with equal chances.
+  const auto all = static_cast<double>(std::max<std::int64_t>(1, checked.expected.people));
+  if (job.agents) checked.expected.people = *job.agents;
+  const double taking_part = static_cast<double>(checked.expected.people) / all;
+  const double at_start = taking_part * static_cast<double>(crowd.places.size());
+  const double arrivals =
+      arrivals_of(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
+  checked.taking_part = at_start + arrivals;
+  // Others leave meanwhile.
+  constexpr double kShareThere = 0.45;
+  checked.expected.at_a_time = at_start + kShareThere * arrivals;
+  const double scale = taking_part * checked.expected.at_a_time / std::max(1.0, at_start);
+  for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
+    checked.expected.in_view.push_back(view ? std::optional(scale * view->mean_people)
+                                            : std::nullopt);
+    if (view) checked.views.push_back(std::move(*view));
+  }
+  checked.warnings = warnings_of_place(job, scenario, crowd, run);
+  for (Problem& warning : figure_warnings(scenario)) checked.warnings.push_back(std::move(warning));
+  for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {
+    checked.warnings.push_back(std::move(warning));
+  }
+  return checked;
+}
+
+}  // namespace
+
+CheckedJob check_job(std::string_view text, const std::string& source,
+                     const std::filesystem::path& scenarios) {
+  CheckedJob checked{resolve_job(text, source, scenarios)};
+  const JobSpec& job = checked.job.spec();
+  checked.warnings = deprecated_fields(text);
+  const std::vector<Problem> settings = warnings_of_settings(job);
+  checked.warnings.insert(checked.warnings.end(), settings.begin(), settings.end());
+  const std::vector<std::size_t> shares = shares_of_runs(job);
+  double people_of_runs = 0;
+  std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
+  for (const int run : first_runs(job)) {
+    const JobSpec one = in_scenario_of_run(job, run);
+    InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
+    const auto runs =
+        std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
+    people_of_runs += static_cast<double>(runs) * place.taking_part;
+    of_shares[shares[static_cast<std::size_t>(run)]] = place.expected;
+    for (Problem& warning : place.warnings) {
+      if (!job.mix.empty()) warning.found += " in " + one.scenario;
+      checked.warnings.push_back(std::move(warning));
+    }
+    if (run == 0) checked.views = std::move(place.views);
+  }
+  checked.people = std::llround(people_of_runs / job.runs);
+  std::vector<ExpectedRun> of_runs;
+  of_runs.reserve(shares.size());
+  for (const std::size_t share : shares) of_runs.push_back(of_shares[share]);
+  checked.cost = estimate_cost(job, of_runs);
+  for (Problem& warning : checked.warnings) warning.source = source;
+  return checked;
+}
+
+nlohmann::json to_json(const CheckedJob& checked) {
+  nlohmann::json views = nlohmann::json::array();
+  for (const CameraView& view : checked.views) views.push_back(to_json(view));
+  nlohmann::json warnings = nlohmann::json::array();
+  for (const Problem& warning : checked.warnings) {
+    warnings.push_back(
+        {{"pointer", warning.where},
+         {"found", warning.found},
+         {"expected", warning.expected},
+         {"message", Problem{"", warning.where, warning.found, warning.expected}.text()}});
+  }
+  return {{"runs", checked.cost.runs},
+          {"shards", checked.cost.shards},
+          {"frames", checked.cost.images},
+          {"people", checked.people},
+          {"estimate", estimate_json(checked.cost)},
+          {"views", std::move(views)},
+          {"warnings", std::move(warnings)},
+          {"job", to_json(checked.job.spec())}};
+}
+
+}  // namespace throng::jobs

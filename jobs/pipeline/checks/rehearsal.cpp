@@ -1,0 +1,77 @@
+#include "jobs/pipeline/checks/rehearsal.h"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <utility>
+
+#include "jobs/pipeline/pipeline.h"
+#include "places/check/check.h"
+#include "sim/people/people_watch.h"
+#include "sim/run.h"
+#include "world/alarm.h"
+
+namespace throng::jobs {
+
+namespace {
+
+constexpr double kMaxMoves = 500'000;  // people times steps
+
+/// Stops when somebody knows of the alarm or enough was simulated.
+class Rehearsal : public sim::RunObserver {
+ public:
+  explicit Rehearsal(const world::Scenario& scenario) : scenario_(scenario) {}
+
+  void begin(const world::TraceHeader& header) override {
+    watch_.emplace(scenario_, header, std::nullopt);
+  }
+  void step(const world::CrowdStep& step) override {
+    watch_->look(step);
+    moves_ += static_cast<double>(step.position.size());
+  }
+  bool done() const override { return watch_->anybody_noticed() || moves_ > kMaxMoves; }
+
+  const sim::PeopleWatch& watch() const { return *watch_; }
+
+ private:
+  const world::Scenario& scenario_;
+  std::optional<sim::PeopleWatch> watch_;
+  double moves_ = 0;
+};
+
+}  // namespace
+
+std::vector<Problem> figure_warnings(const world::Scenario& scenario) {
+  std::vector<Problem> warnings;
+  for (const places::Finding& finding : places::check_figures(scenario, scenario.id)) {
+    warnings.push_back({"", "/scenario",
+                        fmt::format("{} in {}", finding.problem.found, scenario.id),
+                        finding.problem.expected});
+  }
+  return warnings;
+}
+
+std::vector<Problem> with_figure_warnings(std::vector<Problem> warnings,
+                                          const world::Scenario& scenario) {
+  for (Problem& warning : figure_warnings(scenario)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenario, int run,
+                              std::int64_t people) {
+  const std::optional<double> alarm_s = world::alarm_of(scenario).at_s;
+  if (!alarm_s || job.recorded || job.agents == 0) return {};
+  sim::RunSpec spec = run_spec(job, run);
+  if (*alarm_s > spec.duration_s) {
+    if (!job.drones.empty()) return {};
+    return {sim::late_alarm(*alarm_s, spec.duration_s)};
+  }
+  constexpr double kUsualStepS = 0.1;
+  constexpr double kPatienceS = 10;  // after the alarm; a run is not said to be idle before
+  if (static_cast<double>(people) * (*alarm_s + kPatienceS) > kMaxMoves * kUsualStepS) return {};
+  Rehearsal rehearsal(scenario);
+  sim::simulate(scenario, spec, rehearsal);
+  return rehearsal.watch().idleness();
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,191 @@
+#include "jobs/queue/confine/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/resource_exhaustion.h"
+#include "jobs/queue/confine/file_fence.h"
+
+namespace throng::jobs {
+
+namespace {
+
+// A line longer than this is no message of ours; it is cut so that memory stays bounded.
+constexpr std::size_t kMaxLineBytes = 1 << 20;
+
+// posix_spawn's argument objects, released in any case.
+class SpawnSettings {
+ public:
+  SpawnSettings() {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+  }
+  ~SpawnSettings() {
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+};
+
+constexpr std::string_view kCredentialPrefix = "AWS_";
+
+/// Files that credentials are read from, with colons between them as in $PATH.
+std::string credential_files() {
+  std::string files;
+  for (const char* name : {"AWS_SHARED_CREDENTIALS_FILE", "AWS_CONFIG_FILE"}) {
+    const char* file = std::getenv(name);
+    if (file == nullptr || *file == '\0') continue;
+    files += (files.empty() ? "" : ":") + std::filesystem::absolute(file).string();
+  }
+  return files;
+}
+
+std::vector<std::string> changed_environment(ChildProcess::Variables variables) {
+  if (const std::string files = credential_files(); !files.empty()) {
+    variables.emplace_back(kPrivateCredentialsVariable, files);
+  }
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    bool replaced = text.starts_with(kCredentialPrefix);
+    for (const auto& [name, value] : variables) replaced |= text.starts_with(name + "=");
+    if (!replaced) environment.push_back(text);
+  }
+  for (const auto& [name, value] : variables) {
+    environment.push_back(fmt::format("{}={}", name, value));
+  }
+  return environment;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+ChildProcess::Variables credential_variables() {
+  ChildProcess::Variables variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    const std::size_t end = text.find('=');
+    if (!text.starts_with(kCredentialPrefix) || end == std::string_view::npos) continue;
+    variables.emplace_back(text.substr(0, end), text.substr(end + 1));
+  }
+  return variables;
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variables& variables,
+                           const std::filesystem::path& log, int input) {
+  std::filesystem::create_directories(log.parent_path());
+  std::array<int, 2> pipe_ends{};
+  if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+    throw_environment_error("cannot create a pipe", errno);
+  }
+  const auto [read_end, write_end] = pipe_ends;
+  ::fcntl(read_end, F_SETFL, O_NONBLOCK);
+
+  SpawnSettings settings;
+  if (input < 0) {
+    posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  } else {
+    posix_spawn_file_actions_adddup2(&settings.actions, input, STDIN_FILENO);
+  }
+  posix_spawn_file_actions_adddup2(&settings.actions, write_end, STDOUT_FILENO);
+  constexpr int kLogMode = 0644;
+  posix_spawn_file_actions_addopen(&settings.actions, STDERR_FILENO, log.c_str(),
+                                   O_WRONLY | O_CREAT | O_APPEND, kLogMode);
+  // Libraries open sockets and files without a word: a child gets none of a client's connection.
+  posix_spawn_file_actions_addclosefrom_np(&settings.actions, STDERR_FILENO + 1);
+  // A server blocks and ignores signals that a worker must obey.
+  sigset_t none;
+  sigset_t all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&settings.attributes, &none);
+  posix_spawnattr_setsigdefault(&settings.attributes, &all);
+  posix_spawnattr_setpgroup(&settings.attributes, 0);
+  posix_spawnattr_setflags(&settings.attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+
+  std::vector<std::string> arguments = command;
+  std::vector<std::string> environment = changed_environment(variables);
+  const int error =
+      ::posix_spawnp(&pid_, arguments[0].c_str(), &settings.actions, &settings.attributes,
+                     pointers_to(arguments).data(), pointers_to(environment).data());
+  ::close(write_end);
+  if (error != 0) {
+    ::close(read_end);
+    throw_environment_error(fmt::format("cannot start {}", command[0]), error);
+  }
+  output_ = read_end;
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ > 0) {
+    signal_group(SIGKILL);
+    wait();
+  }
+  ::close(output_);
+}
+
+std::vector<std::string> ChildProcess::read_lines() {
+  std::array<char, 4096> block{};
+  ssize_t count = 0;
+  while ((count = ::read(output_, block.data(), block.size())) > 0) {
+    pending_.append(block.data(), static_cast<std::size_t>(count));
+    if (pending_.size() > kMaxLineBytes) pending_.clear();
+  }
+  std::vector<std::string> lines;
+  std::size_t start = 0;
+  for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n', start)) {
+    lines.push_back(pending_.substr(start, end - start));
+    start = end + 1;
+  }
+  pending_.erase(0, start);
+  return lines;
+}
+
+bool ChildProcess::has_ended() const {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == pid_;
+}
+
+ExitStatus ChildProcess::wait() {
+  // While the leader is uncollected its number, and so the group's, cannot be given to others.
+  siginfo_t info{};
+  while (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 &&
+         errno == EINTR) {
+  }
+  signal_group(SIGKILL);
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  if (WIFSIGNALED(status)) return {0, WTERMSIG(status)};
+  return {WEXITSTATUS(status), 0};
+}
+
+void ChildProcess::signal_group(int signal) const {
+  if (pid_ > 0) ::kill(-pid_, signal);
+}
+
+}  // namespace throng::jobs

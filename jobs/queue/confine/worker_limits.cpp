@@ -1,0 +1,104 @@
+#include "jobs/queue/confine/worker_limits.h"
+
+#include <fmt/core.h>
+#include <seccomp.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <memory>
+
+namespace throng::jobs {
+
+namespace {
+
+// System calls by which a process could reach the network without socket(), other processes of the
+// same user, or parts of the kernel that no task needs.
+constexpr std::array kRefusedCalls = {
+    SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter),  SCMP_SYS(pidfd_getfd),
+    SCMP_SYS(unshare),        SCMP_SYS(setns),           SCMP_SYS(mount),
+    SCMP_SYS(umount2),        SCMP_SYS(pivot_root),      SCMP_SYS(bpf),
+    SCMP_SYS(userfaultfd),    SCMP_SYS(perf_event_open), SCMP_SYS(keyctl),
+    SCMP_SYS(add_key),        SCMP_SYS(request_key),     SCMP_SYS(open_by_handle_at)};
+// The leak check of AddressSanitizer traces the process itself.
+#if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
+constexpr std::array kRefusedTracing = {SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
+                                        SCMP_SYS(process_vm_writev)};
+#else
+constexpr std::array<int, 0> kRefusedTracing = {};
+#endif
+
+// From -1000 to 1000: the kernel ends the process with the greatest score first when memory runs
+// out.
+constexpr int kOomScore = 500;
+
+/// Refuses all sockets but unconnected local ones, unless the network is allowed, and the calls
+/// above; 0, or an errno.
+int refuse_calls(Network network) {
+  const std::unique_ptr<void, decltype(&seccomp_release)> filter(seccomp_init(SCMP_ACT_ALLOW),
+                                                                 &seccomp_release);
+  if (!filter) return ENOMEM;
+  constexpr std::uint32_t kRefusal = SCMP_ACT_ERRNO(EACCES);
+  const auto refuse = [&](int call, std::initializer_list<scmp_arg_cmp> conditions) {
+    return seccomp_rule_add_array(filter.get(), kRefusal, call,
+                                  static_cast<unsigned>(conditions.size()), conditions.begin());
+  };
+  int error = 0;
+  if (network == Network::refused) {
+    error = refuse(SCMP_SYS(socket), {{0, SCMP_CMP_NE, AF_UNIX, 0}});
+    if (error == 0) error = refuse(SCMP_SYS(connect), {});
+    // Datagrams to an address need no connection.
+    if (error == 0) error = refuse(SCMP_SYS(sendto), {{4, SCMP_CMP_NE, 0, 0}});
+  }
+  for (const int call : kRefusedCalls) error = error == 0 ? refuse(call, {}) : error;
+  for (const int call : kRefusedTracing) error = error == 0 ? refuse(call, {}) : error;
+  return error != 0 ? -error : -seccomp_load(filter.get());
+}
+
+}  // namespace
+
+void protect_this_process() { ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }
+
+std::string limit_this_process(Network network) {
+  std::string refused;
+  const auto add_refused = [&](const char* what, int error) {
+    refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", what, std::strerror(error));
+  };
+  const rlimit no_core{0, 0};
+  if (::setrlimit(RLIMIT_CORE, &no_core) != 0) add_refused("core dumps", errno);
+  // Rather than the server, which may have become larger in months.
+  // A protected process may not write it.
+  ::prctl(PR_SET_DUMPABLE, 1, 0, 0, 0);
+  std::ofstream("/proc/self/oom_score_adj") << kOomScore;
+  protect_this_process();
+  const auto limit_memory = [&](decltype(RLIMIT_AS) kind, const char* variable) {
+    const char* text = std::getenv(variable);
+    constexpr rlim_t kMib = 1 << 20;
+    const rlim_t bytes = text == nullptr ? 0 : std::strtoull(text, nullptr, 10) * kMib;
+    const rlimit memory{bytes, bytes};
+    if (bytes > 0 && ::setrlimit(kind, &memory) != 0) add_refused("memory", errno);
+  };
+  limit_memory(RLIMIT_AS, kMemoryVariable);
+  limit_memory(RLIMIT_DATA, kDataVariable);
+  if (const int error = refuse_calls(network); error != 0) add_refused("the network", error);
+  return refused;
+}
+
+long long kills_for_memory() {
+  std::ifstream file("/proc/vmstat");
+  std::string name;
+  long long value = 0;
+  while (file >> name >> value) {
+    if (name == "oom_kill") return value;
+  }
+  return 0;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,36 @@
+#include "jobs/queue/slurm/message_file.h"
+
+#include <fstream>
+
+namespace throng::jobs {
+
+bool MessageFile::read() {
+  steps_.clear();
+  std::ifstream file(path_, std::ios::binary);
+  if (!file || !file.seekg(offset_)) return false;
+  // No worker says more within a look; a strange file is read in many looks.
+  constexpr std::size_t kMaxBytes = 1 << 20;
+  std::string block(kMaxBytes, '\0');
+  file.read(block.data(), static_cast<std::streamsize>(block.size()));
+  block.resize(static_cast<std::size_t>(file.gcount()));
+  if (block.empty()) return false;
+  offset_ += static_cast<std::int64_t>(block.size());
+  pending_ += block;
+  std::size_t start = 0;
+  for (auto end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n', start)) {
+    const std::string line = pending_.substr(start, end - start);
+    start = end + 1;
+    if (auto ended = read_attempt_end(line)) {
+      end_ = std::move(ended);
+      continue;
+    }
+    WorkerMessage message = read_worker_message(line);
+    if (message.error) error_ = std::move(message.error);
+    if (message.progress) steps_.push_back(*message.progress);
+  }
+  pending_.erase(0, start);
+  if (pending_.size() > kMaxBytes) pending_.clear();
+  return true;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,131 @@
+#include "jobs/queue/slurm/node_book.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/json/json_text.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+fs::path file_of(const JobFolder& folder) { return folder.path() / "logs" / "nodes.jsonl"; }
+
+constexpr const char* kSucceeded = "succeeded";
+
+void add(NodeWork& work, const std::string& outcome, double seconds) {
+  ++(outcome == kSucceeded ? work.done : work.failed);
+  work.busy_s += seconds;
+}
+
+NodeWork& work_at(std::map<std::string, NodeWork>& totals, const std::string& node) {
+  NodeWork& work = totals[node];
+  work.node = node;
+  return work;
+}
+
+std::vector<NodeWork> list_of(const std::map<std::string, NodeWork>& totals) {
+  std::vector<NodeWork> list;
+  list.reserve(totals.size());
+  for (const auto& [name, work] : totals) list.push_back(work);
+  return list;
+}
+
+std::map<std::string, NodeWork> read_totals(const fs::path& path) {
+  std::map<std::string, NodeWork> totals;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    try {
+      const json value = parse_json(line, "");
+      add(work_at(totals, value.at("node")), value.at("outcome"), value.at("seconds"));
+    } catch (const InputError&) {
+      continue;  // its writing was broken off
+    } catch (const json::exception&) {
+      continue;
+    }
+  }
+  return totals;
+}
+
+}  // namespace
+
+std::string name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::succeeded:
+      return kSucceeded;
+    case Outcome::input_error:
+      return "input_error";
+    case Outcome::environment_error:
+      return "environment_error";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed_out";
+    case Outcome::out_of_memory:
+      return "out_of_memory";
+    case Outcome::cancelled:
+      break;
+  }
+  return "cancelled";
+}
+
+NodeBook::Totals& NodeBook::totals_of(const JobFolder& folder) const {
+  const auto known = jobs_.find(folder.path());
+  if (known != jobs_.end()) return known->second;
+  return jobs_[folder.path()] = read_totals(file_of(folder));
+}
+
+void NodeBook::begin(const JobFolder& folder, const std::string& node) {
+  const std::lock_guard lock(mutex_);
+  ++work_at(totals_of(folder), node).running;
+  ++work_at(all_, node).running;
+}
+
+void NodeBook::leave(const JobFolder& folder, const std::string& node) {
+  const std::lock_guard lock(mutex_);
+  --work_at(totals_of(folder), node).running;
+  --work_at(all_, node).running;
+}
+
+void NodeBook::end(const JobFolder& folder, const NodeRecord& record) {
+  const std::lock_guard lock(mutex_);
+  // Also where its beginning was not seen: begin() and end() need not pair.
+  add(work_at(totals_of(folder), record.node), record.outcome, record.seconds);
+  add(work_at(all_, record.node), record.outcome, record.seconds);
+  std::ofstream file(file_of(folder), std::ios::app);
+  if (!file) {  // no worker has made the folder yet
+    std::error_code ignored;
+    fs::create_directories(file_of(folder).parent_path(), ignored);
+    file.open(file_of(folder), std::ios::app);
+  }
+  file << json{{"task", record.task},       {"attempt", record.attempt},
+               {"node", record.node},       {"slurm_job", record.slurm_job},
+               {"outcome", record.outcome}, {"seconds", record.seconds},
+               {"message", record.message}}
+              .dump(-1, ' ', false, json::error_handler_t::replace)
+       << '\n';
+}
+
+std::vector<NodeWork> NodeBook::of(const JobFolder& folder) const {
+  const std::lock_guard lock(mutex_);
+  return list_of(totals_of(folder));
+}
+
+int NodeBook::running() const {
+  const std::lock_guard lock(mutex_);
+  int running = 0;
+  for (const auto& [name, work] : all_) running += work.running;
+  return running;
+}
+
+std::vector<NodeWork> NodeBook::all() const {
+  const std::lock_guard lock(mutex_);
+  return list_of(all_);
+}
+
+}  // namespace throng::jobs

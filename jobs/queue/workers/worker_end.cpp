@@ -1,0 +1,72 @@
+#include "jobs/queue/workers/worker_end.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "jobs/queue/workers/worker_protocol.h"
+
+namespace throng::jobs {
+
+namespace {
+
+std::string tail_of(const std::filesystem::path& log) {
+  constexpr std::streamoff kMaxTailBytes = 400;
+  std::ifstream file(log, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  if (size <= 0) return "";
+  file.seekg(std::max<std::streamoff>(0, size - kMaxTailBytes));
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+Outcome outcome_of(const WorkerEnd& end) {
+  if (!end.timeout.empty()) return Outcome::timed_out;
+  if (end.status.signal == SIGKILL && end.memory_ran_out) return Outcome::out_of_memory;
+  if (end.status.signal != 0) return Outcome::crashed;
+  switch (end.status.code) {
+    case worker_succeeded:
+      return Outcome::succeeded;
+    case worker_input_error:
+      return Outcome::input_error;
+    case worker_environment_error:
+      return Outcome::environment_error;
+    case worker_out_of_memory:
+      return Outcome::out_of_memory;
+    default:
+      return Outcome::crashed;
+  }
+}
+
+std::string message_of(const WorkerEnd& end, Outcome outcome) {
+  if (outcome == Outcome::timed_out) return "timed out: " + end.timeout;
+  if (end.error) return end.error->message;
+  if (outcome == Outcome::out_of_memory) return "out of memory: the kernel killed the worker";
+  if (end.status.signal == 0) {
+    return fmt::format("the worker ended with exit code {}", end.status.code);
+  }
+  return fmt::format("the worker was killed by signal {} ({})", end.status.signal,
+                     ::strsignal(end.status.signal));
+}
+
+}  // namespace
+
+TaskResult result_of(const WorkerEnd& end, const std::filesystem::path& log) {
+  TaskResult result;
+  result.outcome = outcome_of(end);
+  if (result.outcome == Outcome::succeeded) return result;
+  result.message = message_of(end, result.outcome);
+  if (end.error) {
+    result.problems = end.error->problems;
+  } else if (const std::string tail = tail_of(log); !tail.empty()) {
+    result.message += ":\n" + tail;
+  }
+  return result;
+}
+
+}  // namespace throng::jobs

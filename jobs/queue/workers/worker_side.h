@@ -1,0 +1,8 @@
+// Parts that a worker process shares with its supervisor: the protocol, its messages and its
+// limits.
+#pragma once
+
+#include "jobs/queue/confine/worker_limits.h"
+#include "jobs/queue/workers/attempt_side.h"
+#include "jobs/queue/workers/worker_messages.h"
+#include "jobs/queue/workers/worker_protocol.h"

@@ -1,0 +1,45 @@
+// People's paths to the exits.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
+
+#include "metrics/basis/people.h"
+#include "metrics/basis/walking_distance.h"
+#include "metrics/exits/exits.h"
+
+namespace throng::metrics {
+
+/// From when the person noticed (from the later of alarm and arrival, if they never did) to the
+/// last passage of a door.
+struct Journey {
+  std::size_t agent = 0;
+  std::size_t exit = 0;  ///< the door, as number of the scenario's exit
+  double from_s = 0;
+  double to_s = 0;
+  double walked_m = 0;
+  std::optional<double> to_used_m;     ///< shortest path around buildings to that door
+  std::optional<double> to_nearest_m;  ///< to the door nearest on foot, open at first
+  double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
+  int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
+
+  /// Walked over shortest path length; empty within 0.5 m of the door, where it is meaningless.
+  std::optional<double> detour(const std::optional<double>& shortest_m) const {
+    constexpr double kNoWayM = 0.5;
+    if (!shortest_m || *shortest_m <= kNoWayM) return std::nullopt;
+    return walked_m / *shortest_m;
+  }
+};
+
+/// The journeys of people who left through a door, sorted by agent. `distances`:
+/// walking_distances().
+std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
+                              const std::vector<ExitSeries>& exits,
+                              const std::vector<PersonRecord>& people,
+                              const std::vector<WalkingDistance>& distances);
+
+/// Medians, quantiles and sums over the journeys.
+nlohmann::json to_json(const std::vector<Journey>& journeys);
+
+}  // namespace throng::metrics

@@ -1,0 +1,83 @@
+#include "metrics/trajectories/trajectory_words.h"
+#include "base/text/words.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+namespace throng::metrics {
+
+namespace {
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// The first number from a place on that is not part of a word, unless "fps" ends that.
+std::optional<double> rate_from(std::string_view text, std::size_t at) {
+  for (; at < text.size(); ++at) {
+    const bool inside = at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1]) ||
+                                   text[at - 1] == '_' || text[at - 1] == '.');
+    if (!is_digit(text[at]) || inside) continue;
+    double rate = 0;
+    const auto [rest, error] = std::from_chars(text.data() + at, text.data() + text.size(), rate);
+    const std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+    const bool ends = unit.empty() || !(is_letter(unit.front()) || unit.front() == '_');
+    const bool fps =
+        unit.starts_with("fps") && (unit.size() == 3 || (!is_letter(unit[3]) && unit[3] != '_'));
+    if (error == std::errc() && rate > 0 && std::isfinite(rate) && (ends || fps)) return rate;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> frame_rate_in(std::string_view comment) {
+  const std::string lower = lower_case(comment);
+  for (const std::string_view mark :
+       {"framerate", "frame rate", "frame_rate", "frames per second"}) {
+    if (const std::size_t at = lower.find(mark); at != std::string::npos) {
+      if (const auto rate = rate_from(lower, at + mark.size())) return rate;
+    }
+  }
+  if (lower.find("fps") == std::string::npos) return std::nullopt;
+  return rate_from(lower, 0);
+}
+
+std::optional<double> unit_in(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 3> kUnits = {
+      {{"cm", 0.01}, {"mm", 0.001}, {"m", 1}}};
+  const std::string lower = lower_case(text);
+  // Heights, too, are in something.
+  bool speaks_of_places = false;
+  for (const std::string_view word : {"unit", "coordinate", "position", "length", "x,", "x and"}) {
+    speaks_of_places |= lower.find(word) != std::string::npos;
+  }
+  for (const auto& [unit, meters] : kUnits) {
+    for (const std::string_view before : {"x/", "x [", "x[", "x (", "x(", "in "}) {
+      if (before == "in " && !speaks_of_places) continue;
+      const std::string words = std::string(before) + std::string(unit);
+      const std::size_t at = lower.find(words);
+      if (at == std::string::npos) continue;
+      const std::size_t end = at + words.size();
+      if (end == lower.size() || !is_letter(lower[end])) return meters;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string bare_name(std::string_view name) {
+  std::string bare;
+  for (const char c : lower_case(name.substr(0, name.find_first_of("/[(")))) {
+    if (is_letter(c) || is_digit(c)) bare += c;
+  }
+  return bare;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+}  // namespace throng::metrics

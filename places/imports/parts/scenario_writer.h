@@ -1,0 +1,22 @@
+// Writes a place as a scenario that loads and runs.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "places/imports/parts/imported_scenario.h"
+#include "places/imports/parts/populate.h"
+
+namespace throng::imports {
+
+/// Writes into `folder`: NAME.json, NAME_scene.xml, NAME_behavior.xml, NAME.job.json (a short
+/// draft), NAME.skipped.txt and, where there are objects, NAME_meshes/. Each file is complete or
+/// absent, the scenario comes last. NAME is the place's name, which must be one for scenarios:
+/// words of a to z, 0 to 9 and '_'. Returns the scenario's file. Throws EnvironmentError.
+std::filesystem::path write_place(const ImportedScenario& place, const Population& population,
+                                  const std::filesystem::path& folder);
+
+/// A file's stem as such a name: "My World.sdf" as "my_world".
+std::string place_name_of(const std::filesystem::path& file);
+
+}  // namespace throng::imports

@@ -1,0 +1,203 @@
+#include "server/access/keys.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/core.h>
+#include <openssl/crypto.h>
+
+#include <array>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "server/access/private_database.h"
+#include "server/access/random_text.h"
+#include "server/catalog/unix_time.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kPrefix = "throng_";
+constexpr std::size_t kIdLength = 8;
+constexpr std::size_t kSecretLength = 32;  // of 5 bits each
+
+constexpr const char* kTable = R"(
+CREATE TABLE IF NOT EXISTS key (
+  id TEXT PRIMARY KEY,
+  name TEXT NOT NULL,
+  hash TEXT NOT NULL,
+  scope TEXT NOT NULL,
+  max_active INTEGER NOT NULL DEFAULT 0,
+  max_bytes INTEGER NOT NULL DEFAULT 0,
+  max_priority INTEGER NOT NULL DEFAULT 0,
+  created_ms INTEGER NOT NULL,
+  revoked_ms INTEGER NOT NULL DEFAULT 0
+) WITHOUT ROWID
+)";
+
+bool is_made_here(std::string_view token) {
+  return token.starts_with(kPrefix) &&
+         token.size() == kPrefix.size() + kIdLength + 1 + kSecretLength;
+}
+
+/// The id is a part of the keys that are made here; that of others comes from their hash.
+std::string id_of(std::string_view token, const std::string& hash) {
+  return is_made_here(token) ? std::string(token.substr(kPrefix.size(), kIdLength))
+                             : hash.substr(0, kIdLength);
+}
+
+/// Takes as long whatever the difference.
+bool equals_in_constant_time(const std::string& a, const std::string& b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+Scope scope_of(const std::string& name) {
+  const auto scope = scope_named(name);
+  check(scope.has_value(), "the table holds known scopes only");
+  return *scope;
+}
+
+fs::path prepared(const fs::path& data) {
+  make_folders(data);
+  return data / "keys.sqlite";
+}
+
+void set_up(SQLite::Database& database) {
+  database.exec(kTable);
+  // Columns that earlier versions did not have.
+  for (const char* column : {"max_bytes", "max_priority"}) {
+    SQLite::Statement known(database,
+                            "SELECT count(*) FROM pragma_table_info('key') WHERE name = ?");
+    known.bind(1, column);
+    known.executeStep();
+    if (known.getColumn(0).getInt() > 0) continue;
+    database.exec(fmt::format("ALTER TABLE key ADD COLUMN {} INTEGER NOT NULL DEFAULT 0", column));
+  }
+}
+
+}  // namespace
+
+struct Keys::File : PrivateDatabase {
+  using PrivateDatabase::PrivateDatabase;
+
+  /// The row's id and time follow from the token and the clock.
+  void insert(const KeyRow& row, const std::string& token) {
+    const std::string hash = sha256_hex(token);
+    with([&](SQLite::Database& database) {
+      SQLite::Statement insert(database,
+                               "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
+                               "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+      insert.bind(1, id_of(token, hash));
+      insert.bind(2, row.name);
+      insert.bind(3, hash);
+      insert.bind(4, std::string(name_of(row.scope)));
+      insert.bind(5, row.max_active);
+      insert.bind(6, unix_ms_now());
+      insert.bind(7, row.max_bytes);
+      insert.bind(8, row.max_priority);
+      insert.exec();
+    });
+  }
+};
+
+std::string_view name_of(Scope scope) {
+  constexpr std::array<std::string_view, 4> kNames = {"anybody", "read", "submit", "admin"};
+  return kNames[static_cast<std::size_t>(scope)];
+}
+
+std::optional<Scope> scope_named(std::string_view name) {
+  for (const Scope scope : {Scope::read, Scope::submit, Scope::admin}) {
+    if (name_of(scope) == name) return scope;
+  }
+  return std::nullopt;
+}
+
+bool is_own_key(std::string_view text) {
+  constexpr std::size_t kMinLength = 32;
+  constexpr std::size_t kMaxLength = 128;
+  constexpr std::string_view kCharacters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=";
+  return text.size() >= kMinLength && text.size() <= kMaxLength &&
+         text.find_first_not_of(kCharacters) == std::string_view::npos;
+}
+
+Keys::Keys(const fs::path& data) {
+  const fs::path path = prepared(data);
+  try {
+    file_ = std::make_unique<File>(path, "API keys", set_up);
+  } catch (const SQLite::Exception& error) {
+    throw EnvironmentError(fmt::format("API keys in {}: {}", path.string(), error.what()));
+  }
+}
+
+Keys::~Keys() = default;
+
+std::string Keys::create(const std::string& name, Scope scope, int max_active,
+                         std::int64_t max_bytes, int max_priority) {
+  std::string token =
+      fmt::format("{}{}_{}", kPrefix, random_text(kIdLength), random_text(kSecretLength));
+  file_->insert({"", name, scope, max_active, max_bytes, max_priority}, token);
+  return token;
+}
+
+void Keys::add(const std::string& name, Scope scope, const std::string& token) {
+  check(is_own_key(token), "the caller has checked the key");
+  file_->insert({"", name, scope}, token);
+}
+
+std::vector<KeyRow> Keys::list() const {
+  return file_->with([](SQLite::Database& database) {
+    SQLite::Statement query(
+        database,
+        "SELECT id, name, scope, max_active, max_bytes, max_priority, created_ms, revoked_ms "
+        "FROM key ORDER BY created_ms, id");
+    std::vector<KeyRow> rows;
+    while (query.executeStep()) {
+      rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
+                      scope_of(query.getColumn(2).getString()), query.getColumn(3).getInt(),
+                      query.getColumn(4).getInt64(), query.getColumn(5).getInt(),
+                      query.getColumn(6).getInt64(), query.getColumn(7).getInt64()});
+    }
+    return rows;
+  });
+}
+
+bool Keys::revoke(const std::string& id) {
+  return file_->with([&](SQLite::Database& database) {
+    SQLite::Statement update(database,
+                             "UPDATE key SET revoked_ms = ? WHERE id = ? AND revoked_ms = 0");
+    update.bind(1, unix_ms_now());
+    update.bind(2, id);
+    return update.exec() > 0;
+  });
+}
+
+bool Keys::are_needed() const {
+  return file_->with([](SQLite::Database& database) {
+    return database.execAndGet("SELECT EXISTS (SELECT 1 FROM key)").getInt() != 0;
+  });
+}
+
+std::optional<Caller> Keys::caller_of(std::string_view token) const {
+  if (!are_needed()) return Caller{"", Scope::admin, 0, 0, kMaxPriority};
+  if (!is_made_here(token) && !is_own_key(token)) return std::nullopt;
+  const std::string hash = sha256_hex(token);
+  return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
+    SQLite::Statement query(
+        database,
+        "SELECT id, hash, scope, max_active, max_bytes, max_priority FROM key WHERE id = ? AND "
+        "revoked_ms = 0");
+    query.bind(1, id_of(token, hash));
+    if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
+      return std::nullopt;
+    }
+    const Scope scope = scope_of(query.getColumn(2).getString());
+    const int max_priority = scope >= Scope::admin ? kMaxPriority : query.getColumn(5).getInt();
+    return Caller{query.getColumn(0).getString(), scope, query.getColumn(3).getInt(),
+                  query.getColumn(4).getInt64(), max_priority};
+  });
+}
+
+}  // namespace throng::server

@@ -1,0 +1,348 @@
+#include "server/api/api.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/resource_exhaustion.h"
+#include "server/api/calibration_api.h"
+#include "server/api/downloads_api.h"
+#include "server/api/events_api.h"
+#include "server/api/jobs_api.h"
+#include "server/api/keys_api.h"
+#include "server/api/live_api.h"
+#include "server/api/requests.h"
+#include "server/api/scenarios_api.h"
+#include "server/api/service_api.h"
+#include "server/api/session_api.h"
+#include "server/api/studies_api.h"
+#include "server/api/studio.h"
+#include "server/api/trajectories_api.h"
+#include "server/api/webhooks_api.h"
+#include "server/catalog/answers.h"
+#include "server/http/file_answer.h"
+#include "server/http/http.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+
+namespace {
+
+void write_problem(Response& response, const HttpError& error) {
+  response.status = error.status;
+  if (error.status == 401) response.set_header("WWW-Authenticate", "Bearer");
+  response.set_content(text_of(problem_document(error.status, error.detail, error.problems)),
+                       "application/problem+json");
+}
+
+constexpr const char* kCalibrations = "/v1/calibrations";
+constexpr const char* kStudies = "/v1/studies";
+constexpr const char* kScenarios = "/v1/scenarios";
+constexpr const char* kSession = "/v1/session";
+constexpr const char* kJobs = "/v1/jobs";
+
+}  // namespace
+
+std::span<const Route> routes() {
+  static constexpr std::array kRoutes = {
+      Route{Method::post, kJobs, Scope::submit, &submit_job},
+      Route{Method::get, kJobs, Scope::read, &list_jobs},
+      Route{Method::get, "/v1/jobs/{id}", Scope::read, &send_job},
+      Route{Method::patch, "/v1/jobs/{id}", Scope::submit, &change_job},
+      Route{Method::remove, "/v1/jobs/{id}", Scope::submit, &remove_job},
+      Route{Method::post, "/v1/jobs/{id}/cancel", Scope::submit, &cancel_job},
+      Route{Method::post, "/v1/jobs/{id}/retry", Scope::submit, &retry_job},
+      Route{Method::post, "/v1/jobs/{id}/clone", Scope::submit, &clone_job},
+      Route{Method::get, "/v1/jobs/{id}/events", Scope::read, &send_events},
+      Route{Method::get, "/v1/jobs/{id}/logs", Scope::read, &list_logs},
+      Route{Method::get, "/v1/jobs/{id}/logs/{name}", Scope::read, &send_log},
+      Route{Method::get, "/v1/jobs/{id}/previews", Scope::read, &list_previews},
+      Route{Method::get, "/v1/jobs/{id}/previews/{path}", Scope::read, &send_preview},
+      Route{Method::get, "/v1/jobs/{id}/images", Scope::read, &list_images_of_job},
+      Route{Method::get, "/v1/jobs/{id}/archive", Scope::read, &send_archive},
+      Route{Method::get, "/v1/jobs/{id}/manifest", Scope::read, &send_manifest},
+      Route{Method::get, "/v1/jobs/{id}/files/{path}", Scope::read, &send_file},
+      Route{Method::get, "/v1/jobs/{id}/metrics", Scope::read, &send_metrics},
+      Route{Method::get, "/v1/jobs/{id}/report", Scope::read, &send_report},
+      Route{Method::get, "/v1/jobs/{id}/plan", Scope::read, &send_job_plan},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trace", Scope::read, &send_run_trace},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/trajectories", Scope::read, &send_trajectories},
+      Route{Method::get, "/v1/events", Scope::read, &send_events},
+      Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
+      Route{Method::get, kCalibrations, Scope::read, &list_calibrations},
+      Route{Method::get, "/v1/calibrations/{id}", Scope::read, &send_calibration},
+      Route{Method::remove, "/v1/calibrations/{id}", Scope::submit, &remove_calibration},
+      Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
+      Route{Method::get, "/v1/calibrations/{id}/images/{path}", Scope::read,
+            &send_calibration_image},
+      Route{Method::post, kStudies, Scope::submit, &submit_study},
+      Route{Method::get, kStudies, Scope::read, &list_studies},
+      Route{Method::get, "/v1/studies/{id}", Scope::read, &send_study},
+      Route{Method::patch, "/v1/studies/{id}", Scope::submit, &change_study},
+      Route{Method::remove, "/v1/studies/{id}", Scope::submit, &remove_study},
+      Route{Method::post, "/v1/studies/{id}/cancel", Scope::submit, &cancel_study},
+      Route{Method::post, "/v1/studies/{id}/retry", Scope::submit, &retry_study},
+      Route{Method::get, "/v1/studies/{id}/events", Scope::read, &send_study_events},
+      Route{Method::get, "/v1/studies/{id}/report", Scope::read, &send_study_report},
+      Route{Method::get, "/v1/studies/{id}/files/{path}", Scope::read, &send_study_file},
+      Route{Method::post, "/v1/live", Scope::submit, &begin_live},
+      Route{Method::get, "/v1/live", Scope::submit, &list_live},
+      Route{Method::get, "/v1/live/{id}", Scope::submit, &send_live},
+      Route{Method::get, "/v1/live/{id}/stream", Scope::submit, &stream_live},
+      Route{Method::post, "/v1/live/{id}/commands", Scope::submit, &command_live},
+      Route{Method::post, "/v1/live/{id}/stop", Scope::submit, &stop_live},
+      Route{Method::remove, "/v1/live/{id}", Scope::submit, &remove_live},
+      Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
+      Route{Method::get, kScenarios, Scope::read, &list_scenarios},
+      Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
+      Route{Method::remove, "/v1/scenarios/{path}", Scope::submit, &remove_scenarios},
+      Route{Method::get, "/v1/people", Scope::read, &list_people},
+      Route{Method::post, "/v1/keys", Scope::admin, &create_key},
+      Route{Method::get, "/v1/keys", Scope::admin, &list_keys},
+      Route{Method::remove, "/v1/keys/{id}", Scope::admin, &revoke_key},
+      Route{Method::post, "/v1/webhooks", Scope::admin, &create_webhook},
+      Route{Method::get, "/v1/webhooks", Scope::admin, &list_webhooks},
+      Route{Method::get, "/v1/webhooks/{id}", Scope::admin, &send_webhook},
+      Route{Method::patch, "/v1/webhooks/{id}", Scope::admin, &change_webhook},
+      Route{Method::remove, "/v1/webhooks/{id}", Scope::admin, &remove_webhook},
+      Route{Method::get, "/v1/webhooks/{id}/deliveries", Scope::admin, &list_deliveries},
+      Route{Method::post, "/v1/webhooks/{id}/ping", Scope::admin, &ping_webhook},
+      Route{Method::get, "/v1/airframes", Scope::read, &list_airframes},
+      Route{Method::get, "/v1/policies", Scope::read, &list_policies},
+      Route{Method::get, "/v1/formats", Scope::read, &list_formats},
+      Route{Method::get, "/v1/schema", Scope::read, &send_schema},
+      Route{Method::get, "/v1/schemas", Scope::read, &list_schemas},
+      Route{Method::get, "/v1/schemas/{name}", Scope::read, &send_file_schema},
+      Route{Method::post, kSession, Scope::anybody, &open_session},
+      Route{Method::get, kSession, Scope::anybody, &send_session},
+      Route{Method::remove, kSession, Scope::anybody, &close_session},
+      Route{Method::get, "/v1/access/submit", Scope::submit, &confirm_access},
+      Route{Method::get, "/v1/version", Scope::anybody, &send_version},
+      Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
+      Route{Method::get, "/metrics", Scope::read, &send_figures},
+      Route{Method::get, "/healthz", Scope::anybody, &send_health},
+      Route{Method::get, "/readyz", Scope::anybody, &send_readiness},
+  };
+  return kRoutes;
+}
+
+namespace {
+
+// The library answers 404 for a method that a path does not know.
+void write_library_error(const Request& request, Response& response, const HttpError& error) {
+  forget_ranges(request);
+  if (error.status == 503) response.set_header("Retry-After", "5");
+  if (error.status == 404 && error.detail.empty()) {
+    std::string methods = allowed_methods(routes(), request.path);
+    if (methods.empty()) methods = allowed_methods(studio_routes(), request.path);
+    if (!methods.empty()) {
+      response.set_header("Allow", methods);
+      return write_problem(response, {405, fmt::format("{} is not possible here", request.method)});
+    }
+    if (is_for_studio(request)) return write_studio(request, response);
+    return write_problem(response, {404, "there is nothing at this path"});
+  }
+  write_problem(response, error);
+}
+
+// Runs a handler; turns what it throws into an answer.
+template <typename Handler>
+void guarded(const ServiceFolders& folders, const Request& request, Response& response,
+             const Handler& handler) {
+  try {
+    handler();
+  } catch (const HttpError& error) {
+    write_problem(response, error);
+  } catch (const InputError& error) {
+    write_problem(response, {400, "the job cannot be done as it stands",
+                             folders.without_paths(error.problems())});
+  } catch (const QuotaError& error) {
+    response.set_header("Retry-After", "60");
+    write_problem(response, {429, error.what()});
+  } catch (const UploadsFull& error) {
+    write_problem(response, {507, error.what()});
+  } catch (const NameTaken& error) {
+    write_problem(response, {409, error.what()});
+  } catch (const ConflictError& error) {
+    write_problem(response, {409, error.what()});
+  } catch (const EnvironmentError& error) {  // the machine's fault, which may pass
+    spdlog::error("{} {}: {}", request.method, request.path, error.what());
+    response.set_header("Retry-After", "10");
+    write_problem(response, {503, folders.without_paths(error.what())});
+  } catch (const std::exception& error) {
+    spdlog::error("{} {}: {}", request.method, request.path, error.what());
+    const bool may_pass = is_resource_exhaustion(error);
+    if (may_pass) response.set_header("Retry-After", "10");
+    write_problem(response, {may_pass ? 503 : 500, folders.without_paths(error.what())});
+  }
+}
+
+// A page of another site that has its name point here (DNS rebinding) still names itself.
+bool names_this_machine(const Request& request) {
+  std::string host = request.get_header_value("Host");
+  const auto colon = host.rfind(':');
+  if (colon != std::string::npos && host.find(']', colon) == std::string::npos) host.resize(colon);
+  if (host.size() > 2 && host.front() == '[') host = host.substr(1, host.size() - 2);
+  return host.empty() || is_loopback(host);
+}
+
+constexpr std::size_t kMaxImagesBytes = 256 << 20;
+constexpr std::size_t kMaxBundleBytes = 64 << 20;
+constexpr std::size_t kMaxTextBytes = 1 << 20;
+
+// A browser sends forms of other sites' pages without asking, with their origin.
+void refuse_other_sites(const Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  const std::string host = request.get_header_value("Host");
+  if (origin.empty() || origin == "http://" + host || origin == "https://" + host) return;
+  throw HttpError{403, "pages of other sites may not ask for this"};
+}
+
+// Identity of the caller, if it may use the route.
+Caller admitted(const Keys& keys, Sessions& sessions, const Request& request, Scope needed) {
+  if (needed == Scope::anybody) return {};
+  const auto caller = caller_in(keys, sessions, request);
+  if (!caller) {
+    throw HttpError{401, has_credentials(request)
+                             ? "this key is not known, or was revoked"
+                             : "this service needs a key: Authorization: Bearer KEY"};
+  }
+  if (caller->scope < needed) {
+    throw HttpError{403, fmt::format("the key's scope is {}, this needs {}", name_of(caller->scope),
+                                     name_of(needed))};
+  }
+  return *caller;
+}
+
+const Route* route_of(const Request& request) {
+  const auto all = routes();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Route& route) {
+    return name_of(route.method) == request.method && fits(route.path, request.path);
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// Access control of a route, independent of the call. Throws HttpError.
+Caller checked_caller(const Keys& keys, Sessions& sessions, const Request& request,
+                      const Route& route, bool loopback) {
+  if (loopback && !names_this_machine(request)) {
+    throw HttpError{421, "this service is for its own machine"};
+  }
+  if (route.method != Method::get) refuse_other_sites(request);
+  return admitted(keys, sessions, request, route.scope);
+}
+
+// Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
+std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& request,
+                           bool loopback) {
+  const Route* route = route_of(request);
+  if (route == nullptr) throw HttpError{404, ""};
+  static_cast<void>(checked_caller(keys, sessions, request, *route, loopback));
+  if (route->method != Method::post) return kMaxTextBytes;
+  if (request.path == kCalibrations) return kMaxImagesBytes;
+  const bool is_bundle =
+      request.path == kScenarios || (request.path == kJobs && request.is_multipart_form_data());
+  return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
+}
+
+void record(AuditLog& audit, const std::string& key, const Request& request, int status) {
+  audit.record({key, request.method, request.path, status, request.remote_addr,
+                request.get_header_value("X-Forwarded-For")});
+}
+
+// Commands of live flights, twenty a second, are none that anybody would look up.
+bool is_audited(const std::string& method, const Route& route, int status) {
+  const bool is_refused = status == 401 || status == 403;
+  return (method != "GET" && method != "HEAD" && route.handler != &command_live) || is_refused;
+}
+
+HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
+                             AuditLog& audit) {
+  const bool loopback = is_loopback(options.host);
+  options.max_body_bytes = [&keys, &sessions, &audit, loopback](const Request& request) {
+    try {
+      return max_body_bytes(keys, sessions, request, loopback);
+    } catch (const HttpError& error) {
+      if (error.status != 404) record(audit, "", request, error.status);
+      throw;
+    }
+  };
+  return options;
+}
+
+// Answers may hold what strangers have sent: no script in them runs as a part of the
+// service's page, nor is it shown within another site's. A report has scripts of its own.
+const char* content_policy_of(const Route& route) {
+  const bool is_report = route.handler == &send_report || route.handler == &send_study_report;
+  return is_report ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
+                     "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+                     "font-src data:; frame-ancestors 'none'"
+                   : "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
+                     "frame-ancestors 'none'";
+}
+
+}  // namespace
+
+Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
+    : audit_(service.folders().data()),
+      server_(with_body_limits(options, keys, sessions_, audit_), &write_library_error) {
+  const bool loopback = is_loopback(options.host);
+  const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
+    return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
+                                                            Response& response) {
+      forget_ranges(request);
+      std::string key;
+      guarded(service.folders(), request, response, [&] {
+        const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
+        key = caller.key_id;
+        entry.handler(
+            {service.queue(), service.uploads(), service.calibrations(), service.studies(),
+             service.housekeeping(), service.datasets(), service.reports(), service.confined(),
+             service.folders(), hooks, service.live(), service.executor(), keys, sessions_, caller},
+            request, response);
+      });
+      if (is_audited(request.method, entry, response.status)) {
+        record(audit_, key, request, response.status);
+      }
+      if (!response.has_header("Content-Security-Policy")) {
+        response.set_header("Content-Security-Policy", content_policy_of(entry));
+      }
+      if (!response.has_header("Cache-Control")) {
+        response.set_header("Cache-Control", "private, no-cache");
+      }
+    };
+  };
+  httplib::Server& server = server_.routes();
+  const auto add = [&](const Route& entry) {
+    const std::string pattern = pattern_of(entry.path);
+    switch (entry.method) {
+      case Method::get:
+        server.Get(pattern, route(entry));
+        break;
+      case Method::post:
+        server.Post(pattern, route(entry));
+        break;
+      case Method::patch:
+        server.Patch(pattern, route(entry));
+        break;
+      case Method::remove:
+        server.Delete(pattern, route(entry));
+        break;
+    }
+  };
+  for (const Route& entry : routes()) add(entry);
+  for (const Route& entry : studio_routes()) add(entry);
+}
+
+}  // namespace throng::server

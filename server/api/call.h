@@ -1,0 +1,38 @@
+// One request to the service: who makes it, and what its handler may use.
+#pragma once
+
+#include "server/access/keys.h"
+#include "server/access/sessions.h"
+#include "server/catalog/calibrations.h"
+#include "server/catalog/confined_checks.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/studies.h"
+#include "server/catalog/uploads.h"
+#include "server/jobs/datasets.h"
+#include "server/jobs/housekeeping.h"
+#include "server/jobs/job_queue.h"
+#include "server/jobs/report_maker.h"
+#include "server/live/live_flights.h"
+#include "server/webhooks/webhook_sender.h"
+
+namespace throng::server {
+
+struct Call {
+  JobQueue& queue;
+  Uploads& uploads;
+  Calibrations& calibrations;
+  Studies& studies;
+  Housekeeping& housekeeping;
+  Datasets& datasets;
+  ReportMaker& reports;
+  const ConfinedChecks& confined;
+  const ServiceFolders& folders;
+  WebhookSender& hooks;
+  LiveFlights& live;
+  const jobs::Executor& executor;
+  Keys& keys;
+  Sessions& sessions;
+  const Caller& caller;
+};
+
+}  // namespace throng::server

@@ -1,0 +1,210 @@
+#include "server/api/jobs_api.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/json/json_text.h"
+#include "jobs/queue/store/job_id.h"
+#include "server/api/requests.h"
+#include "server/api/row_changes.h"
+#include "server/catalog/answers.h"
+#include "server/http/http.h"
+#include "spec/job/plan.h"
+#include "spec/job/resolved_job.h"
+#include "spec/job/spec.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMaxKeyLength = 200;
+
+/// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
+jobs::JobRow find_own(const Call& call, const Request& request) {
+  jobs::JobRow row = find_job(call, request);
+  require_own(call, row);
+  return row;
+}
+
+/// The value of every ?name= in the query.
+std::vector<std::string> all_of(const Request& request, const char* name) {
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < request.get_param_value_count(name); ++i) {
+    values.push_back(request.get_param_value(name, i));
+  }
+  return values;
+}
+
+std::string key_of(const Request& request) {
+  std::string key = request.get_header_value("Idempotency-Key");
+  if (key.size() > kMaxKeyLength) {
+    throw HttpError{400,
+                    fmt::format("an Idempotency-Key has at most {} characters", kMaxKeyLength)};
+  }
+  return key;
+}
+
+/// A multipart/form-data upload: a job, and a bundle with its scenarios.
+struct Form {
+  std::string job;
+  const std::string* bundle = nullptr;
+};
+
+std::optional<Form> form_of(const Request& request) {
+  if (!request.is_multipart_form_data()) return std::nullopt;
+  Form form;
+  for (const auto& [name, part] : request.files) {
+    if (name == "job") {
+      form.job = part.content;
+    } else if (name == "scenario") {
+      form.bundle = &part.content;
+    } else {
+      throw HttpError{400, fmt::format("a part \"{}\"; there are job and scenario", name)};
+    }
+  }
+  if (form.job.empty()) throw HttpError{400, "there is no part \"job\" with the job as JSON"};
+  return form;
+}
+
+/// With a bundle of its own, unless that is null.
+void queue(const Call& call, Submission submission, Response& response,
+           const std::string* bundle = nullptr) {
+  submission.owner = call.caller.key_id;
+  submission.max_active = call.caller.max_active;
+  submission.max_bytes = call.caller.max_bytes;
+  const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
+                                              : call.queue.submit_with_bundle(submission, *bundle);
+  if (!added.is_equal) {
+    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and the request "
+                                     "with it then was something else",
+                                     added.row.id)};
+  }
+  response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
+  if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
+  write_json(response, added.is_new ? 201 : 200,
+             job_json(added.row, call.housekeeping.retention()));
+}
+
+std::vector<jobs::JobState> states_of(const Request& request) {
+  std::vector<jobs::JobState> states;
+  for (const std::string& name : all_of(request, "state")) {
+    const auto state = jobs::job_state_named(name);
+    if (!state) {
+      throw HttpError{
+          400,
+          "state is wrong",
+          {{"", "?state", name, "queued, running, succeeded, partial, failed or cancelled"}}};
+    }
+    states.push_back(*state);
+  }
+  return states;
+}
+
+}  // namespace
+
+void submit_job(const Call& call, const Request& request, Response& response) {
+  const std::optional<Form> form = form_of(request);
+  if (!form) require_json(request);
+  const std::string& job = form ? form->job : request.body;
+  Submission submission{job};
+  submission.priority =
+      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
+  require_priority(call, submission.priority, "?priority");
+  submission.labels = all_of(request, "label");
+  check_labels(submission.labels, "?label");
+  if (is_asked(request, "dry_run")) {
+    const bool has_bundle = form && form->bundle != nullptr;
+    json answer =
+        has_bundle ? call.queue.dry_run_with_bundle(job, *form->bundle) : call.queue.dry_run(job);
+    answer["valid"] = true;
+    return write_json(response, 200, answer);
+  }
+  submission.key = key_of(request);
+  queue(call, std::move(submission), response, form ? form->bundle : nullptr);
+}
+
+void list_jobs(const Call& call, const Request& request, Response& response) {
+  jobs::JobFilter filter;
+  filter.states = states_of(request);
+  filter.label = request.get_param_value("label");
+  filter.name_part = request.get_param_value("name");
+  const std::string sort = request.has_param("sort") ? request.get_param_value("sort") : "newest";
+  if (sort != "newest" && sort != "oldest") {
+    throw HttpError{400, "sort is wrong", {{"", "?sort", sort, "newest or oldest"}}};
+  }
+  filter.oldest_first = sort == "oldest";
+  filter.after = after_of(request);
+  filter.limit = limit_of(request);
+  filter.visible_to = viewer_of(call.caller);
+  const std::vector<jobs::JobRow> rows = call.queue.list(filter);
+  json jobs = json::array();
+  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.housekeeping.retention()));
+  const bool more = static_cast<int>(rows.size()) == filter.limit;
+  write_json(response, 200,
+             {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+}
+
+void send_job(const Call& call, const Request& request, Response& response) {
+  const std::string id = request.matches[1];
+  if (!sees_all(call.caller)) static_cast<void>(find_job(call, request));
+  const auto text =
+      jobs::is_job_id(id)
+          ? call.queue.text_of_job(id,
+                                   [&](const jobs::JobRow& row) {
+                                     return text_of(job_json(row, call.housekeeping.retention()));
+                                   })
+          : nullptr;
+  if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
+  response.set_content(*text, "application/json");
+}
+
+void change_job(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_own(call, request);
+  const jobs::JobChange wanted = change_of(call, request, row);
+  const auto changed = call.queue.change(row.id, wanted);
+  if (!changed) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*changed, call.housekeeping.retention()));
+}
+
+void cancel_job(const Call& call, const Request& request, Response& response) {
+  const auto row = call.queue.cancel(find_own(call, request).id);
+  if (!row) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
+}
+
+void retry_job(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own(call, request);
+  // An administrator may retry another's job beyond its key's limits.
+  const bool is_owner = own.owner == call.caller.key_id;
+  const auto row = call.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{call.caller.max_active, call.caller.max_bytes}
+                       : jobs::OwnerLimits{});
+  if (!row) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
+}
+
+void clone_job(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(call, request);
+  json job = parse_own_json(row.spec_json, "the job");
+  if (!request.body.empty()) {
+    require_json(request);
+    job.merge_patch(json_body_of(request));
+  }
+  const std::string text = text_of(job);
+  const int priority = std::min(row.priority, call.caller.max_priority);
+  queue(call, {text, priority, row.labels, key_of(request)}, response);
+}
+
+void remove_job(const Call& call, const Request& request, Response& response) {
+  if (!call.housekeeping.remove(find_own(call, request).id))
+    throw HttpError{404, "already removed"};
+  response.status = 204;
+}
+
+}  // namespace throng::server

@@ -1,0 +1,112 @@
+#include "server/api/keys_api.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "server/api/requests.h"
+#include "server/catalog/answers.h"
+#include "server/http/http.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kKeyNoun = "key";
+constexpr std::size_t kMaxKeyNameLength = 100;
+
+json limit_json(std::int64_t limit) { return limit == 0 ? json(nullptr) : json(limit); }
+
+json key_json(const KeyRow& key) {
+  return {{"id", key.id},
+          {"name", key.name},
+          {"scope", name_of(key.scope)},
+          {"max_jobs", limit_json(key.max_active)},
+          {"max_bytes", limit_json(key.max_bytes)},
+          {"max_priority", key.scope >= Scope::admin ? kMaxPriority : key.max_priority},
+          {"created_at", time_json(key.created_ms)},
+          {"revoked_at", time_json(key.revoked_ms)},
+          {"links", {{"self", "/v1/keys/" + key.id}}}};
+}
+
+KeyRow find_key(const Call& call, const std::string& id) {
+  const std::vector<KeyRow> all = call.keys.list();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const KeyRow& key) { return key.id == id; });
+  if (found == all.end()) throw HttpError{404, fmt::format("there is no key {}", id)};
+  return *found;
+}
+
+/// 0 where it is left out or null.
+std::int64_t integer_in(const json& body, const char* name, std::int64_t min_number,
+                        std::int64_t max_number) {
+  const json value = body.value(name, json(nullptr));
+  if (value.is_null()) return 0;
+  if (value.is_number_integer() && value >= min_number && value <= max_number) return value;
+  throw wrong_field(kKeyNoun, fmt::format("/{}", name), value.dump(),
+                    fmt::format("an integer from {} to {}, or null", min_number, max_number));
+}
+
+std::string name_in(const json& body) {
+  const json value = body.value("name", json(""));
+  const std::string name = value.is_string() ? value.get<std::string>() : "";
+  const bool has_control =
+      std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+  if (!name.empty() && name.size() <= kMaxKeyNameLength && !has_control) return name;
+  throw wrong_field(kKeyNoun, "/name", value.dump(),
+                    fmt::format("a name of at most {} bytes on one line", kMaxKeyNameLength));
+}
+
+Scope scope_in(const json& body) {
+  const json value = body.value("scope", json("submit"));
+  const auto scope = value.is_string() ? scope_named(value.get<std::string>()) : std::nullopt;
+  if (!scope) throw wrong_field(kKeyNoun, "/scope", value.dump(), "read, submit or admin");
+  return *scope;
+}
+
+}  // namespace
+
+void create_key(const Call& call, const Request& request, Response& response) {
+  if (!call.keys.are_needed()) {
+    throw HttpError{403,
+                    "the first key is made on the machine of the service: throng keys create NAME "
+                    "--scope admin --data DIR"};
+  }
+  const json body =
+      fields_of(request, kKeyNoun, {"name", "scope", "max_jobs", "max_bytes", "max_priority"});
+  const std::string name = name_in(body);
+  const auto max_jobs = integer_in(body, "max_jobs", 0, std::numeric_limits<int>::max());
+  const auto max_bytes = integer_in(body, "max_bytes", 0, std::numeric_limits<std::int64_t>::max());
+  const auto max_priority = integer_in(body, "max_priority", -kMaxPriority, kMaxPriority);
+  const std::string token = call.keys.create(name, scope_in(body), static_cast<int>(max_jobs),
+                                             max_bytes, static_cast<int>(max_priority));
+  json answer = key_json(find_key(call, call.keys.caller_of(token)->key_id));
+  answer["key"] = token;  // this once
+  response.set_header("Location", answer["links"]["self"].get<std::string>());
+  response.set_header("Cache-Control", "no-store");
+  write_json(response, 201, answer);
+}
+
+void list_keys(const Call& call, const Request&, Response& response) {
+  json list = json::array();
+  for (const KeyRow& key : call.keys.list()) list.push_back(key_json(key));
+  write_json(response, 200, {{"keys", std::move(list)}});
+}
+
+void revoke_key(const Call& call, const Request& request, Response& response) {
+  const KeyRow key = find_key(call, request.matches[1]);
+  if (key.id == call.caller.key_id) {
+    throw HttpError{409, "this key makes the request: revoke it with another one"};
+  }
+  if (!call.keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
+  write_json(response, 200, key_json(find_key(call, key.id)));
+}
+
+}  // namespace throng::server

@@ -1,0 +1,171 @@
+#include "server/api/live_api.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "server/api/requests.h"
+#include "server/catalog/answers.h"
+#include "server/http/http.h"
+#include "server/live/live_flights.h"
+#include "spec/job/scenario_mix.h"
+#include "spec/live/commands.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kMaxViewers = 32;  // of all flights; each holds a thread of the server
+
+bool is_own(const Call& call, const LiveFlight& flight) {
+  return sees_all(call.caller) || flight.owner() == call.caller.key_id;
+}
+
+/// The caller's flight that the path names. Throws HttpError 404.
+std::shared_ptr<LiveFlight> find_flight(const Call& call, const Request& request) {
+  const std::string id = request.matches[1];
+  std::shared_ptr<LiveFlight> flight = call.live.find(id);
+  if (!flight || !is_own(call, *flight)) {
+    throw HttpError{404, fmt::format("there is no live flight {}", id)};
+  }
+  return flight;
+}
+
+json flight_json(const LiveFlight& flight) {
+  const LiveState state = flight.state();
+  const std::string self = "/v1/live/" + flight.id();
+  json value = {{"id", flight.id()},
+                {"name", flight.name()},
+                {"state", name_of(state)},
+                {"time_s", flight.time_s()},
+                {"viewers", flight.viewers()},
+                {"drones", flight.drones()},
+                {"result", nullptr},
+                {"error", nullptr},
+                {"links", {{"self", self}, {"stream", self + "/stream"}}}};
+  if (state == LiveState::ended) value["result"] = flight.outcome();
+  if (state == LiveState::failed) {
+    const json outcome = flight.outcome();
+    value["error"] = error_json(outcome.at("kind"), outcome.at("message"), {});
+  }
+  return value;
+}
+
+/// The problems of a part of what was sent.
+std::vector<Problem> problems_below(std::vector<Problem> problems, const std::string& pointer) {
+  for (Problem& problem : problems) {
+    if (problem.source.empty()) problem.where = pointer + problem.where;
+  }
+  return problems;
+}
+
+jobs::ResolvedJob job_in(const Call& call, const json& body) {
+  const auto job = body.find("job");
+  if (job == body.end() || !job->is_object()) {
+    throw wrong_field("request", "/job", job == body.end() ? "nothing" : job->dump().substr(0, 60),
+                      "a job");
+  }
+  try {
+    jobs::ResolvedJob resolved = call.queue.resolve(text_of(*job));
+    // A flight takes place in one scenario: that of the job's first run.
+    if (!resolved.spec().drones.empty()) {
+      return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.people());
+    }
+  } catch (const InputError& error) {
+    throw HttpError{400, "the job cannot be done as it stands",
+                    problems_below(error.problems(), "/job")};
+  }
+  throw wrong_field("request", "/job/drones", "no drone", "at least one drone to fly");
+}
+
+}  // namespace
+
+void begin_live(const Call& call, const Request& request, Response& response) {
+  const json body = fields_of(request, "request", {"job"});
+  const jobs::ResolvedJob job = job_in(call, body);
+  try {
+    const auto flight = call.live.begin(job, call.caller.key_id);
+    response.set_header("Location", "/v1/live/" + flight->id());
+    write_json(response, 201, flight_json(*flight));
+  } catch (const LiveFlightsFull& full) {
+    response.set_header("Retry-After", "10");
+    throw HttpError{503, full.why};
+  }
+}
+
+void list_live(const Call& call, const Request& /*request*/, Response& response) {
+  json list = json::array();
+  for (const auto& flight : call.live.all()) {
+    if (!is_own(call, *flight)) continue;
+    json value = flight_json(*flight);
+    value.erase("result");
+    list.push_back(std::move(value));
+  }
+  response.set_header("Cache-Control", "no-store");
+  write_json(response, 200, {{"flights", std::move(list)}});
+}
+
+void send_live(const Call& call, const Request& request, Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  write_json(response, 200, flight_json(*find_flight(call, request)));
+}
+
+void stream_live(const Call& call, const Request& request, Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+  int viewers = 0;
+  for (const auto& other : call.live.all()) viewers += other->viewers();
+  if (viewers >= kMaxViewers) {
+    throw HttpError{503, fmt::format("{} streams are open: try again later", viewers)};
+  }
+  const auto viewer = std::make_shared<LiveFlight::Viewer>(flight);
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Accel-Buffering", "no");  // nginx would hold messages back
+  response.set_chunked_content_provider("application/octet-stream",
+                                        [viewer](std::size_t, httplib::DataSink& sink) {
+                                          const std::string bytes = viewer->next();
+                                          if (bytes.empty()) {
+                                            sink.done();
+                                            return true;
+                                          }
+                                          return sink.write(bytes.data(), bytes.size());
+                                        });
+}
+
+void command_live(const Call& call, const Request& request, Response& response) {
+  require_json(request);
+  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+  const json body = json_body_of(request);
+  live::Commands commands;
+  try {
+    commands = live::commands_from_json(body, flight->drones());
+  } catch (const InputError& error) {
+    throw HttpError{400, "the commands are wrong", error.problems()};
+  }
+  if (!flight->command(commands)) throw HttpError{409, "the flight has ended"};
+  response.status = 204;
+}
+
+void stop_live(const Call& call, const Request& request, Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+  if (flight->state() != LiveState::failed && flight->time_s() <= 0) {
+    throw HttpError{409, "the flight has not begun: nobody has looked at it yet"};
+  }
+  if (!flight->stop()) throw HttpError{503, "the flight does not answer; try again"};
+  write_json(response, 200, flight_json(*flight));
+}
+
+void remove_live(const Call& call, const Request& request, Response& response) {
+  if (!call.live.remove(find_flight(call, request)->id())) throw HttpError{404, "already removed"};
+  response.status = 204;
+}
+
+}  // namespace throng::server

@@ -1,0 +1,141 @@
+#include "server/api/requests.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "base/json/json_text.h"
+#include "jobs/queue/store/job_id.h"
+#include "server/catalog/answers.h"
+#include "server/http/http.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using nlohmann::json;
+
+void write_json(httplib::Response& response, int status, const json& value) {
+  response.status = status;
+  response.set_content(text_of(value), "application/json");
+}
+
+std::int64_t number_of(const Request& request, const char* name, std::int64_t min_number,
+                       std::int64_t max_number, std::int64_t usual) {
+  if (!request.has_param(name)) return usual;
+  const std::string text = request.get_param_value(name);
+  std::int64_t number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < min_number ||
+      number > max_number) {
+    throw HttpError{400,
+                    fmt::format("{} is wrong", name),
+                    {{"", fmt::format("?{}", name), text,
+                      fmt::format("an integer from {} to {}", min_number, max_number)}}};
+  }
+  return number;
+}
+
+bool is_asked(const Request& request, const char* name) {
+  if (!request.has_param(name)) return false;
+  const std::string value = request.get_param_value(name);
+  if (value.empty() || value == "1" || value == "true") return true;
+  if (value == "0" || value == "false") return false;
+  throw HttpError{400,
+                  fmt::format("{} is wrong", name),
+                  {{"", fmt::format("?{}", name), value, "true or false"}}};
+}
+
+int limit_of(const Request& request) {
+  constexpr int kUsual = 50;
+  constexpr int kMaxPageSize = 500;
+  return static_cast<int>(number_of(request, "limit", 1, kMaxPageSize, kUsual));
+}
+
+void require_json(const Request& request) {
+  const std::string type = request.get_header_value("Content-Type");
+  if (type.substr(0, type.find(';')) != "application/json") {
+    throw HttpError{415, "this is sent with Content-Type: application/json"};
+  }
+}
+
+json json_body_of(const Request& request) {
+  json body;
+  try {
+    body = parse_json(request.body, "", kRequestJsonLimits);
+  } catch (const InputError& error) {
+    throw HttpError{400, "the body is not the JSON that can be read here", error.problems()};
+  }
+  if (!body.is_object()) throw HttpError{400, "the body is no JSON object"};
+  return body;
+}
+
+HttpError wrong_field(std::string_view what, const std::string& pointer, const std::string& found,
+                      const std::string& expected) {
+  return {400, fmt::format("the {} is wrong", what), {{"", pointer, found, expected}}};
+}
+
+json fields_of(const Request& request, std::string_view what,
+               std::initializer_list<std::string_view> known) {
+  require_json(request);
+  json body = json_body_of(request);
+  for (const auto& [name, value] : body.items()) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw wrong_field(what, "/" + name, fmt::format("unknown field \"{}\"", name),
+                        fmt::format("one of: {}", fmt::join(known, ", ")));
+    }
+  }
+  return body;
+}
+
+std::string after_of(const Request& request) {
+  std::string after = request.get_param_value("after");
+  if (!after.empty() && !jobs::is_job_id(after)) {
+    throw HttpError{400, "after is wrong", {{"", "?after", after, "the id of a job"}}};
+  }
+  return after;
+}
+
+bool sees_all(const Caller& caller) { return caller.scope >= Scope::admin; }
+
+bool is_visible(const Caller& caller, const jobs::JobRow& row) {
+  return sees_all(caller) || row.owner == caller.key_id ||
+         std::find(row.labels.begin(), row.labels.end(), jobs::kSharedLabel) != row.labels.end();
+}
+
+std::optional<std::string> viewer_of(const Caller& caller) {
+  return sees_all(caller) ? std::nullopt : std::optional(caller.key_id);
+}
+
+namespace {
+
+std::string_view word_of(jobs::JobKind kind) {
+  return kind == jobs::JobKind::dataset ? "job" : name_of(kind);
+}
+
+}  // namespace
+
+jobs::JobRow find_job(const Call& call, const Request& request) {
+  return find_row(call, request, jobs::JobKind::dataset);
+}
+
+void require_own(const Call& call, const jobs::JobRow& row) {
+  if (call.caller.scope >= Scope::admin || row.owner == call.caller.key_id) return;
+  throw HttpError{
+      403, fmt::format("the {} is another's: only its owner and administrators may change it",
+                       word_of(row.kind))};
+}
+
+jobs::JobRow find_row(const Call& call, const Request& request, jobs::JobKind kind) {
+  const std::string id = request.matches[1];
+  std::optional<jobs::JobRow> row;
+  if (jobs::is_job_id(id)) row = call.queue.get(id);
+  if (!row || row->kind != kind || !is_visible(call.caller, *row)) {
+    throw HttpError{404, fmt::format("there is no {} {}", word_of(kind), id)};
+  }
+  return std::move(*row);
+}
+
+}  // namespace throng::server

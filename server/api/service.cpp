@@ -1,0 +1,24 @@
+#include "server/api/service.h"
+
+namespace throng::server {
+
+Service::Service(const ServiceOptions& options, jobs::Executor& executor)
+    : executor_(executor),
+      folders_(options.data, options.scenarios),
+      publish_to_(options.publish_to),
+      store_(options.database.empty() ? options.data : options.database, options.clock,
+             options.steady),
+      confined_(options.confined, options.data, options.max_task_mib),
+      state_(store_),
+      uploads_(folders_, store_, confined_, options.uploads),
+      calibrations_(folders_, store_, state_, confined_),
+      studies_(folders_, store_, state_, uploads_, confined_),
+      queue_(folders_, store_, state_, uploads_, calibrations_, confined_, publish_to_),
+      housekeeping_(folders_, store_, state_, uploads_, options.housekeeping),
+      reports_(executor),
+      live_(options.data, options.live),
+      runner_(
+          folders_, store_, state_, executor, [this] { return housekeeping_.look_at_disk(); },
+          options.max_active_jobs, publish_to_) {}
+
+}  // namespace throng::server

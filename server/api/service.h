@@ -1,0 +1,79 @@
+// The service without HTTP: its parts, put together.
+#pragma once
+
+#include <filesystem>
+
+#include "jobs/queue/confine/confined_task.h"
+#include "jobs/queue/store/store.h"
+#include "jobs/queue/workers/executor.h"
+#include "server/catalog/calibrations.h"
+#include "server/catalog/confined_checks.h"
+#include "server/catalog/queue_state.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/studies.h"
+#include "server/catalog/uploads.h"
+#include "server/jobs/datasets.h"
+#include "server/jobs/housekeeping.h"
+#include "server/jobs/job_queue.h"
+#include "server/jobs/job_runner.h"
+#include "server/jobs/publish_targets.h"
+#include "server/jobs/report_maker.h"
+#include "server/live/live_flights.h"
+
+namespace throng::server {
+
+struct ServiceOptions {
+  std::filesystem::path data;           ///< holds a folder per job; one service at a time
+  std::filesystem::path database = {};  ///< of the store; "": that of `data`
+  std::filesystem::path scenarios;      ///< those that come with throng
+  jobs::ConfinedTask confined;          ///< checks of what users send
+  UploadLimits uploads = {};
+  HousekeepingOptions housekeeping = {};
+  int max_active_jobs = 16;       ///< worked on at once (server/jobs/job_runner.h)
+  std::int64_t max_task_mib = 0;  ///< memory for a task (server/catalog/confined_checks.h); 0: any
+  PublishTargets publish_to = PublishTargets();  ///< that jobs may name
+  LiveLimits live = {};                          ///< of live flights
+  jobs::Store::Clock clock = {};                 ///< default: the system's
+  jobs::Store::Clock steady = {};                ///< of jobs::ServiceClock
+};
+
+/// The parts are safe to use from many threads.
+class Service {
+ public:
+  /// Opens the data folder and goes on with what it finds there: jobs that were running are
+  /// resumed, queued ones stay queued. The executor must outlive the service.
+  Service(const ServiceOptions& options, jobs::Executor& executor);
+
+  const ServiceFolders& folders() const { return folders_; }
+  const ConfinedChecks& confined() const { return confined_; }
+  JobQueue& queue() { return queue_; }
+  const JobQueue& queue() const { return queue_; }
+  Uploads& uploads() { return uploads_; }
+  Calibrations& calibrations() { return calibrations_; }
+  Studies& studies() { return studies_; }
+  Housekeeping& housekeeping() { return housekeeping_; }
+  Datasets& datasets() { return datasets_; }
+  ReportMaker& reports() { return reports_; }
+  LiveFlights& live() { return live_; }
+  const jobs::Executor& executor() const { return executor_; }
+
+ private:
+  const jobs::Executor& executor_;
+  // Each uses those above it.
+  ServiceFolders folders_;
+  PublishTargets publish_to_;
+  jobs::Store store_;
+  ConfinedChecks confined_;
+  QueueState state_;
+  Uploads uploads_;
+  Calibrations calibrations_;
+  Studies studies_;
+  JobQueue queue_;
+  Housekeeping housekeeping_;
+  ReportMaker reports_;
+  Datasets datasets_;
+  LiveFlights live_;
+  JobRunner runner_;
+};
+
+}  // namespace throng::server

@@ -1,0 +1,114 @@
+#include "server/api/session_api.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "server/api/requests.h"
+#include "server/http/http.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kAuthorization = "Authorization";
+
+/// Names the port, because browsers send a cookie to all ports of a host.
+std::string cookie_name(const Request& request) {
+  const std::string host = request.get_header_value("Host");
+  const std::string port = host.substr(std::min(host.rfind(':'), host.size()));
+  const bool is_port =
+      port.size() > 1 && port.find_first_not_of("0123456789", 1) == std::string::npos;
+  return is_port ? "throng_session_" + port.substr(1) : "throng_session";
+}
+
+/// Value of the session's cookie; "" without one.
+std::string token_in(const Request& request) {
+  const std::string start = cookie_name(request) + "=";
+  const std::string header = request.get_header_value("Cookie");
+  std::string_view rest = header;
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find(';'));
+    rest.remove_prefix(std::min(pair.size() + 1, rest.size()));
+    const auto begin = std::min(pair.find_first_not_of(' '), pair.size());
+    if (pair.substr(begin).starts_with(start)) {
+      return std::string(pair.substr(begin + start.size()));
+    }
+  }
+  return "";
+}
+
+/// Browsers name the site of the page that sends a request; "none" is the person at the address
+/// bar. Requests that change something also have an Origin, which is checked for all callers.
+bool is_of_own_page(const Request& request) {
+  const std::string site = request.get_header_value("Sec-Fetch-Site");
+  if (!site.empty() && site != "same-origin" && site != "none") return false;
+  return request.method == "GET" || request.method == "HEAD" || request.has_header("Origin");
+}
+
+void set_cookie(const Request& request, Response& response, const std::string& value,
+                const char* more) {
+  const bool is_secure = request.get_header_value("Origin").starts_with("https://");
+  response.set_header("Set-Cookie",
+                      fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}",
+                                  cookie_name(request), value, is_secure ? "; Secure" : "", more));
+}
+
+void write_session(const Call& call, const std::optional<Caller>& caller, Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  write_json(response, 200,
+             {{"needs_key", call.keys.are_needed()},
+              {"scope", caller ? json(name_of(caller->scope)) : json(nullptr)}});
+}
+
+}  // namespace
+
+std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions, const Request& request) {
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string header = request.get_header_value(kAuthorization);
+  if (header.starts_with(kBearer)) return keys.caller_of(header.substr(kBearer.size()));
+  const std::string token = token_in(request);
+  return keys.caller_of(token.empty() || !is_of_own_page(request) ? "" : sessions.key_of(token));
+}
+
+bool has_credentials(const Request& request) {
+  return request.has_header(kAuthorization) || !token_in(request).empty();
+}
+
+void confirm_access(const Call&, const Request&, Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  response.status = 204;
+}
+
+void open_session(const Call& call, const Request& request, Response& response) {
+  require_json(request);
+  const json body = json_body_of(request);
+  if (!body.contains("key") || !body["key"].is_string()) {
+    throw HttpError{400, "a session needs a key", {{"", "/key", "nothing", "a key as text"}}};
+  }
+  const std::string key = body["key"];
+  const auto caller = call.keys.caller_of(key);
+  if (!caller) throw HttpError{401, "this key is not known, or was revoked"};
+  call.sessions.close(token_in(request));
+  set_cookie(request, response, call.sessions.open(key), "");
+  write_session(call, caller, response);
+}
+
+void send_session(const Call& call, const Request& request, Response& response) {
+  write_session(call, caller_in(call.keys, call.sessions, request), response);
+}
+
+void close_session(const Call& call, const Request& request, Response& response) {
+  call.sessions.close(token_in(request));
+  set_cookie(request, response, "", "; Max-Age=0");
+  response.status = 204;
+}
+
+}  // namespace throng::server

@@ -1,0 +1,183 @@
+#include "server/api/studies_api.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/hash.h"
+#include "server/api/requests.h"
+#include "server/api/row_changes.h"
+#include "server/catalog/answers.h"
+#include "server/http/file_answer.h"
+#include "server/http/http.h"
+#include "spec/study/study_files.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+struct Result {
+  const char* name;
+  const char* type;
+  bool is_early;  ///< there while the study runs, too
+};
+constexpr std::array kResults = {Result{study::kSummaryName, "application/json", false},
+                                 Result{study::kCsvName, "text/csv", false},
+                                 Result{study::kMarkdownName, "text/markdown", false},
+                                 Result{study::kValuesName, "application/json", true}};
+
+jobs::JobRow find_study(const Call& call, const Request& request) {
+  return find_row(call, request, jobs::JobKind::study);
+}
+
+jobs::JobRow find_own_study(const Call& call, const Request& request) {
+  jobs::JobRow row = find_study(call, request);
+  require_own(call, row);
+  return row;
+}
+
+HttpError not_there_yet(const jobs::JobRow& row) {
+  return {409,
+          fmt::format("the study is {}; this is there once it has succeeded", name_of(row.state))};
+}
+
+/// The result of a run that the path names, made again from the plan's ids: none leads elsewhere.
+std::optional<fs::path> run_file(const json& plan, const std::string& path) {
+  for (const json& one : plan.at("cases")) {
+    for (const json& policy : plan.at("policies")) {
+      const std::string folder =
+          study::result_file(one.at("id"), policy.at("id"), 0).parent_path().string() + "/";
+      if (!path.starts_with(folder)) continue;
+      const std::string_view number = std::string_view(path).substr(folder.size());
+      int run = -1;
+      std::from_chars(number.data(), number.data() + number.size(), run);
+      const fs::path file = study::result_file(one.at("id"), policy.at("id"), std::max(run, 0));
+      if (run >= 0 && file.string() == path) return file;
+    }
+  }
+  return std::nullopt;
+}
+
+void answer_with(const Request& request, Response& response, const fs::path& file,
+                 const char* type) {
+  answer_with_file(request, response, file, type, fmt::format("\"{}\"", sha256_hex_of_file(file)));
+}
+
+}  // namespace
+
+void submit_study(const Call& call, const Request& request, Response& response) {
+  require_json(request);
+  const json document = json_body_of(request);
+  try {
+    if (is_asked(request, "dry_run")) {
+      json plan = call.studies.checked(document);
+      plan["valid"] = true;
+      return write_json(response, 200, plan);
+    }
+    const jobs::JobRow row = call.studies.submit(
+        document, {call.caller.key_id, call.caller.max_active, call.caller.max_bytes});
+    response.set_header("Location", "/v1/studies/" + row.id);
+    write_json(response, 201, study_json(row, call.housekeeping.retention()));
+  } catch (const InputError& error) {
+    throw HttpError{400, "the study cannot be done as it stands",
+                    call.folders.without_paths(error.problems())};
+  }
+}
+
+void list_studies(const Call& call, const Request& request, Response& response) {
+  const int limit = limit_of(request);
+  const std::vector<jobs::JobRow> rows = call.queue.list({.kind = jobs::JobKind::study,
+                                                          .after = after_of(request),
+                                                          .limit = limit,
+                                                          .visible_to = viewer_of(call.caller)});
+  json list = json::array();
+  for (const jobs::JobRow& row : rows)
+    list.push_back(study_json(row, call.housekeeping.retention()));
+  const bool more = static_cast<int>(rows.size()) == limit;
+  write_json(response, 200,
+             {{"studies", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+}
+
+void send_study(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(call, request);
+  json value = study_json(row, call.housekeeping.retention());
+  value["plan"] = call.studies.plan_of(row);
+  value["summary"] = call.studies.summary_of(row);
+  write_json(response, 200, value);
+}
+
+void change_study(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(call, request);
+  const auto row = call.queue.change(own.id, change_of(call, request, own));
+  if (!row) throw HttpError{404, "the study has been removed"};
+  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+}
+
+void cancel_study(const Call& call, const Request& request, Response& response) {
+  const auto row = call.queue.cancel(find_own_study(call, request).id);
+  if (!row) throw HttpError{404, "the study has been removed"};
+  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+}
+
+void retry_study(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(call, request);
+  const bool is_owner = own.owner == call.caller.key_id;
+  const auto row = call.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{call.caller.max_active, call.caller.max_bytes}
+                       : jobs::OwnerLimits{});
+  if (!row) throw HttpError{404, "the study has been removed"};
+  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+}
+
+void remove_study(const Call& call, const Request& request, Response& response) {
+  if (!call.housekeeping.remove(find_own_study(call, request).id)) {
+    throw HttpError{404, "already removed"};
+  }
+  response.status = 204;
+}
+
+void send_study_report(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(call, request);
+  if (row.state != jobs::JobState::succeeded) throw not_there_yet(row);
+  answer_with(request, response, call.folders.folder_of(row) / study::kReportName,
+              "text/html; charset=utf-8");
+}
+
+void send_study_file(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(call, request);
+  const fs::path folder = call.folders.folder_of(row);
+  const std::string wanted = request.matches[2];
+  const auto* result = std::find_if(kResults.begin(), kResults.end(),
+                                    [&](const Result& entry) { return wanted == entry.name; });
+  const bool is_result = result != kResults.end();
+  const auto run = is_result ? std::nullopt : run_file(call.studies.plan_of(row), wanted);
+  if (!is_result && !run) {
+    throw HttpError{404,
+                    "a study has summary.json, summary.csv, summary.md, values.json and "
+                    "runs/CASE/POLICY/000.json"};
+  }
+  const fs::path file = folder / (is_result ? fs::path(wanted) : *run);
+  const bool is_early = !is_result || result->is_early;
+  if (!is_early && row.state != jobs::JobState::succeeded) throw not_there_yet(row);
+  if (!fs::exists(file)) {
+    throw HttpError{409, fmt::format("the study is {}; this is not there yet", name_of(row.state))};
+  }
+  answer_with(request, response, file, is_result ? result->type : "application/json");
+}
+
+}  // namespace throng::server

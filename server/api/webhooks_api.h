@@ -1,0 +1,20 @@
+// Webhooks over HTTP: receivers of events, and the delivery log. Administrators only: the server
+// calls whatever address they name.
+#pragma once
+
+#include "server/api/call.h"
+#include "server/http/http_fwd.h"
+
+namespace throng::server {
+
+void create_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+void list_webhooks(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+void change_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+void remove_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+void list_deliveries(const Call& call, const httplib::Request& request,
+                     httplib::Response& response);
+/// Sends a ping now and answers with how that went.
+void ping_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+
+}  // namespace throng::server

@@ -1,0 +1,54 @@
+// JSON answers of the API.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/queue/store/store.h"
+#include "jobs/queue/supervisor.h"
+#include "server/catalog/retention.h"
+
+namespace throng::server {
+
+/// RFC 3339 in UTC with milliseconds; null for 0, which is "not yet".
+nlohmann::json time_json(std::int64_t unix_ms);
+
+/// {"stage", "frames_done", "frames_total", "runs": [...]}; "publishing" of a job that asks for it
+nlohmann::json progress_json(const jobs::JobProgress& progress);
+
+/// The part of the progress that makes an event: {"stage", "runs": {"run000": stage}}
+nlohmann::json stages_json(const jobs::JobProgress& progress);
+
+/// {"seq", "job", "at", "type", "data"}
+nlohmann::json event_json(const jobs::EventRow& event);
+
+/// A failed job's "error": {"kind", "message", "problems"}.
+nlohmann::json error_json(const std::string& kind, const std::string& message,
+                          const std::vector<Problem>& problems);
+
+/// The "error" of a partial job: {"kind": "partial", "message", "problems": [], "runs": [...]}.
+nlohmann::json partial_error_json(const std::vector<jobs::RunFailure>& failures);
+
+/// [{"pointer", "found", "expected", "message"}]
+nlohmann::json problems_json(const std::vector<Problem>& problems);
+
+/// A calibration as GET /v1/calibrations/{id} shows it; its camera is there once it has succeeded.
+nlohmann::json calibration_json(const jobs::JobRow& row, const Retention& retention);
+
+/// A study as GET /v1/studies shows it.
+nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
+
+/// A job as GET /v1/jobs/{id} shows it.
+nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
+
+/// A problem document (RFC 9457).
+nlohmann::json problem_document(int status, const std::string& detail,
+                                const std::vector<Problem>& problems = {});
+
+/// JSON text that is valid UTF-8 whatever the strings hold.
+std::string text_of(const nlohmann::json& value);
+
+}  // namespace throng::server

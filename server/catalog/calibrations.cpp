@@ -1,0 +1,89 @@
+#include "server/catalog/calibrations.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "jobs/queue/store/job_id.h"
+#include "server/catalog/answers.h"
+#include "server/catalog/service_errors.h"
+#include "spec/calibration/request_files.h"
+#include "spec/estimates/task_memory.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using jobs::JobRow;
+using jobs::JobState;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kMemoryName = "memory_mib";
+
+}  // namespace
+
+JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upload>& files,
+                            const Quota& quota) {
+  const json request = parse_json(request_json, "", kRequestJsonLimits);
+  if (!request.is_object()) {
+    throw InputError(Problem{"", "", "no JSON object", "a request: see docs/calibration.md"});
+  }
+  StagingFolder staging(folders_.calibrations() / "next");
+  for (const Upload& file : files) {
+    if (fs::path(file.name).filename() != file.name || file.name.empty() || file.name == "." ||
+        file.name == "..") {
+      throw InputError(Problem{"", "/files", file.name, "plain names of files"});
+    }
+    write_file_atomically(staging.path() / "files" / file.name, file.bytes);
+  }
+  const std::int64_t memory_mib = confined_.calibration(request, staging.path() / "files");
+  write_file_atomically(staging.path() / kMemoryName, std::to_string(memory_mib));
+  write_file_atomically(staging.path() / "request.json", text_of(request));
+  JobRow row;
+  {
+    // Under the lock, so that it is not begun before its files are in their place.
+    const auto lock = state_.hold();
+    const jobs::Added added = store_.add({.name = request.value("name", ""),
+                                          .spec_json = text_of(request),
+                                          .kind = jobs::JobKind::calibration,
+                                          .owner = quota.owner,
+                                          .limits = {quota.max_active, quota.max_bytes}});
+    if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
+    row = added.row;
+    fs::rename(staging.path(), folders_.folder_of(row));
+  }
+  spdlog::info("calibration {} queued", row.id);
+  state_.notify_queued();
+  state_.notify_event();
+  return row;
+}
+
+std::int64_t Calibrations::memory_mib_of(const fs::path& folder) {
+  try {
+    return std::stoll(read_file(folder / kMemoryName));
+  } catch (const std::exception&) {  // of an earlier version
+    return jobs::calibration_memory_mib(0);
+  }
+}
+
+json Calibrations::camera_of(const std::string& id) const {
+  const std::optional<JobRow> row = jobs::is_job_id(id) ? store_.get(id) : std::nullopt;
+  if (!row || row->kind != jobs::JobKind::calibration) {
+    throw EnvironmentError("there is no calibration of this id");
+  }
+  if (row->state != JobState::succeeded) {
+    throw EnvironmentError(fmt::format("the calibration is {}", name_of(row->state)));
+  }
+  return parse_own_json(read_file(folders_.folder_of(*row) / calibrate::kCameraName),
+                        calibrate::kCameraName);
+}
+
+}  // namespace throng::server

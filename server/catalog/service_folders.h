@@ -1,0 +1,48 @@
+// Folders of a service.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/queue/store/store.h"
+
+namespace throng::server {
+
+/// Safe to use from many threads.
+class ServiceFolders {
+ public:
+  /// The service's data folder, and that of the scenarios that come with throng.
+  ServiceFolders(std::filesystem::path data, std::filesystem::path shipped);
+
+  const std::filesystem::path& data() const { return data_; }
+  /// Search path of all scenarios: shipped ones and uploads.
+  const std::filesystem::path& scenarios() const { return scenarios_; }
+  const std::filesystem::path& shipped() const { return shipped_; }
+  /// Folder of a job (jobs/queue/dataset/folder.h).
+  std::filesystem::path job_folder(const std::string& id) const { return data_ / "jobs" / id; }
+  /// Folder of a job's dataset once it has succeeded.
+  std::filesystem::path dataset_of(const std::string& id) const;
+  std::filesystem::path calibrations() const { return data_ / "calibrations"; }
+  /// Folder of a calibration's results once it has succeeded.
+  std::filesystem::path calibration_folder(const std::string& id) const {
+    return calibrations() / id;
+  }
+  std::filesystem::path studies() const { return data_ / "studies"; }
+  /// Folder of a study (spec/study/study_files.h).
+  std::filesystem::path study_folder(const std::string& id) const { return studies() / id; }
+  /// The folder of a job, a calibration or a study.
+  std::filesystem::path folder_of(const jobs::JobRow& row) const;
+
+  /// A message without the places of this machine's folders.
+  std::string without_paths(std::string message) const;
+  std::vector<Problem> without_paths(std::vector<Problem> problems) const;
+
+ private:
+  std::filesystem::path data_;
+  std::filesystem::path shipped_;
+  std::filesystem::path scenarios_;
+};
+
+}  // namespace throng::server

@@ -1,0 +1,87 @@
+#include "server/catalog/studies.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "server/catalog/answers.h"
+#include "server/catalog/service_errors.h"
+#include "spec/study/study_files.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using jobs::JobRow;
+using nlohmann::json;
+
+namespace {
+
+// Each has a result and a log: more would be too many files of one submission.
+constexpr std::int64_t kMaxSimulations = 20'000;
+
+void require_scenarios(const json& plan, const fs::path& scenarios) {
+  for (std::size_t i = 0; i < plan.at("cases").size(); ++i) {
+    const std::string id = plan.at("cases")[i].at("scenario");
+    if (fs::exists(scenarios / (id + ".json"))) continue;
+    throw InputError(Problem{"", fmt::format("/cases/{}/scenario", i),
+                             fmt::format("scenario \"{}\"", id), "one that has not been removed"});
+  }
+}
+
+}  // namespace
+
+json Studies::checked(const json& document) const {
+  json plan = confined_.study(document, folders_.scenarios());
+  const auto simulations = plan.at("simulations").get<std::int64_t>();
+  if (simulations > kMaxSimulations) {
+    throw InputError(
+        Problem{"", "/runs", fmt::format("{} simulations in all", simulations),
+                fmt::format("at most {}: fewer runs, cases or policies", kMaxSimulations)});
+  }
+  return plan;
+}
+
+JobRow Studies::submit(const json& document, const Quota& quota) {
+  const json plan = checked(document);
+  StagingFolder staging(folders_.studies() / "next");
+  write_file_atomically(staging.path() / study::kDocumentName, text_of(document));
+  write_file_atomically(staging.path() / study::kPlanName, text_of(plan));
+  JobRow row;
+  {
+    const auto uploads = uploads_.hold();
+    require_scenarios(plan, folders_.scenarios());
+    // Under the lock, so that it is not begun before its files are in their place.
+    const auto lock = state_.hold();
+    const jobs::Added added = store_.add({.name = plan.at("name"),
+                                          .spec_json = text_of(document),
+                                          .kind = jobs::JobKind::study,
+                                          .owner = quota.owner,
+                                          .limits = {quota.max_active, quota.max_bytes}});
+    if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
+    row = added.row;
+    fs::rename(staging.path(), folders_.folder_of(row));
+  }
+  spdlog::info("study {} queued", row.id);
+  state_.notify_queued();
+  state_.notify_event();
+  return row;
+}
+
+json Studies::plan_of(const JobRow& row) const {
+  return parse_own_json(read_file(folders_.folder_of(row) / study::kPlanName), study::kPlanName);
+}
+
+json Studies::summary_of(const JobRow& row) const {
+  const fs::path folder = folders_.folder_of(row);
+  const bool is_complete = row.state == jobs::JobState::succeeded;
+  const fs::path file = folder / (is_complete ? study::kSummaryName : study::kSummarySoFarName);
+  if (!fs::exists(file)) return nullptr;
+  return parse_own_json(read_file(file), file.filename().string());
+}
+
+}  // namespace throng::server

@@ -1,0 +1,246 @@
+#include "server/http/http_server.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "server/http/connection.h"
+#include "server/http/http.h"
+#include "server/http/reason_phrase.h"
+
+namespace throng::server {
+
+namespace {
+
+constexpr std::size_t kThreads = 256;  // one per open connection; half of them may be streams
+constexpr int kBacklog = 1024;
+constexpr std::size_t kRequestsPerConnection = 1'000'000;
+constexpr int kIdleStepMs = 100;  // bounds how long stop() takes
+constexpr std::chrono::milliseconds kPauseWithoutFiles(100);
+constexpr std::size_t kSmallBody = 1 << 20;  // not worth to be counted
+
+httplib::Request request_of(const RequestHead& head) {
+  httplib::Request request;
+  request.method = head.method;
+  request.target = head.target;
+  request.path = head.path;
+  for (const HeaderField& field : head.fields) request.headers.emplace(field.name, field.value);
+  return request;
+}
+
+/// The last answer of a connection.
+std::string text_of_answer(const httplib::Request& request, const httplib::Response& response) {
+  std::string text =
+      fmt::format("HTTP/1.1 {} {}\r\nContent-Length: {}\r\nConnection: close\r\n", response.status,
+                  reason_phrase(response.status), response.body.size());
+  for (const auto& [name, value] : response.headers) {
+    text += fmt::format("{}: {}\r\n", name, value);
+  }
+  text += "\r\n";
+  return request.method == "HEAD" ? text : text + response.body;
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& host) {
+  in_addr address{};  // the check keeps out names such as "127.example.com"
+  return host == "localhost" || host == "::1" ||
+         (host.starts_with("127.") && ::inet_pton(AF_INET, host.c_str(), &address) == 1);
+}
+
+/// The library's server with filtered connections, and a limit to what bodies take together.
+class HttpServer::BoundedServer : public httplib::Server {
+ public:
+  BoundedServer(HttpOptions options, ErrorWriter write_error)
+      : options_(std::move(options)), write_error_(std::move(write_error)) {}
+  ~BoundedServer() override {
+    if (listener_ >= 0) ::close(listener_);
+  }
+  BoundedServer(const BoundedServer&) = delete;
+  BoundedServer& operator=(const BoundedServer&) = delete;
+
+  /// Takes over the socket that the library has bound.
+  void own(int listener) { listener_ = listener; }
+
+  /// Serves until end(). Instead of the library's loop, which stops for good once the machine lacks
+  /// memory or files for a moment, and whose sockets are inherited by programs that are started.
+  void accept_all() {
+    httplib::ThreadPool threads(kThreads);
+    while (svr_sock_ != INVALID_SOCKET) {
+      pollfd wait{listener_, POLLIN, 0};
+      if (::poll(&wait, 1, -1) <= 0) continue;  // end() shuts the socket down, which wakes this
+      const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+      if (socket >= 0) {
+        threads.enqueue([this, socket] { process_and_close_socket(socket); });
+      } else if (errno != EINTR && errno != ECONNABORTED && svr_sock_ != INVALID_SOCKET) {
+        spdlog::warn("connections wait: {}", std::strerror(errno));
+        std::this_thread::sleep_for(kPauseWithoutFiles);
+      }
+    }
+    threads.shutdown();
+  }
+
+  /// Makes accept_all() return, now or when it is only about to begin; open connections end.
+  void end() {
+    if (svr_sock_.exchange(INVALID_SOCKET) != INVALID_SOCKET) ::shutdown(listener_, SHUT_RDWR);
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    bool served = false;
+    try {
+      served = serve_all(socket);
+    } catch (const std::exception& error) {  // nothing above this catches
+      spdlog::error("a connection: {}", error.what());
+    }
+    body_bytes_ -= std::exchange(reserved_, 0);
+    close_gently(socket);
+    return served;
+  }
+
+  /// Whether the last request was answered.
+  bool serve_all(socket_t socket) {
+    Connection connection(socket, options_.connection);
+    bool served = false;
+    for (std::size_t left = kRequestsPerConnection; left > 0 && is_next(connection); --left) {
+      auto head = connection.read_head();
+      if (std::holds_alternative<Connection::Ended>(head)) break;
+      if (const auto* error = std::get_if<HeadError>(&head)) {
+        refuse(connection, {}, {error->status, error->detail});
+        break;
+      }
+      const RequestHead& request = std::get<RequestHead>(head);
+      const bool is_last = left == 1 || !request.keeps_connection;
+      served = serve(connection, request, is_last);
+      if (!served || is_last || !connection.is_consumed()) break;
+    }
+    return served;
+  }
+
+  /// False when the connection has to end.
+  bool serve(Connection& connection, const RequestHead& head, bool is_last) {
+    if (head.content_length > 0) {
+      const httplib::Request request = request_of(head);
+      try {
+        admit_body(request, head.content_length);
+      } catch (const HttpError& error) {
+        refuse(connection, request, error);
+        return false;
+      } catch (const std::exception& error) {  // e.g. the keys cannot be read
+        spdlog::error("{} {}: {}", request.method, request.path, error.what());
+        refuse(connection, request, {503, "the request cannot be checked now; try again"});
+        return false;
+      }
+    }
+    connection.begin_request(head);
+    bool is_closed = false;
+    const bool served = process_request(connection, is_last, is_closed, nullptr);
+    body_bytes_ -= std::exchange(reserved_, 0);
+    return served && !is_closed;
+  }
+
+  void refuse(Connection& connection, const httplib::Request& request, const HttpError& error) {
+    httplib::Response response;
+    write_error_(request, response, error);
+    connection.write_all(text_of_answer(request, response));
+  }
+
+  /// Throws HttpError for a body that is not to be read.
+  void admit_body(const httplib::Request& request, std::size_t bytes) {
+    if (options_.max_body_bytes) {
+      if (const std::size_t max = options_.max_body_bytes(request); bytes > max) {
+        throw HttpError{413, fmt::format("a body may have {} bytes here", max)};
+      }
+    }
+    if (!reserve(bytes))
+      throw HttpError{503, "other uploads take all the memory there is for them"};
+  }
+
+  /// Notes the memory that this thread's request will take; false when there is too little left.
+  bool reserve(std::size_t bytes) {
+    if (bytes <= kSmallBody) return true;
+    const auto wanted = static_cast<std::int64_t>(bytes);
+    if (body_bytes_.fetch_add(wanted) + wanted > options_.max_all_body_bytes) {
+      body_bytes_ -= wanted;
+      return false;
+    }
+    reserved_ += wanted;
+    return true;
+  }
+
+  /// Waits for another request of this connection.
+  bool is_next(const Connection& connection) const {
+    if (connection.has_pending()) return true;
+    const auto end = std::chrono::steady_clock::now() + options_.connection.idle;
+    while (svr_sock_ != INVALID_SOCKET && std::chrono::steady_clock::now() < end) {
+      pollfd wait{connection.socket(), POLLIN, 0};
+      if (::poll(&wait, 1, kIdleStepMs) > 0) return true;
+    }
+    return false;
+  }
+
+  int listener_ = -1;
+  const HttpOptions options_;
+  const ErrorWriter write_error_;
+  std::atomic<std::int64_t> body_bytes_ = 0;
+  static thread_local std::int64_t reserved_;  ///< by the request that this thread works on
+};
+
+thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
+
+HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
+    : server_(std::make_unique<BoundedServer>(options, write_error)) {
+  server_->set_default_headers({{"X-Content-Type-Options", "nosniff"},
+                                {"Referrer-Policy", "no-referrer"},
+                                {"Cross-Origin-Resource-Policy", "same-origin"}});
+  server_->set_payload_max_length(std::numeric_limits<std::size_t>::max());
+  server_->set_tcp_nodelay(true);
+  int listener = -1;
+  // Without SO_REUSEPORT, which the library sets by default: two servers must not share a port.
+  server_->set_socket_options([&listener](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    ::fcntl(socket, F_SETFD, FD_CLOEXEC);
+    listener = socket;
+  });
+  server_->set_error_handler(
+      [write_error](const httplib::Request& request, httplib::Response& response) {
+        if (response.body.empty() && !response.content_provider_) {
+          write_error(request, response, {response.status, ""});
+        }
+      });
+
+  port_ = options.port == 0
+              ? server_->bind_to_any_port(options.host)
+              : (server_->bind_to_port(options.host, options.port) ? options.port : -1);
+  if (port_ <= 0) {
+    throw EnvironmentError(
+        fmt::format("cannot listen on {} port {}: is the port taken?", options.host, options.port));
+  }
+  server_->own(listener);
+  // The library's backlog is fixed at 5; a second listen() changes it.
+  ::listen(listener, kBacklog);
+}
+
+HttpServer::~HttpServer() = default;
+
+httplib::Server& HttpServer::routes() { return *server_; }
+
+void HttpServer::run() { server_->accept_all(); }
+
+void HttpServer::stop() { server_->end(); }
+
+}  // namespace throng::server

@@ -1,0 +1,56 @@
+// Housekeeping: retention, free disk space (the queue is paused when it runs out), trash.
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "jobs/queue/store/store.h"
+#include "server/catalog/queue_state.h"
+#include "server/catalog/retention.h"
+#include "server/catalog/service_folders.h"
+#include "server/catalog/uploads.h"
+#include "server/jobs/disk_watch.h"
+
+namespace throng::server {
+
+struct HousekeepingOptions {
+  Retention retention = {};
+  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue is paused
+  DiskWatch::Look disk = {};                  ///< default: of the data folder's disk
+};
+
+/// Safe to use from many threads.
+class Housekeeping {
+ public:
+  /// Tidies the data folder (server/catalog/data_folder.h). All must outlive it.
+  Housekeeping(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
+               Uploads& uploads, HousekeepingOptions options);
+  Housekeeping(const Housekeeping&) = delete;
+  Housekeeping& operator=(const Housekeeping&) = delete;
+  ~Housekeeping() = default;
+
+  const Retention& retention() const { return options_.retention; }
+
+  /// Ends the job if it is active and removes it with all its files. False when there is none.
+  bool remove(const std::string& id);
+  /// Removes what has been kept for long enough. Done by itself every minute.
+  void remove_expired();
+
+  /// The reason why nothing can be written; "" when it can.
+  std::string look_at_disk() { return disk_.look(); }
+
+ private:
+  void sweep(const std::stop_token& stop);
+
+  const ServiceFolders& folders_;
+  jobs::Store& store_;
+  QueueState& state_;
+  Uploads& uploads_;
+  HousekeepingOptions options_;
+  DiskWatch disk_;
+  std::jthread sweeper_;  ///< last: ends before what it uses
+};
+
+}  // namespace throng::server

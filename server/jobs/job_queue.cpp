@@ -1,0 +1,190 @@
+#include "server/jobs/job_queue.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files/hash.h"
+#include "base/json/json_text.h"
+#include "server/catalog/answers.h"
+#include "server/jobs/report_maker.h"
+#include "spec/calibration/calibrations.h"
+#include "spec/job/scenario_mix.h"
+#include "spec/job/spec.h"
+
+namespace throng::server {
+
+using jobs::JobEvent;
+using jobs::JobRow;
+using nlohmann::json;
+
+JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
+                   Uploads& uploads, const Calibrations& calibrations,
+                   const ConfinedChecks& confined, const PublishTargets& publish_to)
+    : folders_(folders),
+      store_(store),
+      state_(state),
+      uploads_(uploads),
+      calibrations_(calibrations),
+      confined_(confined),
+      publish_to_(publish_to) {}
+
+std::string JobQueue::with_cameras(std::string_view job_json) const {
+  return jobs::with_calibrations(
+      job_json, [this](const std::string& id) { return calibrations_.camera_of(id); });
+}
+
+jobs::ResolvedJob JobQueue::resolve(std::string_view job_json) const {
+  return confined_.job(with_cameras(job_json), folders_.scenarios());
+}
+
+json JobQueue::dry_run(std::string_view job_json) const {
+  json answer = confined_.dry_run(with_cameras(job_json), folders_.scenarios());
+  constexpr const char* kPublish = "/outputs/publish";
+  publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
+  return answer;
+}
+
+jobs::Added JobQueue::submit(const Submission& submission) {
+  const jobs::ResolvedJob resolved = resolve(submission.job_json);
+  const jobs::JobSpec& job = resolved.spec();
+  publish_to_.require(job.outputs.publish);
+  const auto lock = uploads_.hold();
+  require_scenario(job);
+  const json sent = {submission.job_json, submission.priority, submission.labels};
+  const jobs::Added added = store_.add({.name = job.name,
+                                        .spec_json = text_of(to_json(job)),
+                                        .priority = submission.priority,
+                                        .labels = submission.labels,
+                                        .owner = submission.owner,
+                                        .key = submission.key,
+                                        .hash = sha256_hex(text_of(sent)),
+                                        .limits = {submission.max_active, submission.max_bytes},
+                                        .people = resolved.people()});
+  if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
+  if (!added.is_new) return added;
+  spdlog::info("job {} queued", added.row.id);
+  state_.notify_queued();
+  state_.notify_event();
+  return added;
+}
+
+jobs::Added JobQueue::submit_with_bundle(const Submission& submission, std::string_view bundle) {
+  const std::string job = naming_bundle(bundle, submission.job_json);
+  Uploads::Pinned pinned(uploads_, bundle, submission.owner);
+  Submission named = submission;
+  named.job_json = job;
+  jobs::Added added = submit(named);
+  // A repeated submission's job may be another's, or be gone.
+  if (added.is_new) pinned.keep();
+  return added;
+}
+
+json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view bundle) {
+  const std::string job = naming_bundle(bundle, job_json);
+  const Uploads::Pinned pinned(uploads_, bundle, "");
+  return dry_run(job);
+}
+
+void JobQueue::require_scenario(const jobs::JobSpec& job) const {
+  for (const int run : jobs::first_runs(job)) {
+    const jobs::JobSpec one = jobs::in_scenario_of_run(job, run);
+    if (one.generate || std::filesystem::exists(folders_.scenarios() / (one.scenario + ".json"))) {
+      continue;
+    }
+    throw InputError(Problem{"", "/scenario", fmt::format("scenario \"{}\"", one.scenario),
+                             "one that has not been removed"});
+  }
+}
+
+std::shared_ptr<void> JobQueue::begin_watch(int max) {
+  const auto release = [watchers = watchers_](void*) { --*watchers; };
+  std::shared_ptr<void> watch(watchers_.get(), release);
+  return ++*watchers_ > max ? nullptr : std::move(watch);
+}
+
+std::vector<jobs::EventRow> JobQueue::events(const std::string& job, std::int64_t after, int limit,
+                                             std::chrono::milliseconds timeout) const {
+  const auto end = std::chrono::steady_clock::now() + timeout;
+  while (true) {
+    const std::uint64_t count = state_.event_counter().count();
+    std::vector<jobs::EventRow> rows = store_.events(job, after, limit);
+    if (!rows.empty() || !state_.event_counter().wait(count, end)) return rows;
+  }
+}
+
+std::optional<JobRow> JobQueue::get(const std::string& id) const {
+  std::optional<JobRow> row = store_.get(id);
+  if (row) state_.complete(*row);
+  return row;
+}
+
+std::shared_ptr<const std::string> JobQueue::text_of_job(
+    const std::string& id, const std::function<std::string(const JobRow&)>& write) const {
+  // Taken before looking: what changes in between makes the text one of the past.
+  const std::uint64_t revision = state_.revision();
+  if (auto text = texts_.find(revision, id)) return text;
+  const std::optional<JobRow> row = get(id);
+  if (!row || row->kind != jobs::JobKind::dataset) return nullptr;
+  auto text = std::make_shared<const std::string>(write(*row));
+  texts_.put(revision, id, text);
+  return text;
+}
+
+std::vector<JobRow> JobQueue::list(const jobs::JobFilter& filter) const {
+  std::vector<JobRow> rows = store_.list(filter);
+  for (JobRow& row : rows) state_.complete(row);
+  return rows;
+}
+
+std::optional<JobRow> JobQueue::change(const std::string& id, const jobs::JobChange& change) {
+  std::optional<JobRow> row = store_.change(id, change);
+  if (row) {
+    state_.set_priority(id, change.priority);
+    state_.notify_queued();  // it may be ahead of others now
+    state_.notify_event();
+  }
+  return row;
+}
+
+std::optional<JobRow> JobQueue::cancel(const std::string& id) {
+  // The state may change between reading and cancelling; then look again.
+  for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
+    if (!is_active(row->state)) {
+      throw ConflictError(
+          fmt::format("the job is {}: there is nothing to cancel", name_of(row->state)));
+    }
+    if (!state_.apply(*row, JobEvent::cancel)) continue;
+    state_.end_work_on(id);
+    spdlog::info("job {} cancelled", id);
+    return get(id);
+  }
+  return std::nullopt;
+}
+
+std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLimits& limits) {
+  for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
+    if (row->is_damaged) {
+      throw ConflictError("the job's row in the store is damaged: it can only be removed");
+    }
+    if (!next_state(row->state, JobEvent::retry)) {
+      throw ConflictError(
+          fmt::format("the job is {}: only one that failed or was cancelled can be "
+                      "tried again",
+                      name_of(row->state)));
+    }
+    const jobs::Retried retried = state_.retry(*row, limits);
+    if (!retried.over_quota.empty()) throw QuotaError(retried.over_quota);
+    if (!retried.row) continue;
+    ReportMaker::forget(folders_.folder_of(*row));
+    spdlog::info("job {} queued again", id);
+    state_.notify_queued();
+    return retried.row;
+  }
+  return std::nullopt;
+}
+
+}  // namespace throng::server

@@ -1,0 +1,73 @@
+// The queue at work: several jobs at once, each supervised by a thread of its own. How they share
+// the workers is the executor's affair (jobs/queue/workers/admission.h).
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <list>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "jobs/queue/store/store.h"
+#include "jobs/queue/supervisor.h"
+#include "jobs/queue/workers/executor.h"
+#include "server/catalog/queue_state.h"
+#include "server/catalog/service_folders.h"
+#include "server/jobs/publish_targets.h"
+
+namespace throng::server {
+
+class JobRunner {
+ public:
+  /// Checks the disk: the reason why it has no free space, "" when it has.
+  using LookAtDisk = std::function<std::string()>;
+
+  /// Goes on with what it finds in the store: jobs that were running are resumed. Beyond
+  /// `max_active` jobs one is begun only for an owner who has none that is active, or with a
+  /// priority above all that are. All must outlive it.
+  JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
+            jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
+            const PublishTargets& publish_to);
+  /// Ends the workers; the jobs they were at stay "running" in the store, to be resumed.
+  ~JobRunner() = default;
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
+
+ private:
+  /// A thread that supervises a job.
+  struct Supervisor {
+    std::stop_source stop;
+    std::atomic<bool> has_ended = false;
+    std::jthread thread;
+  };
+
+  void dispatch(const std::stop_token& stop);
+  bool begin_next();
+  std::optional<jobs::JobRow> next_job() const;
+  void join_ended();
+  void work_on(const jobs::JobRow& row, const std::stop_token& stop);
+  void run(const jobs::JobRow& row, const std::stop_token& stop);
+  std::vector<jobs::RunFailure> make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
+  void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
+  void make_study(const jobs::JobRow& row, const std::stop_token& stop);
+  void require_target(const jobs::JobSpec& job, const jobs::JobFolder& folder,
+                      const std::stop_token& stop) const;
+  jobs::Share share_of(const jobs::JobRow& row) const;
+  void save_progress(const jobs::JobRow& row);
+  void save_bytes(const jobs::JobRow& row);
+
+  const ServiceFolders& folders_;
+  jobs::Store& store_;
+  QueueState& state_;
+  jobs::Executor& executor_;
+  LookAtDisk look_at_disk_;
+  int max_active_;
+  const PublishTargets& publish_to_;
+  std::list<Supervisor> supervisors_;  ///< of the dispatching thread
+  std::jthread thread_;                ///< last: ends before what it uses
+};
+
+}  // namespace throng::server

@@ -1,0 +1,55 @@
+#include "spec/documents/published_schemas.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/json/field_table.h"
+#include "base/json/json_text.h"
+#include "base/schemas/schemas.h"
+#include "spec/job/job_fields.h"
+#include "spec/job/schema.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::string_view kJob = "job";
+constexpr const char* kSchemaMember = "$schema";
+
+ordered_json job() {
+  ordered_json schema = ordered_job_schema();
+  schema["properties"][kSchemaMember] = {
+      {"description", "The schema that an editor completes and checks with."}, {"type", "string"}};
+  return schema;
+}
+
+/// The parts that a study takes over from jobs are described as in a job.
+json study(std::string_view text) {
+  json schema = parse_json(text, "study.schema.json");
+  for (const char* part : {"crowd", "drones"}) {
+    schema["definitions"][part] = job_schema()["properties"][part];
+  }
+  return schema;
+}
+
+}  // namespace
+
+std::vector<std::string_view> schema_names() {
+  std::vector<std::string_view> names = {kJob};
+  for (const schemas::Entry& entry : schemas::entries()) names.push_back(entry.name);
+  return names;
+}
+
+std::string published_schema(std::string_view name) {
+  if (name == kJob) return fields::schema_text(job());
+  for (const schemas::Entry& entry : schemas::entries()) {
+    if (entry.name != name) continue;
+    if (entry.kind == schemas::Kind::study) return study(entry.text).dump(1) + "\n";
+    return std::string(entry.text);
+  }
+  return {};
+}
+
+}  // namespace throng::jobs

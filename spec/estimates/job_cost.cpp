@@ -1,0 +1,173 @@
+#include "spec/estimates/job_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "spec/estimates/task_memory.h"
+#include "spec/job/plan.h"
+#include "spec/job/render_cost.h"
+#include "spec/job/spec.h"
+
+namespace throng::jobs {
+
+namespace {
+
+// CPU time beside that of images (bench/estimates.py measures all of these).
+constexpr double kRunS = 1.3;      ///< simulation and figures: processes, place, crowd
+constexpr double kShardS = 1.1;    ///< driver, character library, place
+constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing
+constexpr double kPersonSecondS = 60e-6;
+constexpr double kDroneSecondS = 0.01;
+constexpr double kLoadedPersonS = 0.0006;
+constexpr double kImageFactor = 1.6;  ///< labels and files beside the image
+constexpr double kLabeledPersonS = 0.0006;
+constexpr double kPreviewMegapixelS = 0.05;
+
+// Bytes of the job's folder, in which labels are twice: in the dataset and in the shards' outputs.
+constexpr double kRunBytes = 130e3;  ///< scenario in the trace, records of tasks
+constexpr double kTracePersonStepBytes = 14;
+constexpr double kFleeingPersonStepBytes = 22;
+constexpr double kStepsPerSecond = 10;
+constexpr double kPersonBytes = 600;  ///< figures of a person
+constexpr double kTrackBytes = 1300;  ///< of a person whom a shard shows
+constexpr double kImageRecordBytes = 12e3;
+constexpr double kPersonLabelBytes = 1450;    ///< of a person in an image
+constexpr double kFormatPersonBytes = 130;    ///< of a label in another format
+constexpr double kDensityPersonBytes = 2700;  ///< of a head at kDensitySigmaPx
+constexpr double kDensitySigmaPx = 4;
+constexpr double kJpegBytesPerPixel = 0.42;  ///< at kJpegQuality and kJpegMegapixels
+constexpr double kJpegMegapixels = 0.92;
+constexpr double kJpegExponent = -0.15;  ///< larger images hold less in a pixel
+constexpr double kJpegOctave = 12;       ///< steps of quality that double the bytes
+constexpr double kJpegQuality = 95;
+constexpr double kDraftShare = 0.42;  ///< flat colors
+constexpr double kPixelsPerMegapixel = 1e6;
+
+/// Cells of the grids in fields/ beside those of a job's own size.
+constexpr double kFieldCellM = 0.5;
+constexpr double kFieldCellBytes = 16;
+
+struct KindBytes {
+  std::string_view kind;
+  double per_pixel;
+  double per_person = 0;
+  double per_moving_pixel = 0;  ///< instead, of a camera that moves
+};
+constexpr std::array kKindBytes = {
+    KindBytes{"depth", 0.2},           KindBytes{"instances", 0.045},
+    KindBytes{"parts", 0.022},         KindBytes{"normals", 0.3},
+    KindBytes{"flow", 0.1, 0, 0.6},    KindBytes{"flow_backward", 0.1, 0, 0.6},
+    KindBytes{"flow_occlusion", 0.02}, KindBytes{"scene_flow", 0.09},
+    KindBytes{"hazard_opacity", 0.01}, KindBytes{"semantic", 0.04},
+    KindBytes{"keypoints", 0, 1300},   KindBytes{"skeletons", 0, 3800},
+    KindBytes{"amodal", 0, 200},       KindBytes{"difficulty", 0, 200},
+    KindBytes{"heads", 0, 120}};
+
+bool has_kind(const JobSpec& job, std::string_view kind) {
+  const auto& names = job.outputs.annotations;
+  return std::find(names.begin(), names.end(), kind) != names.end();
+}
+
+/// Bytes of an image file.
+double jpeg_bytes(const JobSpec& job, double pixels) {
+  const double megapixels = pixels / kPixelsPerMegapixel;
+  return pixels * kJpegBytesPerPixel * std::pow(megapixels / kJpegMegapixels, kJpegExponent) *
+         std::exp2((job.outputs.image_quality - kJpegQuality) / kJpegOctave) *
+         (job.quality == render::Quality::draft ? kDraftShare : 1);
+}
+
+/// Bytes of ground truth of an image, and of its labels in other formats.
+double truth_bytes(const JobSpec& job, bool is_moving, double pixels, double people) {
+  double bytes = people * kFormatPersonBytes * static_cast<double>(job.outputs.formats.size());
+  for (const KindBytes& kind : kKindBytes) {
+    if (!has_kind(job, kind.kind)) continue;
+    const bool is_other = is_moving && kind.per_moving_pixel > 0;
+    bytes +=
+        pixels * (is_other ? kind.per_moving_pixel : kind.per_pixel) + people * kind.per_person;
+  }
+  if (has_kind(job, "coco")) bytes += kImageRecordBytes + people * kPersonLabelBytes;
+  if (has_kind(job, "density")) {
+    const double scale = job.outputs.density_sigma_px / kDensitySigmaPx;
+    bytes += std::min(people * kDensityPersonBytes * scale * scale, pixels * sizeof(float));
+  }
+  return bytes;
+}
+
+void add_camera(const JobSpec& job, const camera::CameraSpec& camera, bool is_moving, double people,
+                double shards, JobCost& cost) {
+  const auto frames = static_cast<double>(job.frames_per_camera());
+  const double previews = std::min<double>(frames, job.outputs.previews);
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  cost.cpu_s += frames * (kImageFactor * image_cpu_s(job.quality, camera, people) +
+                          people * kLabeledPersonS) +
+                shards * camera_setup_cpu_s(camera) +
+                previews * kPreviewMegapixelS * pixels / kPixelsPerMegapixel;
+  cost.disk_bytes +=
+      static_cast<std::int64_t>((frames + previews) * jpeg_bytes(job, pixels) +
+                                frames * truth_bytes(job, is_moving, pixels, people) +
+                                (shards + 1) * people * kTrackBytes / 2);
+}
+
+void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected, JobCost& cost) {
+  const double duration_s = job.capture.to_s;
+  const auto shards = static_cast<double>(plan_shards(job, run.index).size());
+  const auto drones = static_cast<double>(job.drones.size());
+  const double step_bytes = expected.is_fled ? kFleeingPersonStepBytes : kTracePersonStepBytes;
+  cost.cpu_s += kRunS + static_cast<double>(expected.people) * kLoadedPersonS +
+                expected.at_a_time * duration_s * kPersonSecondS +
+                drones * duration_s * kDroneSecondS + shards * kShardS;
+  cost.disk_bytes += static_cast<std::int64_t>(
+      kRunBytes + expected.at_a_time * (kPersonBytes + duration_s * kStepsPerSecond * step_bytes));
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const DroneSpec& drone = job.drones[i];
+    add_camera(job, camera_of_run(drone.camera, run.seed, camera_pointer(i)),
+               drone.mission.policy != "hover",
+               expected.in_view.at(i).value_or(kShareInView * expected.at_a_time), shards, cost);
+  }
+  if (has_kind(job, "fields")) {
+    double cells_m2 = 1 / (kFieldCellM * kFieldCellM);
+    for (const double cell_m : job.outputs.field_cells_m) cells_m2 += 1 / (cell_m * cell_m);
+    cost.disk_bytes += static_cast<std::int64_t>(static_cast<double>(job.frames_per_camera()) *
+                                                 expected.ground_m2 * cells_m2 * kFieldCellBytes);
+  }
+  cost.shards += static_cast<std::int64_t>(shards);
+  cost.images += job.frames_per_camera() * static_cast<std::int64_t>(job.drones.size());
+}
+
+}  // namespace
+
+JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected) {
+  JobCost cost;
+  cost.runs = job.runs;
+  cost.cpu_s = kDatasetS;
+  std::int64_t max_people = 0;
+  for (const RunPlan& run : plan_runs(job)) {
+    const ExpectedRun& of_run = expected.at(static_cast<std::size_t>(run.index));
+    add_run(job_of_run(job, run.index), run, of_run, cost);
+    max_people = std::max(max_people, of_run.people);
+  }
+  cost.memory_mib = TaskMemory(job, static_cast<int>(max_people)).max_mib();
+  return cost;
+}
+
+JobCost estimate_cost(const JobSpec& job, std::int64_t people) {
+  std::vector<ExpectedRun> of_runs;
+  for (int run = 0; run < job.runs; ++run) {
+    const std::int64_t all = job_of_run(job, run).agents.value_or(static_cast<int>(people));
+    const auto count = static_cast<double>(all);
+    of_runs.push_back({all, count, std::vector<std::optional<double>>(job.drones.size())});
+  }
+  return estimate_cost(job, of_runs);
+}
+
+nlohmann::json estimate_json(const JobCost& cost) {
+  return {{"cpu_s", std::round(10 * cost.cpu_s) / 10},
+          {"disk_bytes", cost.disk_bytes},
+          {"memory_mib", cost.memory_mib}};
+}
+
+}  // namespace throng::jobs

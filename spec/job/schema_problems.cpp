@@ -1,0 +1,95 @@
+#include "spec/job/schema_problems.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/json/json_text.h"
+#include "spec/job/schema.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+
+namespace {
+
+/// The nearest member of an object at or above a pointer that can be left out; "" if there is none.
+/// Elements of arrays stay: others would take their places.
+json::json_pointer removable(const json& job, json::json_pointer pointer) {
+  while (!pointer.empty() &&
+         (!job.contains(pointer) || !job.at(pointer.parent_pointer()).is_object())) {
+    pointer = pointer.parent_pointer();
+  }
+  return pointer;
+}
+
+/// Whether `pointer` is `other` or below it.
+bool is_at_or_below(const std::string& pointer, const std::string& other) {
+  return pointer == other || pointer.starts_with(other + "/");
+}
+
+/// Deprecated names in a value at a pointer, which the schema's `rules` describe.
+void add_deprecated(const json& value, const json& rules, const std::string& pointer,
+                    std::vector<Problem>& warnings) {
+  if (value.is_array() && rules.contains("items")) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      add_deprecated(value[i], rules["items"], fmt::format("{}/{}", pointer, i), warnings);
+    }
+  }
+  if (!value.is_object() || !rules.contains("properties")) return;
+  for (const auto& [name, member] : value.items()) {
+    const auto found = rules["properties"].find(name);
+    if (found == rules["properties"].end()) continue;
+    const std::string below = pointer + "/" + name;
+    if (const auto now = found->find("x-renamed-to"); now != found->end()) {
+      warnings.push_back({"", below, fmt::format("the deprecated name \"{}\"", name), now->dump()});
+    }
+    add_deprecated(member, *found, below, warnings);
+  }
+}
+
+}  // namespace
+
+SchemaProblems::SchemaProblems(std::string_view text, const std::string& source)
+    : job_(parse_json(text, source, kJobJsonLimits)), problems_(schema_problems(job_, source)) {
+  // The rest may break the schema in turn, where a required value was wrong: then its object
+  // goes, too.
+  std::vector<Problem> left = problems_;
+  while (!left.empty()) {
+    std::set<std::string> pointers;
+    for (const Problem& problem : left) {
+      const json::json_pointer pointer = removable(job_, json::json_pointer(problem.where));
+      if (pointer.empty()) return;
+      pointers.insert(pointer.to_string());
+    }
+    for (const std::string& pointer : pointers) {
+      const json::json_pointer place(pointer);
+      if (!job_.contains(place)) continue;  // went with what it lay in
+      job_.at(place.parent_pointer()).erase(place.back());
+      removed_.push_back(pointer);
+    }
+    left = schema_problems(job_, source);
+  }
+}
+
+std::optional<std::string> SchemaProblems::text_without() const {
+  if (!job_.is_object() || !schema_problems(job_, "").empty()) return std::nullopt;
+  return job_.dump();
+}
+
+bool SchemaProblems::may_cause(const Problem& problem) const {
+  return std::any_of(removed_.begin(), removed_.end(), [&](const std::string& removed) {
+    const std::string parent = removed.substr(0, removed.rfind('/'));
+    return is_at_or_below(problem.where, removed) ||
+           (!parent.empty() && is_at_or_below(problem.where, parent));
+  });
+}
+
+std::vector<Problem> deprecated_fields(std::string_view text) {
+  std::vector<Problem> warnings;
+  add_deprecated(parse_json(text, "", kJobJsonLimits), job_schema(), "", warnings);
+  return warnings;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,115 @@
+#include "spec/live/commands.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/json/field_table.h"
+#include "base/text/suggest.h"
+
+namespace throng::live {
+
+using fields::at;
+using fields::FieldPlace;
+using fields::FieldTable;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kMaxSpeedMps = 20;
+constexpr double kMaxYawDegS = 360;
+constexpr double kMinFactor = 0.1;
+constexpr double kMaxFactor = 10;
+constexpr std::int64_t kMaxSequence = 4'294'967'295;
+constexpr int kMaxDrones = 100;
+constexpr int kMaxName = 200;
+
+json velocity_json(const DroneCommand& command) { return fields::value_json(command.velocity_mps); }
+
+void set_velocity(DroneCommand& command, const json& value, const FieldPlace& place) {
+  const auto is_speed = [](const json& speed) {
+    return speed.is_number() && std::abs(speed.get<double>()) <= kMaxSpeedMps;
+  };
+  if (value.size() == 3 && std::all_of(value.begin(), value.end(), is_speed)) {
+    fields::set_value(value, command.velocity_mps);
+    return;
+  }
+  constexpr std::size_t kShown = 60;
+  place.problems.push_back(
+      {"", place.pointer, value.dump().substr(0, kShown),
+       fmt::format("3 numbers from {:g} to {:g}", -kMaxSpeedMps, kMaxSpeedMps)});
+}
+
+const FieldTable<DroneCommand>& drone_fields() {
+  static const FieldTable<DroneCommand> fields = [] {
+    FieldTable<DroneCommand> table;
+    table.add("id", "", "", fields::texts(1, kMaxName), at(&DroneCommand::id), "").required();
+    table.add("velocity_mps", "", "m/s", fields::raw({{"type", "array"}}), velocity_json,
+              set_velocity, "");
+    table.add("yaw_rate_deg_s", "", "degrees/s", fields::numbers(-kMaxYawDegS, kMaxYawDegS),
+              at(&DroneCommand::yaw_rate_deg_s), "");
+    table.add("beacon", "", "", fields::booleans(), at(&DroneCommand::beacon), "");
+    table.add("return_home", "", "", fields::booleans(), at(&DroneCommand::return_home), "");
+    return table;
+  }();
+  return fields;
+}
+
+json drones_json(const Commands& commands) {
+  json list = json::array();
+  for (const DroneCommand& drone : commands.drones) list.push_back(drone_fields().print(drone));
+  return list;
+}
+
+void set_drones(Commands& commands, const json& value, const FieldPlace& place) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    drone_fields().read_checked(value[i], commands.drones.emplace_back(),
+                                place.below(std::to_string(i)));
+  }
+}
+
+const FieldTable<Commands>& command_fields() {
+  static const FieldTable<Commands> fields = [] {
+    FieldTable<Commands> table;
+    table.add("sequence", "", "", fields::integers(0, kMaxSequence), at(&Commands::sequence), "");
+    table.add("paused", "", "", fields::booleans(), at(&Commands::paused), "");
+    table.add("factor", "", "", fields::numbers(kMinFactor, kMaxFactor), at(&Commands::factor), "");
+    table.add("view", "", "", fields::texts(1, kMaxName), at(&Commands::view), "");
+    table.add("drones", "", "", fields::raw({{"type", "array"}, {"maxItems", kMaxDrones}}),
+              drones_json, set_drones, "");
+    return table;
+  }();
+  return fields;
+}
+
+void require_drone(const std::string& id, const std::vector<std::string>& drones,
+                   const std::string& pointer, std::vector<Problem>& problems) {
+  for (const std::string& drone : drones) {
+    if (drone == id) return;
+  }
+  const std::vector<std::string_view> names(drones.begin(), drones.end());
+  problems.push_back(unknown_name("", pointer, "drone", id, names));
+}
+
+}  // namespace
+
+Commands commands_from_json(const json& value, const std::vector<std::string>& drones) {
+  Commands commands;
+  std::vector<Problem> problems;
+  const std::string no_source;
+  command_fields().read_checked(value, commands, {"", no_source, problems});
+  if (commands.view) require_drone(*commands.view, drones, "/view", problems);
+  for (std::size_t i = 0; i < commands.drones.size(); ++i) {
+    if (commands.drones[i].id.empty()) continue;  // reported already
+    require_drone(commands.drones[i].id, drones, "/drones/" + std::to_string(i) + "/id", problems);
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return commands;
+}
+
+json to_json(const Commands& commands) { return command_fields().print(commands); }
+
+}  // namespace throng::live

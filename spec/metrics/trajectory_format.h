@@ -1,0 +1,37 @@
+// A user's description of a trajectory file (metrics/trajectories/trajectory_file.h reads it).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace throng::metrics {
+
+/// Properties of people that such files lack.
+struct WalkerDefaults {
+  double radius_m = 0.2;
+  double desired_speed_mps = 1.34;  ///< Weidmann 1993
+};
+
+/// File format. any: by suffix and first bytes, as read_trajectory() says.
+enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
+
+/// Names in the first line of a table, or, where all are whole numbers, the columns of one without
+/// names, from 1. Either `frame` or `time` is given; the other is empty.
+struct TrajectoryColumns {
+  std::string person = "id";
+  std::string frame = "frame";
+  std::string time;  ///< s
+  std::string x = "x";
+  std::string y = "y";
+};
+
+/// The user's values for a file; they override or complete those in the file.
+struct TrajectoryFormat {
+  TrajectoryKind kind = TrajectoryKind::any;
+  std::optional<double> frames_per_s;
+  std::optional<double> unit_m;  ///< length of the file's unit, m
+  TrajectoryColumns columns;     ///< csv
+};
+
+}  // namespace throng::metrics

@@ -1,0 +1,35 @@
+#include "base/text/utf8.h"
+
+#include <gtest/gtest.h>
+
+namespace throng {
+namespace {
+
+TEST(Utf8, CountsCodePoints) {
+  EXPECT_EQ(character_count(""), 0U);
+  EXPECT_EQ(character_count("street"), 6U);
+  EXPECT_EQ(character_count("Straße"), 6U);
+  EXPECT_EQ(character_count("群集"), 2U);
+  EXPECT_EQ(character_count("\xF0\x9F\x9A\x81"), 1U);  // four bytes
+}
+
+TEST(Utf8, CutsBetweenCodePoints) {
+  EXPECT_EQ(first_characters("Straße", 5), "Straß");
+  EXPECT_EQ(first_characters("Straße", 4), "Stra");
+  EXPECT_EQ(first_characters("群集", 1), "群");
+  EXPECT_EQ(first_characters("群集", 0), "");
+  EXPECT_EQ(first_characters("群集", 7), "群集");
+}
+
+TEST(Utf8, TellsTextFromOtherBytes) {
+  for (const char* text : {"", "street", "群集", "\xF0\x9F\x9A\x81", "\xF4\x8F\xBF\xBF"}) {
+    EXPECT_TRUE(is_utf8(text)) << text;
+  }
+  for (const char* bytes : {"\x80", "\xC3", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80",
+                            "\xF4\x90\x80\x80", "\xFF", "a\xE7\xBE"}) {
+    EXPECT_FALSE(is_utf8(bytes));
+  }
+}
+
+}  // namespace
+}  // namespace throng

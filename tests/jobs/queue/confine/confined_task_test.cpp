@@ -1,0 +1,99 @@
+// Work in confined children: what comes back, and what they may not do.
+#include "jobs/queue/confine/confined_task.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "jobs/queue/confine/file_fence.h"
+#include "tests/jobs/queue/perform_in_child.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// The answer to a request of a child that runs this script; $0 is the work folder.
+json answer_of(const std::string& script) {
+  const TemporaryFolder work;
+  return confined_task_in_child({"sh", "-c", script})({{"task", "x"}}, work.path());
+}
+
+template <typename Error>
+std::string error_of(const std::string& script) {
+  try {
+    answer_of(script);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ConfinedTask, TheAnswerOfTheChildComesBack) {
+  EXPECT_EQ(answer_of(R"(cp "$0/request.json" "$0/answer.json")"), (json{{"task", "x"}}));
+}
+
+TEST(ConfinedTask, FailuresAreToldApart) {
+  EXPECT_THAT(
+      error_of<InputError>(
+          R"(echo '[{"source":"a","where":"/b","found":"c","expected":"d"}]' > "$0/answer.json"; exit 2)"),
+      HasSubstr("a: /b: found c"));
+  EXPECT_THAT(error_of<InputError>("kill -KILL $$"), HasSubstr("ended by signal 9"));
+  EXPECT_NE(error_of<EnvironmentError>("exit 3"), "");
+  EXPECT_NE(error_of<EnvironmentError>("exit 0"), "");  // without an answer
+}
+
+TEST(ConfinedTask, TheChildAnswersOrSaysWhatIsWrong) {
+  EXPECT_EQ(performed_in_child(
+                [](const json& request) {
+                  return json{{"m", request["n"]}};
+                },
+                0)["m"],
+            2);
+  const auto wrong = [](const json&) -> json { throw InputError(Problem{"", "/n", "2", "3"}); };
+  EXPECT_EQ(performed_in_child(wrong, 2)[0]["where"], "/n");
+  EXPECT_EQ(performed_in_child([](const json&) -> json { throw EnvironmentError("disk"); }, 3),
+            json());
+}
+
+TEST(ConfinedTask, TheChildReachesNoNetwork) {
+  const json answer = performed_in_child(
+      [](const json&) {
+        return json{{"socket", ::socket(AF_INET, SOCK_STREAM, 0)}};
+      },
+      0);
+  EXPECT_EQ(answer["socket"], -1);
+}
+
+TEST(ConfinedTask, TheChildWritesNowhereElse) {
+  const TemporaryFolder outside;
+  const auto file = outside.path() / "file";
+  write_file_atomically(file, "before");
+  const TemporaryFolder probe;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(fence_this_process({{probe.path()}, {}, {}}).empty() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WEXITSTATUS(status) != 0) GTEST_SKIP() << "no Landlock";
+  const json answer = performed_in_child(
+      [&](const json&) {
+        std::ofstream stream(file);
+        stream << "after";
+        stream.close();
+        return json{{"wrote", stream.good()}};
+      },
+      0);
+  EXPECT_EQ(answer["wrote"], false);
+  EXPECT_EQ(read_file(file), "before");
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,247 @@
+#include "server/access/keys.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "base/files/files.h"
+#include "tests/server/api_fixture.h"
+
+namespace throng::server {
+namespace {
+
+class KeysTest : public ApiTest {
+ protected:
+  httplib::Headers with(const std::string& token) const {
+    return {{"Authorization", "Bearer " + token}};
+  }
+
+  int posted(const std::string& path, const std::string& token, const char* body = "") const {
+    return client().Post(path, with(token), body, "application/json")->status;
+  }
+};
+
+TEST_F(KeysTest, WithoutKeysEverybodyMayAndFromTheFirstOnNobodyWithout) {
+  EXPECT_EQ(get("/v1/jobs")->status, 200);
+  const std::string token = keys.create("me", Scope::read);
+  const httplib::Result refused = get("/v1/jobs");
+  expect_problem(refused, 401);
+  EXPECT_EQ(refused->get_header_value("WWW-Authenticate"), "Bearer");
+  EXPECT_EQ(get("/v1/jobs", with(token))->status, 200);
+  for (const std::string& wrong :
+       {std::string("x"), token + "x", token.substr(0, token.size() - 1) + "!", std::string()}) {
+    expect_problem(get("/v1/jobs", with(wrong)), 401);
+  }
+  for (const char* open : {"/healthz", "/readyz", "/v1/version", "/openapi.json"}) {
+    EXPECT_EQ(get(open)->status, 200) << open;
+  }
+  ASSERT_EQ(keys.list().size(), 1U);
+  EXPECT_TRUE(keys.revoke(keys.list()[0].id));
+  EXPECT_FALSE(keys.revoke(keys.list()[0].id));
+  expect_problem(get("/v1/jobs", with(token)), 401);
+  EXPECT_TRUE(keys.are_needed()) << "the last key's end opens nothing";
+}
+
+TEST_F(KeysTest, AdministratorsMakeAndRevokeThemOverHttp) {
+  const auto made = [&](const std::string& token, const json& body) {
+    return client().Post("/v1/keys", with(token), body.dump(), "application/json");
+  };
+  // Nobody can lock the others out of a service without keys.
+  expect_problem(client().Post("/v1/keys", R"({"name": "me"})", "application/json"), 403);
+  EXPECT_FALSE(keys.are_needed());
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::string submitter = keys.create("submitter", Scope::submit);
+  expect_problem(made(submitter, {{"name", "friend"}}), 403);
+  expect_problem(get("/v1/keys", with(submitter)), 403);
+
+  const httplib::Result answer = made(admin, {{"name", "friend"},
+                                              {"scope", "read"},
+                                              {"max_jobs", 3},
+                                              {"max_bytes", 5},
+                                              {"max_priority", -2}});
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  const json key = json::parse(answer->body);
+  EXPECT_EQ(answer->get_header_value("Location"), "/v1/keys/" + key["id"].get<std::string>());
+  EXPECT_EQ(get("/v1/jobs", with(key["key"]))->status, 200);
+  const auto rows = keys.list();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].name, "friend");
+  EXPECT_EQ(rows[2].scope, Scope::read);
+  EXPECT_EQ(rows[2].max_active, 3);
+  EXPECT_EQ(rows[2].max_bytes, 5);
+  EXPECT_EQ(rows[2].max_priority, -2);
+
+  const httplib::Result list = get("/v1/keys", with(admin));
+  EXPECT_EQ(json::parse(list->body)["keys"].size(), 3U);
+  EXPECT_EQ(list->body.find(key["key"].get<std::string>()), std::string::npos);
+
+  const std::string path = "/v1/keys/" + key["id"].get<std::string>();
+  EXPECT_EQ(client().Delete(path, with(admin))->status, 200);
+  expect_problem(get("/v1/jobs", with(key["key"])), 401);
+  expect_problem(client().Delete(path, with(admin)), 409);
+  expect_problem(client().Delete("/v1/keys/aaaaaaaa", with(admin)), 404);
+  expect_problem(client().Delete("/v1/keys/" + admin.substr(7, 8), with(admin)), 409);
+}
+
+TEST_F(KeysTest, WrongFieldsOfAKeyAreNamed) {
+  const std::string admin = keys.create("admin", Scope::admin);
+  const std::pair<json, const char*> wrong[] = {
+      {json::object(), "/name"},
+      {{{"name", ""}}, "/name"},
+      {{{"name", "two\nlines"}}, "/name"},
+      {{{"name", "a"}, {"scope", "root"}}, "/scope"},
+      {{{"name", "a"}, {"scope", "anybody"}}, "/scope"},
+      {{{"name", "a"}, {"max_jobs", -1}}, "/max_jobs"},
+      {{{"name", "a"}, {"max_bytes", 1.5}}, "/max_bytes"},
+      {{{"name", "a"}, {"max_priority", 101}}, "/max_priority"},
+      {{{"name", "a"}, {"jobs", 1}}, "/jobs"}};
+  for (const auto& [body, pointer] : wrong) {
+    const auto answer = client().Post("/v1/keys", with(admin), body.dump(), "application/json");
+    expect_problem(answer, 400);
+    EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], pointer) << body;
+  }
+  EXPECT_EQ(keys.list().size(), 1U);
+}
+
+TEST_F(KeysTest, ScopesSayWhatAKeyMayDo) {
+  const std::string reader = keys.create("reader", Scope::read);
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string other = keys.create("other", Scope::submit);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  expect_problem(client().Post("/v1/jobs", with(reader), kJob, "application/json"), 403);
+  const httplib::Result answer = client().Post("/v1/jobs", with(one), kJob, "application/json");
+  ASSERT_EQ(answer->status, 201);
+  const json job = json::parse(answer->body);
+  EXPECT_EQ(job["owner"], one.substr(7, 8));
+  const std::string path = "/v1/jobs/" + job["id"].get<std::string>();
+  EXPECT_EQ(get(path, with(other))->status, 404);
+  EXPECT_EQ(posted(path + "/cancel", other), 404) << "it does not see the job";
+  const std::string shared = R"({"labels": ["shared"]})";
+  EXPECT_EQ(client().Patch(path, with(one), shared, "application/json")->status, 200);
+  EXPECT_EQ(posted(path + "/cancel", other), 403);
+  EXPECT_EQ(client().Delete(path, with(other))->status, 403);
+  EXPECT_EQ(client().Patch(path, with(other), "{}", "application/json")->status, 403);
+  EXPECT_EQ(client().Patch(path, with(one), "{}", "application/json")->status, 200);
+  gate.open();
+  EXPECT_EQ(client().Delete(path, with(admin))->status, 204);
+}
+
+TEST_F(KeysTest, AKeyMayHaveSoManyJobs) {
+  const std::string token = keys.create("few", Scope::submit, 2);
+  Gate gate(executor);
+  EXPECT_EQ(posted("/v1/jobs", token, kJob), 201);
+  httplib::Headers repeated = with(token);
+  repeated.emplace("Idempotency-Key", "k");
+  EXPECT_EQ(client().Post("/v1/jobs", repeated, kJob, "application/json")->status, 201);
+  EXPECT_EQ(client().Post("/v1/jobs", repeated, kJob, "application/json")->status, 200)
+      << "a repetition is no job more";
+  const httplib::Result refused = client().Post("/v1/jobs", with(token), kJob, "application/json");
+  expect_problem(refused, 429);
+  EXPECT_EQ(refused->get_header_value("Retry-After"), "60");
+  EXPECT_EQ(posted("/v1/jobs", keys.create("many", Scope::submit), kJob), 201);
+  gate.open();
+}
+
+TEST_F(KeysTest, RetriesCountLikeNewJobs) {
+  const std::string token = keys.create("few", Scope::submit, 1);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  std::vector<std::string> paths;
+  for (int i = 0; i < 5; ++i) {
+    const httplib::Result answer = client().Post("/v1/jobs", with(token), kJob, "application/json");
+    ASSERT_EQ(answer->status, 201);
+    paths.push_back(answer->get_header_value("Location"));
+    gate.open();
+    const int cancelled = posted(paths.back() + "/cancel", token);
+    EXPECT_TRUE(cancelled == 200 || cancelled == 409);
+  }
+  const auto is_active = [&](const std::string& path) {
+    const std::string state = json::parse(get(path, with(admin))->body)["state"];
+    return state == "queued" || state == "running";
+  };
+  Gate closed(executor);
+  int accepted = 0;
+  for (const std::string& path : paths) {
+    const int status = posted(path + "/retry", token);
+    EXPECT_TRUE(status == 200 || status == 429 || status == 409) << status;
+    accepted += status == 200 ? 1 : 0;
+  }
+  EXPECT_EQ(accepted, 1);
+  EXPECT_EQ(std::count_if(paths.begin(), paths.end(), is_active), 1);
+  EXPECT_EQ(posted("/v1/jobs", token, kJob), 429);
+  for (const std::string& path : paths) {
+    if (is_active(path)) continue;
+    const int status = posted(path + "/retry", admin);
+    EXPECT_TRUE(status == 200 || status == 409) << "administrators may: " << status;
+  }
+  closed.open();
+}
+
+TEST_F(KeysTest, PrioritiesHaveALimit) {
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string urgent = keys.create("urgent", Scope::submit, 0, 0, 10);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  EXPECT_EQ(posted("/v1/jobs?priority=1", one, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?dry_run&priority=1", one, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?priority=0", one, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=-100", one, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=11", urgent, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?priority=10", urgent, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=101", admin, kJob), 400);
+  const httplib::Result high =
+      client().Post("/v1/jobs?priority=100&label=shared", with(admin), kJob, "application/json");
+  ASSERT_EQ(high->status, 201);
+  // Nor by a copy of another key's.
+  const httplib::Result copy = client().Post(high->get_header_value("Location") + "/clone",
+                                             with(one), "{}", "application/json");
+  ASSERT_EQ(copy->status, 201);
+  EXPECT_EQ(json::parse(copy->body)["priority"], 0);
+  // Nor later; what an administrator has given may stay, and may be lowered.
+  const std::string path = copy->get_header_value("Location");
+  const auto patched = [&](const std::string& key, const char* change) {
+    return client().Patch(path, with(key), change, "application/json")->status;
+  };
+  EXPECT_EQ(patched(one, R"({"priority": 1})"), 403);
+  EXPECT_EQ(patched(admin, R"({"priority": 50})"), 200);
+  EXPECT_EQ(patched(one, R"({"labels": ["a"]})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 50})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 51})"), 403);
+  EXPECT_EQ(patched(one, R"({"priority": 20})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 21})"), 403);
+  gate.open();
+}
+
+TEST_F(KeysTest, KeysOfSubmissionsAreEachOwnersOwn) {
+  Gate gate(executor);
+  std::vector<std::string> ids;
+  for (const char* name : {"one", "other"}) {
+    httplib::Headers headers = with(keys.create(name, Scope::submit));
+    headers.emplace("Idempotency-Key", "1");
+    const httplib::Result answer = client().Post("/v1/jobs", headers, kJob, "application/json");
+    ASSERT_EQ(answer->status, 201);
+    ids.push_back(json::parse(answer->body)["id"]);
+  }
+  EXPECT_NE(ids[0], ids[1]);
+  gate.open();
+}
+
+TEST_F(KeysTest, OnlyAHashIsKeptAndOnlyForItsOwner) {
+  const std::string token = keys.create("me", Scope::admin);
+  const std::filesystem::path file = data.path() / "keys.sqlite";
+  EXPECT_EQ(read_file(file).find(token.substr(16)), std::string::npos);
+  EXPECT_EQ(std::filesystem::status(file).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST_F(KeysTest, PagesOfOtherSitesMayChangeNothing) {
+  Gate gate(executor);
+  const std::string path = "/v1/jobs/" + submit() + "/cancel";
+  const httplib::Headers origin = {{"Origin", "https://evil.example"}};
+  expect_problem(client().Post(path, origin, "", "text/plain"), 403);
+  gate.open();
+}
+
+}  // namespace
+}  // namespace throng::server

@@ -1,0 +1,67 @@
+// Texts that break the job schema, and the texts that are left without the mistakes.
+#include "spec/job/schema_problems.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+
+json left_of(const char* text) {
+  const std::optional<std::string> left = SchemaProblems(text, "").text_without();
+  return left ? json::parse(*left) : json();
+}
+
+TEST(SchemaProblems, AGoodTextStays) {
+  const char* text = R"({"scenario": "yard", "runs": 2})";
+  EXPECT_TRUE(SchemaProblems(text, "").problems().empty());
+  EXPECT_EQ(left_of(text), json::parse(text));
+}
+
+TEST(SchemaProblems, BadMembersGo) {
+  EXPECT_EQ(
+      left_of(
+          R"({"scenario": "yard", "runs": 0, "drone": [], "capture": {"to_s": "x", "rate_hz": 2}})"),
+      json::parse(R"({"scenario": "yard", "capture": {"rate_hz": 2}})"));
+}
+
+TEST(SchemaProblems, AnArrayGoesWithABadElement) {
+  EXPECT_EQ(left_of(R"({"scenario": "yard", "drones": [{"id": "a"}, 7]})"),
+            json::parse(R"({"scenario": "yard"})"));
+  EXPECT_EQ(left_of(R"({"scenario": "yard", "drones": [{"idd": "a"}]})"),
+            json::parse(R"({"scenario": "yard"})"));
+}
+
+TEST(SchemaProblems, DeprecatedNamesAreWarnedOf) {
+  const std::vector<Problem> warnings = deprecated_fields(
+      R"({"scenario": "yard", "drones": [{"id": "a"},
+          {"id": "b", "guidance": {"policy": "orbit", "centre": [4, 5]}}]})");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].where, "/drones/1/guidance/centre");
+  EXPECT_EQ(warnings[0].found, "the deprecated name \"centre\"");
+  EXPECT_EQ(warnings[0].expected, R"("center")");
+}
+
+TEST(SchemaProblems, NothingIsLeftWithoutAScenario) {
+  EXPECT_TRUE(left_of(R"({"runs": 2})").is_null());
+  EXPECT_TRUE(left_of(R"({"scenario": 3})").is_null());
+  EXPECT_TRUE(left_of("[]").is_null());
+  EXPECT_THROW(SchemaProblems("{", ""), InputError);
+}
+
+TEST(SchemaProblems, ProblemsAtAndBesideWhatWentFollowFromIt) {
+  const SchemaProblems found(R"({"scenario": "yard", "runs": 0, "capture": {"to_s": "x"}})", "");
+  EXPECT_TRUE(found.may_cause({"", "/runs", "", ""}));
+  EXPECT_TRUE(found.may_cause({"", "/capture/to_s", "", ""}));
+  EXPECT_TRUE(found.may_cause({"", "/capture/from_s", "", ""}));
+  EXPECT_FALSE(found.may_cause({"", "/scenario", "", ""}));
+  EXPECT_FALSE(found.may_cause({"", "/outputs/formats/0", "", ""}));
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,77 @@
+#include "spec/estimates/task_memory.h"
+
+#include <gtest/gtest.h>
+
+#include "spec/estimates/job_cost.h"
+#include "spec/job/spec.h"
+
+namespace throng::jobs {
+namespace {
+
+constexpr Task kShard{Task::Kind::render};
+
+JobSpec job_of(const std::string& camera, const std::string& rest = "") {
+  return parse_job(
+      R"({"scenario": "yard", "drones": [{"id": "d1", "start": [0, 0, 9], "camera": )" + camera +
+          "}]" + rest + "}",
+      "");
+}
+
+std::int64_t shard_mib(const std::string& camera, const std::string& rest = "") {
+  return TaskMemory(job_of(camera, rest)).mib_of(kShard);
+}
+
+constexpr const char* kAllTruth =
+    R"(, "outputs": {"annotations": ["coco", "depth", "instances", "parts", "normals", "flow"]})";
+
+// Largest resident memory of workers that rendered city_square/nearest_exit with llvmpipe.
+TEST(TaskMemory, IsAboveTheMeasuredOneByAtMostHalf) {
+  struct Case {
+    const char* camera;
+    const char* rest;
+    int measured_mib;
+  };
+  for (const Case& item : {
+           Case{R"({"width": 1920, "height": 1080})", "", 481},
+           Case{R"({"width": 3840, "height": 2160})", "", 732},
+           Case{R"({"width": 7680, "height": 4320})", "", 1740},
+           Case{R"({"width": 1920, "height": 1080})", R"(, "quality": "high")", 719},
+           Case{R"({"width": 3840, "height": 2160})", R"(, "quality": "high")", 1333},
+           Case{R"({"width": 3840, "height": 2160})", kAllTruth, 1129},
+           Case{R"({"width": 7680, "height": 4320})", kAllTruth, 3201},
+           Case{R"({"width": 3840, "height": 2160, "model": "fisheye", "hfov_deg": 120})", "",
+                1814},
+       }) {
+    const std::int64_t mib = shard_mib(item.camera, item.rest);
+    EXPECT_GE(mib, item.measured_mib) << item.camera << item.rest;
+    EXPECT_LE(mib, item.measured_mib * 3 / 2) << item.camera << item.rest;
+  }
+}
+
+TEST(TaskMemory, RunsThatAreSampledCountAsTheyAre) {
+  const JobSpec job =
+      job_of(R"({"width": 3840, "height": 2160})",
+             R"(, "runs": 20, "randomize": {"quality": {"choice": ["draft", "high"]}})");
+  const TaskMemory memory(job);
+  for (int run = 0; run < job.runs; ++run) {
+    const bool is_high = job_of_run(job, run).quality == render::Quality::high;
+    EXPECT_EQ(memory.mib_of({Task::Kind::render, run}) > 1333, is_high) << run;
+  }
+  EXPECT_GT(memory.max_mib(), 1333);
+}
+
+TEST(TaskMemory, PeopleCount) {
+  const std::string job_text = R"(, "seed": 1)";
+  EXPECT_GT(TaskMemory(job_of("{}", job_text), 20'000).max_mib(),
+            TaskMemory(job_of("{}", job_text)).max_mib() + 100);
+  // A dry run announces the memory by which submission and admission decide.
+  const JobSpec large = job_of("{}", job_text);
+  EXPECT_EQ(estimate_cost(large, 20'000).memory_mib, TaskMemory(large, 20'000).max_mib());
+  const std::int64_t few = TaskMemory(job_of("{}", R"(, "crowd": {"agents": 10})")).max_mib();
+  const TaskMemory many(job_of("{}", R"(, "crowd": {"agents": 1000000})"));
+  EXPECT_GT(many.max_mib(), few + 5000);
+  EXPECT_GT(many.mib_of({Task::Kind::simulate}), 5000);
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,71 @@
+#include "spec/live/commands.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace throng::live {
+namespace {
+
+using nlohmann::json;
+
+const std::vector<std::string> kDrones = {"left", "right"};
+
+/// "pointer: found" of every mistake.
+std::vector<std::string> mistakes(const char* text) {
+  try {
+    commands_from_json(json::parse(text), kDrones);
+  } catch (const InputError& error) {
+    std::vector<std::string> list;
+    for (const Problem& problem : error.problems()) {
+      list.push_back(problem.where + ": " + problem.found);
+    }
+    return list;
+  }
+  return {};
+}
+
+TEST(Commands, GivenFieldsAreReadAndOthersAreNot) {
+  const Commands commands =
+      commands_from_json(json::parse(R"({"sequence": 7, "factor": 0.5, "view": "right",
+                      "drones": [{"id": "right", "velocity_mps": [1, -2, 0.5]},
+                                 {"id": "left", "yaw_rate_deg_s": -30, "beacon": true}]})"),
+                         kDrones);
+  EXPECT_EQ(commands.sequence, 7);
+  EXPECT_EQ(commands.factor, 0.5);
+  EXPECT_EQ(commands.view, "right");
+  EXPECT_FALSE(commands.paused);
+  ASSERT_EQ(commands.drones.size(), 2U);
+  EXPECT_EQ(commands.drones[0].velocity_mps, (std::array<double, 3>{1, -2, 0.5}));
+  EXPECT_FALSE(commands.drones[0].yaw_rate_deg_s);
+  EXPECT_FALSE(commands.drones[0].beacon);
+  EXPECT_EQ(commands.drones[1].yaw_rate_deg_s, -30);
+  EXPECT_EQ(commands.drones[1].beacon, true);
+  EXPECT_FALSE(commands.drones[1].return_home);
+}
+
+TEST(Commands, PrintedOnesAreReadAgain) {
+  const json text = json::parse(
+      R"({"paused": true, "sequence": 1, "drones": [{"id": "left", "return_home": true}]})");
+  EXPECT_EQ(to_json(commands_from_json(text, kDrones)), text);
+  EXPECT_EQ(commands_from_json(to_json(Commands{}), kDrones).drones.size(), 0U);
+}
+
+TEST(Commands, EveryMistakeIsNamed) {
+  const auto found = mistakes(
+      R"({"faktor": 1, "factor": 11, "view": "middle", "paused": 1, "sequence": -1,
+          "drones": [{"id": "lift"}, {"velocity_mps": [1, 2, "up"]}, 3, {"id": "left", "yaw_rate_deg_s": 1e3}]})");
+  for (const char* pointer :
+       {"/faktor", "/factor", "/view", "/paused", "/sequence", "/drones/0/id", "/drones/1/id",
+        "/drones/1/velocity_mps", "/drones/2", "/drones/3/yaw_rate_deg_s"}) {
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const std::string& text) {
+      return text.starts_with(pointer);
+    })) << pointer;
+  }
+  EXPECT_EQ(mistakes(R"({"drones": {}})").size(), 1U);
+  EXPECT_EQ(mistakes("{}").size(), 0U);
+}
+
+}  // namespace
+}  // namespace throng::live
