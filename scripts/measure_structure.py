@@ -22,7 +22,7 @@ import check_language
 import module_rules
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-APART = {"tests", "bench", "examples"}
+APART = {"tests", "bench", "examples", "scripts"}
 SKIPPED = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'')
 FUNCTION = re.compile(
     r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"

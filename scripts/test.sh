@@ -82,7 +82,7 @@ release_build() { build release throng_computing_tests; }
 # Without optimization, and by ccache, which does not know -fsyntax-only.
 benchmarks() {
   mkdir -p build/benchmarks
-  jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
+  jq -r '.[] | select(.file | test("/(bench|scripts)/")) | .directory, .command' build/release/compile_commands.json |
     sed -E "s# -o [^ ]*/([^ /]+) # -O0 -o $root/build/benchmarks/\1 #" | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
 }
 release_tests() { run_ctest release release --repeat-waits -j4 -LE '^sanitized$'; }

@@ -18,7 +18,7 @@ struct ModelRow {
 };
 
 // clang-format off
-// Columns rate/s and burst of `build/release/bench/door_capacity` (four seeds). johansson and
+// Columns rate/s and burst of `build/release/scripts/studies/door_capacity` (four seeds). johansson and
 // karamouzas do not keep bodies apart, so that people pass through each other and through jambs.
 constexpr std::array kModels = {
     ModelRow{"ttc",

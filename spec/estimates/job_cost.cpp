@@ -16,7 +16,7 @@ namespace throng::jobs {
 
 namespace {
 
-// CPU time beside that of images (bench/estimates.py measures all of these).
+// CPU time beside that of images (scripts/studies/estimates.py measures all of these).
 constexpr double kRunS = 1.3;      ///< simulation and figures: processes, place, crowd
 constexpr double kShardS = 1.1;    ///< driver, character library, place
 constexpr double kDatasetS = 0.2;  ///< of a job: collecting, hashing

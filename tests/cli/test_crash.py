@@ -3,7 +3,7 @@ job's state, the disk is full, the database is locked, what was half-written is 
 end with the bytes of an undisturbed one.
 
 usage: test_crash.py THRONG [unittest's arguments]
-$THRONG_CRASHES is the number of random moments of each kind (default: 1); `bench/crash.sh` takes 50. With $THRONG_LONG
+$THRONG_CRASHES is the number of random moments of each kind (default: 1); `THRONG_CRASHES=100 ctest --preset release -R cli.crash` takes 50. With $THRONG_LONG
 the server dies before and after each change of state, otherwise before or after it in turns.
 """
 import contextlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares predicted waits at exits with what followed: the time until as many had gone out as were in the queue.
 
-usage: bench/predicted_waits.py EXITS.csv...    tables of `throng metrics TRACE --csv EXITS.csv` (every crowd step)
+usage: scripts/studies/predicted_waits.py EXITS.csv...    tables of `throng metrics TRACE --csv EXITS.csv` (every crowd step)
 
 Per exit whose queue reached five: the greatest prediction with its queue and what followed, and the ratio of prediction to
 what followed over all steps with at least five in the queue whose end the table shows.

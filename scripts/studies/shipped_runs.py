@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Simulates every shipped scenario for 600 s with its hovering drones and says why people are inside at the end.
 
-usage: bench/shipped_runs.py [--seeds 1,2,3,4,5] [--agents N] [--duration S] [SCENARIO...]
+usage: scripts/studies/shipped_runs.py [--seeds 1,2,3,4,5] [--agents N] [--duration S] [SCENARIO...]
 
 Prints a row per scenario and seed: the counts of metrics.json's `remaining`. Exits with 1 where somebody is stalled,
 blocked or follows a drone that only films. THRONG names another program than build/release/cli/throng.
@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 REASONS = ["casualty", "guided", "waiting", "blocked", "walking", "stalled"]
 LARGE = {"concert": 2000, "stadium_exit": 2000}

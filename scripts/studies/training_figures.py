@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The figures of docs/training.md: estimates of the presets, and scores of detectors and counters.
 
-usage: bench/training_figures.py [--presets]    THRONG, or build/release/cli/throng; --presets: only the estimates
+usage: scripts/studies/training_figures.py [--presets]    THRONG, or build/release/cli/throng; --presets: only the estimates
 
 Makes the datasets of the page's commands, trains and scores with one thread and seed 1, and writes the numbers into the
 page's tables, at the places that comments mark. Ten minutes on two cores. Needs torch.
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/training.md"
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 PRESETS = ("detection", "counting", "tracking", "segmentation", "keypoints", "evacuation_video")

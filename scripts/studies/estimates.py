@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Estimates of `throng check` beside what the jobs then take.
 
-usage: bench/estimates.py [NAME...]
+usage: scripts/studies/estimates.py [NAME...]
 
 Runs jobs of many kinds, one after another, and prints for each what was estimated of CPU time, disk and memory of the
 dataset, and the quotient estimate / actual. CPU time is that of all processes of the job (user and system); on an idle
@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 LARGEST_QUOTIENT = 1.5
 

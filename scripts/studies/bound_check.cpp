@@ -1,7 +1,7 @@
 // Whether any run beats its lower bound (metrics/bounds/run_bound.h): over all shipped scenarios,
 // seeds, numbers of people and lengths.
 //
-//   build/release/bench/bound_check [RUNS [FIRST_SEED]]
+//   build/release/scripts/studies/bound_check [RUNS [FIRST_SEED]]
 //
 // Run i is of the i-th scenario of the list, round and round. Printed are per scenario how many of
 // its percentiles T50, T75, T90, T95 and of its means were below the bound (with people who know at

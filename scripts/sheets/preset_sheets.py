@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws docs/presets/NAME.jpg: an image of each of the first runs of each preset, twelve at most, with their boxes.
 
-Usage: bench/preset_sheets.py THRONG [NAME...]
+Usage: scripts/sheets/preset_sheets.py THRONG [NAME...]
 
 The presets run with fewer runs and one time each; their first runs are those of the whole preset. Needs Pillow.
 """
@@ -14,7 +14,7 @@ import tempfile
 
 from PIL import Image
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "scenarios/presets"
 COLUMNS = 3
 MAX_RUNS = 12

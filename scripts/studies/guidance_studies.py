@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the studies of docs/guidance.md, and prints their tables.
 
-usage: bench/guidance_studies.py FOLDER [--runs N] [--threads N] [--figure FILE.svg] [STUDY...]
+usage: scripts/studies/guidance_studies.py FOLDER [--runs N] [--threads N] [--figure FILE.svg] [STUDY...]
 
 Studies (all without a name): square (scenarios/city_square/study.json), baselines (nobody informed or a siren at t = 0,
 without and with three drones, for the crowd models orca and ttc), unseen (another seed, drones lead at 1.6 m/s), camera
@@ -18,7 +18,7 @@ import pathlib
 import shutil
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 SHIPPED = json.loads((ROOT / "scenarios/city_square/study.json").read_text())
 NEWS = r'<Condition type="proximity" distance="20" agentToAvoid="260" growth_rate="0.75"/>'

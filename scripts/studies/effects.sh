@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Costs of lenses, sensors, weather and props: CPU-milliseconds per image of the city square by
 # `throng run --profile`, 1920 x 1080, a drone at 30 m that looks down 45 degrees, quality standard.
-#   bench/effects.sh [PROGRAM]
+#   scripts/studies/effects.sh [PROGRAM]
 set -euo pipefail
-root="$(cd "$(dirname "$0")/.." && pwd)"
+root="$(cd "$(dirname "$0")/../.." && pwd)"
 throng="${1:-$root/build/release/cli/throng}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws docs/places/generated.jpg: places from seeds, a row for each kind, ten seconds into a run.
 
-usage: bench/generated_sheet.py [SEEDS]    THRONG names another program than build/release/cli/throng.
+usage: scripts/sheets/generated_sheet.py [SEEDS]    THRONG names another program than build/release/cli/throng.
 """
 import json
 import os
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from PIL import Image
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 KINDS = ["plaza", "street", "campus", "block"]
 WIDTH, HEIGHT = 400, 260  # of a panel, pixels
 VIEWS = {"street": ([-92, -4, 46], -32, 0)}  # along it: start of the drone, pitch, yaw

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Lightness (CIELAB's L) of a dataset's images: mean, standard deviation, 1st and 99th percentile, contrast within blocks.
 
-Usage: bench/tone.py DATASET...
+Usage: scripts/studies/tone.py DATASET...
 
 A line for each dataset: means over its images. Contrast is the mean over blocks of 32 x 32 px of the difference between
 the 95th and the 5th percentile. Needs NumPy and Pillow.

@@ -1,7 +1,7 @@
 // The saturated flow of the pedestrian models through doors: what metrics/exits/door_capacity.cpp
 // has its table from.
 //
-//   build/release/bench/door_capacity [MODEL ...]
+//   build/release/scripts/studies/door_capacity [MODEL ...]
 //
 // A crowd as dense as people stand (5 per m²) presses through a door in a wall, with the bodies and
 // the speeds of people who flee in the places (radius 0.195 to 0.24 m, 2 ± 0.25 m/s). Of every

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Runs every place of the library for 60 s, everyday and emergency, with an image every 10 s, validates each dataset
 # and prints a row of docs/places.md for it. Finished runs are not repeated.
-#   bench/place_runs.sh FOLDER [PLACE...]
+#   scripts/sheets/place_runs.sh FOLDER [PLACE...]
 # FOLDER/PLACE_VARIANT/ are the jobs' folders; THRONG names another program than build/release/cli/throng.
 set -euo pipefail
-root="$(cd "$(dirname "$0")/.." && pwd)"
+root="$(cd "$(dirname "$0")/../.." && pwd)"
 throng="${THRONG:-$root/build/release/cli/throng}"
-folder="${1:?usage: bench/place_runs.sh FOLDER [PLACE...]}"
+folder="${1:?usage: scripts/sheets/place_runs.sh FOLDER [PLACE...]}"
 shift
 places=("$@")
 [ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.place.json)
