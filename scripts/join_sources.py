@@ -95,7 +95,7 @@ def main():
     sources = [
         Source(path)
         for path in listed.split()
-        if not path.startswith(("tests/", "bench/", "examples/"))
+        if not path.startswith(("tests/", "bench/", "examples/", "scripts/"))
         and (ROOT / path).exists()
         and str(ROOT / path) not in apart
     ]
