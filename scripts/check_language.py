@@ -136,6 +136,7 @@ IDENTIFIERS = (
     ),
     (re.compile(r"\b(?:say_that|take_what|stop_if_wrong|is_anothers)\w*"), "a verb and its object: apply_overrides"),
     (re.compile(r"\b[Tt]old\b"), "given, reported, notified"),
+    (re.compile(r"\b(?:Who|Whom|Whose|What)[A-Z]\w*"), "a noun and a verb: YieldsToAgentsWithRightOfWay"),
     (re.compile(r"\b(?:min|max)_value_?\b"), "a quantity and its unit: max_neighbors, max_speed_mps"),
     (re.compile(r"\b(?!picture_test\b)\w*[Pp]icture\w*"), "image, texture, plot"),
 )

@@ -134,7 +134,7 @@ TEST(Camera, ProjectsThroughItsLensAndBack) {
   EXPECT_LT(pinhole.project(corner).pixel.x(), -10) << "barrels pull the corners in";
 }
 
-TEST(Camera, WhatTheLensCannotShowIsNotVisible) {
+TEST(Camera, PointsBeyondTheLensAreNotVisible) {
   Camera camera{intrinsics_from_hfov(640, 480, 1.4), pose_looking({0, 0, 0}, 0, 0)};
   EXPECT_TRUE(camera.project({1, 3, 0}).visible);
   EXPECT_FALSE(camera.project({-1, 0, 0}).visible) << "behind";

@@ -23,7 +23,7 @@ Intrinsics full_hd() {
   return k;
 }
 
-TEST(CameraFiles, OpenCvReadsWhatWasWritten) {
+TEST(CameraFiles, OpenCvReadsTheWrittenFiles) {
   Intrinsics k = full_hd();
   k.distortion = Distortion(Model::brown_conrady, {-0.28, 0.08, 0.0003, -0.0002, 0.001});
   const cv::FileStorage file(opencv_yaml(k), cv::FileStorage::READ | cv::FileStorage::MEMORY);

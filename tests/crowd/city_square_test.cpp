@@ -81,7 +81,7 @@ TEST(CitySquare, EveryoneGetsOutByAllExits) {
   }
 }
 
-TEST(CitySquare, PeopleFollowWhatLeadsThem) {
+TEST(CitySquare, PeopleFollowTheGuide) {
   Simulation crowd = test::load_city_square(3);
   crowd.move_goal(99, 0, {-8, 0});  // before the crowded middle exit
   std::size_t max_followers = 0;

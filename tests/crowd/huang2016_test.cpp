@@ -63,7 +63,7 @@ TEST(Huang2016, TheReachGrowsWithEveryLook) {
   expect_reach(6.8, 27.6, 0.1);  // 27.1 where some of the people have left the state by then
 }
 
-TEST(Huang2016, FewerWhoLookMakeItGrowSlower) {
+TEST(Huang2016, FewerObserversMakeItGrowSlower) {
   // Agent 0 alone: 0.2 m a step, and no others.
   const auto alone = [](double distance) {
     Simulation crowd =

@@ -117,7 +117,7 @@ TEST_P(LateObstacles, GiveTheSameOnAnyNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(All, LateObstacles, ::testing::Values("weidmann", "orca"),
                          [](const auto& each) { return std::string(each.param); });
 
-TEST(LateObstaclesOfAState, AreThereForWhoEntersItLater) {
+TEST(LateObstaclesOfAState, ExistForAgentsThatEnterTheStateLater) {
   // As if the block had always been there: the time has passed when the first state is entered.
   Simulation late = walkers(comes_at(0));
   Simulation always = walkers(R"(<Action type="add_obstacle" operand="2"/>)");

@@ -26,7 +26,7 @@ TEST_P(AnyModel, WalksFortyMetersInTheTimeOfRimea1) {
   EXPECT_LE(crowd.time_s(), 34);
 }
 
-TEST_P(AnyModel, GoesRoundSomebodyWhoStands) {
+TEST_P(AnyModel, WalksAroundAStandingPerson) {
   if (!minds_others()) GTEST_SKIP() << "a dummy minds nobody";
   Simulation crowd =
       test::load(test::model_scene(test::agent_at(0, 0), R"(pref_speed="1.33")",
@@ -134,7 +134,7 @@ std::pair<float, float> aside(const std::string& first_extra, const std::string&
   return max_offset_m;
 }
 
-TEST(PedVo, WhoHasNoRightOfWayYields) {
+TEST(PedVo, YieldsToAgentsWithRightOfWay) {
   const auto [first, second] = aside(R"(priority="1")", "");
   EXPECT_LT(first, 0.1F);
   EXPECT_GT(second, 0.3F);

@@ -87,7 +87,7 @@ TEST_F(Projects, WarnOfTheClockAndOfUnknownAttributes) {
   EXPECT_EQ(project.options.seed, 1U);
 }
 
-TEST_F(Projects, NameWhatIsWrong) {
+TEST_F(Projects, NameMistakes) {
   EXPECT_THAT(problem_of(R"(scene="nowhere.xml" behavior="b.xml")").where,
               HasSubstr("attribute \"scene\""));
   EXPECT_THAT(problem_of(R"(scene="." behavior="b.xml")").found, HasSubstr("no file"));

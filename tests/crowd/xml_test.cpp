@@ -121,7 +121,7 @@ TEST(Suggestions, AreMadeForAttributesElementsTypesAndWords) {
   EXPECT_THAT(found_in(R"(<SpatialQuery type="kdtree"/>)", mirror_behavior()), HasSubstr("second"));
 }
 
-TEST(Xml, SaysWhatItIgnoresOnce) {
+TEST(Xml, ReportsIgnoredPartsOnce) {
   // States' names are read before the states, and a transition once for each state that it leaves.
   const std::string behavior = R"(<BFSM>
   <State name="Start" final="0" speedPolicy="min"/><State name="B" final="0"/>

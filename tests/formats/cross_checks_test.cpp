@@ -135,7 +135,7 @@ TEST(CrossChecks, EverybodysTopHasTheColorOfItsLabel) {
   EXPECT_TRUE(any_with(clothes_faults("#3030a0"), "colors-are-clothes track 2000001"));
 }
 
-TEST(CrossChecks, WhoCarriesNothingShowsNoItem) {
+TEST(CrossChecks, PeopleWithoutLuggageShowNone) {
   EXPECT_TRUE(any_with(clothes_faults("", true), "attributes track 2000001 carries nothing, but"));
 }
 

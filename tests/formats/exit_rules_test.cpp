@@ -195,7 +195,7 @@ json exit_record(const char* key = "", const json& value = {}) {
   return record;
 }
 
-TEST(ExitRecords, SayWhatTheTableSays) {
+TEST(ExitRecords, AgreeWithTheTable) {
   const auto faults = [](const json& exits) {
     Image image = hand_made::image();
     image.record["exits"] = exits;

@@ -115,7 +115,7 @@ TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
   EXPECT_GT(hidden, 0);
 }
 
-TEST_F(Exports, MotDetectionsAreWhatIsVisible) {
+TEST_F(Exports, MotDetectionsAreVisiblePeople) {
   const fs::path out = exported("mot") / "train";
   std::map<std::string, std::size_t> lines;
   for (const auto& [stem, people] : people_by_stem(coco())) {
@@ -335,7 +335,7 @@ TEST(Splits, SharesAreAtMostEverything) {
 }
 
 // Records have a truncation where it is above 0.
-TEST_F(Exports, WhoIsTooFarOutsideOfTheImageIsIgnored) {
+TEST_F(Exports, TruncatedPeopleAreIgnored) {
   const auto ignored = [&](std::optional<double> max_truncation) {
     ExportOptions options;
     options.filters.max_truncation = max_truncation;
@@ -358,7 +358,7 @@ TEST_F(Exports, WhoIsTooFarOutsideOfTheImageIsIgnored) {
 }
 
 // Either contrast makes somebody distinct.
-TEST_F(Exports, WhoCannotBeToldFromTheSurroundingsIsIgnored) {
+TEST_F(Exports, PeopleWithoutContrastAreIgnored) {
   std::string coco = read_file(root_ / kCocoFile);
   const std::string before = R"("iscrowd":0,)";
   const std::string added =

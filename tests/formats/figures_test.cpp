@@ -135,7 +135,7 @@ TEST(RunFigures, CrossingsAreBackFromTheLastOneByTheGaps) {
   EXPECT_THAT(crossing_times({{"last_crossing_s", nullptr}}), IsEmpty());
 }
 
-TEST(JobRules, RecordsAreWhatTheJobAsksFor) {
+TEST(JobRules, RecordsAreThoseOfTheJob) {
   const json manifest = {
       {"job",
        {{"drones",

@@ -186,7 +186,7 @@ TEST(Masks, AreJoined) {
   EXPECT_EQ(runs_of(std::vector<Bitmap>{}, 4, 3), (std::vector<std::uint32_t>{12}));
 }
 
-TEST(Comparisons, NameWhatDiffersIsMissingOrTooMuch) {
+TEST(Comparisons, NameDifferentMissingAndSurplusFiles) {
   const TemporaryFolder scratch;
   const fs::path folder = scratch.path() / "there";
   const fs::path made = scratch.path() / "made";

@@ -255,7 +255,7 @@ TEST(SensorTables, AreNumbers) {
       "line 5 not 39 numbers"));
 }
 
-TEST(SensorTables, SayWhatTheImagesSay) {
+TEST(SensorTables, AgreeWithTheImages) {
   const auto expect = [](const std::string& words, const std::function<void(json&)>& damage) {
     const auto found = sensor_faults([](auto&) {}, damage);
     EXPECT_TRUE(any_with(found, words)) << words << " in " << ::testing::PrintToString(found);

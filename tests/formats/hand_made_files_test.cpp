@@ -108,7 +108,7 @@ TEST(HandMadeTable, HasAValuePerColumnAndQuotes) {
   EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','), 35);
 }
 
-TEST(HandMadeCoco, MarksWhoIsIgnoredAsCrowd) {
+TEST(HandMadeCoco, MarksIgnoredPeopleAsCrowd) {
   Export out;
   Image image = crossing();
   image.people[0].record["keypoints"] = {1, 2, 2};

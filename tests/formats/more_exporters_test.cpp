@@ -145,7 +145,7 @@ TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
   EXPECT_GT(ignored, 3);
 }
 
-TEST_F(MoreExports, KittiSaysWhatTheLensIs) {
+TEST_F(MoreExports, KittiHoldsTheLens) {
   const auto distort = [&](const json& lens) {
     std::string text = read_file(root_ / kCocoFile);
     const std::string pinhole = R"("model":"pinhole")";

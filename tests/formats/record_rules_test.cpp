@@ -74,7 +74,7 @@ TEST(RecordRules, MasksFillTheirImage) {
   expect_people("mask-runs annotation 103 characters", [](Person& p) { p.mask = " "; });
 }
 
-TEST(RecordRules, WholeBodiesHoldWhatIsVisible) {
+TEST(RecordRules, WholeBodiesHoldVisiblePixels) {
   expect_people("visible-in-amodal annotation 103 bbox leaves", [](Person& p) {
     p.amodal = {49, 60, 2, 3};
   });

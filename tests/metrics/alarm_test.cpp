@@ -37,7 +37,7 @@ std::string transition(const std::string& from, const std::string& to,
   return "<Transition from=\"" + from + "\" to=\"" + to + "\">" + condition + "</Transition>";
 }
 
-TEST_F(AlarmFiles, AwareIsWhatOnlyTheNewsLeadsTo) {
+TEST_F(AlarmFiles, AwareStatesAreThoseReachedByTheNewsOnly) {
   world::Scenario place = scenario(
       transition("Walk", "Leave") + transition("Leave", "Away") +
       transition("Walk,Leave", "React", kNews) + transition("React", "Flee") +
@@ -77,7 +77,7 @@ TEST_F(AlarmFiles, PartsOfConditionsAndTargetsCount) {
   EXPECT_EQ(world::alarm_of(scenario(event)).aware_states, (Names{"Evacuate"}));
 }
 
-TEST_F(AlarmFiles, TheGuideWhoIsGoneTellsNothing) {
+TEST_F(AlarmFiles, AGoneGuideGivesNoNews) {
   const std::string gone = R"(<Condition type="not"><Condition type="follow"/></Condition>)";
   EXPECT_TRUE(world::alarm_of(scenario(transition("Walk", "Stroll", gone))).aware_states.empty());
 }
@@ -91,7 +91,7 @@ TEST_F(AlarmFiles, DisastersSayWhenAndEverydayHasNone) {
   EXPECT_FALSE(world::alarm_of(place_with_door(2)).at_s) << "a place without files";
 }
 
-TEST_F(AlarmFiles, WhatIsNoXmlIsRefused) {
+TEST_F(AlarmFiles, OtherTextsThanXmlAreRefused) {
   world::Scenario place = scenario("");
   place.behavior_file = folder.write("broken.xml", "<BFSM><State></BFSM>");
   EXPECT_THROW(world::alarm_of(place), InputError);

@@ -41,7 +41,7 @@ TEST(RunMetrics, StraightWalkersGiveAStraightEscapeCurve) {
   EXPECT_NEAR(metrics.mean_escape_time_s, 10.5, 0.051);
 }
 
-TEST(RunMetrics, WhoIsStillInsideCountsUntilTheEnd) {
+TEST(RunMetrics, PeopleStillInsideCountUntilTheEnd) {
   const RunMetrics metrics = measure(one_a_second(20, 10.5));
   EXPECT_EQ(metrics.not_escaped, 10);
   EXPECT_EQ(metrics.escape_curve.size(), 11U);
@@ -79,7 +79,7 @@ TEST(RunMetrics, AnAttackerIsInNoFigure) {
   EXPECT_EQ(metrics.persons.size(), 1U);
 }
 
-TEST(RunMetrics, WhoLiesHurtIsCountedApart) {
+TEST(RunMetrics, CasualtiesAreCountedApart) {
   // One lies from 10 s on, one faints and gets up again, one is hurt but is carried out.
   world::Trace trace =
       trace_of({standing({0, 0}), standing({1, 0}), walking({-5, 0}, {1, 0}), standing({2, 0})});
@@ -113,7 +113,7 @@ TEST(RunMetrics, CasualtiesAreInTheStatesThatTheTraceNames) {
   EXPECT_TRUE(metrics.persons[1].hurt_s);
 }
 
-TEST(RunMetrics, WhereAllAreOutOrHurtWhatComesLaterIsKnown) {
+TEST(RunMetrics, IfAllAreOutOrHurtLaterFiguresAreKnown) {
   world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
   trace.header.state_names = {"Walk", "Casualty"};
   for (std::size_t step = 100; step < trace.steps(); ++step) trace.state[trace.at(step, 0)] = 1;
@@ -122,7 +122,7 @@ TEST(RunMetrics, WhereAllAreOutOrHurtWhatComesLaterIsKnown) {
   EXPECT_EQ(*metrics.horizons[0].not_escaped, 0);
 }
 
-TEST(RunMetrics, WhoLeavesAtASinkHasEscapedAndWhoNeverArrivesIsNoPerson) {
+TEST(RunMetrics, PeopleThatVanishAtASinkHaveEscapedAndUnusedAgentsAreNoPeople) {
   world::Trace trace = trace_of({standing({0, 0}), standing({1, 0}), standing({2, 0})});
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (step < 50 || step >= 200) trace.flags[trace.at(step, 0)] = 0;

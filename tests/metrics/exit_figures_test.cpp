@@ -259,7 +259,7 @@ TEST(ExitBalance, OneOfTwoEqualDoorsIsHalf) {
   EXPECT_FALSE(balance_of({unused}));
 }
 
-TEST(ExitTotals, JsonNamesWhatThereIs) {
+TEST(ExitTotals, JsonNamesTheExits) {
   const world::Trace trace = trace_of(two_passers());
   const world::Scenario scenario = place_with_door(2);
   const auto totals = exit_totals(exit_series(trace, scenario), 0.1);

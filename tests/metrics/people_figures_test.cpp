@@ -49,7 +49,7 @@ TEST(NotificationFigures, CountFromTheFirstIntent) {
   EXPECT_NEAR(after.at("t100_s"), 14, 0.11);
 }
 
-TEST(NotificationFigures, WhoNeverNoticesIsCounted) {
+TEST(NotificationFigures, PeopleThatNeverNoticeAreCounted) {
   const RunMetrics metrics = figures_of(two_observers(100));
   EXPECT_EQ(metrics.notification->never, 2);
   EXPECT_FALSE(metrics.notification->first_s);
@@ -57,7 +57,7 @@ TEST(NotificationFigures, WhoNeverNoticesIsCounted) {
 }
 
 // Two notice, at 1 and 9 s, and need 12 s; a third never does. The run ends at 15 s.
-TEST(NotificationFigures, PercentilesCountWhoWasNotWatchedToTheEnd) {
+TEST(NotificationFigures, PercentilesCountPeopleNotWatchedToTheEnd) {
   CrowdOfTest crowd;
   crowd.duration_s = 15;
   world::Trace trace = trace_of(
@@ -216,7 +216,7 @@ TEST(ExposureFigures, ThePressureIsAMeanOverASecond) {
   EXPECT_EQ(covered.finish_step(), 0);
 }
 
-TEST(ExposureFigures, WhoIsAloneIsAtTheBestLevel) {
+TEST(ExposureFigures, ALonePersonIsAtTheBestLevel) {
   CrowdOfTest crowd;
   crowd.duration_s = 9.9;
   const Exposure exposure = figures_of(trace_of({standing({-5, 0})}, crowd)).exposure;
@@ -365,7 +365,7 @@ TEST(ReferenceTime, GoesAroundBuildings) {
   EXPECT_NEAR(around_s - straight_s, (around_m - 4) / 1.3, 1.1);
 }
 
-TEST(ReferenceTime, WhoNeverNoticesNeverGoes) {
+TEST(ReferenceTime, PeopleThatNeverNoticeNeverLeave) {
   world::Trace trace = trace_of({walking({-2, 0}, {1, 0}), standing({-5, 0})});
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     trace.exit_intent[trace.at(step, 1)] = -1;

@@ -149,7 +149,7 @@ class Fleeing {
   std::vector<Eigen::Vector2f> last_;
 };
 
-TEST_P(AnyDisaster, NobodyFleesIntoWhatItBlocksOrThroughADoorThatItCovers) {
+TEST_P(AnyDisaster, NobodyFleesIntoBlockedGroundOrThroughACoveredDoor) {
   const Made made = make_of(blueprint_);
   const bool blocks = std::string(GetParam()) != "attacker";
   ASSERT_EQ(blocked_discs(made.people).size(), blocks ? 6U : 0U);
@@ -167,7 +167,7 @@ TEST_P(AnyDisaster, NobodyFleesIntoWhatItBlocksOrThroughADoorThatItCovers) {
   EXPECT_GT(fleeing.by_west, 10);
 }
 
-TEST_P(AnyDisaster, WhoHasNotNoticedCarriesOn) {
+TEST_P(AnyDisaster, PeopleWhoHaveNotNoticedCarryOn) {
   json& here = blueprint_["disasters"][0];
   here["position"] = {13, 13};
   here["noticed_m"] = 6;
@@ -269,7 +269,7 @@ TEST(FireAndGas, FlamesHurtWhomTheyReachAsTheySpreadAndAsLongAsTheyBurn) {
   EXPECT_GT(within(kStartS + 5, 40), 0) << "who walks into it later";
 }
 
-TEST(FireAndGas, GasHurtsWhoHasBeenInItForLong) {
+TEST(FireAndGas, GasHurtsPeopleAfterALongExposure) {
   json gas = unnoticed("gas");
   gas["hurts_m"] = 4;
   gas["hurts_after_s"] = 5;

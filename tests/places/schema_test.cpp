@@ -87,7 +87,7 @@ TEST_P(SchemaOfPlaces, HoldsForAllThatAreShipped) {
   }
 }
 
-TEST_P(SchemaOfPlaces, RefusesWhatTheReaderRefuses) {
+TEST_P(SchemaOfPlaces, RefusesTheSameDocumentsAsTheReader) {
   const bool places = GetParam() == Kind::blueprint;
   const fs::path file = kScenarios / "city_square" / "emergency.place.json";
   const json blueprint = load_blueprint(file);

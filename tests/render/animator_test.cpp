@@ -68,7 +68,7 @@ TEST_F(AnimatorTest, TheDisasterIsNotAPerson) {
   EXPECT_EQ(scene.people[1].agent, 1U);
 }
 
-TEST_F(AnimatorTest, WhoHasNotArrivedOrHasLeftIsNotThere) {
+TEST_F(AnimatorTest, PeopleBeforeArrivalAndAfterLeavingAreAbsent) {
   for (std::size_t step = 0; step < trace_.steps(); ++step) {
     if (step < 10 || step > 20) trace_.flags[trace_.at(step, 0)] = 0;
   }
@@ -118,7 +118,7 @@ TEST_F(AnimatorTest, FramesCanBeAskedForInAnyOrder) {
   }
 }
 
-TEST_F(AnimatorTest, WhoComesBackHasAPlanForEachStay) {
+TEST_F(AnimatorTest, ReturningPeopleHaveAPlanForEachStay) {
   for (std::size_t step = 20; step < 30; ++step) trace_.flags[trace_.at(step, 0)] = 0;
   trace_.position[trace_.at(20, 0)] = {1e6F, 1e6F};  // where somebody is who is not there
   const Animator animator(trace_, people_);
@@ -190,7 +190,7 @@ TEST_F(AnimatorWithClipsTest, SomeLookUpAtADroneThatIsNearAndHigh) {
   EXPECT_EQ(lookers({-20, 0, 15}), 0) << "behind";
 }
 
-TEST_F(AnimatorTest, WhoWalksStrides) {
+TEST_F(AnimatorTest, WalkingPeopleStride) {
   const skinning::PoseBlend before = animator_.scene_at(1.0, 0).people[0].pose;
   const skinning::PoseBlend after = animator_.scene_at(1.3, 0).people[0].pose;
   EXPECT_TRUE(before.a != after.a || before.b != after.b);

@@ -39,7 +39,7 @@ TEST(Context, ContextsLiveSideBySide) {
   EXPECT_NO_THROW(one.make_current());
 }
 
-TEST(Context, AGpuEitherDrawsOrTheErrorSaysWhatToInstall) {
+TEST(Context, AGpuDrawsOrTheErrorNamesThePackage) {
   try {
     EXPECT_THAT(Context("gpu").description(), testing::Not(testing::HasSubstr("llvmpipe")));
   } catch (const EnvironmentError& error) {
@@ -65,7 +65,7 @@ TEST(Context, AnUnknownDeviceIsAnInputError) {
   EXPECT_THROW(Context(""), InputError);
 }
 
-TEST(Context, TheEnvironmentDecidesWhatAutoIs) {
+TEST(Context, TheEnvironmentDecidesAuto) {
   {
     const DeviceVariable variable("software");
     EXPECT_THAT(Context("auto").description(), testing::HasSubstr("llvmpipe"));

@@ -137,7 +137,7 @@ TEST(GroundTruth, AmodalAreaIsTheVisibleAreaWithNobodyElseAround) {
   EXPECT_GT(hidden, 10U) << "the crowd is dense enough to prove anything";
 }
 
-TEST(GroundTruth, AmodalAreaCountsWhatLiesOutsideTheImage) {
+TEST(GroundTruth, AmodalAreaCountsPartsOutsideTheImage) {
   Stage stage(open_ground());
   const PersonInstance person = stage.standing(2, 0, 0);
   const camera::Camera whole = camera_at({-5, 0, 1}, 0, 0, 320, 240);

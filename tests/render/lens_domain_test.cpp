@@ -67,7 +67,7 @@ class LensDomain : public testing::Test {
   Stage stage_;
 };
 
-TEST_F(LensDomain, WhatTheModelDoesNotReachIsBlackAndUnlabeled) {
+TEST_F(LensDomain, PixelsOutsideOfTheModelAreBlackAndUnlabeled) {
   for (const NamedLens& each : cut_lenses()) {
     SCOPED_TRACE(each.name);
     const Camera camera = with(camera_at({-5, 0, 6}, 5, -50), each.focal_px, each.distortion);

@@ -227,7 +227,7 @@ TEST(Lens, PeoplesBoxesAndAreasAreThoseOfTheDistortedImage) {
   }
 }
 
-TEST(Lens, VisibleNeverExceedsAmodalAndEverybodyWhoShowsIsListed) {
+TEST(Lens, VisibleNeverExceedsAmodalAndAllVisiblePeopleAreListed) {
   Set set(open_ground({block(2, 5, -2, 1, 2)}));
   const std::vector<PersonInstance> crowd = crowd_of(set.stage, 250, 7);
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {

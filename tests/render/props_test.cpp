@@ -71,7 +71,7 @@ std::set<std::size_t> projected(const Prop& prop, const camera::Camera& camera) 
 
 class PropOutline : public testing::TestWithParam<PropKind> {};
 
-TEST_P(PropOutline, IdsCoverWhatTheProjectedMeshCovers) {
+TEST_P(PropOutline, IdsCoverTheProjectedMesh) {
   const Prop prop = prop_at(GetParam(), 9, 0.4, 25);
   Stage stage(ground_with({prop}));
   const camera::Camera camera = camera_at({0, 0, 6}, 0, -25, 640, 480);

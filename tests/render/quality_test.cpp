@@ -111,7 +111,7 @@ double penumbra_m(double height_m, Quality quality) {
   return static_cast<double>(between) / meter_px;
 }
 
-TEST(Quality, HighSoftensShadowsWithTheHeightOfWhatCastsThem) {
+TEST(Quality, HighSoftensShadowsWithTheHeightOfTheirCaster) {
   // The sun's disc is 0.53 degrees wide: 9.3 mm for each meter of a ray, which is 1.41 m for each
   // meter of height at 45 degrees, and 1.41 times as much along the ground. Between a fifth
   // and four fifths of a disc's area lies 0.49 of its width.

@@ -132,7 +132,7 @@ TEST(FlowTargets, OfAFrameThatIsRepeatedAreVisible) {
   }
 }
 
-TEST(FlowTargets, SayWhatGoesBehindAWallAndWhatLeavesTheImage) {
+TEST(FlowTargets, MarkPointsThatGetHiddenOrLeaveTheImage) {
   Stage stage(open_ground({block(0, 0.5, -3, 0, 3)}), {}, kAllMotion);
   const camera::Camera camera = camera_at({-8, 0, 2}, 0, -5, 640, 480);
   Scene now{0, 0, {stage.standing(1, 4, 1.5), stage.standing(2, -2, 1.5)}, {}};

@@ -39,7 +39,7 @@ TEST(Shelves, RectanglesStayInsideAndApart) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(Shelves, WhatIsTooBigLeavesRoomForOthers) {
+TEST(Shelves, OversizedItemsLeaveRoomForOthers) {
   Shelves shelves({100, 100});
   EXPECT_FALSE(shelves.place({101, 10}));
   EXPECT_FALSE(shelves.place({10, 101}));

@@ -75,7 +75,7 @@ class Spheres : public testing::Test {
   std::optional<Stage> stage_;
 };
 
-TEST_F(Spheres, CoverWhatTheirOutlineCovers) {
+TEST_F(Spheres, CoverTheirOutline) {
   for (const camera::Camera& camera :
        {camera_at({0, 0, 3}, 0, -5, 640, 480), camera_at({4, -6, 9}, 50, -45, 640, 480),
         camera_at({9.3, 0.4, 12}, 20, -90, 480, 480)}) {
@@ -97,7 +97,7 @@ TEST_F(Spheres, CoverWhatTheirOutlineCovers) {
   }
 }
 
-TEST_F(Spheres, CoverWhatALensMakesOfTheirOutline) {
+TEST_F(Spheres, CoverTheirDistortedOutline) {
   Lens lens(stage_->renderer(), stage_->people());
   for (const camera::Distortion& distortion :
        {camera::Distortion(camera::Distortion::Model::brown_conrady, {-0.28, 0.08, 0.001}),

@@ -51,7 +51,7 @@ TEST(Surfaces, FlowCarriesEachPersonsMaskToTheNextFrame) {
   EXPECT_GE(measured, 6);
 }
 
-TEST(Surfaces, WhatStandsStillMovesWithTheCamera) {
+TEST(Surfaces, StillSurfacesMoveWithTheCamera) {
   Stage stage(open_ground({block(2, 4, -1, 1, 3)}), {}, kEverything);
   NeighborFrame next;
   next.camera = camera_at({-9, 1, 6.5}, 8, -28);
@@ -73,7 +73,7 @@ TEST(Surfaces, WhatStandsStillMovesWithTheCamera) {
   EXPECT_GT(measured, 100);
 }
 
-TEST(Surfaces, NobodyFollowsWhoLeaves) {
+TEST(Surfaces, LeavingPeopleHaveNoFlow) {
   Stage stage(open_ground(), {}, kEverything);
   const camera::Camera camera = camera_at({-6, 0, 3}, 0, -15);
   const Scene now{0, 0, {stage.standing(3, 0, 0)}, {}};

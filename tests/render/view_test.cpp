@@ -10,7 +10,7 @@
 namespace throng::render {
 namespace {
 
-TEST(ClipPlanes, HoldExactlyWhatProjectsIntoTheImage) {
+TEST(ClipPlanes, HoldExactlyThePointsInTheImage) {
   const camera::Camera camera = camera_at({1, 2, 9}, 33, -40, 320, 200);
   const ClipPlanes planes = clip_planes(camera);
   int inside = 0;
@@ -51,7 +51,7 @@ TEST(VisiblePart, IsTheFootprintOfTheView) {
   EXPECT_TRUE(visible_part(up, place, 0).isEmpty());
 }
 
-TEST(ShadowArea, CoversWhatIsSeenAndMovesInWholeTexels) {
+TEST(ShadowArea, CoversTheViewAndMovesInWholeTexels) {
   const Eigen::AlignedBox2d place(Eigen::Vector2d(-60, -50), Eigen::Vector2d(60, 50));
   const Eigen::Vector2d slope = shadow_slope({});
   const auto area_from = [&](double x) {

@@ -81,7 +81,7 @@ Scene scene_of(const std::vector<PersonInstance>& people) {
   return scene;
 }
 
-TEST(WholeMasks, AreWhatShowsOfSomebodyAlone) {
+TEST(WholeMasks, AreTheMasksOfEachPersonAlone) {
   Queue queue;
   queue.expect_exact([&](bool is_alone, const std::vector<PersonInstance>& people) {
     return queue.lens(is_alone).draw(scene_of(people), queue_camera());

@@ -31,7 +31,7 @@ class AccessTest : public ApiTest {
   std::string submitter = keys.create("submitter", Scope::submit);
 };
 
-TEST_F(AccessTest, AProxyLearnsWhoMaySendBodies) {
+TEST_F(AccessTest, AProxyLearnsWhichKeysMaySendBodies) {
   expect_problem(get("/v1/access/submit"), 401);
   expect_problem(get("/v1/access/submit", with("throng_wrong")), 401);
   expect_problem(get("/v1/access/submit", with(reader)), 403);

@@ -140,7 +140,7 @@ TEST_F(Uploads, NamesAreTakenOnce) {
   expect_problem(client().Post("/v1/scenarios?name=x", yard_bundle(), "text/plain"), 415);
 }
 
-TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
+TEST_F(Uploads, MistakesNameFileElementAndRemedy) {
   SKIP_WITHOUT_PROGRAM();
   json errors =
       errors_of({{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});

@@ -90,7 +90,7 @@ TEST_F(Smuggling, RefusedBodiesAreNotReadAsRequests) {
   EXPECT_EQ(count_of(raw(head("POST /v1/jobs", "") + inner()), "HTTP/1."), 1U);
 }
 
-TEST_F(Smuggling, WhatTheLibraryRefusesIsNotReadOn) {
+TEST_F(Smuggling, ConnectionsOfRefusedRequestsAreClosed) {
   // The library gives up in the middle of these bodies and would go on with the rest.
   const std::string part = "--B\r\nContent-Disposition: form-data; name=\"a\"\r\n\r\nh\r\n";
   std::string body;

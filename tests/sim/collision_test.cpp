@@ -49,7 +49,7 @@ TEST_P(MeetsSomebody, OneCollisionWithItsSpeedAndImpulse) {
 
 INSTANTIATE_TEST_SUITE_P(Speeds, MeetsSomebody, ::testing::Values(2.0, 4.0, 8.0));
 
-TEST(Collision, SomebodyWhoRunsIntoADroneThatHovers) {
+TEST(Collision, ARunnerHitsAHoveringDrone) {
   const FlightRecord record =
       fly_with({planned_drone({0, 0, 1.2}, {}, 1)}, 4, {{{-6, 0}, {3, 0}}, {{50, 50}, {1, 0}}});
   const auto collisions = record.of_type("collision");
@@ -68,7 +68,7 @@ TEST(Collision, PeopleFarBelowAreNotMet) {
   EXPECT_TRUE(fly_with({high}, 10, crowd).events.empty());
 }
 
-TEST(Collision, WhoIsNotThereIsNotMet) {
+TEST(Collision, AbsentPeopleAreNotHit) {
   const std::vector<PlannedDrone> drones{planned_drone({0, 0, 1.2}, {{20, 0, 1.2}}, 3)};
   std::vector<world::EventRow> events;
   Flight flight({}, drones, testing::kInterval, 1.0 / 480,
@@ -81,7 +81,7 @@ TEST(Collision, WhoIsNotThereIsNotMet) {
   EXPECT_TRUE(events.empty());
 }
 
-TEST(Collision, NamesWhatWasHit) {
+TEST(Collision, NamesTheHitObject) {
   const world::Building house{"house", {{8, -5}, {12, -5}, {12, 5}, {8, 5}}, 20};
   const FlightRecord wall = fly_with({planned_drone({0, 0, 10}, {{20, 0, 10}}, 4)}, 8, {}, {house});
   ASSERT_FALSE(wall.of_type("collision").empty());
@@ -256,7 +256,7 @@ TEST(NearMissOfALandedDrone, IsNone) {
   EXPECT_TRUE(record.of_type("near_miss").empty());
 }
 
-TEST(Samples, HoldWhatAnIdealImuReads) {
+TEST(Samples, HoldTheReadingsOfAnIdealImu) {
   const FlightRecord record = fly_with({planned_drone({0, 0, 10}, {{20, 0, 10}}, 4)}, 8);
   const auto& samples = record.samples[0];
   EXPECT_NEAR(samples.front().specific_force.z(), kGravity, 1e-9);

@@ -122,7 +122,7 @@ TEST(Flight, TheInnerCornerOfAHouseIsOpenAir) {
   EXPECT_LT(closest(record.samples[0], {6, 12, 4}), 0.1);
 }
 
-TEST(Flight, TheGroundHoldsWhoFliesIntoIt) {
+TEST(Flight, TheGroundStopsADrone) {
   const Record record = fly({}, {planned({0, 0, 10}, {{0, 0, -30}}, 5)}, 12);
   for (const auto& sample : record.samples[0]) EXPECT_GT(sample.position.z(), 0);
   EXPECT_LT(record.samples[0].back().position.z(), 0.2);

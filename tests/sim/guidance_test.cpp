@@ -71,7 +71,7 @@ TEST(Guidance, BalanceLeadsPeopleInThePapersSquare) {
   EXPECT_GE(followers.count, 10);
 }
 
-TEST(Guidance, ADroneTellsPeopleWhoHaveNotNoticed) {
+TEST(Guidance, ADroneAlertsUnawarePeople) {
   FollowerCount followers;
   followers.enough = 5;
   simulate(square("huang2016/nearest_exit_navigated"), guided_run("balance", 30), followers);

@@ -66,7 +66,7 @@ class Watched : public ::testing::Test {
   world::CrowdStep now;
 };
 
-TEST_F(Watched, NothingIsSaidOfPeopleWhoFlee) {
+TEST_F(Watched, FleeingPeopleCauseNoWarning) {
   EXPECT_THAT(said(60, 12, [](auto& step) { flee(step, 20); }), IsEmpty());
   EXPECT_THAT(said(60, 12, [](auto& step) { flee(step, 2); }), IsEmpty()) << "some do";
 }
@@ -88,7 +88,7 @@ TEST_F(Watched, ARunThatEndsBeforeTheAlarm) {
       << "with images";
 }
 
-TEST_F(Watched, PeopleWhoKnowAndHeadForNoExit) {
+TEST_F(Watched, AwarePeopleWithoutAnExit) {
   EXPECT_THAT(said(60, 12, [](auto& step) { step.state.assign(20, kAware); }),
               ElementsAre(HasSubstr("none of 20 people who head for an exit")));
   EXPECT_THAT(said(60, 12,
@@ -101,7 +101,7 @@ TEST_F(Watched, PeopleWhoKnowAndHeadForNoExit) {
       << "behind a guide";
 }
 
-TEST_F(Watched, PeopleWhoNeverMove) {
+TEST_F(Watched, PeopleThatNeverMove) {
   const auto stay = [](auto& step) {
     flee(step, 20);
     step.position.assign(20, {1.5F, 2.5F});
@@ -117,7 +117,7 @@ TEST_F(Watched, PeopleWhoNeverMove) {
       << "an audience may stand";
 }
 
-TEST_F(Watched, WithoutStatesOfThoseWhoKnowANewExitIsNotice) {
+TEST_F(Watched, WithoutAwareStatesANewExitIsNotice) {
   header.alarm->aware_states.clear();
   now.exit_intent.assign(20, 1);
   const auto walk = [](auto& step) { step.position.assign(20, {9, 2}); };
@@ -130,7 +130,7 @@ TEST_F(Watched, WithoutStatesOfThoseWhoKnowANewExitIsNotice) {
               IsEmpty());
 }
 
-TEST_F(Watched, PeopleWhoStartOutside) {
+TEST_F(Watched, PeopleThatStartOutside) {
   for (std::size_t i = 0; i < 3; ++i) now.position[i] = {30, 0};
   const auto texts = said(60, 12, [](auto& step) { flee(step, 20); });
   EXPECT_THAT(texts, ElementsAre(HasSubstr("3 of 20 people who start outside")));
@@ -156,7 +156,7 @@ TEST_F(Watched, ImagesOfAPlaceThatEverybodyHasLeft) {
   EXPECT_THAT(run(30, 20), ElementsAre(HasSubstr("none of 20 people who move")));
 }
 
-TEST_F(Watched, DangersAndPeopleWhoAreAbsentAreNobody) {
+TEST_F(Watched, DangersAndAbsentPeopleDoNotCount) {
   header.role.assign(20, world::AgentRole::disaster);
   header.role[3] = world::AgentRole::person;
   header.role[4] = world::AgentRole::person;

@@ -81,7 +81,7 @@ TEST(Perception, GuessesTheExitFromTheMotion) {
   EXPECT_EQ(seen.people[2].exit, 1) << "stands: the nearest";
 }
 
-TEST(TheTruth, IsOfThoseWhoStandAndNotOfThoseWhoLieHurt) {
+TEST(TheTruth, HoldsStandingPeopleWithoutCasualties) {
   const throng::testing::TemporaryFolder folder;
   const auto group = [](const char* state, double x) {
     return fmt::format(R"(<AgentGroup><ProfileSelector type="const" name="a"/>

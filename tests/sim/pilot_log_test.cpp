@@ -34,7 +34,7 @@ std::string message_for(const std::string& csv) {
   return "accepted";
 }
 
-TEST(PilotLog, WhatIsWrongIsNamedByLine) {
+TEST(PilotLog, MistakesAreNamedByLine) {
   EXPECT_THAT(message_for(""), HasSubstr("no set-point"));
   EXPECT_THAT(message_for(kHead), HasSubstr("no set-point"));
   EXPECT_THAT(message_for("t,x\n"), HasSubstr("line 1"));

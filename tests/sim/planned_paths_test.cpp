@@ -71,14 +71,14 @@ TEST(PlannedPaths, GoRoundAnOrbit) {
   EXPECT_GT(max_x, 9.5) << "to the other side";
 }
 
-TEST(PlannedPaths, AreUnknownForWhoGoesByPeople) {
+TEST(PlannedPaths, AreUnknownForPoliciesThatFollowPeople) {
   for (const char* policy : {"balance", "follow_density", "zigzag", "signage"}) {
     const auto path = planned_paths(meadow(), run_of(scout_with(policy), 40)).front();
     EXPECT_EQ(path.places.size(), 1U) << policy;
   }
 }
 
-TEST(PlannedPaths, RefuseWhatCannotBeFlown) {
+TEST(PlannedPaths, RefuseImpossibleFlights) {
   EXPECT_THROW(planned_paths(meadow(), run_of(scout_with("teleport"), 10)), InputError);
 }
 

@@ -199,7 +199,7 @@ TEST_P(GuidesBesideAFire, LeadNobodyToADoorFromWhenItShuts) {
 INSTANTIATE_TEST_SUITE_P(All, GuidesBesideAFire, ::testing::Values("balance", "signage", "zigzag"),
                          [](const auto& each) { return std::string(each.param); });
 
-TEST(Policies, BalanceTurnsWithThoseWhoFollowIt) {
+TEST(Policies, BalanceTurnsWithItsFollowers) {
   world::Scenario scenario = yard();
   scenario.exits.push_back({"top", {-1, 20}, {1, 20}, {0, 1}, true, {{3, 2}}});
   IdealFlight flight(scenario, mission_of("balance"), {0, 0, 12});
@@ -222,7 +222,7 @@ TEST(Policies, BalanceLeavesShortQueuesAlone) {
   EXPECT_EQ(people_led_out("balance", 3, view, 60), 0);
 }
 
-TEST(Policies, BalanceFetchesWhoHasNotNoticedOnlyWhereTheyListen) {
+TEST(Policies, BalanceFetchesUnawarePeopleOnlyIfTheyListen) {
   world::Scenario scenario = yard();
   WorldView view;
   view.people = people_about({5, 10}, 30, -1);

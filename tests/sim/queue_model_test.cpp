@@ -26,7 +26,7 @@ WorldView view_of(const world::Scenario& scenario, std::vector<PersonSeen> peopl
   return view;
 }
 
-TEST(QueueModel, WhoRunsToAShutDoorJoinsTheQueueOfTheNearestOpenOne) {
+TEST(QueueModel, PeopleAtAClosedDoorJoinTheQueueOfTheNearestOpenOne) {
   const world::Scenario scenario = yard_with_third_door(false);
   const std::vector<PersonSeen> people = people_about({-5, 5}, 40, 2);
   QueueModel queues(scenario);
@@ -53,7 +53,7 @@ TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
   EXPECT_GT(queues.wait_s(2), 500);
 }
 
-TEST(QueueModel, WhoHasNotNoticedIsExpectedAtTheNearestOpenExit) {
+TEST(QueueModel, PeopleWhoHaveNotNoticedAreExpectedAtTheNearestOpenExit) {
   const world::Scenario scenario = yard_with_third_door(false);
   QueueModel queues(scenario);
   queues.update(view_of(scenario, people_about({-15, 10}, 30, -1)), 0);

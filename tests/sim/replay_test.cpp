@@ -59,7 +59,7 @@ TEST(Replay, FacesTheWayWalkedHoweverTheHeadSways) {
   }
 }
 
-TEST(Replay, WhoDoesNotTakePartStaysAway) {
+TEST(Replay, AbsentPeopleStayAway) {
   const auto crowd =
       replayed(recording_of(0.1, 11, {{0, 10, {0, 0}, {1, 0}}, {0, 10, {5, 0}, {1, 0}}}), 1);
   crowd->set_present(0, false);

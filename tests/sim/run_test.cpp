@@ -227,7 +227,7 @@ TEST_F(Evacuation, PeopleGetAwayAndEachOnce) {
   EXPECT_GT(escaped.size(), 20U);
 }
 
-TEST_F(Evacuation, WhoRunsToAnExitIntendsItAndStillDoesOnTheWayToSafety) {
+TEST_F(Evacuation, RunningToAnExitIsIntentUntilSafety) {
   const auto state = [&](std::size_t at) -> const std::string& {
     return trace().header.state_names[trace().state[at]];
   };
@@ -373,7 +373,7 @@ std::pair<bool, std::vector<Problem>> verdict_on_bench(const Eigen::Vector2d& po
   }
 }
 
-TEST(Run, ThingsInPeoplesWayAreNamedWithWhoIsInThem) {
+TEST(Run, PropsOnPeopleAreNamedWithThePeople) {
   const world::Trace trace = trace_of(short_run());
   const auto place_of = [&](double time_s) -> Eigen::Vector2d {
     const auto step = static_cast<std::size_t>(std::lround(time_s / trace.header.dt_s));
@@ -390,7 +390,7 @@ TEST(Run, ThingsInPeoplesWayAreNamedWithWhoIsInThem) {
   EXPECT_TRUE(verdict_on_bench(on_the_way, 1).second.empty()) << "nobody comes there";
 }
 
-TEST(Run, WhoWalksThroughAThingIsAWarning) {
+TEST(Run, WalkingThroughAPropIsAWarning) {
   // A place that nobody stands at in the beginning and somebody comes to later.
   const world::Trace trace = trace_of(short_run());
   for (std::size_t agent = 0; agent < kPeopleInSquare; ++agent) {

@@ -110,7 +110,7 @@ TEST(Carving, ASlitAtTheWaistDoesNotCutSomebodyInTwo) {
   EXPECT_LT(Carving(surfaces).distance_m({0, 0, 1.003F}), 0);
 }
 
-TEST(Carving, CrumbsInTheAirAndWhatIsPaintedOnAreLeftOut) {
+TEST(Carving, FloatingCrumbsAndPaintedPartsAreLeftOut) {
   Surface body;
   add_box(body, {-0.1F, -0.1F, 0}, {0.1F, 0.1F, 0.5F});
   Surface crumb;

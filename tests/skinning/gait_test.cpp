@@ -29,7 +29,7 @@ float lowest_of(const std::vector<Vertex>& vertices, const Palette& palette) {
   return lowest;
 }
 
-TEST(Gait, EveryClipIsFiniteAndWhoTouchesTheGroundStandsOnIt) {
+TEST(Gait, EveryClipIsFiniteAndFeetStandOnTheGround) {
   const Walker walker = made_up_walker();
   for (const Clip& clip : standard_clips()) {
     const std::vector<Palette> palettes = bake_clip(walker, clip);

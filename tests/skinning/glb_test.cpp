@@ -29,7 +29,7 @@ class GlbTest : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(GlbTest, WhatIsWrittenIsReadBackThroughAssimp) {
+TEST_F(GlbTest, WrittenFilesAreReadBackThroughAssimp) {
   const CharacterAsset asset = made_up_asset();
   const CharacterAsset read = read_glb(write(encode_glb(asset)));
 

@@ -177,7 +177,7 @@ TEST_F(ImportTest, ArmsOfATPoseComeDown) {
   EXPECT_LT(bounds.high.y(), 0.45F);
 }
 
-TEST_F(ImportTest, WeightsOfUnknownBonesGoToWhatCarriesThem) {
+TEST_F(ImportTest, WeightsOfUnknownBonesGoToTheirParents) {
   rig.fingers = true;
   write_model();
   const Population people = import(describe());

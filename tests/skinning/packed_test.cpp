@@ -28,7 +28,7 @@ TEST(Packed, KeepsEveryVertexInItsPlace) {
   }
 }
 
-TEST(Packed, RefusesWhatIsNoPose) {
+TEST(Packed, RefusesInvalidPoses) {
   const Joints joints = made_up_joints();
   EXPECT_THROW(unpack(joints, std::string(kPackedBytes, '\0')), std::out_of_range);
   EXPECT_TRUE(unpack(joints, "").empty());

@@ -85,7 +85,7 @@ TEST_F(PeopleTest, ShoesAreDyedWhateverTheyAre) {
   }
 }
 
-TEST_F(PeopleTest, ColorsAreThoseOfWhatIsDrawn) {
+TEST_F(PeopleTest, ColorsAreThoseThatAreDrawn) {
   const auto everything = [](const Vertex&) { return true; };
   for (const Character& character : people_->characters) {
     const Mesh& mesh = character.levels.front();
@@ -268,7 +268,7 @@ TEST_F(PeopleTest, EveryFrameIsOnTheGroundAndKeepsTheBodyTogether) {
   }
 }
 
-TEST_F(PeopleTest, WhoHasFallenLiesFlat) {
+TEST_F(PeopleTest, FallenPeopleLieFlat) {
   const ClipSet clips(*people_);
   for (std::size_t i = 0; i < people_->characters.size(); ++i) {
     for (const char* name : {"fall_forwards", "fall_backwards"}) {

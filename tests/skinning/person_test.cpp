@@ -222,7 +222,7 @@ TEST(Outfit, MixesWidely) {
   EXPECT_LE(hats, 40);
 }
 
-TEST(Outfit, HasColorsForWhatIsColored) {
+TEST(Outfit, HasColorsForColoredGarments) {
   for (const PersonSpec& person : sample_many(8)) {
     const auto& tints = person.outfit.tints;
     for (const Tint tint : {Tint::top, Tint::bottom, Tint::hair, Tint::shoes}) {

@@ -201,7 +201,7 @@ TEST(Plan, StandsWalksRunsAndPanics) {
   EXPECT_NE(clip_at(plan, 240), "panic");
 }
 
-TEST(Plan, WhoStopsStandsOnBothFeet) {
+TEST(Plan, StoppedPeopleStandOnBothFeet) {
   const std::vector<Moment> moments = straight_trajectory(there_and_back(1.3, 8, 33), kDtS);
   const MotionPlan plan = plan_for(moments);
   for (double step = static_cast<double>(moments.size()) - 15;
@@ -214,7 +214,7 @@ TEST(Plan, WhoStopsStandsOnBothFeet) {
   }
 }
 
-TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
+TEST(Plan, TurningOnTheSpotTakesSteps) {
   std::vector<Moment> moments = straight_trajectory(std::vector<double>(200, 0), kDtS);
   for (std::size_t step = 120; step < moments.size(); ++step) {
     const double t = std::clamp((static_cast<double>(step) - 120) / 10, 0.0, 1.0);
@@ -225,7 +225,7 @@ TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
   EXPECT_NE(clip_at(plan, 150), "turn_90");
 }
 
-TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
+TEST(Plan, FallenPeopleFallLieAndGetUp) {
   std::vector<Moment> moments = straight_trajectory(speeds({{40, 1.5}, {160, 0}}), kDtS);
   for (std::size_t step = 40; step < 120; ++step) moments[step].down = true;
   const MotionPlan plan = plan_for(moments);
@@ -281,7 +281,7 @@ TEST(Plan, PoseActionAndFlagChangeTogether) {
   }
 }
 
-TEST(Plan, PeopleLookUpAtWhatFlies) {
+TEST(Plan, PeopleLookUpAtDrones) {
   std::vector<Moment> moments = straight_trajectory(speeds({{150, 0}, {100, 1.3}}), kDtS);
   for (std::size_t step = 50; step < 100; ++step) moments[step].gaze = Gaze::left;
   for (std::size_t step = 180; step < 230; ++step) moments[step].gaze = Gaze::ahead;

@@ -102,7 +102,7 @@ TEST(RigNames, HandlesOfAnimatorsAreNoBones) {
             "mixamorig:LeftFoot");
 }
 
-TEST(RigNames, WhatTheUserSaysComesFirst) {
+TEST(RigNames, TheUsersNamesComeFirst) {
   RiggedModel model = model_of(kRigs[0]);
   model.nodes.push_back({"Skull", 5, Eigen::Matrix4f::Identity(), true});
   const BoneNodes nodes = map_bones(model, {{"head", "Skull"}}, "x.json");

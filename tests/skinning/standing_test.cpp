@@ -72,7 +72,7 @@ TEST(Standing, FeetStayWhereTheyAre) {
   }
 }
 
-TEST(Standing, WhoLooksUpLooksUpAndToTheSide) {
+TEST(Standing, LookingUpTurnsUpAndToTheSide) {
   const Walker walker = made_up_walker();
   Pose pose = look_up(walker, 55 * kDegree, 1, 0).pose;
   const Eigen::Vector3f face = pose.of(Bone::head).col(0);
@@ -117,7 +117,7 @@ TEST(Standing, TurningFeetStandStillInTheWorldOrStep) {
   EXPECT_LT(still_m[1], 0.003);
 }
 
-TEST(Standing, WhoHasFallenLiesOnTheGround) {
+TEST(Standing, FallenPeopleLieOnTheGround) {
   for (const float scale : {0.65F, 1.0F}) {
     const Walker walker = made_up_walker(scale);
     for (const char* name : {"fall_forwards", "fall_backwards"}) {

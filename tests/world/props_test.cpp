@@ -57,7 +57,7 @@ TEST_F(PropsTest, AreReadAsTheyStand) {
   EXPECT_EQ(distance_to(scenario.props[0], {-20, 4}), 0);
 }
 
-TEST_F(PropsTest, WhatIsWrongIsNamedByItsPointer) {
+TEST_F(PropsTest, MistakesAreNamedByTheirPointer) {
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bush", "position": [0, 0]}])"), "/props/0/kind");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin"}])"), "/props/0");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin", "position": [0, 0], "size": 1}])"),

@@ -168,7 +168,7 @@ TEST_F(ScenarioFile, OptionalPartsMayBeAbsent) {
   EXPECT_TRUE(s.buildings.empty() && s.drones.empty());
 }
 
-TEST_F(ScenarioFile, AnExtendingFileSaysOnlyWhatDiffers) {
+TEST_F(ScenarioFile, AnExtendingFileHoldsOnlyDifferences) {
   folder.write("base.json", valid_scenario().dump());
   const auto load_extending = [&](const json& changes) {
     json document = changes;

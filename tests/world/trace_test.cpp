@@ -94,7 +94,7 @@ std::string problem_of(const fs::path& path) {
   return "";
 }
 
-TEST(Trace, ReadsBackWhatWasWritten) {
+TEST(Trace, ReadsBackTheWrittenValues) {
   const TemporaryFolder folder;
   write_trace(folder.path() / "run.h5");
   const Trace trace = read_trace(folder.path() / "run.h5");
@@ -354,7 +354,7 @@ TEST(TraceFile, SaysInWhichStatesPeopleLieWhateverTheirNames) {
   EXPECT_EQ(trace.flags, (std::vector<std::uint8_t>{kPresent, kPresent, kPresent | kFallen}));
 }
 
-TEST(TraceFile, SaysWhatMovedThePeople) {
+TEST(TraceFile, RecordsTheModelOfThePeople) {
   const TemporaryFolder folder;
   const auto read_back = [&](const TraceHeader& header) {
     TraceWriter writer(folder.path() / "run.h5", header);

@@ -89,7 +89,7 @@ class Coco : public testing::Test {
   std::vector<render::Frame> frames;
 };
 
-TEST_F(Coco, HoldsWhatALoaderNeeds) {
+TEST_F(Coco, HoldsTheFieldsThatALoaderNeeds) {
   const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
   EXPECT_EQ(coco.at("info").at("description"), "a test");
   EXPECT_EQ(coco.at("licenses").at(0).at("name"), "CC0-1.0");
@@ -215,7 +215,7 @@ TEST_F(Coco, PositionsProjectFromTheFileAlone) {
   }
 }
 
-TEST_F(Coco, TracksSayOnceWhatStaysTheSame) {
+TEST_F(Coco, TracksHoldConstantFieldsOnce) {
   const skinning::Population population = [] {
     skinning::Population people;
     people.characters.resize(3);
@@ -249,7 +249,7 @@ TEST_F(Coco, TracksSayOnceWhatStaysTheSame) {
   EXPECT_FALSE(coco["annotations"][0].contains("attributes"));
 }
 
-TEST_F(Coco, WhoLiesIsLabeledSoWhateverTheirStateIsCalled) {
+TEST_F(Coco, LyingPeopleAreLabeledSoInAnyState) {
   skinning::Population population;
   population.characters.resize(3);
   world::Trace trace;

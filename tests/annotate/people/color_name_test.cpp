@@ -18,7 +18,7 @@ struct NamedColor {
   std::set<std::string_view> names;
 };
 
-TEST(ColorName, IsWhatCssCallsColors) {
+TEST(ColorName, IsTheNameInCss) {
   const NamedColor colors[] = {
       {"black", {0, 0, 0}, {"black"}},
       {"white", {255, 255, 255}, {"white"}},

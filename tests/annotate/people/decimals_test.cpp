@@ -21,7 +21,7 @@ TEST(Decimals, LastZerosAreLeftOut) {
   EXPECT_EQ(written(1000, 3), "1000");
 }
 
-TEST(Decimals, RoundedIsWhatAReaderGets) {
+TEST(Decimals, RoundedIsTheValueThatAReaderGets) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> values(-5000, 5000);
   for (int i = 0; i < 100'000; ++i) {

@@ -129,7 +129,7 @@ class Occluders : public testing::Test {
   render::Frame frame_;
 };
 
-TEST_F(Occluders, AreNoneOfWhoIsWhollySeen) { EXPECT_TRUE(occluders().empty()); }
+TEST_F(Occluders, AreNoneForAWhollyVisiblePerson) { EXPECT_TRUE(occluders().empty()); }
 
 TEST_F(Occluders, AreBySharesAndInstance) {
   fill(18, 19, render::kIdProp + 5);

@@ -34,7 +34,7 @@ camera::Camera camera_looking(double yaw_rad) {
 
 constexpr double kNorth = 1.5707963267948966;
 
-TEST(ExitView, SaysWhatHappensAtTheTime) {
+TEST(ExitView, ShowsTheExitAtTheTime) {
   const camera::Camera camera = camera_looking(kNorth);
   const json before = json::parse(one_door().json(camera, 0.99)).at(0);
   EXPECT_EQ(before.at("state"), "idle");
@@ -71,7 +71,7 @@ TEST(ExitView, OutlinesThatAreNotInTheImageAreEmpty) {
 }
 
 // Straight above the door, half of the ground is behind a camera that looks ahead.
-TEST(ExitView, CutsOffWhatIsBehindTheCamera) {
+TEST(ExitView, CutsOffPartsBehindTheCamera) {
   camera::Camera camera = camera_looking(kNorth);
   camera.pose = camera::pose_looking({0, 8.5, 0.8}, kNorth, -0.3);
   const json exit = json::parse(one_door().json(camera, 0)).at(0);

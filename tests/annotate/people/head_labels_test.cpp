@@ -50,7 +50,7 @@ TEST_F(Heads, AreWhollyVisibleWithNothingInFront) {
   EXPECT_EQ(head().box.min(), Eigen::Vector2d(12, 10));
 }
 
-TEST_F(Heads, AreHiddenByWhatIsInTheirBox) {
+TEST_F(Heads, AreHiddenByObjectsInTheirBox) {
   fill(10, 12, 15, 20, render::kIdProp);  // 3 x 2 of the head's 5 x 4 pixels
   EXPECT_DOUBLE_EQ(head().visibility.value(), 0.7);
   fill(12, 10, 17, 14, render::kIdBuilding);

@@ -123,7 +123,7 @@ TEST(LabelPeople, HiddenPeopleAndOtherThingsHaveNoLabel) {
   EXPECT_TRUE(label_people(frame).people.empty());
 }
 
-TEST(LabelPeople, ListsWhoIsHiddenInTheImage) {
+TEST(LabelPeople, ListsPeopleThatAreHiddenInTheImage) {
   render::Frame frame = empty_frame(40, 30);
   const auto add = [&](std::uint32_t agent, double left, double top) {
     render::PersonInView person;

@@ -50,7 +50,7 @@ std::string row_of(const std::string& csv, int frame, const std::string& id) {
 const CountAreas kAreas = {.zones = {{"east", {{0, -5}, {5, -5}, {5, 5}, {0, 5}}}},
                            .lines = {{"axis", {0, -5}, {0, 5}}, {"short", {0, 0.5}, {0, 5}}}};
 
-TEST(ZoneCounts, NameWhoIsInsideAndWhoChanged) {
+TEST(ZoneCounts, ListPeopleInsideAndChanges) {
   const std::string csv = counts_csv(three_people(), kAreas, std::vector<double>{0, 1, 2}, 3);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "frame,time_s,kind,id,inside,inflow,outflow,entered,left");

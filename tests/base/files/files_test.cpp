@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using throng::testing::TemporaryFolder;
 
-TEST(Files, ReadsBackWhatWasWrittenByteForByte) {
+TEST(Files, ReadsBackTheWrittenBytes) {
   const TemporaryFolder folder;
   const std::string bytes("a\0b\r\n\xff", 6);
   write_file_atomically(folder.path() / "deep" / "er" / "file", bytes);
@@ -39,7 +39,7 @@ TEST(Files, LinkOrCopyGivesTheSameBytesAndNamesBothFilesOnFailure) {
   }
 }
 
-TEST(Files, WhatCannotBeReadIsTheEnvironmentsFault) {
+TEST(Files, UnreadableFilesAreFaultsOfTheEnvironment) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_file(folder.path() / "nowhere"), EnvironmentError);
   EXPECT_THROW(read_file(folder.path()), EnvironmentError);
@@ -135,7 +135,7 @@ TEST(StagingFolder, LeavesNothingWithoutCommit) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-TEST(StagingFolder, KeepsWhatIsPublishedAlready) {
+TEST(StagingFolder, KeepsPublishedFiles) {
   const TemporaryFolder folder;
   write_file_atomically(folder.path() / "done" / "file", "first");
   StagingFolder staging(folder.path() / "done");
@@ -144,7 +144,7 @@ TEST(StagingFolder, KeepsWhatIsPublishedAlready) {
   EXPECT_EQ(read_file(folder.path() / "done" / "file"), "first");
 }
 
-TEST(StagingFolder, ReplacesWhatIsThereWhenAsked) {
+TEST(StagingFolder, ReplacesExistingFilesWhenAsked) {
   const TemporaryFolder folder;
   for (const char* content : {"first", "second"}) {
     StagingFolder staging(folder.path() / "done");

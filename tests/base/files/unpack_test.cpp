@@ -170,7 +170,7 @@ TEST_F(Unpacking, DamagedAndForeignFilesAreRefused) {
   EXPECT_THAT(refusal_of(zip), HasSubstr("stored or deflated"));
 }
 
-TEST_F(Unpacking, WhatMacOsAddsIsLeftOut) {
+TEST_F(Unpacking, FilesOfMacOsAreLeftOut) {
   EXPECT_EQ(
       unpack_archive(
           packed(Packing::zip, {{"a", "x"}, {"__MACOSX/._a", "y"}, {"sub/.DS_Store", "z"}}), folder)

@@ -52,7 +52,7 @@ Outcome read(const char* text) {
   return outcome;
 }
 
-TEST(FieldTable, ReadsWhatIsRight) {
+TEST(FieldTable, ReadsValidValues) {
   const Outcome outcome = read(
       R"({"kind": "house", "size": {"height_m": 2}, "watt": 40, "count": 3, "on": false,
           "list": [1, 2], "name": "porch"})");
@@ -112,7 +112,7 @@ TEST(FieldTable, AnOldNameIsReadUnlessBothAreGiven) {
           R"(lamp.json: /lamps/0/number: found both "count" and "number", expected only "count")"));
 }
 
-TEST(FieldTable, PrintsWhatItReads) {
+TEST(FieldTable, PrintsTheValuesThatItReads) {
   const Outcome outcome = read(R"({"size": {"height_m": 2}, "name": "a"})");
   EXPECT_EQ(lamp_fields().print(outcome.lamp),
             json::parse(R"({"kind": "street", "size": {"height_m": 2.0}, "count": 1, "on": true,

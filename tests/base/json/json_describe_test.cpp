@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Describe, ShowsWhatIsShort) {
+TEST(Describe, ShowsShortValues) {
   for (const char* text : {"5", "-1.5", "true", "null", "\"red\"", "[4, 2, 1, 3]", "[]", "{}",
                            "[[0, 1], [2, 3]]", "{\"kind\": \"plaza\"}"}) {
     EXPECT_EQ(describe(json::parse(text)), text);

@@ -37,7 +37,7 @@ Problem problem_of(const std::string& text, const JsonLimits& limits = {}) {
   return {};
 }
 
-TEST(JsonText, ReadsWhatTheLibraryReads) {
+TEST(JsonText, ReadsTheSameTextsAsTheLibrary) {
   for (const std::string text :
        {"null", "true", "-0", "12", "-12", "1.5e-3", "\"a\\u00e4\\ud83d\\ude00\"", "[]", "{}",
         R"([1,[2,{"a":[]}],{"b":{"c":null,"d":"x"}},[],"e"])", "18446744073709551615",
@@ -89,7 +89,7 @@ TEST(JsonText, NumbersFitADouble) {
   }
 }
 
-TEST(JsonText, RefusesWhatIsNoJson) {
+TEST(JsonText, RefusesOtherTexts) {
   for (const std::string& text :
        {std::string("\"\xff\""), std::string("\"\xc0\x80\""), std::string("\"\xed\xa0\x80\""),
         std::string("\"\\ud800\""), std::string("\"\\udc00\\ud800\""), std::string("[1\0]", 4)}) {

@@ -70,7 +70,7 @@ TEST(JsonSchema, NamesMissingAndUnknownFields) {
                           HasSubstr("/name: nothing")));
 }
 
-TEST(JsonSchema, SaysWhatAlternativesThereAre) {
+TEST(JsonSchema, NamesTheAlternatives) {
   EXPECT_THAT(violations(R"({"name": "a", "speed": "fast"})"),
               ElementsAre("/speed: \"fast\" / a number or a distribution"));
   EXPECT_THAT(violations(R"({"name": "a", "speed": {"norml": [1, 2]}})"),

@@ -80,7 +80,7 @@ TEST(Schemas, ReferencesAndRequiredFieldsExist) {
   }
 }
 
-TEST(Schemas, RefuseWhatTheReaderDidNotName) {
+TEST(Schemas, RefuseFaultsThatTheReaderDidNotName) {
   std::vector<Problem> problems;
   add_schema_problems(Kind::camera, json::parse(R"({"width": 640, "height": "x", "lens": "pinhole",
                       "fx": 1, "fy": 1, "cx": 0, "cy": 0})"),

@@ -97,7 +97,7 @@ TEST_F(Files, TablesThatAreNoneAreRefused) {
   EXPECT_THAT(error_of([&] { image_size_of("640", "--size"); }), HasSubstr("WIDTHxHEIGHT"));
 }
 
-TEST_F(Files, ACameraNeedsOnlyWhatDescribesIt) {
+TEST_F(Files, ACameraNeedsOnlyItsParameters) {
   const json camera = {{"width", 640}, {"height", 480}, {"lens", "pinhole"}, {"fx", 500},
                        {"fy", 501},    {"cx", 320},     {"cy", 240}};
   const fs::path file = write("camera.json", camera.dump());
@@ -113,7 +113,7 @@ TEST_F(Files, ACameraNeedsOnlyWhatDescribesIt) {
               HasSubstr("an object"));
 }
 
-TEST_F(Files, ControlPointsSayWhatIsWrongWithThem) {
+TEST_F(Files, MistakesInControlPointsAreReported) {
   const ControlPoints good =
       read_control_points(write("gcp.csv", "point,X,Y,Z,sd\na,1,2,3,0.02\nb,4,5,6,\n"));
   EXPECT_EQ(good.at("a").sd_m, 0.02);

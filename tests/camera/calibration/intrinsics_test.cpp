@@ -51,7 +51,7 @@ TEST(Intrinsics, FindSkew) {
 
 // 200 repetitions: errors are within three of the standard deviations that go with them, the whole
 // error is as large as the covariance predicts, and the residuals are the noise.
-TEST(Intrinsics, ErrorsAreWhatTheCovarianceSays) {
+TEST(Intrinsics, ErrorsMatchTheCovariance) {
   constexpr int kRepetitions = 200;
   constexpr double kSigma = 0.2;
   const SyntheticCamera camera;

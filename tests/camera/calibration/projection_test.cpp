@@ -78,7 +78,7 @@ TEST(Projection, ShowsNothingBehindTheCamera) {
   EXPECT_FALSE(project(false, p.data(), behind.data(), pixel.data()));
 }
 
-TEST(Rules, RefuseWhatContradictsItself) {
+TEST(Rules, RefuseContradictions) {
   Wishes wishes;
   wishes.fixed["k9"] = 0;
   EXPECT_THROW(rules_of(Lens::brown5, wishes, "--fix"), InputError);

@@ -35,7 +35,7 @@ bool reader_takes(const json& request) {
   }
 }
 
-TEST(RequestSchema, TakesWhatTheReaderTakes) {
+TEST(RequestSchema, AcceptsTheSameDocumentsAsTheReader) {
   for (const char* text :
        {R"({})", R"({"kind": "pose", "name": "roof"})", R"({"kind": "bundle", "fix_lens": true})",
         R"({"board": {"kind": "charuco", "columns": 7, "rows": 5, "square": 0.04, "marker": 0.03,
@@ -49,7 +49,7 @@ TEST(RequestSchema, TakesWhatTheReaderTakes) {
   }
 }
 
-TEST(RequestSchema, RefusesWhatTheReaderRefuses) {
+TEST(RequestSchema, RefusesTheSameDocumentsAsTheReader) {
   for (const char* text : {R"([])",
                            R"({"colour": 1})",
                            R"({"kind": "guess"})",

@@ -83,7 +83,7 @@ bool gets_through(Compat compat) {
   return crowd.positions()[1].x() > 12;
 }
 
-TEST(Actions, ObstaclesAreGivenBackToWhoHadThem) {
+TEST(Actions, ObstaclesAreReturnedToTheirFormerAgents) {
   EXPECT_TRUE(gets_through(Compat::none));
   EXPECT_FALSE(gets_through(Compat::menge)) << "it gets those of agent 0";
 }

@@ -150,7 +150,7 @@ std::string problem_of(const std::string& events, const std::string& attributes 
   return "accepted";
 }
 
-TEST(Events, ConservativeSystemsRejectWhatIsWrong) {
+TEST(Events, ConservativeSystemsRejectMistakes) {
   const std::string good = kStarters + kFaster;
   const auto rejected = [&](const std::string& events, const std::string& text) {
     EXPECT_NE(problem_of(events).find(text), std::string::npos) << problem_of(events);

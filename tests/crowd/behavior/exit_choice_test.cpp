@@ -89,7 +89,7 @@ TEST(ExitChoice, AWiderExitDrainsItsQueueFaster) {
   EXPECT_LT(headed_for(crowd)[1], 10);
 }
 
-TEST(ExitChoice, WhoDoesNotKnowTheOtherExitStays) {
+TEST(ExitChoice, AgentsThatDoNotKnowTheOtherExitStay) {
   Simulation unfamiliar =
       test::load(crowd_at_the_left(10), choosing(R"(flow="1" familiarity="0" sight="5")"));
   Simulation half =

@@ -124,7 +124,7 @@ int goal_at(Simulation& crowd, std::size_t agent, double time_s) {
   return crowd.goals()[agent].goal;
 }
 
-TEST(Goals, AreFreedByWhoLeavesTheState) {
+TEST(Goals, AreFreedWhenAnAgentLeavesTheState) {
   Simulation crowd = crowd_with_turns("");
   EXPECT_EQ(goal_at(crowd, 0, 0.05), 1);
   EXPECT_EQ(goal_at(crowd, 1, 1.75), 1) << "agent 0 has left";

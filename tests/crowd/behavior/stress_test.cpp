@@ -52,7 +52,7 @@ TEST(Stress, GoesOnPausesOrCoolsDown) {
   EXPECT_EQ(radius_at(cool, 6), 1);
 }
 
-TEST(Stress, ActsOnWhatOtherActionsMakeOfAProperty) {
+TEST(Stress, ActsOnThePropertyThatOtherActionsChanged) {
   const std::string set =
       R"(<Action type="set_property" property="r" dist="c" value="2" exit_reset="1"/>)";
   Simulation crowd = crowd_with(timed("continue"), agent_at(0, 0), set);

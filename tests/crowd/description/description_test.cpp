@@ -138,7 +138,7 @@ TEST(Descriptions, InMemoryMoveAsTheirFilesDo) {
             from_files);
 }
 
-TEST(Builders, MakeWhatAFileWouldSay) {
+TEST(Builders, BuildTheDescriptionOfAFile) {
   const test::TemporaryFolder folder;
   const fs::path scene = folder.write("scene.xml", R"(<Experiment version="2.0">
     <SpatialQuery type="kd-tree" test_visibility="0"/><Common time_step="0.1"/>
@@ -180,7 +180,7 @@ TEST(Builders, ReplaceAnAttributeThatIsSetAgain) {
   EXPECT_EQ(goal.find("X"), nullptr);
 }
 
-TEST(Errors, OfWhatWasBuiltSaySoAndWhere) {
+TEST(Errors, NameTheBuiltElement) {
   SceneBuilder scene = two_people();
   scene.add_group({.profile = "child", .state = "Walk", .generator = agents_at({{5, 5}})});
   Problem problem = problem_of(scene.build(), walk_right().build());

@@ -145,7 +145,7 @@ Problem problem_of(const std::string& distribution) {
   return {};
 }
 
-TEST(Distribution, SaysWhatIsWrong) {
+TEST(Distribution, ReportsMistakes) {
   EXPECT_NE(problem_of(R"(dist="lognromal")").found.find("did you mean lognormal"),
             std::string::npos)
       << problem_of(R"(dist="lognromal")").found;

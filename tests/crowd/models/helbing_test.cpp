@@ -91,7 +91,7 @@ TEST(Helbing, EveryInstructionSetGivesTheSameBits) {
             step(dense_crowd(101, best_instruction_set())));
 }
 
-TEST(Helbing, WhoHasToGiveWayIsPushedMore) {
+TEST(Helbing, AgentsThatGiveWayArePushedMore) {
   Crowd crowd = dense_crowd(2, best_instruction_set());
   Agents& agents = crowd.agents;
   agents.position = {{0, 0}, {1, 0.1F}};

@@ -91,7 +91,7 @@ TEST(BestVelocity, KeepsHardPlanesWhenNotAllCanBeKept) {
   EXPECT_LE(v.x(), 1e-5F);
 }
 
-TEST(AvoidDisc, TwoWhoTakeTheirHalvesDoNotTouchWithinTheHorizon) {
+TEST(AvoidDisc, TwoAgentsThatEachTakeHalfDoNotTouchWithinTheHorizon) {
   HalfPlanes scratch;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed, Stream::crowd_generator);

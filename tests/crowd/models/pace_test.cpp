@@ -111,7 +111,7 @@ TEST(Pace, LeavesALittleInAJam) {
   EXPECT_GT(share, 0);
 }
 
-TEST(Pace, KeepsRightOfThoseWhoComeAndLooksFartherAhead) {
+TEST(Pace, KeepsRightOfOncomingPeopleAndLooksFartherAhead) {
   PaceOf meeting({{1, 0}});
   const SpeedRegulation behind = meeting.regulation();
   EXPECT_EQ(behind.direction.y(), 0);

@@ -89,7 +89,7 @@ TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
   EXPECT_GT(compared, 0.3) << "they came near enough to avoid each other";
 }
 
-TEST(Ttc, PeopleWhoMeetAvoidEachOtherEarlyAndGently) {
+TEST(Ttc, OncomingPeopleAvoidEachOtherEarlyAndGently) {
   for (const double aside : {0.1, 0.3}) {
     Simulation crowd = meeting(aside, 0.1, "");
     double begun_s = -1;

@@ -18,7 +18,7 @@ Simulation walker(const Physical& physical) {
                     test::mirror_behavior(), {.physical = physical});
 }
 
-TEST(Bodies, WhoIsStruckHardFallsLiesAndGoesOn) {
+TEST(Bodies, AHardBlowMakesAnAgentFallLieAndGetUp) {
   Simulation crowd = walker(kPhysical);
   for (int i = 0; i < 20; ++i) crowd.step();
   crowd.strike(0, {0, 30});

@@ -121,7 +121,7 @@ TEST(Facing, CompatibleRunsFaceTheWayAsMengeDoes) {
   EXPECT_LT(off_by(crowd, [](const Eigen::Vector2f&) { return 0.0; }).second, 1e-6);
 }
 
-TEST(Facing, WhoWalksFromTheStartLooksWhereTheyGo) {
+TEST(Facing, AgentsThatWalkFromTheStartFaceTheirDirection) {
   const std::string walk = R"(<BFSM>
   <GoalSet id="0"><Goal id="0" type="point" x="-500" y="4"/></GoalSet>
   <State name="Wait" final="1"><GoalSelector type="explicit" goal_set="0" goal="0"/>

@@ -107,7 +107,7 @@ TEST(Separation, HoldsForForceModelsToo) {
   }
 }
 
-TEST(Separation, MovesApartWhoOverlapsInTheBeginning) {
+TEST(Separation, SeparatesAgentsThatOverlapAtTheStart) {
   std::string agents;
   for (int i = 0; i < 25; ++i) agents += test::agent_at(0.1 * (i / 5), 0.1 * (i % 5));
   Simulation crowd =

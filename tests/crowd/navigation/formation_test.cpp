@@ -57,7 +57,7 @@ TEST(Formation, AgentsTakeTheirPlacesOnTheWay) {
   }
 }
 
-TEST(Formation, WhoFindsNoPlaceWalksAlone) {
+TEST(Formation, AgentsWithoutASlotWalkAlone) {
   const test::TemporaryFolder folder;
   folder.write("one.txt", "1\n 0 0 1\n 1 0\n");
   Simulation crowd(folder.write("scene.xml", scene_with(agent_at(0, 0) + agent_at(0, 5))),

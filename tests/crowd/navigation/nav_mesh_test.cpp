@@ -99,7 +99,7 @@ TEST(NavMesh, IsReadFromAFile) {
   EXPECT_FALSE(walls.polygons()[0].solid) << "people walk inside";
 }
 
-TEST(NavMesh, SaysWhatIsWrongAndWhere) {
+TEST(NavMesh, ReportsMistakesWithTheirLine) {
   EXPECT_EQ(problem_of("").found, "the end of the file");
   EXPECT_NE(problem_of("99999999 0 0").expected.find("no more than follow"), std::string::npos);
   EXPECT_EQ(problem_of("3\n0 0\n1 x\n").where, "line 3");

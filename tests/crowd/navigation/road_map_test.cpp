@@ -88,7 +88,7 @@ Eigen::Vector2f heading_of_who_lost_sight(Compat compat) {
   return crowd.preferred_velocity(0).normalized();
 }
 
-TEST(RoadMap, WhoLosesSightOfAPlaceLooksForAnotherWayOrGoesBackAsInMenge) {
+TEST(RoadMap, AgentsThatLoseSightOfANodeReplanOrGoBackAsInMenge) {
   const Eigen::Vector2f to_next(1, 0);
   EXPECT_GT(heading_of_who_lost_sight(Compat::none).dot(to_next), 0.99F) << "by way of (2, -5)";
   EXPECT_LT(heading_of_who_lost_sight(Compat::menge).dot(to_next), -0.99F);
@@ -103,7 +103,7 @@ TEST(RoadMap, AgentsFollowGoalsThatMove) {
   EXPECT_TRUE(crowd.all_final());
 }
 
-TEST(RoadMap, SaysWhatIsWrongAndWhere) {
+TEST(RoadMap, ReportsMistakesWithTheirLine) {
   const test::TemporaryFolder folder;
   const auto problem_of = [&](const std::string& text) {
     try {

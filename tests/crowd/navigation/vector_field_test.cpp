@@ -39,7 +39,7 @@ TEST(VectorField, SetsDirectionAndSpeed) {
   EXPECT_LT((velocity(R"(use_nearest="0")") - Eigen::Vector2f(1.2F, 1.8F)).norm(), 1e-5F);
 }
 
-TEST(VectorField, SaysWhatIsWrong) {
+TEST(VectorField, ReportsMistakes) {
   const test::TemporaryFolder folder;
   for (const std::string text : {"", "2 3\n", "2 3\n0\n0 0\n", "100000 100000\n1\n0 0\n1 1\n",
                                  "1 1\n1\n0 0\n1 nan\n", "1 1\n1\n0 0\n1 1\n1 1\n"}) {

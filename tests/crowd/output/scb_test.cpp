@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Versions, Scb,
                                          Layout{"2.1", 20, 4}, Layout{"2.2", 20, 8},
                                          Layout{"2.3", 20, 4}, Layout{"2.4", 20, 4}));
 
-TEST(Scb, SaysWhatEachVersionSays) {
+TEST(Scb, WritesTheFieldsOfEachVersion) {
   constexpr std::size_t kHeader = 20;
   const auto value = [](const std::string& bytes, std::size_t floats, std::size_t frame,
                         std::size_t agent, std::size_t index) {
@@ -127,7 +127,7 @@ TEST(Scb, SaysWhatEachVersionSays) {
   EXPECT_NEAR(value(v24, 4, 0, 1, 3), yaw_rad, 1e-5);
 }
 
-TEST(Scb, HasNoNumbersForWhoTakesNoPart) {
+TEST(Scb, HasNaNForAbsentAgents) {
   const test::TemporaryFolder folder;
   Simulation crowd = two_agents();
   crowd.set_present(1, false);

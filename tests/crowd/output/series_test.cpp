@@ -90,7 +90,7 @@ TEST(Series, TakesTheFrameNearestToASecond) {
   EXPECT_EQ(series_of(four_agents(2.5), 3).size(), 5U);
 }
 
-TEST(Series, LeavesOutWhoTakesNoPart) {
+TEST(Series, LeavesOutAbsentAgents) {
   Simulation crowd = four_agents();
   crowd.set_present(3, false);
   const std::vector<std::string> fields = fields_of(series_of(std::move(crowd), 0)[1]);
@@ -178,7 +178,7 @@ TEST(PairDistances, AreThoseOfAllPairs) {
   }
 }
 
-TEST(PairDistances, LeaveOutWhatIsNoNumber) {
+TEST(PairDistances, LeaveOutNaN) {
   PairDistancesMeter meter;
   const std::vector<Eigen::Vector2f> places = {{0, 0}, {NAN, 0}, {0, INFINITY}, {3, 4}};
   const PairDistances found =
@@ -186,7 +186,7 @@ TEST(PairDistances, LeaveOutWhatIsNoNumber) {
   EXPECT_EQ(found.nearest_m, 5);
 }
 
-TEST(Csv, QuotesWhatNeedsQuotes) {
+TEST(Csv, QuotesFieldsThatNeedQuotes) {
   EXPECT_EQ(csv_text("plain"), "plain");
   EXPECT_EQ(csv_text("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_text("say \"hi\""), "\"say \"\"hi\"\"\"");

@@ -118,7 +118,7 @@ TEST(Arrivals, OfPoissonHaveTheRateAndDependOnTheSeed) {
   EXPECT_NE(one.agent_count(), other.agent_count());
 }
 
-TEST(Arrivals, WhoIsTakenOutOfTheRunNeverComes) {
+TEST(Arrivals, RemovedAgentsNeverArrive) {
   Simulation crowd = test::load(scene_with_arrivals(kEverySecond), kToTheSink);
   crowd.set_present(0, false);
   crowd.set_present(1, true);  // still comes in its own time

@@ -82,7 +82,7 @@ TEST(Scatter, IsEvenAndInNoOrder) {
   EXPECT_LT(std::abs(along) / 4000, 0.06);
 }
 
-TEST(Scatter, LeavesRoomToThoseWhoAreThere) {
+TEST(Scatter, LeavesRoomForPresentAgents) {
   const std::vector<Vector2f> taken = {{2, 2}, {3, 2.5}, {-5, 0}};
   ScatterSpec spec;
   spec.area = rectangle(0, 0, 4, 4);

@@ -95,7 +95,7 @@ TEST(Grid, CopesWithMoreCandidatesThanItRemembers) {
   expect_brute_force(scattered(900, 1.5, 1.5, 6), 5, 300, 100);
 }
 
-TEST(Grid, CopesWithWhatIsNoNumber) {
+TEST(Grid, ToleratesNaN) {
   Agents agents = scattered(200, 8, 8, 7);
   agents.position[3].setConstant(std::numeric_limits<float>::quiet_NaN());
   agents.position[4].setConstant(std::numeric_limits<float>::infinity());

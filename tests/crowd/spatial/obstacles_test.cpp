@@ -83,7 +83,7 @@ TEST(Obstacles, KnowsSolidGroundAndOuterWalls) {
   EXPECT_FALSE(obstacles.is_solid({10, 1}, 2)) << "minds no outer walls";
 }
 
-TEST(Obstacles, HidesWhatWallsAreBefore) {
+TEST(Obstacles, HidesAgentsBehindWalls) {
   Obstacles obstacles;
   const std::array<Eigen::Vector2f, 4> box = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
   obstacles.add_polygon(box, 2);

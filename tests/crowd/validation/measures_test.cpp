@@ -147,7 +147,7 @@ TEST(LeaveRoom, MeasuresFlowAndOverlap) {
   EXPECT_LE(run.overlap_m, 0.4 + 1e-6) << "two radii";
 }
 
-TEST(CrossSquare, FindsNobodyStuckWhoWalksAlone) {
+TEST(CrossSquare, FindsNoLoneWalkerStuck) {
   const SquareRun run = cross_square(kDummy, 0.1, 1);
   EXPECT_LE(run.stuck, 0.05);
   EXPECT_NEAR(run.speed_mps, 1.34, 0.1);

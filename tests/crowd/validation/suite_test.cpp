@@ -54,14 +54,14 @@ TEST(Suite, HasUniqueIdsAndReportsAllOfThem) {
   EXPECT_THAT(page, testing::HasSubstr("| passed | 2 of 2 |"));
 }
 
-TEST(Suite, CountsOnlyWhatItsSourcesDemand) {
+TEST(Suite, CountsOnlyDemandsOfItsSources) {
   const std::string page =
       markdown(run_suite({"orca"}, {"rimea_1", "rimea_4"}, Effort::reduced, 1));
   EXPECT_THAT(page, testing::HasSubstr("| RiMEA 4 | **o** "));
   EXPECT_THAT(page, testing::HasSubstr("| passed | 1 of 1 |"));
 }
 
-TEST(Suite, RefusesWhatIsNotThere) {
+TEST(Suite, RefusesUnknownNames) {
   EXPECT_THROW(run_suite({"dance"}, {}, Effort::reduced, 1), InputError);
   EXPECT_THROW(run_suite({}, {"rimea_99"}, Effort::reduced, 1), InputError);
 }

@@ -92,7 +92,7 @@ TEST(RunEvents, BeginBeforeTheyEnd) {
   EXPECT_EQ(faults_of_records({event(1, "gets_up", who)}).size(), 1U);
 }
 
-TEST(RunEvents, TrajectoriesShowWhoIsThere) {
+TEST(RunEvents, TrajectoriesShowPresentPeople) {
   const float absent = std::nanf("");
   const RunTrajectories there{
       {0, 1, 2}, {1, 2}, {"Walk"}, {absent, absent, absent, absent, 1, 1, 0, 0,  //

@@ -74,7 +74,7 @@ TEST_F(TrajectoryTexts, EthUcyHasFramePersonAndPlace) {
   EXPECT_EQ(text[4], "3\t9\t-3.0000\t1.5000");
 }
 
-TEST_F(TrajectoryTexts, TrajNetHasScenesOf21FramesOfSomebodyWhoIsThere) {
+TEST_F(TrajectoryTexts, TrajNetHasScenesOf21FramesOfAPresentPerson) {
   std::vector<json> scenes;
   std::size_t tracks = 0;
   for (const std::string& line : lines(exported("trajnet") / "train/run000.ndjson")) {

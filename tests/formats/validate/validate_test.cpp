@@ -333,7 +333,7 @@ TEST_F(Validate, CamerasThatContradictThemselves) {
   expect("camera", kCocoFile, "image 1");
 }
 
-TEST_F(Validate, WholeMasksThatLackWhatIsVisible) {
+TEST_F(Validate, WholeMasksThatLackVisiblePixels) {
   const std::string whole = read_file(root_ / kCocoFile);
   // Nobody is set apart: the mask is empty, of the visible pixels, or of one more than there are.
   change_person([](json& r) {

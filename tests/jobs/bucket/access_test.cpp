@@ -78,7 +78,7 @@ TEST_F(AccessTest, ProfilesOfBothFiles) {
   EXPECT_EQ(access.endpoint, "https://objects.example.org");
 }
 
-TEST_F(AccessTest, WhatIsMissingIsNamed) {
+TEST_F(AccessTest, MissingValuesAreNamed) {
   EXPECT_THAT(refusal(), HasSubstr("AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY"));
   set("AWS_ACCESS_KEY_ID", "id");
   EXPECT_THAT(refusal(), HasSubstr("AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY"));

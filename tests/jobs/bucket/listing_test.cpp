@@ -48,7 +48,7 @@ TEST(Listing, UploadsAndParts) {
   EXPECT_TRUE(parts.next.empty());
 }
 
-TEST(Listing, WhatIsNoListingIsNoEmptyOne) {
+TEST(Listing, AnswersThatAreNoListingsAreRefused) {
   for (const char* wrong :
        {"", "<ListBucketResult>", "<html></html>", "{}", "<Error><Code>SlowDown</Code></Error>",
         "<ListBucketResult><IsTruncated>true</IsTruncated></ListBucketResult>"}) {

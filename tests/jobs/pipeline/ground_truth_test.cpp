@@ -84,7 +84,7 @@ TEST(GroundTruthTables, FilesAreNamedByRunCameraAndFrame) {
             "flow/run000/RUN-CAMERA_FRAME/000003.png");
 }
 
-TEST(GroundTruthTables, TheRendererIsAskedForWhatTheKindsNeed) {
+TEST(GroundTruthTables, TheRendererIsAskedForTheBuffersOfTheKinds) {
   const auto needs = [](std::vector<std::string> names) { return annotate::render_needs(names); };
   EXPECT_FALSE(needs({"coco", "depth", "instances"}).parts);
   EXPECT_TRUE(needs({"parts"}).parts);

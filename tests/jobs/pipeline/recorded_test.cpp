@@ -115,7 +115,7 @@ TEST_F(RecordedJob, TakesAsManyOfThemAsItAsksFor) {
             5);
 }
 
-TEST_F(RecordedJob, SaysWhatIsWrong) {
+TEST_F(RecordedJob, ReportsMistakes) {
   const auto with = [&](const char* pointer, const json& value) {
     json asked = job();
     asked[json::json_pointer(pointer)] = value;

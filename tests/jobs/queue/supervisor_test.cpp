@@ -165,7 +165,7 @@ TEST_F(SupervisorTest, WithoutAnyRunThereIsNoDataset) {
   EXPECT_FALSE(folder().is_done({Task::Kind::collect}));
 }
 
-TEST_F(SupervisorTest, SaysHowFastItIsAndWhatIsLeft) {
+TEST_F(SupervisorTest, ReportsPaceAndRemainingTime) {
   executor.before = [](const Task&) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return TaskResult{};
@@ -181,7 +181,7 @@ TEST_F(SupervisorTest, SaysHowFastItIsAndWhatIsLeft) {
   EXPECT_TRUE(was_known);
 }
 
-TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
+TEST_F(SupervisorTest, RemovesLeftoversOfDeadWorkers) {
   const std::filesystem::path leftover =
       folder().path() / "work" / "run000" / "shard0000.tmp.12345.0" / "files";
   std::filesystem::create_directories(leftover);
@@ -189,7 +189,7 @@ TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
   EXPECT_FALSE(std::filesystem::exists(leftover.parent_path()));
 }
 
-TEST_F(SupervisorTest, RemovesWhatAWorkerLeftThatDiedMeanwhile) {
+TEST_F(SupervisorTest, RemovesLeftoversOfAWorkerThatDiedMeanwhile) {
   const JobFolder work = folder();
   std::vector<std::filesystem::path> leftovers;
   executor.before = [&](const Task& task) {

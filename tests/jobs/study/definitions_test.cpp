@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Definitions,
                          ::testing::ValuesIn(world::list_scenarios(kScenarioFolder)), test_name);
 
 // Many of the header's 250 people arrive after the run's end.
-TEST(WhoCounts, AreThoseWhoArrive) {
+TEST(CountedPeople, AreThePeopleThatArrive) {
   const world::Scenario scenario = places::find_scenario(kScenarioFolder, "city_square/emergency");
   sim::RunSpec spec;
   spec.seed = 7;
@@ -182,7 +182,7 @@ TEST(WhoCounts, AreThoseWhoArrive) {
 }
 
 // Walkers who head for an exit anyway are not warned before the fire starts (at 6 s).
-TEST(WhoNotices, KnowsOfTheAlarm) {
+TEST(NoticingPeople, KnowsOfTheAlarm) {
   const world::Scenario scenario = places::find_scenario(kScenarioFolder, "station/emergency");
   EXPECT_EQ(world::alarm_of(scenario).at_s, 6);
   sim::RunSpec spec;

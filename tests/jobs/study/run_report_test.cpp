@@ -92,7 +92,7 @@ TEST(RunReport, ChartsHaveTheRunsFigures) {
   EXPECT_EQ(figures["place"]["exits"][0]["open"], true);
 }
 
-TEST(RunReport, SaysWhatItsFiguresAre) {
+TEST(RunReport, ExplainsItsFigures) {
   const world::Scenario scenario = metrics::place_with_door(2);
   const std::string html = html_report(scenario, two_runs(scenario));
   EXPECT_NE(html.find(">people</a></td><td class=\"text\">1</td><td class=\"text\">who took "

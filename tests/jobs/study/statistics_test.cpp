@@ -122,7 +122,7 @@ TEST(Statistics, QuantileIntervalsCoverTheQuantile) {
 
 // The definition, one hypothesis after the other: those with smaller p-values first, each of them
 // against the level over the number of hypotheses that are left, until one is not rejected.
-TEST(Holm, RejectsWhatTheStepDownProcedureRejects) {
+TEST(Holm, MatchesTheStepDownProcedure) {
   Random random(3, Stream::bootstrap);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> p_values(1 + random.below(8));

@@ -140,7 +140,7 @@ class StudyWork : public StudyFile {
   }
 };
 
-TEST_F(StudyWork, GoesOnWhereItStoppedAndRedoesWhatIsDamaged) {
+TEST_F(StudyWork, ResumesAndRepeatsDamagedRuns) {
   const Study study = load(small_study());
   const fs::path out = folder.path() / "out";
   std::stop_source stop;

@@ -42,7 +42,7 @@ TEST(Crossings, OnlyTheDoorWithItsMarginCounts) {
   EXPECT_EQ(net_crossings({{-1, -5}, {1, -5}}), 0);
 }
 
-TEST(Crossings, WhoLeavesElsewhereAndReturnsThroughTheDoorCameIn) {
+TEST(Crossings, LeavingElsewhereAndReturningThroughTheDoorIsAnEntry) {
   EXPECT_EQ(net_crossings({{-1, 5}, {1, 5}, {1, 0}, {-1, 0}}), -1);
 }
 

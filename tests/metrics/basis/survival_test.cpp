@@ -49,7 +49,7 @@ TEST(TimeByWhich, AgreesWithAPublishedProductLimitEstimate) {
 
 // Half of them are not watched any more when the others are through: as if they had gone on as
 // those.
-TEST(TimeByWhich, WhoWasNotWatchedForLongCountsAsTheOthers) {
+TEST(TimeByWhich, PeopleWatchedBrieflyCountAsTheOthers) {
   std::vector<Watched> people;
   for (int i = 1; i <= 10; ++i) {
     people.push_back({10.0 + i, true});

@@ -124,7 +124,7 @@ TEST(EarliestOut, AtOneDoorIsTheQueueOfArrivals) {
 
 // People who can take either door must leave the near one to those who cannot: only rerouting finds
 // that.
-TEST(EarliestOut, PeopleMakeRoomForThoseWhoHaveNoChoice) {
+TEST(EarliestOut, PeopleMakeRoomForOthersWithoutAChoice) {
   const double never = std::numeric_limits<double>::infinity();
   Departures departures;
   departures.capacity_per_s = {1, 1};

@@ -23,7 +23,7 @@ VoronoiCell cell_of(const std::vector<Vector2d>& people, std::size_t index,
   return VoronoiCutter(buildings).cell(geometry::PointGrid(people, 0.8), index);
 }
 
-TEST(Voronoi, WhoIsAloneHasTheWholeDisc) {
+TEST(Voronoi, ALonePersonHasTheWholeDisc) {
   EXPECT_NEAR(cell_of({{3, 4}}, 0).area_m2, kDiscM2, 1e-9);
 }
 

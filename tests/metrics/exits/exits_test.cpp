@@ -107,7 +107,7 @@ TEST(ExitSeries, IsCausal) {
   }
 }
 
-TEST(ExitSeries, WhoComesBackIsSubtractedAndWhoPassesBesideIsNotCounted) {
+TEST(ExitSeries, ReturningPeopleAreSubtractedAndPassersbyNotCounted) {
   std::vector<Walk> walks = column(3, 1, 2);
   walks.push_back(walking({10, 0}, {-1, 0}));
   walks.push_back(walking({-5, 4}, {1, 0}));
@@ -136,7 +136,7 @@ TEST(ExitSeries, MeasuresTheZone) {
   EXPECT_NEAR(sample.approach_speed_mps, 0.4, 1e-4);
 }
 
-TEST(ExitSeries, CountsOnlyPeopleWhoIntendTheExit) {
+TEST(ExitSeries, CountsOnlyPeopleThatIntendTheExit) {
   const std::vector<Walk> walks = {standing({-1, 0}), standing({-1, 0.5}), standing({-1, 1})};
   world::Trace trace = trace_of(walks);
   for (std::size_t step = 0; step < trace.steps(); ++step)

@@ -32,7 +32,7 @@ TEST(PeopleCounts, APersonLeavesByTheDoorOrByAGap) {
             0);
 }
 
-TEST(PeopleCounts, AnExitCountsWhoWasLastOnItsWay) {
+TEST(PeopleCounts, AnExitCountsPeopleLastHeadingForIt) {
   world::Scenario scenario = place_with_door(2);
   scenario.exits.push_back(door(2));
   scenario.exits[1].id = "outer";
@@ -76,7 +76,7 @@ TEST(PeopleCounts, ARecordingThatEndsInsideIsNoEscape) {
   EXPECT_EQ(metrics.exits[0].net_out(), 1);
 }
 
-TEST(PeopleCounts, WhoIsNeverInsideIsNoEvacuee) {
+TEST(PeopleCounts, PeopleNeverInsideAreNoEvacuees) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 3);
   const world::Trace trace = trace_of({standing({40, 0}), walking({-5, 0}, {1, 0})});
@@ -88,7 +88,7 @@ TEST(PeopleCounts, WhoIsNeverInsideIsNoEvacuee) {
   EXPECT_TRUE(metrics.escapes.percentile_s(100).has_value());
 }
 
-TEST(PeopleCounts, WhoArrivesOutsideOfTheDoorAndTurnsBackLeavesThere) {
+TEST(PeopleCounts, TurningBackOutsideOfTheDoorIsLeavingThere) {
   const Walk turns = [](double time_s) -> Eigen::Vector2d {
     return {time_s < 3 ? 5 - time_s : time_s - 1, 0};
   };

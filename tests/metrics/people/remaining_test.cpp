@@ -59,13 +59,13 @@ TEST(Remaining, NobodyLeavesByAShutDoorOrThroughWalls) {
   EXPECT_EQ(remaining_in(trace, place_with_door(2)).stalled, 1);
 }
 
-TEST(Remaining, ThoseWhoCameAMomentAgoAreOnTheirWay) {
+TEST(Remaining, RecentArrivalsAreOnTheirWay) {
   world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
   for (std::size_t step = 0; step < 800; ++step) trace.flags[trace.at(step, 0)] = 0;
   EXPECT_EQ(remaining_in(trace, place_with_door(2)).walking, 1);
 }
 
-TEST(Remaining, ThoseWhoAreGoneForGoodAreNotInside) {
+TEST(Remaining, DepartedPeopleAreNotInside) {
   world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
   for (std::size_t step = 900; step < trace.steps(); ++step) trace.flags[trace.at(step, 0)] = 0;
   EXPECT_EQ(remaining_in(trace, place_with_door(2)).total(), 0);

@@ -90,7 +90,7 @@ TEST(TrajectoryCsv, CountsColumnsOfTablesWithoutNames) {
   EXPECT_NEAR(trace.velocity[trace.at(0, 0)].x(), (9.1256443 - 8.4568443) / 0.4, 1e-4);
 }
 
-TEST(TrajectoryCsv, SaysWhatIsWrong) {
+TEST(TrajectoryCsv, ReportsMistakes) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"id,frame,x\n1,0,0\n", "line 1"},
       {"id,frame,x,y\n1,0,0\n", "line 2"},
@@ -112,7 +112,7 @@ TEST(TrajectoryCsv, SaysWhatIsWrong) {
   EXPECT_THROW(table("id,frame,x,y\n1,0,0,0\n", {}), InputError);
 }
 
-TEST(TrajectoryFile, RefusesWhatNoMemoryHolds) {
+TEST(TrajectoryFile, RefusesFilesTooLargeForMemory) {
   std::string text = "# framerate: 10\n";
   for (int person = 1; person <= 5; ++person) {
     text += fmt::format("{0} 0 0 0\n{0} 9999999 0 0\n", person);

@@ -40,7 +40,7 @@ TEST(TrajectoryFile, ReadsThePedPyText) {
 
 class TrajectoryRoundTrip : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(TrajectoryRoundTrip, KeepsWhatTheFormatHolds) {
+TEST_P(TrajectoryRoundTrip, KeepsTheValuesOfTheFormat) {
   std::vector<Walk> walks = {walking({-2, 0}, {1, 0}), walking({-3, 0.3}, {1, 0})};
   world::Trace trace = trace_of(walks);
   trace.header.exit_ids.clear();

@@ -101,7 +101,7 @@ TEST_F(Blueprint, GivesTheSameBytesAgain) {
   EXPECT_EQ(read_file(folder.path() / "sq_behavior.xml"), behavior);
 }
 
-TEST_F(Blueprint, WhoWaitsLooksWhereItSays) {
+TEST_F(Blueprint, WaitingPeopleFaceAsSpecified) {
   blueprint["people"] = {{"groups",
                           {{{"doing", "wait"},
                             {"box", {-15, -15, -5, -5}},
@@ -141,7 +141,7 @@ TEST_F(Blueprint, WhoWaitsLooksWhereItSays) {
   }
 }
 
-TEST_F(Blueprint, PeopleWhoCrossLeaveAndStrollersStay) {
+TEST_F(Blueprint, CrossingPeopleLeaveAndStrollersStay) {
   const std::size_t gone = gone_after(make(), 90);
   EXPECT_GT(gone, 5U);
   EXPECT_LT(gone, 60U);
@@ -229,7 +229,7 @@ TEST(BlockedDiscs, GrowWithTheirDisasters) {
   EXPECT_NE(classes, 0U);
 }
 
-TEST_F(Blueprint, WhoIsCaughtLiesThereAndStays) {
+TEST_F(Blueprint, CaughtPeopleLieAndStay) {
   const auto hurt_after = [&](const char* kind, double time_s) {
     blueprint["disasters"] = {
         {{"kind", kind}, {"position", {6, 6}}, {"start_s", 2}, {"radius_m", 4}}};

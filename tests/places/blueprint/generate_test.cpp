@@ -81,7 +81,7 @@ TEST_P(Generated, DiffersFromSeedToSeed) {
   EXPECT_EQ(generate_place(spec_of(7)), generate_place(spec_of(7)));
 }
 
-TEST_P(Generated, HasWhatWasAskedFor) {
+TEST_P(Generated, HasTheRequestedParts) {
   PlaceSpec spec = spec_of(3);
   spec.size_m = 90;
   spec.exits = 4;
@@ -118,7 +118,7 @@ TEST_P(Generated, HasMoreBuildingsWhereTheyAreDenser) {
   EXPECT_GT(built_m2(1), 1.2 * built_m2(0));
 }
 
-TEST_P(Generated, LeavesTheWayOutFreeOfWhatStandsAround) {
+TEST_P(Generated, KeepsObjectsOffThePathsToTheExits) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const json place = generate_place(spec_of(seed));
     const auto file = make_scenario(place, "generated", folder.path(), "place");
@@ -167,7 +167,7 @@ TEST(PlaceSpecs, NameEveryMistake) {
                                    "/scenario/generate/clutter", "/scenario/generate/colour"}));
 }
 
-TEST(PlaceSpecs, MistakesSayWhatWasExpected) {
+TEST(PlaceSpecs, MistakesNameTheExpectedValue) {
   const auto problems_of = [](const char* text) {
     std::vector<Problem> problems;
     read_place_spec(json::parse(text), "/scenario/generate", problems);

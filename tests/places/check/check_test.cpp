@@ -105,7 +105,7 @@ TEST_F(CheckYard, SeesPeopleInWalls) {
   expect_error("/crowd/scene", "agent 1 at [-6, 6] in an obstacle, and 1 more");
 }
 
-TEST_F(CheckYard, SeesPeopleWhoAreWalledIn) {
+TEST_F(CheckYard, FindsWalledInPeople) {
   yard.obstacles += Yard::box(-4, -4, 4, -3.6) + Yard::box(-4, 3.6, 4, 4) +
                     Yard::box(-4, -3.6, -3.6, 3.6) + Yard::box(3.6, -3.6, 4, 3.6);
   std::vector<Finding> found = findings();
@@ -114,7 +114,7 @@ TEST_F(CheckYard, SeesPeopleWhoAreWalledIn) {
   EXPECT_THAT(found.back().problem.found, HasSubstr("no way to any open exit"));
 }
 
-TEST_F(CheckYard, WarnsOfPeopleWhoStartOutside) {
+TEST_F(CheckYard, WarnsOfPeopleThatStartOutside) {
   yard.generator = R"(<Generator type="explicit"><Agent p_x="0" p_y="0"/><Agent p_x="13" p_y="6"/>
                       <Agent p_x="-16" p_y="7"/></Generator>)";
   const std::vector<Finding> found = findings();
@@ -186,12 +186,12 @@ TEST_F(CheckYard, SeesAPlaceDrawnInTheWrongUnit) {
   expect_error("/inside", "0.024 m");
 }
 
-TEST_F(CheckYard, SaysWhatCannotBeLoaded) {
+TEST_F(CheckYard, ReportsFilesThatCannotBeLoaded) {
   yard.scenario["crowd"]["scene"] = "nowhere.xml";
   expect_error("/crowd/scene", "nowhere.xml");
 }
 
-TEST_F(CheckYard, SaysWhatIsWrongWithTheCrowdsFiles) {
+TEST_F(CheckYard, ReportsMistakesInTheCrowdsFiles) {
   yard.generator = R"(<Generator type="cloud"/>)";
   const std::vector<Finding> found = findings();
   ASSERT_EQ(found.size(), 1U);

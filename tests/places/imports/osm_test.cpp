@@ -109,7 +109,7 @@ TEST(Osm, ReadsLengthsAsMappersWriteThem) {
   }
 }
 
-TEST(Osm, RefusesWhatIsNoExtract) {
+TEST(Osm, RefusesOtherFiles) {
   const throng::testing::TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     write_file_atomically(folder.path() / "m.osm", text);
@@ -158,7 +158,7 @@ TEST(OsmBuildings, TakeHeightsFromTagsAsTheWikiSays) {
   EXPECT_EQ(length_in("3,5"), 3.5);
 }
 
-TEST(OsmFile, RepairsWhatLibosmiumGivesUp) {
+TEST(OsmFile, RepairsAreasThatLibosmiumGivesUp) {
   DrawnMap map;
   // A house whose last corners are swapped, and a multipolygon with a label among its members.
   map.way(map.ring({{-40, 0}, {-20, 0}, {-20, 20}, {-40, 20}, {-39, -1}, {-40, 1}}),
@@ -177,7 +177,7 @@ TEST(OsmFile, RepairsWhatLibosmiumGivesUp) {
   EXPECT_FALSE(stops_people(place, {15, 15}));
 }
 
-TEST(OsmFile, KnowsTagsOnOuterWaysAndWhatJosmDeleted) {
+TEST(OsmFile, KnowsTagsOnOuterWaysAndObjectsThatJosmDeleted) {
   DrawnMap map;
   const int outer = map.way(map.box(0, 0, 30, 30), "building=yes height=8");
   const int inner = map.way(map.box(10, 10, 20, 20), "");

@@ -49,7 +49,7 @@ TEST(Sdf, TallUprightBodiesAreBuildingsWhereTheirPosesSay) {
   EXPECT_NEAR(geometry::distance_to(tower->footprint, {1.5, -10}), 0.5, 1e-6);
 }
 
-TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
+TEST(Sdf, PeopleWalkAroundLowObjectsAndBelowHighOnes) {
   const ImportedScenario place = yard();
   EXPECT_TRUE(is_blocked(place, {15, 10}));
   EXPECT_TRUE(is_blocked(place, {-15, -12}));
@@ -66,7 +66,7 @@ TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
   EXPECT_EQ(place.props[0].kind, world::PropKind::lamp_post);
 }
 
-TEST(Sdf, WhatItDoesNotTakeIsListedWithItsLine) {
+TEST(Sdf, SkippedElementsAreListedWithTheirLine) {
   const ImportedScenario place = yard();
   for (const char* words : {"<plugin>", "<physics>", "<sensor>", "world/sun", "nowhere"}) {
     const Skipped* skipped = skipped_with(place, words);
@@ -77,7 +77,7 @@ TEST(Sdf, WhatItDoesNotTakeIsListedWithItsLine) {
   }
 }
 
-TEST(Sdf, RefusesWhatIsNoWorldAndSkipsWhatCannotBe) {
+TEST(Sdf, RefusesOtherFilesAndSkipsImpossibleElements) {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
     write_file_atomically(folder.path() / "w.sdf", text);

@@ -103,7 +103,7 @@ TEST_F(KeysTest, WrongFieldsOfAKeyAreNamed) {
   EXPECT_EQ(keys.list().size(), 1U);
 }
 
-TEST_F(KeysTest, ScopesSayWhatAKeyMayDo) {
+TEST_F(KeysTest, ScopesLimitAKey) {
   const std::string reader = keys.create("reader", Scope::read);
   const std::string one = keys.create("one", Scope::submit);
   const std::string other = keys.create("other", Scope::submit);

@@ -158,7 +158,7 @@ TEST_F(ApiTest, AReportThatFailsIsTriedAgain) {
   EXPECT_EQ(report_of(id)->body, "page");
 }
 
-TEST_F(ApiTest, WhatIsWrongIsSaidInFullWhateverRangeIsAskedFor) {
+TEST_F(ApiTest, ErrorsAreSentInFullForAnyRange) {
   const httplib::Headers range = {{"Range", "bytes=0-10"}};
   expect_problem(get("/v1/jobs/jnosuchjob000000/archive", range), 404);
   expect_problem(get("/nothing", range), 404);

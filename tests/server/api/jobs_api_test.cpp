@@ -81,7 +81,7 @@ TEST_F(JobsApi, CancelEndsTheWorkAndRetryGoesOnWithIt) {
   EXPECT_THAT(types_of(other), ElementsAre("submitted", "cancelled"));
 }
 
-TEST_F(JobsApi, ACloneIsTheSameJobButForWhatIsChanged) {
+TEST_F(JobsApi, ACloneIsTheSameJobExceptForChanges) {
   Gate gate(executor);
   const json job = submit_with("?priority=7&label=paper&label=night");
   EXPECT_EQ(job["labels"], json({"paper", "night"}));

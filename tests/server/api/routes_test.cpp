@@ -7,7 +7,7 @@
 namespace throng::server {
 namespace {
 
-TEST(Routes, ParametersHoldWhatTheirNamesSay) {
+TEST(Routes, ParametersMatchTheirNames) {
   EXPECT_TRUE(fits("/v1/jobs/{id}", "/v1/jobs/j12ab"));
   EXPECT_FALSE(fits("/v1/jobs/{id}", "/v1/jobs/"));
   EXPECT_FALSE(fits("/v1/jobs/{id}", "/v1/jobs/j1/x"));

@@ -304,7 +304,7 @@ TEST_F(ServiceTest, AJobIsTakenUpAgainAfterTheMachineLackedFiles) {
   ASSERT_TRUE(reaches(service, id, JobState::succeeded)) << service.queue().get(id)->error_json;
 }
 
-TEST_F(ServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
+TEST_F(ServiceTest, ExpiredJobsAreRemoved) {
   std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
   ServiceOptions keeping = options();
   keeping.clock = [&] { return now_ms.load(); };

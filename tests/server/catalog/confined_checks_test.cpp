@@ -37,7 +37,7 @@ class RealChecks : public ServiceFixture {
   }
 };
 
-TEST_F(RealChecks, AJobIsRefusedForWhatItsScenarioCannotDo) {
+TEST_F(RealChecks, AJobIsRefusedIfItsScenarioCannotDoIt) {
   SKIP_WITHOUT_PROGRAM();
   const std::pair<const char*, const char*> cases[] = {
       {R"({"scenario": "nowhere"})", "/scenario"},
@@ -113,7 +113,7 @@ TEST_F(ServiceFixture, AChildThatWasTakenOverWritesNoFileElsewhere) {
   }
 }
 
-TEST_F(ServiceFixture, WhatTheSchemaRefusesStartsNoChild) {
+TEST_F(ServiceFixture, AJobThatTheSchemaRefusesStartsNoChild) {
   ServiceOptions counting = options();
   std::atomic<int> children = 0;
   counting.confined = [&](const auto& request, const auto&) {

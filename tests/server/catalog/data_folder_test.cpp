@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(DataFolder, WhatTheStoreDoesNotKnowIsMovedAwayAndKept) {
+TEST(DataFolder, FoldersUnknownToTheStoreAreMovedAwayAndKept) {
   const jobs::TemporaryFolder data;
   jobs::Store store(data.path());
   const std::string known = store.add({.name = "a"}).row.id;

@@ -66,7 +66,7 @@ class StudyApi : public ApiTest {
   static std::string id_of(const std::string& self) { return fs::path(self).filename(); }
 };
 
-TEST_F(StudyApi, ComesToWhatTheProgramComesTo) {
+TEST_F(StudyApi, HasTheResultOfTheProgram) {
   SKIP_WITHOUT_PROGRAM();
   const std::string self = submitted(small_study());
   const json done = ended(self);

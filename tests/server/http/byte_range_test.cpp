@@ -29,7 +29,7 @@ TEST(ByteRange, NothingPastTheEnd) {
   }
 }
 
-TEST(ByteRange, WhatIsNoSingleRangeOfBytesMeansTheWhole) {
+TEST(ByteRange, AnythingButASingleRangeOfBytesMeansTheWhole) {
   for (const char* range :
        {"", "bytes", "bytes=", "bytes=-", "bytes=5", "bytes=a-b", "bytes=1-a", "bytes=20-10",
         "lines=1-2", "bytes=0-1,5-6", "bytes=--1", "bytes= 1-2"}) {

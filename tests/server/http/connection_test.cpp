@@ -109,7 +109,7 @@ TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
   small.stop();
 }
 
-TEST_F(HostileClients, WhatCannotBeCheckedIsRefused) {
+TEST_F(HostileClients, RequestsThatCannotBeCheckedAreRefused) {
   HttpOptions options;
   options.max_body_bytes = [](const httplib::Request& request) -> std::size_t {
     if (request.path == "/locked") throw EnvironmentError("the database is locked");

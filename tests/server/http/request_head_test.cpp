@@ -203,7 +203,7 @@ TEST(RequestHead, FieldsThatDecideAreThereOnce) {
   }
 }
 
-TEST(RequestHead, TheLibraryGetsWhatWasSent) {
+TEST(RequestHead, TheLibraryGetsTheSentBytes) {
   const std::string text = library_text_of(
       taken("GET / HTTP/1.0\r\nX: a%0d%0aEvil: 1\r\nREMOTE_ADDR: 1.2.3.4\r\nUpgrade: h2c\r\n"
             "Connection: keep-alive, X\r\nTrailer: Content-Length\r\n\r\n"));

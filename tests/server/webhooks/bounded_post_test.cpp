@@ -98,7 +98,7 @@ TEST(BoundedPost, TheStatusIsThatOfTheFinalAnswer) {
   }
 }
 
-TEST(BoundedPost, WhatIsNoAnswerIsNamed) {
+TEST(BoundedPost, FailedAnswersAreNamed) {
   for (const char* text : {"SSH-2.0-OpenSSH\r\n", "HTTP/1.1 2x0 OK\r\n\r\n", "HTTP/1.1\r\n\r\n",
                            "\r\n\r\n", "HTTP/1.1 200"}) {
     const RawReceiver receiver = saying(text);

@@ -110,7 +110,7 @@ TEST_F(WebhooksTest, ChosenEventsOnly) {
   EXPECT_THAT(types_of(receiver.requests()), ElementsAre("submitted", "removed"));
 }
 
-TEST_F(WebhooksTest, WhatIsNotTakenIsSentAgain) {
+TEST_F(WebhooksTest, RefusedDeliveriesAreSentAgain) {
   WebhookSender quick(service.queue(), data.path(),
                       {.first_rest = 5ms,
                        .max_pause = 20ms,
@@ -171,7 +171,7 @@ TEST_F(WebhooksTest, AnAddressThatFailsForTooLongIsLeftAloneUntilItIsEnabled) {
   EXPECT_EQ(quick.webhooks().get(hook.id)->failures, 0);
 }
 
-TEST_F(WebhooksTest, WhatHappenedWhileTheServerWasDownIsToldAfterwards) {
+TEST_F(WebhooksTest, EventsOfADowntimeAreSentAfterwards) {
   const std::string id = create({{"url", receiver.url()}, {"events", {"submitted"}}})["id"];
   const std::int64_t after = hooks.webhooks().get(id)->after;
   submit();

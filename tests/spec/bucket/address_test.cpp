@@ -23,7 +23,7 @@ TEST(BucketAddress, BucketPrefixAndKeys) {
   EXPECT_EQ(address_of("s3://data/").text(), "s3://data");
 }
 
-TEST(BucketAddress, WhatCannotBeSignedOrNamesNoBucketIsRefused) {
+TEST(BucketAddress, AddressesThatCannotBeSignedOrLackABucketAreRefused) {
   for (const char* wrong : {"",
                             "s3",
                             "s3:/data",

@@ -147,7 +147,7 @@ TEST(CameraSpec, MetersImagesAndChoosesIsoUnlessGiven) {
   EXPECT_EQ(given.sensor.iso, 0);
 }
 
-TEST(CameraSpec, PresetsLendWhatIsLeftOut) {
+TEST(CameraSpec, PresetsFillInMissingFields) {
   for (const std::string& name : camera_presets()) {
     const std::string text = R"({"preset": ")" + name + R"("})";
     EXPECT_TRUE(pointers_of(text.c_str()).empty()) << name;

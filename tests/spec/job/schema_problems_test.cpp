@@ -54,7 +54,7 @@ TEST(SchemaProblems, NothingIsLeftWithoutAScenario) {
   EXPECT_THROW(SchemaProblems("{", ""), InputError);
 }
 
-TEST(SchemaProblems, ProblemsAtAndBesideWhatWentFollowFromIt) {
+TEST(SchemaProblems, ProblemsAtAndBesideARemovedValueFollowFromIt) {
   const SchemaProblems found(R"({"scenario": "yard", "runs": 0, "capture": {"to_s": "x"}})", "");
   EXPECT_TRUE(found.may_cause({"", "/runs", "", ""}));
   EXPECT_TRUE(found.may_cause({"", "/capture/to_s", "", ""}));

@@ -111,7 +111,7 @@ TEST_F(Spec, APlaceFromASeedIsReadBackAsItIsWritten) {
   EXPECT_EQ(to_json(parse(written.dump())), written);
 }
 
-TEST_F(Spec, NamesWhatIsWrongWithAPlaceFromASeed) {
+TEST_F(Spec, ReportsMistakesInGeneratedPlaces) {
   EXPECT_THAT(pointers_of(R"({"scenario": {"generate": {"kind": "moon"}}})"),
               ElementsAre("/scenario/generate/kind"));
   EXPECT_THAT(pointers_of(R"({"scenario": {"make": 1, "generate": {"kind": "street"}}})"),
@@ -289,7 +289,7 @@ TEST_F(Spec, AllProblemsOfTheSchemaComeAtOnce) {
                                             "/capture/rate"));
 }
 
-TEST_F(Spec, SaysWhatItExpected) {
+TEST_F(Spec, NamesTheExpectedValue) {
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
             "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 1000000");
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "captur": {}})")[0].text(),

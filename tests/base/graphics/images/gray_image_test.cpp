@@ -67,7 +67,7 @@ std::string refusal(const std::string& bytes) {
   return "taken";
 }
 
-TEST(GrayImage, IsWhatOpenCvReads) {
+TEST(GrayImage, EqualsTheImageOfOpenCv) {
   for (const int type : {CV_8UC1, CV_8UC3}) {
     expect_as_opencv(encoded(".jpg", photograph(type)), "jpg");
     expect_as_opencv(encoded(".jpg", photograph(type), {cv::IMWRITE_JPEG_PROGRESSIVE, 1}),

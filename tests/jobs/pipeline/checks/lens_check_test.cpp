@@ -81,7 +81,7 @@ TEST(Lens, TheGimbalsCameraHasTheLens) {
   EXPECT_NEAR(width_deg(camera.intrinsics), 90, 1e-6);
 }
 
-TEST(Lens, TheRecordHoldsWhatWasDone) {
+TEST(Lens, TheRecordHoldsTheUsedModel) {
   CameraSpec spec = camera_parsed(R"({"sensor": {"iso": 800, "exposure_s": 0.01}})");
   render::Exposed exposed;
   exposed.samples = 5;

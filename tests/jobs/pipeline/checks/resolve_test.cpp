@@ -165,7 +165,7 @@ TEST_F(Resolve, ADrawnFieldThatFitsInNoRunIsNamedInTheBlock) {
               ElementsAre("/randomize/crowd.agents"));
 }
 
-TEST_F(Resolve, TheSimulationGetsWhatWasDrawn) {
+TEST_F(Resolve, TheSimulationGetsTheSampledValues) {
   const JobSpec job = resolved(R"({"scenario": "yard", "runs": 6,
     "drones": [{"id": "d1", "start": [0, 0, 20]}],
     "randomize": {"crowd.agents": {"choice": [1, 2]},

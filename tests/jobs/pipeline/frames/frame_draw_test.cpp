@@ -55,7 +55,7 @@ TEST(FrameDraw, DependsOnRunDroneAndFrameAlone) {
   EXPECT_EQ(draw.ev, draw_of_frame(shaken(0, 0, 0.4), 7, 1, 12).ev) << "fields are independent";
 }
 
-TEST(FrameDraw, IsWhatIsAddedAndRecorded) {
+TEST(FrameDraw, IsAddedAndRecorded) {
   camera::CameraSpec camera = shaken(6, 40, 0.4);
   camera.pitch_deg = -80;
   for (int frame = 0; frame < 200; ++frame) {

@@ -51,7 +51,7 @@ TEST(ConfinedTask, FailuresAreToldApart) {
   EXPECT_NE(error_of<EnvironmentError>("exit 0"), "");  // without an answer
 }
 
-TEST(ConfinedTask, TheChildAnswersOrSaysWhatIsWrong) {
+TEST(ConfinedTask, TheChildAnswersOrReportsMistakes) {
   EXPECT_EQ(performed_in_child(
                 [](const json& request) {
                   return json{{"m", request["n"]}};

@@ -106,7 +106,7 @@ TEST_F(ForkServerTest, ManyThreadsAskAtOnce) {
   }
 }
 
-TEST_F(ForkServerTest, StoppingEndsWhatIsUnderWay) {
+TEST_F(ForkServerTest, StoppingEndsRunningChildren) {
   const TemporaryFolder work;
   std::future<void> slow = std::async(std::launch::async, [&] {
     task({{"do", "wait"}}, work.path());

@@ -261,7 +261,7 @@ TEST_F(ArchiveTest, ZipFilesGoOnBeyondFourGigabytesAndSixtyFiveThousandFiles) {
   EXPECT_EQ(count, kFiles + 3);
 }
 
-TEST_F(ArchiveTest, ASelectionHoldsWhatWasChosenAndTheManifest) {
+TEST_F(ArchiveTest, ASelectionHoldsTheChosenFilesAndTheManifest) {
   add("images/run000/a.jpg", "0");
   add("images/run001/a.jpg", "1");
   add("depth/run000/a.png", "2");

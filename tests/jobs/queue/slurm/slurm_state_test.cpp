@@ -122,7 +122,7 @@ TEST(SlurmState, StatesBecomeOutcomes) {
   EXPECT_EQ(result_in("NODE_FAIL").message, "lost on node node1 (NODE_FAIL, None)");
 }
 
-TEST(SlurmState, WhatIsNoFaultOfTheTaskCostsNoAttempt) {
+TEST(SlurmState, FailuresOfTheClusterCostNoAttempt) {
   for (const char* state : {"NODE_FAIL", "BOOT_FAIL", "PREEMPTED", "REQUEUE_HOLD"}) {
     EXPECT_TRUE(is_blameless(fate_of(in_state(state)))) << state;
   }

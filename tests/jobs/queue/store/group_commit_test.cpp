@@ -50,7 +50,7 @@ TEST_F(GroupCommitTest, AChangeThatFailsLeavesTheOthersAlone) {
   EXPECT_EQ(rows(), kThreads * 15);
 }
 
-TEST_F(GroupCommitTest, ErrorsOfTheDatabaseReachWhoCausedThem) {
+TEST_F(GroupCommitTest, DatabaseErrorsReachTheirCaller) {
   GroupCommit commits(database);
   commits.run([&] { insert(1); });
   EXPECT_THROW(commits.run([&] { insert(1); }), SQLite::Exception);

@@ -12,7 +12,7 @@
 namespace throng::jobs {
 namespace {
 
-TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
+TEST_F(StoreTest, AddedAndChangedRowsSurviveReopening) {
   JobRow queued;
   JobRow running;
   {
@@ -175,7 +175,7 @@ TEST_F(StoreTest, TheTimeByWhichJobsAreKeptNeverJumps) {
   EXPECT_EQ(Store(folder.path(), clock(), steady).service_ms(), 1'003'005 + kDayMs);
 }
 
-TEST_F(StoreTest, WhatHappensIsRecordedWithTheChangeItself) {
+TEST_F(StoreTest, EventsAreRecordedWithTheirChange) {
   Store store(folder.path(), clock());
   const JobRow queued = store.add({.name = "a"}).row;
   const JobRow other = store.add({.name = "b"}).row;
@@ -237,7 +237,7 @@ TEST_F(StoreTest, LimitsOfAnOwnerHoldForRetriesToo) {
   EXPECT_FALSE(store.retry(active, {}).row) << "it has not ended";
 }
 
-TEST_F(StoreTest, WhatHasEndedIsListedInTheOrderOfEndingButWhatIsKept) {
+TEST_F(StoreTest, EndedJobsAreListedInTheOrderOfEndingExceptKeptOnes) {
   Store store(folder.path(), clock(), clock());
   const JobRow a = store.add({.name = "a"}).row;
   const JobRow b = store.add({.name = "b"}).row;

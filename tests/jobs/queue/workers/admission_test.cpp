@@ -135,7 +135,7 @@ TEST(Admission, OwnersTakeTurnsAtOneWorkerByTheTimeTheyHad) {
   EXPECT_EQ(tasks["j2"], 32);
 }
 
-TEST(Admission, WhoComesBackGetsNothingForTheTimeAway) {
+TEST(Admission, AReturningOwnerGetsNothingForTheTimeAway) {
   VirtualClock clock;
   Admission admission({.workers = 1, .now = clock.now()});
   TestJob old(admission, "a", "j1", 1000);

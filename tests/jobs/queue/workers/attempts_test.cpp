@@ -182,7 +182,7 @@ TEST_F(AttemptsTest, ARenewedRightIsNotThatOfTheFirstProcess) {
   EXPECT_TRUE(claim_of(folder, array.name, 0)) << "the second process has begun";
 }
 
-TEST_F(AttemptsTest, NamesOfStagedFilesSayWhoWritesThem) {
+TEST_F(AttemptsTest, NamesOfStagedFilesNameTheirWriter) {
   const fs::path one = staging_path_of(base.path() / "file");
   const fs::path other = staging_path_of(base.path() / "file");
   EXPECT_NE(one, other);

@@ -282,7 +282,7 @@ TEST(SdfBuildings, AreCutWhereTheyOverlap) {
   EXPECT_NEAR(total, 150, 1e-6);
 }
 
-TEST(SdfVisuals, AndCollisionsAreTakenForWhatTheyAre) {
+TEST(SdfVisuals, AreSeenAndCollisionsAreInTheWay) {
   const ImportedScenario ghost =
       read_world("<model name='g'><link name='l'><visual name='v'><geometry>" + box(4, 4, 1) +
                  "</geometry></visual><collision name='c'><pose>20 0 0 0 0 0</pose><geometry>" +
@@ -361,7 +361,7 @@ TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {
   EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("m <plugin>: has no meaning")));
 }
 
-TEST(SdfPlaces, ReachAsFarAsWhatStandsInThem) {
+TEST(SdfPlaces, ReachAsFarAsTheirObjects) {
   const ImportedScenario place = read_world(body_of(box(4, 4, 3), "-20 -10 1.5 0 0 0") +
                                             body_of(box(4, 4, 3), "20 10 1.5 0 0 0"));
   EXPECT_LT((place.inside.min - Vector2d(-22, -12)).norm(), 1e-9);
@@ -434,7 +434,7 @@ TEST(SdfTextTest, TakesOutTheSmallestPart) {
   EXPECT_FALSE(text.take_out(0));
 }
 
-TEST(SdfTextTest, RefusesWhatIsNoSdf) {
+TEST(SdfTextTest, RefusesOtherXml) {
   const auto error_of = [](const std::string& text) {
     try {
       SdfText("w.sdf", text);

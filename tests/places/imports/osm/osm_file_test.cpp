@@ -173,7 +173,7 @@ TEST(OsmAreas, RepairAFigureOfEight) {
   EXPECT_NEAR(total, 200, 1) << "two triangles of 100 m^2";
 }
 
-TEST(OsmSkipped, SaysWhatIsNotWhole) {
+TEST(OsmSkipped, ReportsIncompleteAreas) {
   DrawnMap map;
   const int whole = map.way(map.box(0, 0, 20, 20), "");
   const int torn = map.way({map.node(30, 0), 9999, map.node(40, 10), map.node(30, 10)}, "");
@@ -235,7 +235,7 @@ TEST(OsmDeleted, NodesAndRelationsAreNotThere) {
   EXPECT_EQ(file.lines[0].points.size(), 2);
 }
 
-TEST(OsmErrors, NameTheFileAndWhatIsExpected) {
+TEST(OsmErrors, NameTheFileAndTheExpectedContent) {
   EXPECT_THAT(error_of("no map"), HasSubstr("an extract of OpenStreetMap"));
   EXPECT_THAT(error_of("<osm version='0.6'></osm>"), HasSubstr("no bounds and no nodes"));
   EXPECT_THAT(error_of("<osm version='0.6'><node id='1' lat='50' lon='8'/>"
@@ -299,7 +299,7 @@ TEST(PlainText, LosesHistoryAndKeepsTheRest) {
   EXPECT_TRUE(plain.deleted.empty());
 }
 
-TEST(PlainText, KnowsWhatJosmDeletedByKind) {
+TEST(PlainText, KnowsObjectsThatJosmDeletedByKind) {
   const OsmText plain = plain_osm(
       "<node id='7' action='delete' lat='1'/><way id='7' action='modify'/>"
       "<relation id='-9' action='delete'></relation>");

@@ -43,7 +43,7 @@ TEST(Areas, WithHolesComeApartIntoSimpleOnes) {
   }
 }
 
-TEST(Areas, LoseWhatLiesInOthersOrOutside) {
+TEST(Areas, LosePartsInOthersOrOutside) {
   double left = 0;
   for (const Area& rest : without({square(0, 10), {}}, {{square(5, 20), {}}}))
     left += size_m2(rest);
@@ -53,7 +53,7 @@ TEST(Areas, LoseWhatLiesInOthersOrOutside) {
   EXPECT_TRUE(along({{1, 1}, {1, 1}}, 3).empty());
 }
 
-TEST(Shadow, IsThatOfWhatIsBetweenFeetAndHeads) {
+TEST(Shadow, IsCastByPartsBetweenFeetAndHeads) {
   Triangles wall = box_triangles({6, 0.2, 3});
   EXPECT_NEAR(whole_m2(shadow_of(wall)), 6 * 0.25, 1.2);
   Eigen::Isometry3d up = Eigen::Isometry3d::Identity();

@@ -286,7 +286,7 @@ TEST(ReadMesh, TurnsCollada) {
   EXPECT_LT((triangle[2] - Vector3d(0, 3, 1)).norm(), 1e-6) << "as the file says: z up";
 }
 
-TEST(ReadMesh, RefusesWhatIsNone) {
+TEST(ReadMesh, RefusesOtherFiles) {
   const TemporaryFolder folder;
   write_file_atomically(folder.path() / "text.obj", "no mesh at all");
   write_file_atomically(folder.path() / "m.xyz", "1 2 3");
