@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 
 namespace throng::server {
 

@@ -38,7 +38,8 @@ struct ServeOptions {
 /// Prints "throng serving on URL" to stdout and serves until SIGTERM or SIGINT, then ends the
 /// workers and returns 0; the job they were at goes on at the next start. Throws InputError for an
 /// address that is not loopback while there is no key, EnvironmentError when the port or the data
-/// folder is taken. Call it before any other thread is started: it blocks signals for all threads.
+/// folder is taken. RequestContext it before any other thread is started: it blocks signals for all
+/// threads.
 int serve(const ServeOptions& options);
 
 }  // namespace throng::server

@@ -11,7 +11,7 @@
 #include "cli/jobs/job_report.h"
 #include "cli/shell/commands.h"
 #include "jobs/pipeline/worker.h"
-#include "jobs/queue/workers/worker_side.h"
+#include "jobs/queue/workers/worker_interface.h"
 #include "jobs/study/service_work.h"
 
 namespace throng::cli {

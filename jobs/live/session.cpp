@@ -32,7 +32,7 @@
 #include "jobs/live/state_message.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/queue/confine/file_fence.h"
-#include "jobs/queue/workers/worker_side.h"
+#include "jobs/queue/workers/worker_interface.h"
 #include "render/allocator.h"
 #include "spec/job/resolved_job.h"
 #include "spec/live/commands.h"

@@ -15,7 +15,7 @@
 #include "jobs/queue/dataset/manifest.h"
 #include "jobs/queue/dataset/publication.h"
 #include "jobs/queue/failed_runs.h"
-#include "jobs/queue/people.h"
+#include "jobs/queue/pinned_library.h"
 #include "spec/job/environment.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/spec.h"
@@ -154,7 +154,7 @@ class Collector {
             {"generator", kGenerator},
             {"job", to_json(job)},
             {"devices", devices_},
-            {"people", {{"content_hash", pinned_people(folder_)}}},
+            {"people", {{"content_hash", pinned_library(folder_)}}},
             {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
             {"runs", std::move(runs)},
             {"failed_runs", std::move(failed)}};

@@ -22,8 +22,8 @@
 #include "base/text/redact.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/queue/confine/file_fence.h"
-#include "jobs/queue/workers/faults.h"
-#include "jobs/queue/workers/worker_side.h"
+#include "jobs/queue/workers/injected_faults.h"
+#include "jobs/queue/workers/worker_interface.h"
 #include "render/allocator.h"
 #include "world/scenario.h"
 
@@ -174,7 +174,7 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
     const auto begun = std::chrono::steady_clock::now();
     const int attempt = attempt_of_this_process();
     spdlog::info("{} begun, attempt {}", task_name, attempt);
-    provoke_faults(task_name, attempt);
+    inject_faults(task_name, attempt);
     const JobFolder folder(job_folder);
     const auto on_progress = [&](const TaskProgress& progress) { reporter.report(progress); };
     if (const auto other = others.find(task_name.substr(0, task_name.find('/')));

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/unix_time.h"
 
 namespace throng::server {

@@ -26,7 +26,7 @@
 #include "server/api/studio.h"
 #include "server/api/trajectories_api.h"
 #include "server/api/webhooks_api.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
 

@@ -11,7 +11,7 @@
 #include "base/files/files.h"
 #include "base/json/json_text.h"
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 #include "spec/calibration/request_files.h"
 
@@ -72,30 +72,31 @@ Sent sent_as_json(const Request& request) {
 
 }  // namespace
 
-void submit_calibration(const Call& call, const Request& request, Response& response) {
+void submit_calibration(const RequestContext& context, const Request& request, Response& response) {
   const std::string header = request.get_header_value("Content-Type");
   const std::string type = header.substr(0, header.find(';'));
   if (type != "application/json" && type != "multipart/form-data") {
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row =
-      call.calibrations.submit(sent.request, sent.files,
-                               {call.caller.key_id, call.caller.max_active, call.caller.max_bytes});
+  const jobs::JobRow row = context.calibrations.submit(
+      sent.request, sent.files,
+      {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
-  write_json(response, 201, calibration_json(row, call.housekeeping.retention()));
+  write_json(response, 201, calibration_json(row, context.housekeeping.retention()));
 }
 
-void list_calibrations(const Call& call, const Request& request, Response& response) {
+void list_calibrations(const RequestContext& context, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = call.queue.list({.kind = jobs::JobKind::calibration,
-                                                          .after = after_of(request),
-                                                          .limit = limit,
-                                                          .visible_to = viewer_of(call.caller)});
+  const std::vector<jobs::JobRow> rows =
+      context.queue.list({.kind = jobs::JobKind::calibration,
+                          .after = after_of(request),
+                          .limit = limit,
+                          .visible_to = viewer_of(context.caller)});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
-    list.push_back(calibration_json(row, call.housekeeping.retention()));
+    list.push_back(calibration_json(row, context.housekeeping.retention()));
   const bool more = static_cast<int>(rows.size()) == limit;
   write_json(response, 200,
              {{"calibrations", std::move(list)},
@@ -103,35 +104,36 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
               {"schema", kSchema}});
 }
 
-void send_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
-  json value = calibration_json(row, call.housekeeping.retention());
+void send_calibration(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
+  json value = calibration_json(row, context.housekeeping.retention());
   if (row.state == jobs::JobState::succeeded) {
-    value["camera"] =
-        parse_own_json(read_file(call.folders.calibration_folder(row.id) / calibrate::kCameraName),
-                       calibrate::kCameraName);
+    value["camera"] = parse_own_json(
+        read_file(context.folders.calibration_folder(row.id) / calibrate::kCameraName),
+        calibrate::kCameraName);
   }
   write_json(response, 200, value);
 }
 
-void remove_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
-  require_own(call, row);
-  if (!call.housekeeping.remove(row.id)) {
+void remove_calibration(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
+  require_own(context, row);
+  if (!context.housekeeping.remove(row.id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
-void send_calibration_result(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
+void send_calibration_result(const RequestContext& context, const Request& request,
+                             Response& response) {
+  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return name == entry.name; });
   if (result == kResults.end()) {
     throw HttpError{404, fmt::format("a calibration has no \"{}\"", name)};
   }
-  const std::filesystem::path file = call.folders.calibration_folder(row.id) / result->file;
+  const std::filesystem::path file = context.folders.calibration_folder(row.id) / result->file;
   const bool is_early = name == "points" && std::filesystem::exists(file);
   if (row.state != jobs::JobState::succeeded && !is_early) {
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
@@ -143,11 +145,12 @@ void send_calibration_result(const Call& call, const Request& request, Response&
   response.set_content(read_file(file), result->type);
 }
 
-void send_calibration_image(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call, request, jobs::JobKind::calibration);
+void send_calibration_image(const RequestContext& context, const Request& request,
+                            Response& response) {
+  const jobs::JobRow row = find_row(context, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const json images = parse_own_json(row.spec_json, "the request").value("images", json::array());
-  const std::filesystem::path file = call.folders.calibration_folder(row.id) / "files" / name;
+  const std::filesystem::path file = context.folders.calibration_folder(row.id) / "files" / name;
   if (std::find(images.begin(), images.end(), json(name)) == images.end() ||
       std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(file)) {
     throw HttpError{404, "the calibration has no image of this name"};

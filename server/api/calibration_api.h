@@ -2,7 +2,7 @@
 // like a job.
 #pragma once
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -11,19 +11,19 @@ namespace throng::server {
 
 /// A request as multipart/form-data (a part "request" with JSON, and one per file, each with its
 /// file name), or as JSON whose "files" hold texts by their names.
-void submit_calibration(const Call& call, const httplib::Request& request,
+void submit_calibration(const RequestContext& context, const httplib::Request& request,
                         httplib::Response& response);
-void list_calibrations(const Call& call, const httplib::Request& request,
+void list_calibrations(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
-void send_calibration(const Call& call, const httplib::Request& request,
+void send_calibration(const RequestContext& context, const httplib::Request& request,
                       httplib::Response& response);
-void remove_calibration(const Call& call, const httplib::Request& request,
+void remove_calibration(const RequestContext& context, const httplib::Request& request,
                         httplib::Response& response);
 /// camera, opencv, ros, residuals or points.
-void send_calibration_result(const Call& call, const httplib::Request& request,
+void send_calibration_result(const RequestContext& context, const httplib::Request& request,
                              httplib::Response& response);
 /// An image of a board, as it was sent.
-void send_calibration_image(const Call& call, const httplib::Request& request,
+void send_calibration_image(const RequestContext& context, const httplib::Request& request,
                             httplib::Response& response);
 
 }  // namespace throng::server

@@ -35,10 +35,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::JobRow find_succeeded(const Call& call, const Request& request) {
-  jobs::JobRow row = find_job(call, request);
+jobs::JobRow find_succeeded(const RequestContext& context, const Request& request) {
+  jobs::JobRow row = find_job(context, request);
   // One that could only not be published has its dataset, too.
-  const bool is_complete = !is_active(row.state) && fs::exists(call.folders.dataset_of(row.id));
+  const bool is_complete = !is_active(row.state) && fs::exists(context.folders.dataset_of(row.id));
   if (!has_dataset(row.state) && !is_complete) {
     throw HttpError{
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
@@ -49,13 +49,13 @@ jobs::JobRow find_succeeded(const Call& call, const Request& request) {
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
-void send_run_file(const Call& call, const Request& request, Response& response, const char* folder,
-                   const char* suffix, const char* type) {
-  const jobs::JobRow row = find_job(call, request);
+void send_run_file(const RequestContext& context, const Request& request, Response& response,
+                   const char* folder, const char* suffix, const char* type) {
+  const jobs::JobRow row = find_job(context, request);
   const bool complete = row.state == jobs::JobState::succeeded;
   const int run = run_of(request, row);
-  const fs::path root = complete ? call.folders.dataset_of(row.id)
-                                 : jobs::JobFolder(call.folders.job_folder(row.id))
+  const fs::path root = complete ? context.folders.dataset_of(row.id)
+                                 : jobs::JobFolder(context.folders.job_folder(row.id))
                                        .output_of({jobs::Task::Kind::measure, run});
   const fs::path file = root / folder / (jobs::run_name(run) + suffix);
   if (fs::exists(file)) return response.set_content(read_file(file), type);
@@ -175,12 +175,12 @@ int run_of(const Request& request, const jobs::JobRow& row) {
   return run;
 }
 
-void send_archive(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_succeeded(call, request);
-  const fs::path dataset = call.folders.dataset_of(row.id);
+void send_archive(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_succeeded(context, request);
+  const fs::path dataset = context.folders.dataset_of(row.id);
   const std::string name = jobs::slug(row.name);
   const jobs::ArchiveFormat format = format_of(request);
-  const auto archive = call.datasets.archive_of(
+  const auto archive = context.datasets.archive_of(
       dataset, name, format,
       selection_of(request, dataset, parse_own_json(row.spec_json, "the job")));
   if (archive->is_empty()) {
@@ -189,7 +189,7 @@ void send_archive(const Call& call, const Request& request, Response& response) 
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
-  const std::string manifest = call.datasets.manifest_of(dataset)->itself.sha256;
+  const std::string manifest = context.datasets.manifest_of(dataset)->itself.sha256;
   settle_range(request, response,
                fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen)),
                archive->size());
@@ -213,16 +213,16 @@ void send_archive(const Call& call, const Request& request, Response& response) 
       });
 }
 
-void send_manifest(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+void send_manifest(const RequestContext& context, const Request& request, Response& response) {
+  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
   answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
-                   fmt::format("\"{}\"", call.datasets.manifest_of(dataset)->itself.sha256));
+                   fmt::format("\"{}\"", context.datasets.manifest_of(dataset)->itself.sha256));
 }
 
-void send_file(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+void send_file(const RequestContext& context, const Request& request, Response& response) {
+  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
   const std::string wanted = request.matches[2];
-  const auto manifest = call.datasets.manifest_of(dataset);
+  const auto manifest = context.datasets.manifest_of(dataset);
   const std::vector<jobs::FileEntry>& files = manifest->files;
   // Files of the manifest are in the dataset: no path leads out of it.
   const auto file =
@@ -235,15 +235,15 @@ void send_file(const Call& call, const Request& request, Response& response) {
                    fmt::format("\"{}\"", file->sha256));
 }
 
-void list_images_of_job(const Call& call, const Request& request, Response& response) {
+void list_images_of_job(const RequestContext& context, const Request& request, Response& response) {
   constexpr std::int64_t kMaxPage = 1000;
   constexpr std::int64_t kUsualPage = 100;
   constexpr std::int64_t kMaxOffset = 1'000'000'000;
-  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
   const ImageQuery query{request.get_param_value("run"), request.get_param_value("camera"),
                          number_of(request, "offset", 0, kMaxOffset, 0),
                          number_of(request, "limit", 1, kMaxPage, kUsualPage)};
-  const auto manifest = call.datasets.manifest_of(dataset);
+  const auto manifest = context.datasets.manifest_of(dataset);
   const ImageList list = list_images(manifest->files, query);
   json images = json::array();
   for (const ImageFile& image : list.images) {
@@ -268,27 +268,27 @@ void list_images_of_job(const Call& call, const Request& request, Response& resp
              {{"images", std::move(images)}, {"total", list.total}, {"runs", std::move(runs)}});
 }
 
-void send_metrics(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+void send_metrics(const RequestContext& context, const Request& request, Response& response) {
+  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
 }
 
-void send_run_metrics(const Call& call, const Request& request, Response& response) {
-  send_run_file(call, request, response, "metrics", ".json", "application/json");
+void send_run_metrics(const RequestContext& context, const Request& request, Response& response) {
+  send_run_file(context, request, response, "metrics", ".json", "application/json");
 }
 
-fs::path trace_of(const Call& call, const jobs::JobRow& row, int run) {
-  fs::path trace =
-      jobs::JobFolder(call.folders.job_folder(row.id)).output_of({jobs::Task::Kind::simulate, run});
+fs::path trace_of(const RequestContext& context, const jobs::JobRow& row, int run) {
+  fs::path trace = jobs::JobFolder(context.folders.job_folder(row.id))
+                       .output_of({jobs::Task::Kind::simulate, run});
   if (fs::exists(trace)) return trace;
   throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
                                    name_of(row.state), run)};
 }
 
-void send_run_trace(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
+void send_run_trace(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
   const int run = run_of(request, row);
-  const fs::path trace = trace_of(call, row, run);
+  const fs::path trace = trace_of(context, row, run);
   response.set_header(
       "Content-Disposition",
       fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));
@@ -296,16 +296,17 @@ void send_run_trace(const Call& call, const Request& request, Response& response
                    fmt::format("\"{}\"", jobs::sealed_hash(trace)));
 }
 
-void send_run_metrics_csv(const Call& call, const Request& request, Response& response) {
-  send_run_file(call, request, response, "exits", ".csv", "text/csv");
+void send_run_metrics_csv(const RequestContext& context, const Request& request,
+                          Response& response) {
+  send_run_file(context, request, response, "exits", ".csv", "text/csv");
 }
 
-void send_report(const Call& call, const Request& request, Response& response) {
+void send_report(const RequestContext& context, const Request& request, Response& response) {
   // Shorter than a proxy's patience, and than what is left to a service that ends.
   constexpr auto kPatience = std::chrono::seconds(5);
-  const jobs::JobRow row = find_succeeded(call, request);
-  const std::optional<fs::path> file = call.reports.report_of(
-      call.folders.job_folder(row.id),
+  const jobs::JobRow row = find_succeeded(context, request);
+  const std::optional<fs::path> file = context.reports.report_of(
+      context.folders.job_folder(row.id),
       {.owner = row.owner,
        .job = row.id,
        .priority = [priority = row.priority] { return priority; },
@@ -319,9 +320,9 @@ void send_report(const Call& call, const Request& request, Response& response) {
                    fmt::format("\"{}\"", sha256_hex_of_file(*file)));
 }
 
-void list_logs(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
-  const fs::path folder = call.folders.job_folder(row.id) / "logs";
+void list_logs(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
+  const fs::path folder = context.folders.job_folder(row.id) / "logs";
   std::vector<fs::path> files = files_below(folder);
   std::sort(files.begin(), files.end());
   json logs = json::array();
@@ -336,10 +337,10 @@ void list_logs(const Call& call, const Request& request, Response& response) {
   write_json(response, 200, {{"logs", std::move(logs)}});
 }
 
-void send_log(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
+void send_log(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
   const std::string name = request.matches[2];
-  const fs::path file = call.folders.job_folder(row.id) / "logs" / name;
+  const fs::path file = context.folders.job_folder(row.id) / "logs" / name;
   if (name == ".." || !fs::is_regular_file(file)) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
   }
@@ -359,21 +360,21 @@ std::string newest_preview(const fs::path& job_folder) {
   return newest;
 }
 
-void list_previews(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
+void list_previews(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
   json previews = json::array();
-  for (const Preview& preview : previews_of(call.folders.job_folder(row.id))) {
+  for (const Preview& preview : previews_of(context.folders.job_folder(row.id))) {
     const std::string href = fmt::format("/v1/jobs/{}/previews/{}", row.id, preview.name);
     previews.push_back({{"name", preview.name}, {"href", href}, {"clean", href + "?clean"}});
   }
   write_json(response, 200, {{"previews", std::move(previews)}});
 }
 
-void send_preview(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
+void send_preview(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
   const std::string wanted = request.matches[2];
   const bool clean = is_asked(request, "clean");
-  for (const Preview& preview : previews_of(call.folders.job_folder(row.id))) {
+  for (const Preview& preview : previews_of(context.folders.job_folder(row.id))) {
     if (preview.name != wanted) continue;
     const fs::path& file = clean ? preview.clean : preview.drawn;
     return answer_with_growing_file(request, response, file, media_type_of(file));

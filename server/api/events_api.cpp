@@ -12,7 +12,7 @@
 
 #include "server/api/downloads_api.h"
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 
 namespace throng::server {
@@ -146,29 +146,29 @@ std::int64_t last_event_id(const Request& request) {
   return number;
 }
 
-void send_page(const Call& call, const Request& request, Response& response,
+void send_page(const RequestContext& context, const Request& request, Response& response,
                const std::string& job) {
   constexpr std::int64_t kMaxWaitS = 60;
   const std::int64_t after = number_of(request, "after", 0, kLastNumber, 0);
   const auto limit = static_cast<int>(number_of(request, "limit", 1, kPage, kPage));
   const std::chrono::seconds timeout(number_of(request, "wait_s", 0, kMaxWaitS, 0));
   json list = json::array();
-  const std::vector<jobs::EventRow> events = call.queue.events(job, after, limit, timeout);
+  const std::vector<jobs::EventRow> events = context.queue.events(job, after, limit, timeout);
   const std::int64_t next = events.empty() ? after : events.back().seq;
-  for (const jobs::EventRow& event : visible(events, call.queue, call.caller)) {
+  for (const jobs::EventRow& event : visible(events, context.queue, context.caller)) {
     list.push_back(event_json(event));
   }
   write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
 }
 
 /// Sends the events of the job or study with this id; "" for all.
-void send_events_of(const Call& call, const Request& request, Response& response,
+void send_events_of(const RequestContext& context, const Request& request, Response& response,
                     const std::string& job, const std::filesystem::path& folder) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
-    return send_page(call, request, response, job);
+    return send_page(context, request, response, job);
   }
-  const auto stream =
-      std::make_shared<EventStream>(call.queue, call.caller, job, last_event_id(request), folder);
+  const auto stream = std::make_shared<EventStream>(context.queue, context.caller, job,
+                                                    last_event_id(request), folder);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(
@@ -178,14 +178,15 @@ void send_events_of(const Call& call, const Request& request, Response& response
 
 }  // namespace
 
-void send_events(const Call& call, const Request& request, Response& response) {
-  if (request.matches.size() < 2) return send_events_of(call, request, response, "", {});
-  const std::string id = find_job(call, request).id;
-  send_events_of(call, request, response, id, call.folders.job_folder(id));
+void send_events(const RequestContext& context, const Request& request, Response& response) {
+  if (request.matches.size() < 2) return send_events_of(context, request, response, "", {});
+  const std::string id = find_job(context, request).id;
+  send_events_of(context, request, response, id, context.folders.job_folder(id));
 }
 
-void send_study_events(const Call& call, const Request& request, Response& response) {
-  send_events_of(call, request, response, find_row(call, request, jobs::JobKind::study).id, {});
+void send_study_events(const RequestContext& context, const Request& request, Response& response) {
+  send_events_of(context, request, response, find_row(context, request, jobs::JobKind::study).id,
+                 {});
 }
 
 }  // namespace throng::server

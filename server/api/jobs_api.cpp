@@ -9,7 +9,7 @@
 #include "jobs/queue/store/job_id.h"
 #include "server/api/requests.h"
 #include "server/api/row_changes.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 #include "spec/job/plan.h"
 #include "spec/job/resolved_job.h"
@@ -26,9 +26,9 @@ namespace {
 constexpr std::size_t kMaxKeyLength = 200;
 
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
-jobs::JobRow find_own(const Call& call, const Request& request) {
-  jobs::JobRow row = find_job(call, request);
-  require_own(call, row);
+jobs::JobRow find_own(const RequestContext& context, const Request& request) {
+  jobs::JobRow row = find_job(context, request);
+  require_own(context, row);
   return row;
 }
 
@@ -73,13 +73,14 @@ std::optional<Form> form_of(const Request& request) {
 }
 
 /// With a bundle of its own, unless that is null.
-void queue(const Call& call, Submission submission, Response& response,
+void queue(const RequestContext& context, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
-  submission.owner = call.caller.key_id;
-  submission.max_active = call.caller.max_active;
-  submission.max_bytes = call.caller.max_bytes;
-  const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
-                                              : call.queue.submit_with_bundle(submission, *bundle);
+  submission.owner = context.caller.key_id;
+  submission.max_active = context.caller.max_active;
+  submission.max_bytes = context.caller.max_bytes;
+  const jobs::Added added = bundle == nullptr
+                                ? context.queue.submit(submission)
+                                : context.queue.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
     throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and the request "
                                      "with it then was something else",
@@ -88,7 +89,7 @@ void queue(const Call& call, Submission submission, Response& response,
   response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
   if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
   write_json(response, added.is_new ? 201 : 200,
-             job_json(added.row, call.housekeeping.retention()));
+             job_json(added.row, context.housekeeping.retention()));
 }
 
 std::vector<jobs::JobState> states_of(const Request& request) {
@@ -108,28 +109,28 @@ std::vector<jobs::JobState> states_of(const Request& request) {
 
 }  // namespace
 
-void submit_job(const Call& call, const Request& request, Response& response) {
+void submit_job(const RequestContext& context, const Request& request, Response& response) {
   const std::optional<Form> form = form_of(request);
   if (!form) require_json(request);
   const std::string& job = form ? form->job : request.body;
   Submission submission{job};
   submission.priority =
       static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
-  require_priority(call, submission.priority, "?priority");
+  require_priority(context, submission.priority, "?priority");
   submission.labels = all_of(request, "label");
   check_labels(submission.labels, "?label");
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
-    json answer =
-        has_bundle ? call.queue.dry_run_with_bundle(job, *form->bundle) : call.queue.dry_run(job);
+    json answer = has_bundle ? context.queue.dry_run_with_bundle(job, *form->bundle)
+                             : context.queue.dry_run(job);
     answer["valid"] = true;
     return write_json(response, 200, answer);
   }
   submission.key = key_of(request);
-  queue(call, std::move(submission), response, form ? form->bundle : nullptr);
+  queue(context, std::move(submission), response, form ? form->bundle : nullptr);
 }
 
-void list_jobs(const Call& call, const Request& request, Response& response) {
+void list_jobs(const RequestContext& context, const Request& request, Response& response) {
   jobs::JobFilter filter;
   filter.states = states_of(request);
   filter.label = request.get_param_value("label");
@@ -141,68 +142,69 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
   filter.oldest_first = sort == "oldest";
   filter.after = after_of(request);
   filter.limit = limit_of(request);
-  filter.visible_to = viewer_of(call.caller);
-  const std::vector<jobs::JobRow> rows = call.queue.list(filter);
+  filter.visible_to = viewer_of(context.caller);
+  const std::vector<jobs::JobRow> rows = context.queue.list(filter);
   json jobs = json::array();
-  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.housekeeping.retention()));
+  for (const jobs::JobRow& row : rows)
+    jobs.push_back(job_json(row, context.housekeeping.retention()));
   const bool more = static_cast<int>(rows.size()) == filter.limit;
   write_json(response, 200,
              {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
 }
 
-void send_job(const Call& call, const Request& request, Response& response) {
+void send_job(const RequestContext& context, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  if (!sees_all(call.caller)) static_cast<void>(find_job(call, request));
-  const auto text =
-      jobs::is_job_id(id)
-          ? call.queue.text_of_job(id,
-                                   [&](const jobs::JobRow& row) {
-                                     return text_of(job_json(row, call.housekeeping.retention()));
-                                   })
-          : nullptr;
+  if (!sees_all(context.caller)) static_cast<void>(find_job(context, request));
+  const auto text = jobs::is_job_id(id)
+                        ? context.queue.text_of_job(
+                              id,
+                              [&](const jobs::JobRow& row) {
+                                return text_of(job_json(row, context.housekeeping.retention()));
+                              })
+                        : nullptr;
   if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
   response.set_content(*text, "application/json");
 }
 
-void change_job(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_own(call, request);
-  const jobs::JobChange wanted = change_of(call, request, row);
-  const auto changed = call.queue.change(row.id, wanted);
+void change_job(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_own(context, request);
+  const jobs::JobChange wanted = change_of(context, request, row);
+  const auto changed = context.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*changed, call.housekeeping.retention()));
+  write_json(response, 200, job_json(*changed, context.housekeeping.retention()));
 }
 
-void cancel_job(const Call& call, const Request& request, Response& response) {
-  const auto row = call.queue.cancel(find_own(call, request).id);
+void cancel_job(const RequestContext& context, const Request& request, Response& response) {
+  const auto row = context.queue.cancel(find_own(context, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
+  write_json(response, 200, job_json(*row, context.housekeeping.retention()));
 }
 
-void retry_job(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own(call, request);
+void retry_job(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own(context, request);
   // An administrator may retry another's job beyond its key's limits.
-  const bool is_owner = own.owner == call.caller.key_id;
-  const auto row = call.queue.retry(
-      own.id, is_owner ? jobs::OwnerLimits{call.caller.max_active, call.caller.max_bytes}
+  const bool is_owner = own.owner == context.caller.key_id;
+  const auto row = context.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
                        : jobs::OwnerLimits{});
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
+  write_json(response, 200, job_json(*row, context.housekeeping.retention()));
 }
 
-void clone_job(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
+void clone_job(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
   json job = parse_own_json(row.spec_json, "the job");
   if (!request.body.empty()) {
     require_json(request);
     job.merge_patch(json_body_of(request));
   }
   const std::string text = text_of(job);
-  const int priority = std::min(row.priority, call.caller.max_priority);
-  queue(call, {text, priority, row.labels, key_of(request)}, response);
+  const int priority = std::min(row.priority, context.caller.max_priority);
+  queue(context, {text, priority, row.labels, key_of(request)}, response);
 }
 
-void remove_job(const Call& call, const Request& request, Response& response) {
-  if (!call.housekeeping.remove(find_own(call, request).id))
+void remove_job(const RequestContext& context, const Request& request, Response& response) {
+  if (!context.housekeeping.remove(find_own(context, request).id))
     throw HttpError{404, "already removed"};
   response.status = 204;
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 
 namespace throng::server {
@@ -36,8 +36,8 @@ json key_json(const KeyRow& key) {
           {"links", {{"self", "/v1/keys/" + key.id}}}};
 }
 
-KeyRow find_key(const Call& call, const std::string& id) {
-  const std::vector<KeyRow> all = call.keys.list();
+KeyRow find_key(const RequestContext& context, const std::string& id) {
+  const std::vector<KeyRow> all = context.keys.list();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const KeyRow& key) { return key.id == id; });
   if (found == all.end()) throw HttpError{404, fmt::format("there is no key {}", id)};
@@ -73,8 +73,8 @@ Scope scope_in(const json& body) {
 
 }  // namespace
 
-void create_key(const Call& call, const Request& request, Response& response) {
-  if (!call.keys.are_needed()) {
+void create_key(const RequestContext& context, const Request& request, Response& response) {
+  if (!context.keys.are_needed()) {
     throw HttpError{403,
                     "the first key is made on the machine of the service: throng keys create NAME "
                     "--scope admin --data DIR"};
@@ -85,28 +85,28 @@ void create_key(const Call& call, const Request& request, Response& response) {
   const auto max_jobs = integer_in(body, "max_jobs", 0, std::numeric_limits<int>::max());
   const auto max_bytes = integer_in(body, "max_bytes", 0, std::numeric_limits<std::int64_t>::max());
   const auto max_priority = integer_in(body, "max_priority", -kMaxPriority, kMaxPriority);
-  const std::string token = call.keys.create(name, scope_in(body), static_cast<int>(max_jobs),
-                                             max_bytes, static_cast<int>(max_priority));
-  json answer = key_json(find_key(call, call.keys.caller_of(token)->key_id));
+  const std::string token = context.keys.create(name, scope_in(body), static_cast<int>(max_jobs),
+                                                max_bytes, static_cast<int>(max_priority));
+  json answer = key_json(find_key(context, context.keys.caller_of(token)->key_id));
   answer["key"] = token;  // this once
   response.set_header("Location", answer["links"]["self"].get<std::string>());
   response.set_header("Cache-Control", "no-store");
   write_json(response, 201, answer);
 }
 
-void list_keys(const Call& call, const Request&, Response& response) {
+void list_keys(const RequestContext& context, const Request&, Response& response) {
   json list = json::array();
-  for (const KeyRow& key : call.keys.list()) list.push_back(key_json(key));
+  for (const KeyRow& key : context.keys.list()) list.push_back(key_json(key));
   write_json(response, 200, {{"keys", std::move(list)}});
 }
 
-void revoke_key(const Call& call, const Request& request, Response& response) {
-  const KeyRow key = find_key(call, request.matches[1]);
-  if (key.id == call.caller.key_id) {
+void revoke_key(const RequestContext& context, const Request& request, Response& response) {
+  const KeyRow key = find_key(context, request.matches[1]);
+  if (key.id == context.caller.key_id) {
     throw HttpError{409, "this key makes the request: revoke it with another one"};
   }
-  if (!call.keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
-  write_json(response, 200, key_json(find_key(call, key.id)));
+  if (!context.keys.revoke(key.id)) throw HttpError{409, "the key is revoked already"};
+  write_json(response, 200, key_json(find_key(context, key.id)));
 }
 
 }  // namespace throng::server

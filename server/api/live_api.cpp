@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 #include "server/live/live_flights.h"
 #include "spec/job/scenario_mix.h"
@@ -26,15 +26,15 @@ namespace {
 
 constexpr int kMaxViewers = 32;  // of all flights; each holds a thread of the server
 
-bool is_own(const Call& call, const LiveFlight& flight) {
-  return sees_all(call.caller) || flight.owner() == call.caller.key_id;
+bool is_own(const RequestContext& context, const LiveFlight& flight) {
+  return sees_all(context.caller) || flight.owner() == context.caller.key_id;
 }
 
 /// The caller's flight that the path names. Throws HttpError 404.
-std::shared_ptr<LiveFlight> find_flight(const Call& call, const Request& request) {
+std::shared_ptr<LiveFlight> find_flight(const RequestContext& context, const Request& request) {
   const std::string id = request.matches[1];
-  std::shared_ptr<LiveFlight> flight = call.live.find(id);
-  if (!flight || !is_own(call, *flight)) {
+  std::shared_ptr<LiveFlight> flight = context.live.find(id);
+  if (!flight || !is_own(context, *flight)) {
     throw HttpError{404, fmt::format("there is no live flight {}", id)};
   }
   return flight;
@@ -68,14 +68,14 @@ std::vector<Problem> problems_below(std::vector<Problem> problems, const std::st
   return problems;
 }
 
-jobs::ResolvedJob job_in(const Call& call, const json& body) {
+jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
   const auto job = body.find("job");
   if (job == body.end() || !job->is_object()) {
     throw wrong_field("request", "/job", job == body.end() ? "nothing" : job->dump().substr(0, 60),
                       "a job");
   }
   try {
-    jobs::ResolvedJob resolved = call.queue.resolve(text_of(*job));
+    jobs::ResolvedJob resolved = context.queue.resolve(text_of(*job));
     // A flight takes place in one scenario: that of the job's first run.
     if (!resolved.spec().drones.empty()) {
       return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.people());
@@ -89,11 +89,11 @@ jobs::ResolvedJob job_in(const Call& call, const json& body) {
 
 }  // namespace
 
-void begin_live(const Call& call, const Request& request, Response& response) {
+void begin_live(const RequestContext& context, const Request& request, Response& response) {
   const json body = fields_of(request, "request", {"job"});
-  const jobs::ResolvedJob job = job_in(call, body);
+  const jobs::ResolvedJob job = job_in(context, body);
   try {
-    const auto flight = call.live.begin(job, call.caller.key_id);
+    const auto flight = context.live.begin(job, context.caller.key_id);
     response.set_header("Location", "/v1/live/" + flight->id());
     write_json(response, 201, flight_json(*flight));
   } catch (const LiveFlightsFull& full) {
@@ -102,10 +102,10 @@ void begin_live(const Call& call, const Request& request, Response& response) {
   }
 }
 
-void list_live(const Call& call, const Request& /*request*/, Response& response) {
+void list_live(const RequestContext& context, const Request& /*request*/, Response& response) {
   json list = json::array();
-  for (const auto& flight : call.live.all()) {
-    if (!is_own(call, *flight)) continue;
+  for (const auto& flight : context.live.all()) {
+    if (!is_own(context, *flight)) continue;
     json value = flight_json(*flight);
     value.erase("result");
     list.push_back(std::move(value));
@@ -114,15 +114,15 @@ void list_live(const Call& call, const Request& /*request*/, Response& response)
   write_json(response, 200, {{"flights", std::move(list)}});
 }
 
-void send_live(const Call& call, const Request& request, Response& response) {
+void send_live(const RequestContext& context, const Request& request, Response& response) {
   response.set_header("Cache-Control", "no-store");
-  write_json(response, 200, flight_json(*find_flight(call, request)));
+  write_json(response, 200, flight_json(*find_flight(context, request)));
 }
 
-void stream_live(const Call& call, const Request& request, Response& response) {
-  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+void stream_live(const RequestContext& context, const Request& request, Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
   int viewers = 0;
-  for (const auto& other : call.live.all()) viewers += other->viewers();
+  for (const auto& other : context.live.all()) viewers += other->viewers();
   if (viewers >= kMaxViewers) {
     throw HttpError{503, fmt::format("{} streams are open: try again later", viewers)};
   }
@@ -140,9 +140,9 @@ void stream_live(const Call& call, const Request& request, Response& response) {
                                         });
 }
 
-void command_live(const Call& call, const Request& request, Response& response) {
+void command_live(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
-  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
   const json body = json_body_of(request);
   live::Commands commands;
   try {
@@ -154,8 +154,8 @@ void command_live(const Call& call, const Request& request, Response& response) 
   response.status = 204;
 }
 
-void stop_live(const Call& call, const Request& request, Response& response) {
-  const std::shared_ptr<LiveFlight> flight = find_flight(call, request);
+void stop_live(const RequestContext& context, const Request& request, Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
   if (flight->state() != LiveState::failed && flight->time_s() <= 0) {
     throw HttpError{409, "the flight has not begun: nobody has looked at it yet"};
   }
@@ -163,8 +163,9 @@ void stop_live(const Call& call, const Request& request, Response& response) {
   write_json(response, 200, flight_json(*flight));
 }
 
-void remove_live(const Call& call, const Request& request, Response& response) {
-  if (!call.live.remove(find_flight(call, request)->id())) throw HttpError{404, "already removed"};
+void remove_live(const RequestContext& context, const Request& request, Response& response) {
+  if (!context.live.remove(find_flight(context, request)->id()))
+    throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

@@ -2,7 +2,7 @@
 // programs fly it by commands.
 #pragma once
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -10,14 +10,21 @@ namespace throng::server {
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
 /// {"job": {...}}: 201.
-void begin_live(const Call& call, const httplib::Request& request, httplib::Response& response);
-void list_live(const Call& call, const httplib::Request& request, httplib::Response& response);
-void send_live(const Call& call, const httplib::Request& request, httplib::Response& response);
+void begin_live(const RequestContext& context, const httplib::Request& request,
+                httplib::Response& response);
+void list_live(const RequestContext& context, const httplib::Request& request,
+               httplib::Response& response);
+void send_live(const RequestContext& context, const httplib::Request& request,
+               httplib::Response& response);
 /// Messages (spec/live/messages.h) as they come.
-void stream_live(const Call& call, const httplib::Request& request, httplib::Response& response);
-void command_live(const Call& call, const httplib::Request& request, httplib::Response& response);
+void stream_live(const RequestContext& context, const httplib::Request& request,
+                 httplib::Response& response);
+void command_live(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
 /// The outcome: pilot logs, and the job that repeats the flight.
-void stop_live(const Call& call, const httplib::Request& request, httplib::Response& response);
-void remove_live(const Call& call, const httplib::Request& request, httplib::Response& response);
+void stop_live(const RequestContext& context, const httplib::Request& request,
+               httplib::Response& response);
+void remove_live(const RequestContext& context, const httplib::Request& request,
+                 httplib::Response& response);
 
 }  // namespace throng::server

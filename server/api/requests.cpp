@@ -9,7 +9,7 @@
 
 #include "base/json/json_text.h"
 #include "jobs/queue/store/job_id.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 
 namespace throng::server {
@@ -117,22 +117,22 @@ std::string_view word_of(jobs::JobKind kind) {
 
 }  // namespace
 
-jobs::JobRow find_job(const Call& call, const Request& request) {
-  return find_row(call, request, jobs::JobKind::dataset);
+jobs::JobRow find_job(const RequestContext& context, const Request& request) {
+  return find_row(context, request, jobs::JobKind::dataset);
 }
 
-void require_own(const Call& call, const jobs::JobRow& row) {
-  if (call.caller.scope >= Scope::admin || row.owner == call.caller.key_id) return;
+void require_own(const RequestContext& context, const jobs::JobRow& row) {
+  if (context.caller.scope >= Scope::admin || row.owner == context.caller.key_id) return;
   throw HttpError{
       403, fmt::format("the {} is another's: only its owner and administrators may change it",
                        word_of(row.kind))};
 }
 
-jobs::JobRow find_row(const Call& call, const Request& request, jobs::JobKind kind) {
+jobs::JobRow find_row(const RequestContext& context, const Request& request, jobs::JobKind kind) {
   const std::string id = request.matches[1];
   std::optional<jobs::JobRow> row;
-  if (jobs::is_job_id(id)) row = call.queue.get(id);
-  if (!row || row->kind != kind || !is_visible(call.caller, *row)) {
+  if (jobs::is_job_id(id)) row = context.queue.get(id);
+  if (!row || row->kind != kind || !is_visible(context.caller, *row)) {
     throw HttpError{404, fmt::format("there is no {} {}", word_of(kind), id)};
   }
   return std::move(*row);

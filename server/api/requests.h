@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_error.h"
 #include "server/http/http_fwd.h"
 
@@ -51,13 +51,14 @@ bool is_visible(const Caller& caller, const jobs::JobRow& row);
 std::optional<std::string> viewer_of(const Caller& caller);
 
 /// The job that the path names. Throws HttpError 404, also for one that the caller does not see.
-jobs::JobRow find_job(const Call& call, const httplib::Request& request);
+jobs::JobRow find_job(const RequestContext& context, const httplib::Request& request);
 
 /// Throws HttpError 403 unless the caller owns the job, calibration or study, or is an
 /// administrator.
-void require_own(const Call& call, const jobs::JobRow& row);
+void require_own(const RequestContext& context, const jobs::JobRow& row);
 
 /// Likewise one of this kind.
-jobs::JobRow find_row(const Call& call, const httplib::Request& request, jobs::JobKind kind);
+jobs::JobRow find_row(const RequestContext& context, const httplib::Request& request,
+                      jobs::JobKind kind);
 
 }  // namespace throng::server

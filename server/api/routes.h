@@ -11,7 +11,7 @@
 
 namespace throng::server {
 
-struct Call;
+struct RequestContext;
 
 enum class Method { get, post, patch, remove };
 
@@ -24,7 +24,7 @@ struct Route {
   Method method;
   const char* path;
   Scope scope;  ///< that a caller must have
-  void (*handler)(const Call&, const httplib::Request&, httplib::Response&);
+  void (*handler)(const RequestContext&, const httplib::Request&, httplib::Response&);
 };
 
 /// The path as the library's pattern: Request::matches holds the parameters from 1 on.

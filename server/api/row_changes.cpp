@@ -43,15 +43,16 @@ void check_labels(const std::vector<std::string>& labels, const std::string& poi
                                 kMaxLabelLength)}}};
 }
 
-void require_priority(const Call& call, int priority, const std::string& pointer) {
-  if (priority <= call.caller.max_priority) return;
+void require_priority(const RequestContext& context, int priority, const std::string& pointer) {
+  if (priority <= context.caller.max_priority) return;
   throw HttpError{403,
                   "this key may not give its jobs that priority",
                   {{"", pointer, std::to_string(priority),
-                    fmt::format("at most {}", call.caller.max_priority)}}};
+                    fmt::format("at most {}", context.caller.max_priority)}}};
 }
 
-jobs::JobChange change_of(const Call& call, const Request& request, const jobs::JobRow& row) {
+jobs::JobChange change_of(const RequestContext& context, const Request& request,
+                          const jobs::JobRow& row) {
   require_json(request);
   const json change = json_body_of(request);
   if (!change.is_object())
@@ -64,7 +65,7 @@ jobs::JobChange change_of(const Call& call, const Request& request, const jobs::
       }
       wanted.priority = value;
       // An administrator may have raised it: then it may stay.
-      if (wanted.priority > row.priority) require_priority(call, wanted.priority, "/priority");
+      if (wanted.priority > row.priority) require_priority(context, wanted.priority, "/priority");
     } else if (name == "labels") {
       const bool is_list =
           value.is_array() && std::all_of(value.begin(), value.end(),

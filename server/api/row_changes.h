@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "jobs/queue/store/store.h"
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -15,11 +15,11 @@ namespace throng::server {
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer);
 
 /// Throws HttpError 403 for a priority that the caller may not give; `pointer` says where it is.
-void require_priority(const Call& call, int priority, const std::string& pointer);
+void require_priority(const RequestContext& context, int priority, const std::string& pointer);
 
 /// The row's values with those in the body of a PATCH: {"priority", "labels", "keep"} or some of
 /// them. Throws HttpError 400, 403 and 415.
-jobs::JobChange change_of(const Call& call, const httplib::Request& request,
+jobs::JobChange change_of(const RequestContext& context, const httplib::Request& request,
                           const jobs::JobRow& row);
 
 }  // namespace throng::server

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 #include "world/scenario.h"
 
@@ -52,14 +52,14 @@ json uploaded_summary(const ScenarioUpload& upload, const std::string& id) {
 
 /// Scenarios as clients see them, in the order of the ids. One that is damaged has an "error" and
 /// hides no other. This process loads none: uploaded ones are known from their check.
-json scenarios_json(const Call& call, const std::vector<std::string>& ids) {
+json scenarios_json(const RequestContext& context, const std::vector<std::string>& ids) {
   std::vector<std::optional<ScenarioUpload>> uploads;
   std::vector<std::string> shipped;
   for (const std::string& id : ids) {
-    uploads.push_back(call.uploads.scenarios().find(upload_of(id)));
+    uploads.push_back(context.uploads.scenarios().find(upload_of(id)));
     if (!uploads.back()) shipped.push_back(id);
   }
-  const auto summaries = call.confined.summaries(shipped, call.folders.scenarios());
+  const auto summaries = context.confined.summaries(shipped, context.folders.scenarios());
   json list = json::array();
   std::size_t next = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -67,7 +67,7 @@ json scenarios_json(const Call& call, const std::vector<std::string>& ids) {
     json value = upload ? uploaded_summary(*upload, ids[i]) : summaries.at(next++);
     value["id"] = ids[i];
     if (value.contains("error")) {
-      value["error"] = call.folders.without_paths(value["error"].get<std::string>());
+      value["error"] = context.folders.without_paths(value["error"].get<std::string>());
     } else {
       value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
     }
@@ -94,18 +94,18 @@ bool is_blueprint(const Request& request) {
 
 }  // namespace
 
-void upload_scenarios(const Call& call, const Request& request, Response& response) {
+void upload_scenarios(const RequestContext& context, const Request& request, Response& response) {
   const bool from_blueprint = is_blueprint(request);
   const std::string name = request.get_param_value("name");
-  ScenarioStore& uploads = call.uploads.scenarios();
+  ScenarioStore& uploads = context.uploads.scenarios();
   if (is_bundle_name(name)) throw HttpError{409, "names like this are those of jobs' own bundles"};
   if (uploads.is_taken(name)) {
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
   }
   try {
     ScenarioStore::Staged staged =
-        from_blueprint ? uploads.stage_blueprint(name, json_body_of(request), call.caller.key_id)
-                       : uploads.stage(name, request.body, call.caller.key_id);
+        from_blueprint ? uploads.stage_blueprint(name, json_body_of(request), context.caller.key_id)
+                       : uploads.stage(name, request.body, context.caller.key_id);
     const bool dry = is_asked(request, "dry_run");
     const ScenarioUpload upload = dry ? staged.upload : uploads.publish(staged);
     json value = upload_json(upload);
@@ -117,61 +117,61 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     throw HttpError{400,
                     from_blueprint ? "no scenario can be made of the blueprint"
                                    : "the bundle cannot be used as it stands",
-                    call.folders.without_paths(error.problems())};
+                    context.folders.without_paths(error.problems())};
   }
 }
 
-void list_scenarios(const Call& call, const Request&, Response& response) {
-  std::vector<std::string> ids = world::list_scenarios(call.folders.scenarios());
+void list_scenarios(const RequestContext& context, const Request&, Response& response) {
+  std::vector<std::string> ids = world::list_scenarios(context.folders.scenarios());
   // Those of one job's bundle are of no use to others.
   std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_of(id)); });
-  write_json(response, 200, {{"scenarios", scenarios_json(call, ids)}});
+  write_json(response, 200, {{"scenarios", scenarios_json(context, ids)}});
 }
 
-void send_scenario(const Call& call, const Request& request, Response& response) {
+void send_scenario(const RequestContext& context, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(call.folders.scenarios());
+  const auto all = world::list_scenarios(context.folders.scenarios());
   if (std::find(all.begin(), all.end(), id) == all.end()) {
     throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
   }
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
-    return response.set_content(call.confined.scenario_plan(id, call.folders.scenarios()),
+    return response.set_content(context.confined.scenario_plan(id, context.folders.scenarios()),
                                 "image/svg+xml");
   }
   if (format == "blueprint") {
-    const json blueprint = call.confined.blueprint(id, call.folders.scenarios());
+    const json blueprint = context.confined.blueprint(id, context.folders.scenarios());
     if (blueprint.is_null()) throw HttpError{404, "this scenario was not made from a blueprint"};
     return write_json(response, 200, blueprint);
   }
   if (!format.empty() && format != "json") {
     throw HttpError{400, "format is wrong", {{"", "?format", format, "json, svg or blueprint"}}};
   }
-  json value = scenarios_json(call, {id}).front();
+  json value = scenarios_json(context, {id}).front();
   if (value.contains("error")) {
     throw HttpError{400, "the scenario cannot be loaded", {{"", "", value["error"], ""}}};
   }
   write_json(response, 200, value);
 }
 
-void send_job_plan(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_job(call, request);
-  response.set_content(call.confined.job_plan(row.spec_json, call.folders.scenarios()),
+void send_job_plan(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(context, request);
+  response.set_content(context.confined.job_plan(row.spec_json, context.folders.scenarios()),
                        "image/svg+xml");
 }
 
-void remove_scenarios(const Call& call, const Request& request, Response& response) {
+void remove_scenarios(const RequestContext& context, const Request& request, Response& response) {
   const std::string name = request.matches[1];
-  const auto upload = call.uploads.scenarios().find(name);
+  const auto upload = context.uploads.scenarios().find(name);
   if (!upload || is_bundle_name(name)) {
     throw HttpError{404,
                     "there is no such upload; its name is the first part of its scenarios' ids"};
   }
-  if (call.caller.scope < Scope::admin && upload->owner != call.caller.key_id) {
+  if (context.caller.scope < Scope::admin && upload->owner != context.caller.key_id) {
     throw HttpError{403,
                     "the upload is another's: only its owner and administrators may remove it"};
   }
-  if (!call.uploads.remove(name)) throw HttpError{404, "already removed"};
+  if (!context.uploads.remove(name)) throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

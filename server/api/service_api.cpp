@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "server/api/requests.h"
 #include "server/api/session_api.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 #include "spec/documents/published_schemas.h"
 #include "spec/job/spec.h"
@@ -60,65 +60,67 @@ std::string figures_of_nodes(const std::vector<jobs::NodeWork>& nodes) {
   return running + ended + busy;
 }
 
-std::int64_t free_bytes(const Call& call) { return disk_of(call.folders.data()).free_bytes; }
+std::int64_t free_bytes(const RequestContext& context) {
+  return disk_of(context.folders.data()).free_bytes;
+}
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
 json schema_at(const char* pointer) { return jobs::job_schema().at(json::json_pointer(pointer)); }
 
 }  // namespace
 
-void send_health(const Call&, const Request&, Response& response) {
+void send_health(const RequestContext&, const Request&, Response& response) {
   write_json(response, 200, {{"status", "ok"}});
 }
 
-void send_readiness(const Call& call, const Request& request, Response& response) {
-  static_cast<void>(call.queue.count());  // throws when the store cannot be read
-  call.queue.check_store();
+void send_readiness(const RequestContext& context, const Request& request, Response& response) {
+  static_cast<void>(context.queue.count());  // throws when the store cannot be read
+  context.queue.check_store();
   // Strangers learn no figures of the machine.
-  const bool is_known = caller_in(call.keys, call.sessions, request).has_value();
-  if (const std::string reason = call.queue.paused(); !reason.empty()) {
+  const bool is_known = caller_in(context.keys, context.sessions, request).has_value();
+  if (const std::string reason = context.queue.paused(); !reason.empty()) {
     throw HttpError{503, is_known ? fmt::format("the queue is paused: {}", reason)
                                   : std::string("the queue is paused")};
   }
   json ready = {{"status", "ready"}};
-  if (is_known) ready["free_bytes"] = free_bytes(call);
+  if (is_known) ready["free_bytes"] = free_bytes(context);
   write_json(response, 200, ready);
 }
 
-void send_figures(const Call& call, const Request&, Response& response) {
+void send_figures(const RequestContext& context, const Request&, Response& response) {
   std::string text =
       "# HELP throng_jobs Jobs, calibrations and studies by state.\n# TYPE throng_jobs gauge\n";
-  for (const auto& [state, count] : call.queue.count()) {
+  for (const auto& [state, count] : context.queue.count()) {
     text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", name_of(state), count);
   }
   const auto add = [&](const char* name, const char* type, const char* help, auto value) {
     text += fmt::format("# HELP {0} {1}\n# TYPE {0} {2}\n{0} {3}\n", name, help, type, value);
   };
   add("throng_events_total", "counter", "Events of jobs since the store was made.",
-      call.queue.last_event());
-  add("throng_event_streams", "gauge", "Clients that watch events.", call.queue.watchers());
+      context.queue.last_event());
+  add("throng_event_streams", "gauge", "Clients that watch events.", context.queue.watchers());
   add("throng_queue_paused", "gauge", "1 while the queue is paused because the disk is full.",
-      call.queue.paused().empty() ? 0 : 1);
-  text += figures_of_nodes(call.executor.nodes());
+      context.queue.paused().empty() ? 0 : 1);
+  text += figures_of_nodes(context.executor.nodes());
   add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
-      free_bytes(call));
+      free_bytes(context));
   add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());
   response.set_content(text, "text/plain; version=0.0.4; charset=utf-8");
 }
 
-void send_version(const Call&, const Request&, Response& response) {
+void send_version(const RequestContext&, const Request&, Response& response) {
   write_json(response, 200, {{"name", "throng"}, {"version", THRONG_VERSION}, {"api", "v1"}});
 }
 
-void send_schema(const Call&, const Request&, Response& response) {
+void send_schema(const RequestContext&, const Request&, Response& response) {
   response.set_content(std::string(jobs::job_schema_text()), "application/schema+json");
 }
 
-void list_schemas(const Call&, const Request&, Response& response) {
+void list_schemas(const RequestContext&, const Request&, Response& response) {
   write_json(response, 200, {{"schemas", jobs::schema_names()}});
 }
 
-void send_file_schema(const Call&, const Request& request, Response& response) {
+void send_file_schema(const RequestContext&, const Request& request, Response& response) {
   const std::string name = request.matches[1];
   const std::string schema = jobs::published_schema(name);
   if (schema.empty()) {
@@ -128,31 +130,31 @@ void send_file_schema(const Call&, const Request& request, Response& response) {
   response.set_content(schema, "application/schema+json");
 }
 
-void send_openapi(const Call&, const Request&, Response& response) {
+void send_openapi(const RequestContext&, const Request&, Response& response) {
   response.set_content(std::string(embedded::kOpenApi), "application/json");
 }
 
-void list_airframes(const Call& call, const Request&, Response& response) {
+void list_airframes(const RequestContext& context, const Request&, Response& response) {
   write_json(response, 200,
-             {{"airframes", call.confined.catalog().at("airframes")},
+             {{"airframes", context.confined.catalog().at("airframes")},
               {"schema", schema_at("/properties/drones/items/properties/airframe")}});
 }
 
-void list_formats(const Call& call, const Request&, Response& response) {
+void list_formats(const RequestContext& context, const Request&, Response& response) {
   write_json(response, 200,
-             {{"formats", call.confined.catalog().at("formats")},
+             {{"formats", context.confined.catalog().at("formats")},
               {"schema", schema_at("/properties/outputs/properties/formats")}});
 }
 
-void list_policies(const Call& call, const Request&, Response& response) {
+void list_policies(const RequestContext& context, const Request&, Response& response) {
   write_json(
       response, 200,
-      {{"policies", call.confined.catalog().at("policies")},
+      {{"policies", context.confined.catalog().at("policies")},
        {"schema", schema_at("/properties/drones/items/properties/guidance/properties/policy")}});
 }
 
-void list_people(const Call& call, const Request&, Response& response) {
-  json people = call.confined.people();
+void list_people(const RequestContext& context, const Request&, Response& response) {
+  json people = context.confined.people();
   if (people.is_null()) {
     throw HttpError{404, "there is no character library on this machine: run throng people build"};
   }

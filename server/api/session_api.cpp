@@ -61,10 +61,11 @@ void set_cookie(const Request& request, Response& response, const std::string& v
                                   cookie_name(request), value, is_secure ? "; Secure" : "", more));
 }
 
-void write_session(const Call& call, const std::optional<Caller>& caller, Response& response) {
+void write_session(const RequestContext& context, const std::optional<Caller>& caller,
+                   Response& response) {
   response.set_header("Cache-Control", "no-store");
   write_json(response, 200,
-             {{"needs_key", call.keys.are_needed()},
+             {{"needs_key", context.keys.are_needed()},
               {"scope", caller ? json(name_of(caller->scope)) : json(nullptr)}});
 }
 
@@ -82,31 +83,31 @@ bool has_credentials(const Request& request) {
   return request.has_header(kAuthorization) || !token_in(request).empty();
 }
 
-void confirm_access(const Call&, const Request&, Response& response) {
+void confirm_access(const RequestContext&, const Request&, Response& response) {
   response.set_header("Cache-Control", "no-store");
   response.status = 204;
 }
 
-void open_session(const Call& call, const Request& request, Response& response) {
+void open_session(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
   const json body = json_body_of(request);
   if (!body.contains("key") || !body["key"].is_string()) {
     throw HttpError{400, "a session needs a key", {{"", "/key", "nothing", "a key as text"}}};
   }
   const std::string key = body["key"];
-  const auto caller = call.keys.caller_of(key);
+  const auto caller = context.keys.caller_of(key);
   if (!caller) throw HttpError{401, "this key is not known, or was revoked"};
-  call.sessions.close(token_in(request));
-  set_cookie(request, response, call.sessions.open(key), "");
-  write_session(call, caller, response);
+  context.sessions.close(token_in(request));
+  set_cookie(request, response, context.sessions.open(key), "");
+  write_session(context, caller, response);
 }
 
-void send_session(const Call& call, const Request& request, Response& response) {
-  write_session(call, caller_in(call.keys, call.sessions, request), response);
+void send_session(const RequestContext& context, const Request& request, Response& response) {
+  write_session(context, caller_in(context.keys, context.sessions, request), response);
 }
 
-void close_session(const Call& call, const Request& request, Response& response) {
-  call.sessions.close(token_in(request));
+void close_session(const RequestContext& context, const Request& request, Response& response) {
+  context.sessions.close(token_in(request));
   set_cookie(request, response, "", "; Max-Age=0");
   response.status = 204;
 }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -18,10 +18,14 @@ std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions,
 bool has_credentials(const httplib::Request& request);
 
 /// 204: for proxies that ask before they read a body (docker/nginx.conf). The route refuses others.
-void confirm_access(const Call& call, const httplib::Request& request, httplib::Response& response);
+void confirm_access(const RequestContext& context, const httplib::Request& request,
+                    httplib::Response& response);
 
-void open_session(const Call& call, const httplib::Request& request, httplib::Response& response);
-void send_session(const Call& call, const httplib::Request& request, httplib::Response& response);
-void close_session(const Call& call, const httplib::Request& request, httplib::Response& response);
+void open_session(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void send_session(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void close_session(const RequestContext& context, const httplib::Request& request,
+                   httplib::Response& response);
 
 }  // namespace throng::server

@@ -17,7 +17,7 @@
 #include "base/files/hash.h"
 #include "server/api/requests.h"
 #include "server/api/row_changes.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/file_answer.h"
 #include "server/http/http.h"
 #include "spec/study/study_files.h"
@@ -41,13 +41,13 @@ constexpr std::array kResults = {Result{study::kSummaryName, "application/json",
                                  Result{study::kMarkdownName, "text/markdown", false},
                                  Result{study::kValuesName, "application/json", true}};
 
-jobs::JobRow find_study(const Call& call, const Request& request) {
-  return find_row(call, request, jobs::JobKind::study);
+jobs::JobRow find_study(const RequestContext& context, const Request& request) {
+  return find_row(context, request, jobs::JobKind::study);
 }
 
-jobs::JobRow find_own_study(const Call& call, const Request& request) {
-  jobs::JobRow row = find_study(call, request);
-  require_own(call, row);
+jobs::JobRow find_own_study(const RequestContext& context, const Request& request) {
+  jobs::JobRow row = find_study(context, request);
+  require_own(context, row);
   return row;
 }
 
@@ -80,92 +80,93 @@ void answer_with(const Request& request, Response& response, const fs::path& fil
 
 }  // namespace
 
-void submit_study(const Call& call, const Request& request, Response& response) {
+void submit_study(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
   const json document = json_body_of(request);
   try {
     if (is_asked(request, "dry_run")) {
-      json plan = call.studies.checked(document);
+      json plan = context.studies.checked(document);
       plan["valid"] = true;
       return write_json(response, 200, plan);
     }
-    const jobs::JobRow row = call.studies.submit(
-        document, {call.caller.key_id, call.caller.max_active, call.caller.max_bytes});
+    const jobs::JobRow row = context.studies.submit(
+        document, {context.caller.key_id, context.caller.max_active, context.caller.max_bytes});
     response.set_header("Location", "/v1/studies/" + row.id);
-    write_json(response, 201, study_json(row, call.housekeeping.retention()));
+    write_json(response, 201, study_json(row, context.housekeeping.retention()));
   } catch (const InputError& error) {
     throw HttpError{400, "the study cannot be done as it stands",
-                    call.folders.without_paths(error.problems())};
+                    context.folders.without_paths(error.problems())};
   }
 }
 
-void list_studies(const Call& call, const Request& request, Response& response) {
+void list_studies(const RequestContext& context, const Request& request, Response& response) {
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = call.queue.list({.kind = jobs::JobKind::study,
-                                                          .after = after_of(request),
-                                                          .limit = limit,
-                                                          .visible_to = viewer_of(call.caller)});
+  const std::vector<jobs::JobRow> rows =
+      context.queue.list({.kind = jobs::JobKind::study,
+                          .after = after_of(request),
+                          .limit = limit,
+                          .visible_to = viewer_of(context.caller)});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
-    list.push_back(study_json(row, call.housekeeping.retention()));
+    list.push_back(study_json(row, context.housekeeping.retention()));
   const bool more = static_cast<int>(rows.size()) == limit;
   write_json(response, 200,
              {{"studies", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
 }
 
-void send_study(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(call, request);
-  json value = study_json(row, call.housekeeping.retention());
-  value["plan"] = call.studies.plan_of(row);
-  value["summary"] = call.studies.summary_of(row);
+void send_study(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(context, request);
+  json value = study_json(row, context.housekeeping.retention());
+  value["plan"] = context.studies.plan_of(row);
+  value["summary"] = context.studies.summary_of(row);
   write_json(response, 200, value);
 }
 
-void change_study(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own_study(call, request);
-  const auto row = call.queue.change(own.id, change_of(call, request, own));
+void change_study(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(context, request);
+  const auto row = context.queue.change(own.id, change_of(context, request, own));
   if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
 }
 
-void cancel_study(const Call& call, const Request& request, Response& response) {
-  const auto row = call.queue.cancel(find_own_study(call, request).id);
+void cancel_study(const RequestContext& context, const Request& request, Response& response) {
+  const auto row = context.queue.cancel(find_own_study(context, request).id);
   if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
 }
 
-void retry_study(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow own = find_own_study(call, request);
-  const bool is_owner = own.owner == call.caller.key_id;
-  const auto row = call.queue.retry(
-      own.id, is_owner ? jobs::OwnerLimits{call.caller.max_active, call.caller.max_bytes}
+void retry_study(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow own = find_own_study(context, request);
+  const bool is_owner = own.owner == context.caller.key_id;
+  const auto row = context.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
                        : jobs::OwnerLimits{});
   if (!row) throw HttpError{404, "the study has been removed"};
-  write_json(response, 200, study_json(*row, call.housekeeping.retention()));
+  write_json(response, 200, study_json(*row, context.housekeeping.retention()));
 }
 
-void remove_study(const Call& call, const Request& request, Response& response) {
-  if (!call.housekeeping.remove(find_own_study(call, request).id)) {
+void remove_study(const RequestContext& context, const Request& request, Response& response) {
+  if (!context.housekeeping.remove(find_own_study(context, request).id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
-void send_study_report(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(call, request);
+void send_study_report(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(context, request);
   if (row.state != jobs::JobState::succeeded) throw not_there_yet(row);
-  answer_with(request, response, call.folders.folder_of(row) / study::kReportName,
+  answer_with(request, response, context.folders.folder_of(row) / study::kReportName,
               "text/html; charset=utf-8");
 }
 
-void send_study_file(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_study(call, request);
-  const fs::path folder = call.folders.folder_of(row);
+void send_study_file(const RequestContext& context, const Request& request, Response& response) {
+  const jobs::JobRow row = find_study(context, request);
+  const fs::path folder = context.folders.folder_of(row);
   const std::string wanted = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return wanted == entry.name; });
   const bool is_result = result != kResults.end();
-  const auto run = is_result ? std::nullopt : run_file(call.studies.plan_of(row), wanted);
+  const auto run = is_result ? std::nullopt : run_file(context.studies.plan_of(row), wanted);
   if (!is_result && !run) {
     throw HttpError{404,
                     "a study has summary.json, summary.csv, summary.md, values.json and "

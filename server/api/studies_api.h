@@ -1,7 +1,7 @@
 // Routes of studies: /v1/studies. A study is queued and worked off like a job.
 #pragma once
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
@@ -9,19 +9,26 @@ namespace throng::server {
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
 /// A study's document (docs/guidance.md) as JSON; with ?dry_run it is only checked.
-void submit_study(const Call& call, const httplib::Request& request, httplib::Response& response);
-void list_studies(const Call& call, const httplib::Request& request, httplib::Response& response);
+void submit_study(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void list_studies(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
 /// With its plan, and the summary of what is there so far.
-void send_study(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_study(const RequestContext& context, const httplib::Request& request,
+                httplib::Response& response);
 /// PATCH with {"priority", "labels", "keep"}, as of a job.
-void change_study(const Call& call, const httplib::Request& request, httplib::Response& response);
-void cancel_study(const Call& call, const httplib::Request& request, httplib::Response& response);
-void retry_study(const Call& call, const httplib::Request& request, httplib::Response& response);
-void remove_study(const Call& call, const httplib::Request& request, httplib::Response& response);
-void send_study_report(const Call& call, const httplib::Request& request,
+void change_study(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void cancel_study(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void retry_study(const RequestContext& context, const httplib::Request& request,
+                 httplib::Response& response);
+void remove_study(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void send_study_report(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 /// summary.json, summary.csv, summary.md, values.json or runs/CASE/POLICY/000.json.
-void send_study_file(const Call& call, const httplib::Request& request,
+void send_study_file(const RequestContext& context, const httplib::Request& request,
                      httplib::Response& response);
 
 }  // namespace throng::server

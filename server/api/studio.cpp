@@ -89,11 +89,11 @@ void write_studio(const Request& request, Response& response) {
   send_bytes(request, response, *find_file("index.html"), "no-cache");
 }
 
-void send_studio(const Call&, const Request& request, Response& response) {
+void send_studio(const RequestContext&, const Request& request, Response& response) {
   write_studio(request, response);
 }
 
-void send_studio_asset(const Call&, const Request& request, Response& response) {
+void send_studio_asset(const RequestContext&, const Request& request, Response& response) {
   const StudioFile* file = find_file(std::string(request.matches[1]));
   if (file == nullptr || file->name == "index.html") {
     throw HttpError{404, "the page has no such file; it may be of another version: reload"};

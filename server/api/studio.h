@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/api/routes.h"
 #include "server/http/http_fwd.h"
 
@@ -25,9 +25,10 @@ struct StudioFile {
 /// linked; the scripts tell them apart.
 std::span<const Route> studio_routes();
 
-void send_studio(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_studio(const RequestContext& context, const httplib::Request& request,
+                 httplib::Response& response);
 /// Throws HttpError 404.
-void send_studio_asset(const Call& call, const httplib::Request& request,
+void send_studio_asset(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 
 /// Whether a request for a path that does not exist comes from a person's browser, for which the

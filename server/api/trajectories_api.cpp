@@ -121,11 +121,11 @@ std::vector<double> times_of(const Request& request, const world::TrajectoryRead
 
 }  // namespace
 
-void send_trajectories(const Call& call, const Request& request, Response& response) {
+void send_trajectories(const RequestContext& context, const Request& request, Response& response) {
   // The library may not be called by several threads.
   static std::mutex mutex;
-  const jobs::JobRow row = find_job(call, request);
-  const fs::path trace = trace_of(call, row, run_of(request, row));
+  const jobs::JobRow row = find_job(context, request);
+  const fs::path trace = trace_of(context, row, run_of(request, row));
   const std::lock_guard lock(mutex);
   try {
     const world::TrajectoryReader reader(trace);

@@ -1,14 +1,14 @@
 // Everybody's places in a run, for clients that draw them.
 #pragma once
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
 
 /// GET /v1/jobs/{id}/runs/{n}/trajectories?from_s=&to_s=&every_s= : compact binary (docs/api.md),
 /// of the run's trace, whatever becomes of the job.
-void send_trajectories(const Call& call, const httplib::Request& request,
+void send_trajectories(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 
 }  // namespace throng::server

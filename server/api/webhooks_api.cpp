@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "server/api/requests.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/http/http.h"
 
 namespace throng::server {
@@ -50,9 +50,9 @@ json delivery_json(const Delivery& delivery) {
           {"succeeded", delivery.succeeded()}};
 }
 
-Webhook find_webhook(const Call& call, const Request& request) {
+Webhook find_webhook(const RequestContext& context, const Request& request) {
   const std::string id = request.matches[1];
-  auto webhook = call.hooks.webhooks().get(id);
+  auto webhook = context.hooks.webhooks().get(id);
   if (!webhook) throw HttpError{404, fmt::format("there is no webhook {}", id)};
   return *webhook;
 }
@@ -98,13 +98,13 @@ std::vector<std::string> events_of(const json& body) {
 
 }  // namespace
 
-void create_webhook(const Call& call, const Request& request, Response& response) {
+void create_webhook(const RequestContext& context, const Request& request, Response& response) {
   const json body = fields_of(request, kWebhookNoun, {"url", "events", "secret"});
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
     throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
   }
-  if (!call.hooks.allows_private() && names_private_address(url)) {
+  if (!context.hooks.allows_private() && names_private_address(url)) {
     throw invalid_field("/url", '"' + url + '"',
                         "a public address (throng serve --webhook-private allows others)");
   }
@@ -113,56 +113,57 @@ void create_webhook(const Call& call, const Request& request, Response& response
     throw invalid_field("/secret", fmt::format("{} characters", secret.size()),
                         fmt::format("at most {}", kMaxSecretLength));
   }
-  Webhooks& webhooks = call.hooks.webhooks();
+  Webhooks& webhooks = context.hooks.webhooks();
   if (webhooks.list().size() >= kMaxWebhooks) {
     throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMaxWebhooks)};
   }
-  const Webhook webhook = webhooks.create(url, events_of(body), secret, call.queue.last_event());
-  call.hooks.refresh();
+  const Webhook webhook = webhooks.create(url, events_of(body), secret, context.queue.last_event());
+  context.hooks.refresh();
   json answer = webhook_json(webhook);
   answer["secret"] = webhook.secret;  // this once
   response.set_header("Location", "/v1/webhooks/" + webhook.id);
   write_json(response, 201, answer);
 }
 
-void list_webhooks(const Call& call, const Request&, Response& response) {
+void list_webhooks(const RequestContext& context, const Request&, Response& response) {
   json list = json::array();
-  for (const Webhook& webhook : call.hooks.webhooks().list()) list.push_back(webhook_json(webhook));
+  for (const Webhook& webhook : context.hooks.webhooks().list())
+    list.push_back(webhook_json(webhook));
   write_json(response, 200, {{"webhooks", std::move(list)}});
 }
 
-void send_webhook(const Call& call, const Request& request, Response& response) {
-  write_json(response, 200, webhook_json(find_webhook(call, request)));
+void send_webhook(const RequestContext& context, const Request& request, Response& response) {
+  write_json(response, 200, webhook_json(find_webhook(context, request)));
 }
 
-void change_webhook(const Call& call, const Request& request, Response& response) {
-  const std::string id = find_webhook(call, request).id;
+void change_webhook(const RequestContext& context, const Request& request, Response& response) {
+  const std::string id = find_webhook(context, request).id;
   const json body = fields_of(request, kWebhookNoun, {"enabled"});
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
     throw invalid_field("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }
-  call.hooks.webhooks().enable(id, body["enabled"], call.queue.last_event());
-  call.hooks.refresh();
-  write_json(response, 200, webhook_json(find_webhook(call, request)));
+  context.hooks.webhooks().enable(id, body["enabled"], context.queue.last_event());
+  context.hooks.refresh();
+  write_json(response, 200, webhook_json(find_webhook(context, request)));
 }
 
-void remove_webhook(const Call& call, const Request& request, Response& response) {
-  call.hooks.webhooks().remove(find_webhook(call, request).id);
-  call.hooks.refresh();
+void remove_webhook(const RequestContext& context, const Request& request, Response& response) {
+  context.hooks.webhooks().remove(find_webhook(context, request).id);
+  context.hooks.refresh();
   response.status = 204;
 }
 
-void list_deliveries(const Call& call, const Request& request, Response& response) {
+void list_deliveries(const RequestContext& context, const Request& request, Response& response) {
   json list = json::array();
   for (const Delivery& delivery :
-       call.hooks.webhooks().deliveries(find_webhook(call, request).id, limit_of(request))) {
+       context.hooks.webhooks().deliveries(find_webhook(context, request).id, limit_of(request))) {
     list.push_back(delivery_json(delivery));
   }
   write_json(response, 200, {{"deliveries", std::move(list)}});
 }
 
-void ping_webhook(const Call& call, const Request& request, Response& response) {
-  const auto delivery = call.hooks.ping(find_webhook(call, request).id);
+void ping_webhook(const RequestContext& context, const Request& request, Response& response) {
+  const auto delivery = context.hooks.ping(find_webhook(context, request).id);
   if (!delivery) throw HttpError{404, "the webhook has been removed"};
   write_json(response, 200, delivery_json(*delivery));
 }

@@ -2,19 +2,25 @@
 // calls whatever address they name.
 #pragma once
 
-#include "server/api/call.h"
+#include "server/api/request_context.h"
 #include "server/http/http_fwd.h"
 
 namespace throng::server {
 
-void create_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
-void list_webhooks(const Call& call, const httplib::Request& request, httplib::Response& response);
-void send_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
-void change_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
-void remove_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
-void list_deliveries(const Call& call, const httplib::Request& request,
+void create_webhook(const RequestContext& context, const httplib::Request& request,
+                    httplib::Response& response);
+void list_webhooks(const RequestContext& context, const httplib::Request& request,
+                   httplib::Response& response);
+void send_webhook(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
+void change_webhook(const RequestContext& context, const httplib::Request& request,
+                    httplib::Response& response);
+void remove_webhook(const RequestContext& context, const httplib::Request& request,
+                    httplib::Response& response);
+void list_deliveries(const RequestContext& context, const httplib::Request& request,
                      httplib::Response& response);
 /// Sends a ping now and answers with how that went.
-void ping_webhook(const Call& call, const httplib::Request& request, httplib::Response& response);
+void ping_webhook(const RequestContext& context, const httplib::Request& request,
+                  httplib::Response& response);
 
 }  // namespace throng::server

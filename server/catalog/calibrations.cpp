@@ -12,7 +12,7 @@
 #include "base/files/files.h"
 #include "base/json/json_text.h"
 #include "jobs/queue/store/job_id.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/service_errors.h"
 #include "spec/calibration/request_files.h"
 #include "spec/estimates/task_memory.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "jobs/queue/workers/faults.h"
-#include "server/catalog/answers.h"
+#include "jobs/queue/workers/injected_faults.h"
+#include "server/catalog/api_json.h"
 
 namespace throng::server {
 
@@ -26,18 +26,18 @@ constexpr auto kMaxEnd = 20s;
 std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
                                         const std::string& error_json) {
   const std::string place = fmt::format("server/{}/", name_of(event));
-  jobs::provoke_faults(place + "before", 1);
+  jobs::inject_faults(place + "before", 1);
   std::optional<JobRow> changed = store_.apply(row, event, error_json);
-  jobs::provoke_faults(place + "after", 1);
+  jobs::inject_faults(place + "after", 1);
   if (changed) notify_event();
   return changed;
 }
 
 jobs::Retried QueueState::retry(const JobRow& row, const jobs::OwnerLimits& limits) {
   const std::string place = fmt::format("server/{}/", name_of(JobEvent::retry));
-  jobs::provoke_faults(place + "before", 1);
+  jobs::inject_faults(place + "before", 1);
   jobs::Retried retried = store_.retry(row, limits);
-  jobs::provoke_faults(place + "after", 1);
+  jobs::inject_faults(place + "after", 1);
   if (retried.row) notify_event();
   return retried;
 }

@@ -10,7 +10,7 @@
 #include "base/files/files.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/unix_time.h"
 #include "world/scenario.h"
 

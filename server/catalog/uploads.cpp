@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/service_errors.h"
 
 namespace throng::server {

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/jobs/report_maker.h"
 #include "spec/calibration/calibrations.h"
 #include "spec/job/scenario_mix.h"

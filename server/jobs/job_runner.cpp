@@ -14,7 +14,7 @@
 #include "base/resource_exhaustion.h"
 #include "jobs/bucket/publish.h"
 #include "jobs/queue/dataset/folder.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "server/catalog/calibrations.h"
 #include "server/catalog/data_folder.h"
 #include "server/jobs/study_work.h"

@@ -17,8 +17,8 @@
 #include "base/json/json_text.h"
 #include "base/resource_exhaustion.h"
 #include "jobs/queue/confine/child_process.h"
-#include "jobs/queue/workers/worker_side.h"
-#include "server/catalog/answers.h"
+#include "jobs/queue/workers/worker_interface.h"
+#include "server/catalog/api_json.h"
 
 namespace throng::server {
 

@@ -11,7 +11,7 @@
 #include "base/files/files.h"
 #include "jobs/queue/confine/machine_memory.h"
 #include "server/access/random_text.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 #include "spec/estimates/task_memory.h"
 #include "spec/job/spec.h"
 

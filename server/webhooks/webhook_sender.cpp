@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/version.h"
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 
 namespace throng::server {
 

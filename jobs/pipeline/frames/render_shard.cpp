@@ -17,7 +17,7 @@
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/queue/dataset/publication.h"
-#include "jobs/queue/people.h"
+#include "jobs/queue/pinned_library.h"
 #include "jobs/queue/profile.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
@@ -184,7 +184,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   world::Scenario scenario = scenario_of_run(job, scenarios, trace.header);
   world::thin_out(scenario, job.props_density, seed);
   const skinning::Population population = skinning::load_population(skinning::population_folder());
-  pin_people(folder, population.content_hash);
+  pin_library(folder, population.content_hash);
   const RunEnvironment environment = environment_of_run(job.environment, seed);
   job.styling = styling_in(job, environment.light.weather);
   std::optional<StageClock> clock;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/queue/slurm/node_book.h"
+#include "jobs/queue/slurm/node_records.h"
 #include "jobs/queue/slurm/slurm_controller.h"
 #include "jobs/queue/slurm/slurm_options.h"
 #include "jobs/queue/slurm/slurm_submission.h"
@@ -38,7 +38,7 @@ class SlurmArrayNames {
 struct SlurmShared {
   SlurmOptions options;
   SlurmController controller;
-  NodeBook book = {};
+  NodeRecords book = {};
   SlurmArrayNames arrays = {};
   /// Tasks of an array: a controller with a smaller MaxArraySize is found out by its refusals.
   std::atomic<std::size_t> max_tasks = kMaxArrayTasks;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "jobs/queue/slurm/slurm_batch.h"
-#include "jobs/queue/workers/worker_end.h"
+#include "jobs/queue/workers/worker_exit.h"
 #include "jobs/queue/workers/worker_protocol.h"
 
 namespace throng::jobs {
@@ -103,7 +103,7 @@ void SlurmBatch::take_accounting(Array& array, const SlurmQueue& queue) {
       return;
     }
     array.accounting =
-        shared_.controller.ask({"sacct", "-n", "-P", "-X", "-j", array.job, "-o", kAccountFormat});
+        shared_.controller.run({"sacct", "-n", "-P", "-X", "-j", array.job, "-o", kAccountFormat});
     return;
   }
   if (array.accounting->wait_for(kNow) != std::future_status::ready) return;
@@ -149,7 +149,7 @@ void SlurmBatch::begin_again(Array& array, Entry& entry, const SlurmTask& state)
     return end_attempt(array, entry, before, {Outcome::environment_error, 0, message, {}}, true);
   }
   note_end(array, entry, "lost", message);
-  entry.messages = MessageFile(attempt_folder(folder_, array.name, entry.index) / "messages");
+  entry.messages = MessageFileReader(attempt_folder(folder_, array.name, entry.index) / "messages");
   entry.node.clear();
   entry.ended.reset();
 }
@@ -303,7 +303,7 @@ void SlurmBatch::cancel_ended() {
       command.push_back(fmt::format("{}_{}", array.job, index));
     }
     array.to_cancel.clear();
-    if (!array.job.empty()) shared_.controller.tell(std::move(command));
+    if (!array.job.empty()) shared_.controller.run_until_answered(std::move(command));
   }
 }
 
@@ -331,8 +331,8 @@ void SlurmBatch::end_others(const std::function<bool(const Task&)>& condition) {
     if (!array.is_open()) ended.clear();
     if (array.is_open() && array.job.empty()) continue;
     ended.insert(ended.begin(), {"scancel", "--quiet", "--name=" + job_name_of(array.name)});
-    shared_.controller.tell(std::move(ended));
-    shared_.controller.look_soon();
+    shared_.controller.run_until_answered(std::move(ended));
+    shared_.controller.poll_next();
   }
 }
 

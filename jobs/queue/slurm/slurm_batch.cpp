@@ -197,7 +197,7 @@ void SlurmBatch::submit(const SlurmNeed& need, const std::vector<std::size_t>& t
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     array.entries.emplace_back(tasks[i], i, attempt_folder(folder_, made.name, i) / "messages");
   }
-  array.submission = shared_.controller.ask(
+  array.submission = shared_.controller.run(
       submission_of(folder_, made.name, tasks.size(), need, array.nice, options_));
 }
 
@@ -216,7 +216,8 @@ void SlurmBatch::finish_submission(Array& array) {
     return;
   }
   // It may have been accepted although the answer got lost: then its tasks find no folder.
-  shared_.controller.tell({"scancel", "--quiet", "--name=" + job_name_of(array.name)});
+  shared_.controller.run_until_answered(
+      {"scancel", "--quiet", "--name=" + job_name_of(array.name)});
   take_refusal(array, answer);
   abandon(array);
 }
@@ -266,7 +267,7 @@ void SlurmBatch::update_nice(Array& array) const {
   const int nice = nice_of(share_.priority());
   if (nice == array.nice || array.job.empty()) return;
   array.nice = nice;
-  shared_.controller.tell(
+  shared_.controller.run_until_answered(
       {"scontrol", "update", "JobId=" + array.job, fmt::format("Nice={}", nice)});
 }
 

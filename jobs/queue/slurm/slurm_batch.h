@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/compute/steady_time.h"
-#include "jobs/queue/slurm/message_file.h"
+#include "jobs/queue/slurm/message_file_reader.h"
 #include "jobs/queue/slurm/slurm_arrays.h"
 #include "jobs/queue/slurm/slurm_submission.h"
 #include "jobs/queue/workers/attempts.h"
@@ -53,7 +53,7 @@ class SlurmBatch {
         : task(its_task), index(its_index), messages(messages_file) {}
     std::size_t task;   ///< of tasks_
     std::size_t index;  ///< in its array
-    MessageFile messages;
+    MessageFileReader messages;
     std::string node = {};                         ///< once it was seen running
     Clock::time_point begun = {};                  ///< likewise
     Clock::time_point heard = {};                  ///< when it last said something, or could not

@@ -92,20 +92,20 @@ std::shared_ptr<const SlurmQueue> SlurmController::queue() const {
   return queue_;
 }
 
-std::future<SlurmAnswer> SlurmController::ask(std::vector<std::string> command) {
+std::future<SlurmAnswer> SlurmController::run(std::vector<std::string> command) {
   const std::lock_guard lock(mutex_);
   orders_.push_back({std::move(command), std::promise<SlurmAnswer>()});
   changed_.notify_all();
   return orders_.back().promise->get_future();
 }
 
-void SlurmController::tell(std::vector<std::string> command) {
+void SlurmController::run_until_answered(std::vector<std::string> command) {
   const std::lock_guard lock(mutex_);
   orders_.push_back({std::move(command), std::nullopt});
   changed_.notify_all();
 }
 
-void SlurmController::look_soon() {
+void SlurmController::poll_next() {
   constexpr double kPauseS = 1;
   const std::lock_guard lock(mutex_);
   if (failures_ == 0) next_look_ = std::min(next_look_, Clock::now() + seconds(kPauseS));

@@ -77,11 +77,11 @@ class SlurmController {
   std::shared_ptr<const SlurmQueue> queue() const;
 
   /// Runs sbatch, or sacct, after everything that was asked for before.
-  std::future<SlurmAnswer> ask(std::vector<std::string> command);
+  std::future<SlurmAnswer> run(std::vector<std::string> command);
   /// Runs scancel or scontrol; until the controller answers, whatever it answers.
-  void tell(std::vector<std::string> command);
+  void run_until_answered(std::vector<std::string> command);
   /// The next look at the queue follows what was asked for before, if the controller answers.
-  void look_soon();
+  void poll_next();
 
  private:
   using Clock = SlurmQueue::Clock;

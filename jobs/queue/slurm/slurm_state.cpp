@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "jobs/queue/workers/worker_end.h"
+#include "jobs/queue/workers/worker_exit.h"
 #include "jobs/queue/workers/worker_protocol.h"
 
 namespace throng::jobs {

@@ -110,8 +110,8 @@ Admission::Claimant::~Claimant() {
   admission_.claims_.erase(claim_);
 }
 
-std::optional<Admission::Permit> Admission::Claimant::ask(int priority, std::size_t tasks_left,
-                                                          std::int64_t memory_mib) {
+std::optional<Admission::Permit> Admission::Claimant::request(int priority, std::size_t tasks_left,
+                                                              std::int64_t memory_mib) {
   const std::lock_guard lock(admission_.mutex_);
   claim_->priority = priority;
   claim_->tasks_left = tasks_left;

@@ -122,7 +122,7 @@ class Admission::Claimant {
 
   /// Asks to begin a task; nothing when it has to wait: ask again within a second, or lose the
   /// place to others. `tasks_left` counts this task and all that follow in the job.
-  std::optional<Permit> ask(int priority, std::size_t tasks_left, std::int64_t memory_mib);
+  std::optional<Permit> request(int priority, std::size_t tasks_left, std::int64_t memory_mib);
   /// No task waits now.
   void withdraw();
   /// Whether the task that was last asked for waits for memory, and not for a worker.

@@ -18,7 +18,7 @@
 #include "jobs/queue/confine/child_process.h"
 #include "jobs/queue/confine/machine_memory.h"
 #include "jobs/queue/confine/worker_limits.h"
-#include "jobs/queue/workers/worker_end.h"
+#include "jobs/queue/workers/worker_exit.h"
 #include "jobs/queue/workers/worker_messages.h"
 #include "jobs/queue/workers/worker_protocol.h"
 
@@ -99,8 +99,8 @@ class Batch {
     }
     const std::size_t task = next->task;
     const std::int64_t memory_mib = share_.memory_mib(tasks_[task]);
-    auto permit = claimant_.ask(share_.priority(),
-                                waiting_.size() + running_.size() + share_.later_tasks, memory_mib);
+    auto permit = claimant_.request(
+        share_.priority(), waiting_.size() + running_.size() + share_.later_tasks, memory_mib);
     if (!permit) return false;
     waiting_.erase(next);
     const int attempt = ++results_[task].attempts;

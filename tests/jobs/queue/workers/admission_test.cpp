@@ -30,7 +30,7 @@ struct TestJob {
       claimant.withdraw();
       return false;
     }
-    auto permit = claimant.ask(priority, left + running.size(), memory_mib);
+    auto permit = claimant.request(priority, left + running.size(), memory_mib);
     if (!permit) return false;
     running.push_back(std::move(*permit));
     --left;

@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/staging.h"
-#include "jobs/queue/slurm/message_file.h"
-#include "jobs/queue/workers/attempt_side.h"
+#include "jobs/queue/slurm/message_file_reader.h"
+#include "jobs/queue/workers/worker_attempt.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -77,7 +77,7 @@ TEST_F(AttemptsTest, AWorkerBeginsSaysAndPublishes) {
   EXPECT_EQ(read_file(folder.path() / "work/run001/trace.h5"), "trace");
   ASSERT_TRUE(claim_of(folder, array.name, 1));
   EXPECT_EQ(claim_of(folder, array.name, 1)->node, name_of_this_host());
-  MessageFile messages(attempt_folder(folder, array.name, 1) / "messages");
+  MessageFileReader messages(attempt_folder(folder, array.name, 1) / "messages");
   EXPECT_TRUE(messages.read());
   ASSERT_TRUE(messages.end());
   EXPECT_EQ(messages.end()->code, 0);

@@ -1,4 +1,4 @@
-#include "jobs/queue/people.h"
+#include "jobs/queue/pinned_library.h"
 
 #include <gtest/gtest.h>
 
@@ -24,26 +24,26 @@ class PinnedPeopleTest : public testing::Test {
 };
 
 TEST_F(PinnedPeopleTest, TheFirstWorkerDecides) {
-  EXPECT_EQ(pinned_people(folder), "");
-  pin_people(folder, "abc");
-  EXPECT_EQ(pinned_people(folder), "abc");
-  EXPECT_NO_THROW(pin_people(folder, "abc"));
+  EXPECT_EQ(pinned_library(folder), "");
+  pin_library(folder, "abc");
+  EXPECT_EQ(pinned_library(folder), "abc");
+  EXPECT_NO_THROW(pin_library(folder, "abc"));
 }
 
 TEST_F(PinnedPeopleTest, OtherPeopleAreRefusedNamingBoth) {
-  pin_people(folder, "0123");
+  pin_library(folder, "0123");
   try {
-    pin_people(folder, "4567");
+    pin_library(folder, "4567");
     FAIL() << "no error";
   } catch (const EnvironmentError& error) {
     EXPECT_NE(std::string(error.what()).find("0123"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("4567"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(pinned_people(folder), "0123");
+  EXPECT_EQ(pinned_library(folder), "0123");
 }
 
 TEST_F(PinnedPeopleTest, NothingIsLeftBehindBesideTheNote) {
-  pin_people(folder, "abc");
+  pin_library(folder, "abc");
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder.path() / "work")) {
     EXPECT_EQ(entry.path().filename(), "people");

@@ -1,4 +1,4 @@
-#include "jobs/queue/slurm/node_book.h"
+#include "jobs/queue/slurm/node_records.h"
 
 #include <algorithm>
 #include <fstream>
@@ -74,25 +74,25 @@ std::string name_of(Outcome outcome) {
   return "cancelled";
 }
 
-NodeBook::Totals& NodeBook::totals_of(const JobFolder& folder) const {
+NodeRecords::Totals& NodeRecords::totals_of(const JobFolder& folder) const {
   const auto known = jobs_.find(folder.path());
   if (known != jobs_.end()) return known->second;
   return jobs_[folder.path()] = read_totals(file_of(folder));
 }
 
-void NodeBook::begin(const JobFolder& folder, const std::string& node) {
+void NodeRecords::begin(const JobFolder& folder, const std::string& node) {
   const std::lock_guard lock(mutex_);
   ++work_at(totals_of(folder), node).running;
   ++work_at(all_, node).running;
 }
 
-void NodeBook::leave(const JobFolder& folder, const std::string& node) {
+void NodeRecords::leave(const JobFolder& folder, const std::string& node) {
   const std::lock_guard lock(mutex_);
   --work_at(totals_of(folder), node).running;
   --work_at(all_, node).running;
 }
 
-void NodeBook::end(const JobFolder& folder, const NodeRecord& record) {
+void NodeRecords::end(const JobFolder& folder, const NodeRecord& record) {
   const std::lock_guard lock(mutex_);
   // Also where its beginning was not seen: begin() and end() need not pair.
   add(work_at(totals_of(folder), record.node), record.outcome, record.seconds);
@@ -111,19 +111,19 @@ void NodeBook::end(const JobFolder& folder, const NodeRecord& record) {
        << '\n';
 }
 
-std::vector<NodeWork> NodeBook::of(const JobFolder& folder) const {
+std::vector<NodeWork> NodeRecords::of(const JobFolder& folder) const {
   const std::lock_guard lock(mutex_);
   return list_of(totals_of(folder));
 }
 
-int NodeBook::running() const {
+int NodeRecords::running() const {
   const std::lock_guard lock(mutex_);
   int running = 0;
   for (const auto& [name, work] : all_) running += work.running;
   return running;
 }
 
-std::vector<NodeWork> NodeBook::all() const {
+std::vector<NodeWork> NodeRecords::all() const {
   const std::lock_guard lock(mutex_);
   return list_of(all_);
 }

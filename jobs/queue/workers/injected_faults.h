@@ -35,6 +35,6 @@ std::vector<Fault> parse_faults(std::string_view list);
 
 /// Makes happen what $THRONG_FAULTS has for this place at this attempt (from 1). Throws InputError
 /// and, for `fail`, EnvironmentError.
-void provoke_faults(std::string_view place, int attempt);
+void inject_faults(std::string_view place, int attempt);
 
 }  // namespace throng::jobs

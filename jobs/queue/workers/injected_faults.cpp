@@ -1,4 +1,4 @@
-#include "jobs/queue/workers/faults.h"
+#include "jobs/queue/workers/injected_faults.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -100,7 +100,7 @@ std::vector<Fault> parse_faults(std::string_view list) {
   return faults;
 }
 
-void provoke_faults(std::string_view place, int attempt) {
+void inject_faults(std::string_view place, int attempt) {
   const char* list = std::getenv(kFaultsVariable);
   if (list == nullptr) return;
   for (const Fault& fault : parse_faults(list)) {

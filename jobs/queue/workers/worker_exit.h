@@ -11,7 +11,7 @@
 
 namespace throng::jobs {
 
-struct WorkerEnd {
+struct EndedWorker {
   ExitStatus status;
   std::optional<WorkerError> error;  ///< what it said itself
   std::string timeout;               ///< why its supervisor killed it; "": it did not
@@ -20,6 +20,6 @@ struct WorkerEnd {
 
 /// Its outcome and message (attempts are not filled in); the message of a worker that died without
 /// a word ends with the last lines of its log.
-TaskResult result_of(const WorkerEnd& end, const std::filesystem::path& log);
+TaskResult result_of(const EndedWorker& end, const std::filesystem::path& log);
 
 }  // namespace throng::jobs

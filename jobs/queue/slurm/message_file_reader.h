@@ -12,9 +12,9 @@
 
 namespace throng::jobs {
 
-class MessageFile {
+class MessageFileReader {
  public:
-  explicit MessageFile(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit MessageFileReader(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// Reads what is new; false when nothing is. Opens the file again, which is when a network file
   /// system asks for what others have written.

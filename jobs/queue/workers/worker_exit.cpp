@@ -1,4 +1,4 @@
-#include "jobs/queue/workers/worker_end.h"
+#include "jobs/queue/workers/worker_exit.h"
 
 #include <fmt/core.h>
 
@@ -25,7 +25,7 @@ std::string tail_of(const std::filesystem::path& log) {
   return text;
 }
 
-Outcome outcome_of(const WorkerEnd& end) {
+Outcome outcome_of(const EndedWorker& end) {
   if (!end.timeout.empty()) return Outcome::timed_out;
   if (end.status.signal == SIGKILL && end.memory_ran_out) return Outcome::out_of_memory;
   if (end.status.signal != 0) return Outcome::crashed;
@@ -43,7 +43,7 @@ Outcome outcome_of(const WorkerEnd& end) {
   }
 }
 
-std::string message_of(const WorkerEnd& end, Outcome outcome) {
+std::string message_of(const EndedWorker& end, Outcome outcome) {
   if (outcome == Outcome::timed_out) return "timed out: " + end.timeout;
   if (end.error) return end.error->message;
   if (outcome == Outcome::out_of_memory) return "out of memory: the kernel killed the worker";
@@ -56,7 +56,7 @@ std::string message_of(const WorkerEnd& end, Outcome outcome) {
 
 }  // namespace
 
-TaskResult result_of(const WorkerEnd& end, const std::filesystem::path& log) {
+TaskResult result_of(const EndedWorker& end, const std::filesystem::path& log) {
   TaskResult result;
   result.outcome = outcome_of(end);
   if (result.outcome == Outcome::succeeded) return result;

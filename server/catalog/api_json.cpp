@@ -1,4 +1,4 @@
-#include "server/catalog/answers.h"
+#include "server/catalog/api_json.h"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "jobs/queue/workers/faults.h"
+#include "jobs/queue/workers/injected_faults.h"
 
 #include <gtest/gtest.h>
 
@@ -17,28 +17,28 @@ class Faults : public testing::Test {
   static void set(const char* list) { ::setenv(kFaultsVariable, list, 1); }
 };
 
-TEST_F(Faults, WithoutAnyNothingHappens) { EXPECT_NO_THROW(provoke_faults("run000/trace", 1)); }
+TEST_F(Faults, WithoutAnyNothingHappens) { EXPECT_NO_THROW(inject_faults("run000/trace", 1)); }
 
 TEST_F(Faults, FailAtThisPlaceForSoManyAttempts) {
   set("fail:run000/shard0001:2");
-  EXPECT_THROW(provoke_faults("run000/shard0001", 1), EnvironmentError);
-  EXPECT_THROW(provoke_faults("run000/shard0001", 2), EnvironmentError);
-  EXPECT_NO_THROW(provoke_faults("run000/shard0001", 3));
-  EXPECT_NO_THROW(provoke_faults("run000/shard0002", 1));
+  EXPECT_THROW(inject_faults("run000/shard0001", 1), EnvironmentError);
+  EXPECT_THROW(inject_faults("run000/shard0001", 2), EnvironmentError);
+  EXPECT_NO_THROW(inject_faults("run000/shard0001", 3));
+  EXPECT_NO_THROW(inject_faults("run000/shard0002", 1));
 }
 
 TEST_F(Faults, AStarIsAnyTaskButNotTheServer) {
   set("slow:dataset:0,fail:*");
-  EXPECT_THROW(provoke_faults("dataset", 7), EnvironmentError);
-  EXPECT_NO_THROW(provoke_faults("server/started/before", 1));
+  EXPECT_THROW(inject_faults("dataset", 7), EnvironmentError);
+  EXPECT_NO_THROW(inject_faults("server/started/before", 1));
 }
 
 TEST_F(Faults, DieKillsAndSlowWaits) {
   set("die:run000/trace:1");
-  EXPECT_EXIT(provoke_faults("run000/trace", 1), testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EXIT(inject_faults("run000/trace", 1), testing::KilledBySignal(SIGKILL), "");
   set("slow:run000/trace:0.05");
   const auto start = std::chrono::steady_clock::now();
-  provoke_faults("run000/trace", 1);
+  inject_faults("run000/trace", 1);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(50));
 }
 

@@ -1,10 +1,10 @@
-#include "jobs/queue/slurm/message_file.h"
+#include "jobs/queue/slurm/message_file_reader.h"
 
 #include <fstream>
 
 namespace throng::jobs {
 
-bool MessageFile::read() {
+bool MessageFileReader::read() {
   steps_.clear();
   std::ifstream file(path_, std::ios::binary);
   if (!file || !file.seekg(offset_)) return false;

@@ -1,4 +1,4 @@
-#include "jobs/queue/people.h"
+#include "jobs/queue/pinned_library.h"
 
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@ fs::path note_of(const JobFolder& folder) { return folder.path() / "work" / "peo
 
 }  // namespace
 
-void pin_people(const JobFolder& folder, const std::string& content_hash) {
+void pin_library(const JobFolder& folder, const std::string& content_hash) {
   const fs::path note = note_of(folder);
   if (!fs::exists(note)) {
     // Only one of several workers can give the note its name; the others read it.
@@ -23,7 +23,7 @@ void pin_people(const JobFolder& folder, const std::string& content_hash) {
     draft.write(content_hash);
     draft.commit_if_absent();
   }
-  const std::string pinned = pinned_people(folder);
+  const std::string pinned = pinned_library(folder);
   if (pinned == content_hash) return;
   throw EnvironmentError(
       fmt::format("the people have changed since the job began: it was begun with {} ({}), and the "
@@ -31,7 +31,7 @@ void pin_people(const JobFolder& folder, const std::string& content_hash) {
                   pinned, note.string(), content_hash));
 }
 
-std::string pinned_people(const JobFolder& folder) {
+std::string pinned_library(const JobFolder& folder) {
   const fs::path note = note_of(folder);
   return fs::exists(note) ? read_file(note) : std::string();
 }

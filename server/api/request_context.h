@@ -17,7 +17,7 @@
 
 namespace throng::server {
 
-struct Call {
+struct RequestContext {
   JobQueue& queue;
   Uploads& uploads;
   Calibrations& calibrations;

@@ -1,4 +1,4 @@
-#include "jobs/queue/workers/attempt_side.h"
+#include "jobs/queue/workers/worker_attempt.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>

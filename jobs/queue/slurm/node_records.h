@@ -30,7 +30,7 @@ struct NodeRecord {
 std::string name_of(Outcome outcome);
 
 /// Safe to use from many threads.
-class NodeBook {
+class NodeRecords {
  public:
   void begin(const JobFolder& folder, const std::string& node);
   /// Also appends the line. That it cannot be written is no reason to fail.

@@ -3,6 +3,6 @@
 #pragma once
 
 #include "jobs/queue/confine/worker_limits.h"
-#include "jobs/queue/workers/attempt_side.h"
+#include "jobs/queue/workers/worker_attempt.h"
 #include "jobs/queue/workers/worker_messages.h"
 #include "jobs/queue/workers/worker_protocol.h"
