@@ -146,6 +146,9 @@ inline constexpr std::string_view kBlueprintEnding = ".place.json";
 /// malformed or unknown (listing what there is).
 std::filesystem::path scenario_file(const std::filesystem::path& folder, const std::string& id);
 
+/// Whether there is a file for the id, without reading it.
+bool has_scenario(const std::filesystem::path& folder, const std::string& id);
+
 /// The name of a scenario file without its ending, which is ".json" or ".place.json".
 std::string id_from_file(const std::filesystem::path& file);
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/files.h"
@@ -68,6 +70,16 @@ std::vector<std::string_view> meant_by(std::string_view name,
   return meant;
 }
 
+std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id) {
+  if (!is_scenario_id(id)) return std::nullopt;
+  for (const std::string_view ending : {std::string_view(".json"), kBlueprintEnding}) {
+    fs::path file = folder / (id + std::string(ending));
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) return file;
+  }
+  return std::nullopt;
+}
+
 std::string listed(std::span<const std::string_view> ids) {
   constexpr std::size_t kMaxNamed = 50;
   return fmt::format("one of: {}{}", fmt::join(ids.first(std::min(ids.size(), kMaxNamed)), ", "),
@@ -120,11 +132,12 @@ std::string id_from_file(const fs::path& file) {
                       : file.stem().string();
 }
 
+bool has_scenario(const fs::path& folder, const std::string& id) {
+  return file_of_id(folder, id).has_value();
+}
+
 fs::path scenario_file(const fs::path& folder, const std::string& id) {
-  for (const std::string_view ending : {std::string_view(".json"), kBlueprintEnding}) {
-    fs::path file = folder / (id + std::string(ending));
-    if (is_scenario_id(id) && fs::is_regular_file(file)) return file;
-  }
+  if (auto file = file_of_id(folder, id)) return *std::move(file);
   const std::vector<std::string> ids = list_scenarios(folder);
   const std::vector<std::string_view> known(ids.begin(), ids.end());
   Problem problem = unknown_name("", "", "scenario", id, known);

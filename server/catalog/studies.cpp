@@ -12,6 +12,7 @@
 #include "server/catalog/api_json.h"
 #include "server/catalog/service_errors.h"
 #include "spec/study/study_files.h"
+#include "world/scenario.h"
 
 namespace throng::server {
 
@@ -27,7 +28,7 @@ constexpr std::int64_t kMaxSimulations = 20'000;
 void require_scenarios(const json& plan, const fs::path& scenarios) {
   for (std::size_t i = 0; i < plan.at("cases").size(); ++i) {
     const std::string id = plan.at("cases")[i].at("scenario");
-    if (fs::exists(scenarios / (id + ".json"))) continue;
+    if (world::has_scenario(scenarios, id)) continue;
     throw InputError(Problem{"", fmt::format("/cases/{}/scenario", i),
                              fmt::format("scenario \"{}\"", id), "one that has not been removed"});
   }

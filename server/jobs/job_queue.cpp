@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -14,6 +13,7 @@
 #include "spec/calibration/calibrations.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/spec.h"
+#include "world/scenario.h"
 
 namespace throng::server {
 
@@ -92,7 +92,7 @@ json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view b
 void JobQueue::require_scenario(const jobs::JobSpec& job) const {
   for (const int run : jobs::first_runs(job)) {
     const jobs::JobSpec one = jobs::in_scenario_of_run(job, run);
-    if (one.generate || std::filesystem::exists(folders_.scenarios() / (one.scenario + ".json"))) {
+    if (one.generate || world::has_scenario(folders_.scenarios(), one.scenario)) {
       continue;
     }
     throw InputError(Problem{"", "/scenario", fmt::format("scenario \"{}\"", one.scenario),

@@ -329,6 +329,9 @@ TEST_F(ScenarioFile, BlueprintsAreFoundByIdUnlessAScenarioWasMadeOfThem) {
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
   EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.place.json");
   EXPECT_EQ(id_from_file("town/hall.place.json"), "hall");
+  EXPECT_TRUE(has_scenario(folder.path(), "town/hall"));
+  EXPECT_FALSE(has_scenario(folder.path(), "town/nothing"));
+  EXPECT_FALSE(has_scenario(folder.path(), "../town/hall"));
   folder.write("town/hall.json", valid_scenario().dump());
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
   EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.json");
