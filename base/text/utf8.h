@@ -10,6 +10,9 @@ namespace throng {
 /// Number of code points. Every byte that is no continuation byte counts as the first of one.
 std::size_t character_count(std::string_view text);
 
+/// Position of the first byte that is not well-formed UTF-8 (RFC 3629); npos if there is none.
+std::size_t find_invalid_utf8(std::string_view text);
+
 /// Whether the bytes are well-formed: no overlong forms, no surrogates, nothing above U+10FFFF.
 bool is_utf8(std::string_view text);
 

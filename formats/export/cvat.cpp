@@ -4,9 +4,9 @@
 #include <iterator>
 #include <string>
 
+#include "base/text/markup.h"
 #include "formats/export/cvat_labels.h"
 #include "formats/export/makers.h"
-#include "formats/files/xml_text.h"
 
 namespace throng::formats {
 
@@ -16,11 +16,11 @@ class CvatExporter : public Exporter {
  public:
   CvatExporter(const DatasetInfo& info, Output output)
       : info_(info), output_(std::move(output)), xml_(output_.open("annotations.xml")) {
-    xml_.write(
-        fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n"
-                    "  <version>1.1</version>\n  <meta>\n    <task>\n      <name>{}</name>\n"
-                    "{}    </task>\n  </meta>\n",
-                    xml_text(info.name), cvat_labels(info, {"track_id", "visibility", "state"})));
+    xml_.write(fmt::format(
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n"
+        "  <version>1.1</version>\n  <meta>\n    <task>\n      <name>{}</name>\n"
+        "{}    </task>\n  </meta>\n",
+        escaped_markup(info.name), cvat_labels(info, {"track_id", "visibility", "state"})));
   }
 
   void add(const Image& image) override {
@@ -50,9 +50,9 @@ class CvatExporter : public Exporter {
         "      <attribute name=\"track_id\">{}</attribute>\n"
         "      <attribute name=\"visibility\">{:.4f}</attribute>\n"
         "      <attribute name=\"state\">{}</attribute>\n    </box>\n",
-        xml_text(info_.categories[person.category]), person.visibility < 1 - kCvatOccluded ? 1 : 0,
-        box.x, box.y, box.x + box.width, box.y + box.height, person.track_id, person.visibility,
-        xml_text(person.state));
+        escaped_markup(info_.categories[person.category]),
+        person.visibility < 1 - kCvatOccluded ? 1 : 0, box.x, box.y, box.x + box.width,
+        box.y + box.height, person.track_id, person.visibility, escaped_markup(person.state));
   }
 
   const DatasetInfo& info_;
@@ -67,7 +67,7 @@ std::string cvat_labels(const DatasetInfo& info, const std::vector<std::string_v
   std::string labels = "      <labels>\n";
   for (const std::string& name : info.categories) {
     labels += fmt::format("      <label>\n        <name>{}</name>\n        <attributes>\n",
-                          xml_text(name));
+                          escaped_markup(name));
     for (const std::string_view attribute : attributes) {
       labels += fmt::format(
           "          <attribute>\n            <name>{}</name>\n            "

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/text/markup.h"
 #include "formats/export/cvat_labels.h"
 #include "formats/export/makers.h"
-#include "formats/files/xml_text.h"
 
 namespace throng::formats {
 
@@ -47,13 +47,13 @@ void append_box(std::string& text, const TrackBox& shown, std::int64_t frame, bo
       "      <attribute name=\"visibility\">{:.4f}</attribute>\n"
       "      <attribute name=\"state\">{}</attribute>\n    </box>\n",
       frame, is_outside ? 1 : 0, shown.visibility < 1 - kCvatOccluded ? 1 : 0, box.x, box.y,
-      box.x + box.width, box.y + box.height, shown.visibility, xml_text(shown.state));
+      box.x + box.width, box.y + box.height, shown.visibility, escaped_markup(shown.state));
 }
 
 std::string track_text(std::int64_t id, const Track& track, std::int64_t frames,
                        const DatasetInfo& info) {
   std::string text = fmt::format("  <track id=\"{}\" label=\"{}\" source=\"file\">\n", id,
-                                 xml_text(info.categories[track.category]));
+                                 escaped_markup(info.categories[track.category]));
   for (std::size_t i = 0; i < track.boxes.size(); ++i) {
     const TrackBox& box = track.boxes[i];
     append_box(text, box, box.frame, false);
@@ -109,7 +109,7 @@ class CvatVideoExporter : public Exporter {
         "<start_frame>0</start_frame>\n"
         "      <stop_frame>{}</stop_frame>\n{}      <original_size>\n        <width>{}</width>\n"
         "        <height>{}</height>\n      </original_size>\n    </task>\n  </meta>\n",
-        xml_text(info_.name + ", " + task.name), task.frames, task.frames - 1,
+        escaped_markup(info_.name + ", " + task.name), task.frames, task.frames - 1,
         cvat_labels(info_, {"visibility", "state"}), task.width, task.height));
     for (const auto& [id, track] : task.tracks) {
       xml.write(track_text(id, track, task.frames, info_));

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "base/text/markup.h"
 #include "formats/export/makers.h"
-#include "formats/files/xml_text.h"
 
 namespace throng::formats {
 
@@ -41,7 +41,7 @@ class LabelStudioExporter : public Exporter {
     tasks_.write("[");
     std::string labels;
     for (const std::string& name : info.categories) {
-      labels += fmt::format("    <Label value=\"{}\"/>\n", xml_text(name));
+      labels += fmt::format("    <Label value=\"{}\"/>\n", escaped_markup(name));
     }
     output_.write("config.xml",
                   fmt::format("<View>\n  <Image name=\"image\" value=\"$image\" zoom=\"true\"/>\n"

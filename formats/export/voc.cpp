@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text/markup.h"
 #include "formats/export/makers.h"
-#include "formats/files/xml_text.h"
 
 namespace throng::formats {
 
@@ -22,7 +22,7 @@ std::string object_xml(const std::string& name, const Person& person) {
       "    <occluded>{}</occluded>\n    <difficult>{}</difficult>\n    <bndbox>\n"
       "      <xmin>{:.0f}</xmin>\n      <ymin>{:.0f}</ymin>\n      <xmax>{:.0f}</xmax>\n"
       "      <ymax>{:.0f}</ymax>\n    </bndbox>\n  </object>\n",
-      xml_text(name), person.truncation >= kTruncated ? 1 : 0,
+      escaped_markup(name), person.truncation >= kTruncated ? 1 : 0,
       person.visibility < 1 - kTruncated ? 1 : 0, person.is_ignored ? 1 : 0, box.x + 1, box.y + 1,
       box.x + box.width, box.y + box.height);
 }
@@ -45,7 +45,7 @@ class VocExporter : public Exporter {
         "  <size>\n    <width>{}</width>\n    <height>{}</height>\n    <depth>3</depth>\n  "
         "</size>\n"
         "  <segmented>0</segmented>\n",
-        stem, xml_text(info_.name), image.width, image.height);
+        stem, escaped_markup(info_.name), image.width, image.height);
     for (const Person& person : image.people) xml += object_xml(names_[person.category], person);
     for (const Person& object : image.objects) xml += object_xml(names_[object.category], object);
     output_.write("Annotations/" + stem + ".xml", xml + "</annotation>\n");

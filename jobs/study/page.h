@@ -4,6 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "base/text/markup.h"
+
 namespace throng::study {
 
 struct Page {
@@ -19,9 +21,6 @@ std::string html_of(const Page& page, const nlohmann::json& figures);
 
 /// Placeholder of a chart. `data` are attributes that select it: name="value", separated by blanks.
 std::string chart_frame(const std::string& title, const std::string& data);
-
-/// Text with what HTML would take for markup made harmless.
-std::string escaped_markup(const std::string& text);
 
 /// For figures of a page: as near as a chart can show, in few characters. NaN and infinities
 /// become null.

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
-#include "crowd/description/menge_files/utf8.h"
+#include "base/text/utf8.h"
 
 namespace throng::crowd {
 
@@ -35,7 +35,7 @@ std::string read_text(const fs::path& file, Description& read) {
   if (const std::size_t at = text.find('\0'); at != std::string::npos) {
     throw InputError(Problem{read.name, line_of(text, at), "a byte of value 0", "text in UTF-8"});
   }
-  const std::size_t at = find_no_utf8(text);
+  const std::size_t at = find_invalid_utf8(text);
   if (at == std::string_view::npos) return text;
   read.warnings.push_back(
       {read.name, line_of(text, at), "text that is not UTF-8, which is read as Latin-1", "UTF-8"});

@@ -8,7 +8,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "crowd/description/menge_files/utf8.h"
+#include "base/text/markup.h"
+#include "base/text/utf8.h"
 
 namespace throng::crowd {
 
@@ -41,26 +42,11 @@ bool is_name(const std::string& name) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) < ' ') {
-          out += fmt::format("&#{};", static_cast<int>(c));
-        } else {
-          out += c;
-        }
+  for (const char c : escaped_markup(text)) {
+    if (static_cast<unsigned char>(c) < ' ') {
+      out += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      out += c;
     }
   }
   return out;
@@ -122,7 +108,7 @@ class Writer {
       if (attribute.value.find('\0') != std::string::npos) {
         refuse(node, fmt::format("a character 0 in \"{}\"", attribute.name), "other characters");
       }
-      if (find_no_utf8(attribute.value) != std::string::npos) {
+      if (find_invalid_utf8(attribute.value) != std::string::npos) {
         refuse(node, fmt::format("bytes in \"{}\" that are not UTF-8", attribute.name), "UTF-8");
       }
       if (!known.insert(attribute.name).second) {

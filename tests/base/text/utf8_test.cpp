@@ -31,5 +31,12 @@ TEST(Utf8, TellsTextFromOtherBytes) {
   }
 }
 
+TEST(Utf8, InvalidBytesAreFound) {
+  EXPECT_EQ(find_invalid_utf8("plain and schön"), std::string_view::npos);
+  EXPECT_EQ(find_invalid_utf8("ab\xFF"), 2U);
+  EXPECT_EQ(find_invalid_utf8("\xC3"), 0U) << "cut off";
+  EXPECT_EQ(find_invalid_utf8("x\xED\xA0\x80"), 1U) << "a surrogate";
+}
+
 }  // namespace
 }  // namespace throng

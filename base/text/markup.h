@@ -1,13 +1,13 @@
-// Text inside XML.
+// Text inside XML and HTML.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace throng::formats {
+namespace throng {
 
-/// The text with the five characters escaped that mean something in XML.
-inline std::string xml_text(std::string_view text) {
+/// The text with the five characters escaped that mean something in XML and HTML.
+inline std::string escaped_markup(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
@@ -33,4 +33,4 @@ inline std::string xml_text(std::string_view text) {
   return escaped;
 }
 
-}  // namespace throng::formats
+}  // namespace throng
