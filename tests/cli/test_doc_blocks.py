@@ -169,8 +169,11 @@ class DocBlocks(unittest.TestCase):
         blocks = [
             (page, block) for page in PAGES for language, block in BLOCK.findall(page.read_text()) if language == "sh"
         ]
-        run = [block for page, block in blocks if entry(NOT_RUN, page, block)[1] is None]
-        self.assertGreater(len(run), 0.55 * len(blocks))
+        # Here, or as it stands in the page by another test.
+        run = [
+            block for page, block in blocks if "run by tests/" in (entry(NOT_RUN, page, block)[1] or "run by tests/")
+        ]
+        self.assertGreater(len(run), 0.6 * len(blocks))
 
 
 class RunBlocks(unittest.TestCase):
