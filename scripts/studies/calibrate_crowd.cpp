@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/compute/quantile.h"
 #include "crowd/model.h"
 #include "crowd/validation/flow.h"
 
