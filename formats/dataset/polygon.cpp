@@ -142,17 +142,17 @@ std::vector<Piece> pieces_of(const Bitmap& mask) {
 }
 
 /// The shortest path from what is joined to a piece that is not.
-struct Joint {
+struct Bridge {
   PixelPlace from;
   PixelPlace to;
   int pixels = std::numeric_limits<int>::max();  ///< that a line from one to the other adds
 };
 
-void shorten(Joint& joint, const Places& joined, const Places& piece) {
+void shorten(Bridge& bridge, const Places& joined, const Places& piece) {
   for (const PixelPlace& a : joined) {
     for (const PixelPlace& b : piece) {
       const int between = std::max(std::abs(a.first - b.first), std::abs(a.second - b.second)) - 1;
-      if (between < joint.pixels) joint = {a, b, between};
+      if (between < bridge.pixels) bridge = {a, b, between};
     }
   }
 }
@@ -164,25 +164,25 @@ Places joined(std::vector<Piece> pieces, PolygonFit& fit) {
                    [](const Piece& a, const Piece& b) { return a.area > b.area; });
   Places all = pieces.front().places;
   pieces.erase(pieces.begin());
-  std::vector<Joint> joints(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) shorten(joints[i], all, pieces[i].places);
+  std::vector<Bridge> bridges(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) shorten(bridges[i], all, pieces[i].places);
   while (!pieces.empty()) {
     const auto nearest =
-        std::min_element(joints.begin(), joints.end(),
-                         [](const Joint& a, const Joint& b) { return a.pixels < b.pixels; });
-    const auto at = nearest - joints.begin();
+        std::min_element(bridges.begin(), bridges.end(),
+                         [](const Bridge& a, const Bridge& b) { return a.pixels < b.pixels; });
+    const auto at = nearest - bridges.begin();
     const Piece piece = std::move(pieces[static_cast<std::size_t>(at)]);
-    const Joint joint = *nearest;
+    const Bridge bridge = *nearest;
     pieces.erase(pieces.begin() + at);
-    joints.erase(nearest);
-    if (joint.pixels > piece.area) {
+    bridges.erase(nearest);
+    if (bridge.pixels > piece.area) {
       fit.left_out_px += piece.area;
       continue;
     }
-    fit.line_px += joint.pixels;
-    splice(all, joint.from, piece.places, joint.to);
+    fit.line_px += bridge.pixels;
+    splice(all, bridge.from, piece.places, bridge.to);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      shorten(joints[i], piece.places, pieces[i].places);
+      shorten(bridges[i], piece.places, pieces[i].places);
     }
   }
   return all;
