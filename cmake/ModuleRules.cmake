@@ -5,7 +5,7 @@ find_program(THRONG_PYTHON python3 REQUIRED)
 set(THRONG_MODULE_RULES "${CMAKE_CURRENT_LIST_DIR}/../scripts/module_rules.py")
 
 # throng_folder(FOLDER PURPOSE [USES folder...]): a folder of the module whose CMakeLists.txt this is, what it is for, and
-# the folders declared before it whose headers it includes. In a module that declares one, all are declared.
+# the folders declared before it whose headers it includes. Every folder is declared, the module's own one (".") first.
 function(throng_folder)
 endfunction()
 

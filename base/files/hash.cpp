@@ -18,35 +18,39 @@ namespace {
 class Sha256 {
  public:
   static constexpr std::size_t kBytes = 32;
-  using Digest = std::array<unsigned char, kBytes>;
 
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
   void add(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
-  std::string hex() {
-    std::string text;
-    for (const unsigned char byte : digest()) text += fmt::format("{:02x}", byte);
-    return text;
-  }
-  std::string base64() {
-    const Digest bytes = digest();
-    std::array<unsigned char, 4 * ((kBytes + 2) / 3) + 1> text{};
-    const int length = EVP_EncodeBlock(text.data(), bytes.data(), static_cast<int>(kBytes));
-    return {text.begin(), text.begin() + length};
-  }
+  std::string hex() { return hex_of(digest()); }
+  std::string base64() { return base64_of(digest()); }
 
  private:
-  Digest digest() {
-    Digest digest{};
+  std::string digest() {
+    std::array<unsigned char, kBytes> digest{};
     EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
-    return digest;
+    return {digest.begin(), digest.end()};
   }
 
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
 }  // namespace
+
+std::string hex_of(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return text;
+}
+
+std::string base64_of(std::string_view bytes) {
+  std::vector<unsigned char> text(4 * ((bytes.size() + 2) / 3) + 1);
+  const int length =
+      EVP_EncodeBlock(text.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                      static_cast<int>(bytes.size()));
+  return {text.begin(), text.begin() + length};
+}
 
 std::string sha256_hex(std::string_view bytes) {
   Sha256 hash;

@@ -9,6 +9,11 @@
 
 namespace throng {
 
+/// Two lower-case hexadecimal digits for each byte.
+std::string hex_of(std::string_view bytes);
+/// Base 64 with padding (RFC 4648).
+std::string base64_of(std::string_view bytes);
+
 std::string sha256_hex(std::string_view bytes);
 /// In base 64 with padding, as browsers compare scripts (Content Security Policy level 3).
 std::string sha256_base64(std::string_view bytes);

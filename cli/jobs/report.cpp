@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/text/url.h"
 #include "cli/jobs/job_report.h"
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
@@ -69,9 +70,9 @@ bool is_on_server(const ReportArguments& arguments) {
 void fetch_report(const std::string& id, const fs::path& output) {
   const Interrupt interrupt;
   ApiClient api;
-  write_file_atomically(output, api.wait_for_text("/v1/jobs/" + encoded(id) + "/report", [&] {
-    return !interrupt.token().stop_requested();
-  }));
+  write_file_atomically(output,
+                        api.wait_for_text("/v1/jobs/" + percent_encoded(id) + "/report",
+                                          [&] { return !interrupt.token().stop_requested(); }));
 }
 
 std::string report_of_traces(const ReportArguments& arguments) {

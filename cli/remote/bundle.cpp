@@ -95,14 +95,4 @@ Bundle read_bundle(const fs::path& from) {
   return {name_of(from), read_file(from)};
 }
 
-std::string encoded(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain = std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.' || c == '~';
-    out += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return out;
-}
-
 }  // namespace throng::cli

@@ -16,7 +16,4 @@ struct Bundle {
 /// when there is no such file or folder, or when it has more than 64 MiB, which servers refuse.
 Bundle read_bundle(const std::filesystem::path& from);
 
-/// Text as a value in a query or a part of a path.
-std::string encoded(const std::string& text);
-
 }  // namespace throng::cli

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/text/suggest.h"
+#include "base/text/url.h"
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
 #include "cli/remote/remote_end.h"
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string path_of(const std::string& id) { return "/v1/jobs/" + encoded(id); }
+std::string path_of(const std::string& id) { return "/v1/jobs/" + percent_encoded(id); }
 
 /// Does something with a job; one that the server does not have is reported with the nearest id.
 template <typename Work>
@@ -98,7 +99,7 @@ std::string fetched_path(const FetchArguments& arguments) {
   char before = '?';
   const auto add = [&](const char* name, const std::string& value) {
     if (value.empty()) return;
-    path += fmt::format("{}{}={}", before, name, encoded(value));
+    path += fmt::format("{}{}={}", before, name, percent_encoded(value));
     before = '&';
   };
   add("format", arguments.zip ? "zip" : "");
@@ -171,7 +172,7 @@ void submit(const SubmitArguments& arguments) {
   const std::string text = read_input_file(arguments.job_file, "a job file");
   require_kind(DocumentKind::job, text, arguments.job_file);
   std::string query = fmt::format("?priority={}", arguments.priority);
-  for (const std::string& label : arguments.labels) query += "&label=" + encoded(label);
+  for (const std::string& label : arguments.labels) query += "&label=" + percent_encoded(label);
   const auto post = [&](const std::string& path,
                         const std::pair<std::string, std::string>& header = {}) {
     if (arguments.scenario.empty()) return api.post(path, text, header);
@@ -222,9 +223,9 @@ struct ListArguments {
 
 void list(const ListArguments& arguments) {
   std::string query = fmt::format("?limit={}", arguments.limit);
-  for (const std::string& state : arguments.states) query += "&state=" + encoded(state);
-  if (!arguments.label.empty()) query += "&label=" + encoded(arguments.label);
-  if (!arguments.name.empty()) query += "&name=" + encoded(arguments.name);
+  for (const std::string& state : arguments.states) query += "&state=" + percent_encoded(state);
+  if (!arguments.label.empty()) query += "&label=" + percent_encoded(arguments.label);
+  if (!arguments.name.empty()) query += "&name=" + percent_encoded(arguments.name);
   print_jobs(ApiClient().get("/v1/jobs" + query));
 }
 
@@ -232,7 +233,7 @@ void logs(const std::string& id, const std::string& name) {
   ApiClient api;
   with_job(api, id, [&] {
     if (!name.empty()) {
-      std::cout << api.get_text(path_of(id) + "/logs/" + encoded(name));
+      std::cout << api.get_text(path_of(id) + "/logs/" + percent_encoded(name));
       return;
     }
     const json all = api.get(path_of(id) + "/logs");

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/text/suggest.h"
+#include "base/text/url.h"
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
 #include "cli/remote/remote_end.h"
@@ -32,7 +33,7 @@ using nlohmann::json;
 constexpr const char* kStudiesPath = "/v1/studies";
 
 std::string study_path(const std::string& id) {
-  return fmt::format("{}/{}", kStudiesPath, encoded(id));
+  return fmt::format("{}/{}", kStudiesPath, percent_encoded(id));
 }
 
 /// Does something with a study; one that the server does not have is reported with the nearest id.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text/url.h"
 #include "cli/remote/api_client.h"
 #include "cli/remote/bundle.h"
 #include "cli/shell/commands.h"
@@ -45,9 +46,10 @@ void upload(const UploadArguments& arguments) {
                                      : read_bundle(arguments.from);
   const std::string name = arguments.name.empty() ? bundle.name : arguments.name;
   ApiClient api;
-  const nlohmann::json answer = api.upload(
-      fmt::format("/v1/scenarios?name={}{}", encoded(name), arguments.dry_run ? "&dry_run" : ""),
-      bundle.bytes, is_blueprint ? "application/json" : "application/octet-stream");
+  const nlohmann::json answer =
+      api.upload(fmt::format("/v1/scenarios?name={}{}", percent_encoded(name),
+                             arguments.dry_run ? "&dry_run" : ""),
+                 bundle.bytes, is_blueprint ? "application/json" : "application/octet-stream");
   for (const nlohmann::json& finding : answer["findings"]) {
     fmt::print(stderr, "{}: {}\n  remedy: {}\n", finding["severity"].get<std::string>(),
                finding["message"].get<std::string>(), finding["remedy"].get<std::string>());
@@ -82,7 +84,7 @@ void add_scenarios(CLI::App& app) {
   auto* remove = command->add_subcommand("remove", "Remove an upload from a server");
   const auto name = std::make_shared<std::string>();
   remove->add_option("name", *name, "The first part of its scenarios' ids")->required();
-  remove->callback([name] { ApiClient().remove("/v1/scenarios/" + encoded(*name)); });
+  remove->callback([name] { ApiClient().remove("/v1/scenarios/" + percent_encoded(*name)); });
 }
 
 }  // namespace throng::cli

@@ -75,7 +75,7 @@ bool Distribution::is_by_quantile() const {
 double Distribution::quantile_between_limits(double unit) const {
   const auto [low, high] = limits_of(*this);
   const double below = share_below(*this, low);
-  const double max_share = std::nextafter(1.0, 0.0);  // of 1 the quantile is infinite
+  const double max_share = std::nextafter(1.0, 0.0);  // the quantile of 1 is infinite
   const double share = std::min(below + unit * (share_below(*this, high) - below), max_share);
   if (share <= 0)
     return std::max(low, 0.0);  // never of a normal distribution: its lower limit is finite

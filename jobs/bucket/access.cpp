@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text/words.h"
 
 namespace throng::bucket {
 
@@ -27,13 +28,6 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlank) - first + 1));
-}
-
 fs::path file_named(const char* name, const char* in_home) {
   if (const std::string path = variable(name); !path.empty()) return path;
   const std::string home = variable("HOME");
@@ -45,7 +39,7 @@ void add_section(const fs::path& path, std::string_view section, Values& values)
   std::ifstream file(path);
   bool is_in_section = false;
   for (std::string line; std::getline(file, line);) {
-    const std::string text = trimmed(line);
+    const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#' || text.front() == ';') continue;
     if (text.front() == '[') {
       is_in_section = trimmed(text.substr(1, text.find(']') - 1)) == section;

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files/hash.h"
 
 namespace throng::bucket {
 
@@ -82,20 +83,6 @@ Digest digest_of(std::string_view bytes) {
   Digester digester;
   digester.add(bytes);
   return digester.take();
-}
-
-std::string hex_of(std::string_view bytes) {
-  std::string text;
-  for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-  return text;
-}
-
-std::string base64_of(std::string_view bytes) {
-  std::vector<unsigned char> text(4 * ((bytes.size() + 2) / 3) + 1);
-  const int length =
-      EVP_EncodeBlock(text.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
-                      static_cast<int>(bytes.size()));
-  return {text.begin(), text.begin() + length};
 }
 
 std::string tag_of_parts(const std::vector<Digest>& parts) {

@@ -26,9 +26,6 @@ FileDigest digest_of_file(const std::filesystem::path& path, std::int64_t part_s
 
 Digest digest_of(std::string_view bytes);
 
-std::string hex_of(std::string_view bytes);
-std::string base64_of(std::string_view bytes);
-
 /// The tag that S3 gives an object of several parts: the MD5 of the parts' MD5, and their number.
 std::string tag_of_parts(const std::vector<Digest>& parts);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/hash.h"
 #include "base/text/words.h"
 #include "jobs/bucket/requests.h"
 #include "jobs/queue/dataset/manifest.h"
@@ -55,8 +56,9 @@ class Publisher {
         address_(address),
         on_published_(on_published),
         manifest_(manifest_in(dataset)),
-        store_(read_access(), address, stop),
-        asked_(read_access(), address, stop) {
+        access_(read_access()),
+        store_(access_, address, stop),
+        asked_(access_, address, stop) {
     total_bytes_ = manifest_.itself.bytes;
     for (const FileEntry& file : manifest_.files) total_bytes_ += file.bytes;
   }
@@ -276,6 +278,7 @@ class Publisher {
   const Address& address_;
   const OnPublished& on_published_;
   jobs::Manifest manifest_;
+  Access access_;
   Transfers store_;                             ///< sends many objects at once
   Transfers asked_;                             ///< for single questions, also while those are sent
   std::map<std::string, ListedObject> listed_;  ///< by key, before anything was sent

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "base/files/hash.h"
 
 namespace throng::bucket {
 
@@ -12,8 +13,6 @@ namespace {
 
 // Answers of stores that do not have a call, or do not let these credentials use it.
 const std::vector<long> kUnable = {400, 403, 404, 405, 501};
-
-bool is_success(const Response& response) { return response.status / 100 == 2; }
 
 /// A listing, page after page. `read` throws where the answer is damaged.
 template <typename Entry>
@@ -32,7 +31,7 @@ std::vector<Entry> list_all(Transfers& store, const Request& first,
         return error.what();
       }
     };
-    if (!is_success(store.send(std::move(request)))) return all;
+    if (!store.send(std::move(request)).is_success()) return all;
     all.insert(all.end(), page.entries.begin(), page.entries.end());
   } while (!page.next.empty());
   return all;
@@ -73,7 +72,7 @@ std::vector<ListedPart> list_parts(Transfers& store, const ListedUpload& upload)
 
 std::optional<Response> head_object(Transfers& store, const std::string& key) {
   Response response = store.send({.method = "HEAD", .key = key, .accepted = {404}});
-  if (!is_success(response)) return std::nullopt;
+  if (!response.is_success()) return std::nullopt;
   return response;
 }
 
@@ -121,7 +120,7 @@ bool complete_upload(Transfers& store, const ListedUpload& upload,
                ? ""
                : "the object store's answer names no object";
   };
-  return is_success(store.send(std::move(request)));
+  return store.send(std::move(request)).is_success();
 }
 
 void abort_upload(Transfers& store, const ListedUpload& upload) {

@@ -7,13 +7,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "base/error.h"
+#include "base/files/hash.h"
+#include "base/text/words.h"
 #include "jobs/bucket/listing.h"
 #include "jobs/bucket/url_text.h"
 
@@ -27,8 +28,6 @@ constexpr std::size_t kAtOnce = 8;
 constexpr std::size_t kMaxAnswerBytes = std::size_t{16} << 20;  // a page of a listing has a tenth
 constexpr long kConnectTimeoutS = 15;
 constexpr long kSilenceS = 60;  // without a byte in either direction
-constexpr long kOk = 200;
-constexpr long kRedirect = 300;
 constexpr long kNotFound = 404;
 
 struct FreeHeaders {
@@ -41,8 +40,6 @@ struct FreeHandle {
 bool is_sending(const Request& request) {
   return request.method == "PUT" || request.method == "POST";
 }
-
-bool is_success(long status) { return status >= kOk && status < kRedirect; }
 
 /// Statuses and codes that say that the same request may succeed later: the store is busy, or the
 /// bytes were damaged or lost on their way.
@@ -72,6 +69,8 @@ Payload payload_of(std::string text) {
   payload.text = std::move(text);
   return payload;
 }
+
+bool Response::is_success() const { return status / 100 == 2; }
 
 std::string Response::header(std::string_view name) const {
   const auto found = headers.find(name);
@@ -165,17 +164,7 @@ std::size_t Transfers::Transfer::take_header(char* text, std::size_t size, std::
   if (line.starts_with("HTTP/")) headers.clear();
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos || headers.size() >= kMaxHeaders) return size * count;
-  std::string name(line.substr(0, colon));
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::string_view value = line.substr(colon + 1);
-  while (!value.empty() && std::isspace(static_cast<unsigned char>(value.front())) != 0) {
-    value.remove_prefix(1);
-  }
-  while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) {
-    value.remove_suffix(1);
-  }
-  headers[name] = value;
+  headers[lower_case(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
   return size * count;
 }
 
@@ -349,7 +338,7 @@ void Transfers::finish(std::unique_ptr<Transfer> transfer, int curl_code) {
              request.accepted.end()) {
     // An upload that is completed answers 200 first, and says later that it failed.
     const StoreError error = read_error(response.body);
-    if (!is_success(response.status) || !error.code.empty()) {
+    if (!response.is_success() || !error.code.empty()) {
       reason = text_of(error, response.status);
       may_pass = is_passing(response.status, error.code);
       if (response.status == kNotFound && error.code == "NoSuchBucket") {

@@ -35,6 +35,7 @@ struct Response {
   std::map<std::string, std::string, std::less<>> headers = {};  ///< names in lower case
   std::string body = {};
 
+  bool is_success() const;
   /// "" if there is none.
   std::string header(std::string_view name) const;
   /// The object's tag without quotes.
@@ -50,7 +51,7 @@ struct Request {
   Pairs headers = {};
   Payload payload = {};
   std::vector<long> accepted = {};  ///< statuses beside 2xx that are an answer
-  /// What is wrong with an answer, so that the request is repeated; "" for nothing.
+  /// Names the fault of an answer, which has the request repeated; "" if there is none.
   std::function<std::string(const Response&)> fault = [](const Response&) { return ""; };
 };
 

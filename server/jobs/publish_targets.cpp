@@ -26,8 +26,9 @@ void PublishTargets::require(const std::string& address) const {
   for (const bucket::Address& one : allowed_) {
     expected += fmt::format("{}{} or below", expected.empty() ? "" : ", ", one.text());
   }
-  if (expected.empty())
+  if (expected.empty()) {
     expected = "none: this service publishes nothing (throng serve --publish-to)";
+  }
   throw InputError(Problem{"", kPointer, fmt::format("\"{}\"", address), expected});
 }
 

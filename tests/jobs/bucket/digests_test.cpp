@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/hash.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::bucket {
