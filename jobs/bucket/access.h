@@ -10,11 +10,11 @@ namespace throng::bucket {
 
 /// By the names and files of the AWS command line. Never printed or stored.
 struct Access {
-  std::string key_id;    ///< $AWS_ACCESS_KEY_ID, or aws_access_key_id of the profile
-  std::string secret;    ///< $AWS_SECRET_ACCESS_KEY, or aws_secret_access_key
-  std::string token;     ///< $AWS_SESSION_TOKEN, or aws_session_token; "": none
-  std::string region;    ///< $AWS_REGION, $AWS_DEFAULT_REGION, or region
-  std::string endpoint;  ///< $AWS_ENDPOINT_URL_S3, $AWS_ENDPOINT_URL, or endpoint_url; "": AWS
+  std::string key_id = {};    ///< $AWS_ACCESS_KEY_ID, or aws_access_key_id of the profile
+  std::string secret = {};    ///< $AWS_SECRET_ACCESS_KEY, or aws_secret_access_key
+  std::string token = {};     ///< $AWS_SESSION_TOKEN, or aws_session_token; "": none
+  std::string region = {};    ///< $AWS_REGION, $AWS_DEFAULT_REGION, or region
+  std::string endpoint = {};  ///< $AWS_ENDPOINT_URL_S3, $AWS_ENDPOINT_URL, or endpoint_url; "": AWS
 };
 
 /// Reads the environment; what it lacks, from $AWS_SHARED_CREDENTIALS_FILE (default

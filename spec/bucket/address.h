@@ -9,8 +9,8 @@ namespace throng::bucket {
 
 /// A bucket, and what the keys of a dataset's objects begin with.
 struct Address {
-  std::string bucket;
-  std::string prefix;  ///< segments with slashes between them; "": the whole bucket
+  std::string bucket = {};
+  std::string prefix = {};  ///< segments with slashes between them; "": the whole bucket
 
   /// "s3://bucket/prefix", without a slash at its end.
   std::string text() const;
