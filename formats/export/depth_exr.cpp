@@ -1,11 +1,15 @@
-// Depth as OpenEXR: one float channel in meters, infinity where nothing is. Scan lines without
-// compression (OpenEXR file layout, Academy Software Foundation): a header of attributes, a table
-// of the lines' places, the lines.
+// Depth as OpenEXR: one float channel in meters, infinity where nothing is, compressed.
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "formats/dataset/raster_files.h"
 #include "formats/export/makers.h"
@@ -16,84 +20,49 @@ namespace {
 
 constexpr float kMetersPerUnit = 0.01F;
 /// Luminance: of single channels, the one that OpenCV reads. It ignores one named Z.
-constexpr std::string_view kChannel = "Y";
+constexpr const char* kChannel = "Y";
 
-class Bytes {
+/// A file in memory, as OpenEXR writes it.
+class MemoryStream : public Imf::OStream {
  public:
-  void add(const auto& value) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + sizeof(value));
-    std::memcpy(bytes_.data() + at, &value, sizeof(value));
+  MemoryStream() : OStream("depth.exr") {}
+  void write(const char* bytes, int count) override {
+    const std::size_t end = place_ + static_cast<std::size_t>(count);
+    if (bytes_.size() < end) bytes_.resize(end);
+    std::copy_n(bytes, count, bytes_.begin() + static_cast<std::ptrdiff_t>(place_));
+    place_ = end;
   }
-  void add_text(std::string_view text) {
-    bytes_ += text;
-    bytes_.push_back('\0');
-  }
-  void add_attribute(std::string_view name, std::string_view type, const Bytes& value) {
-    add_text(name);
-    add_text(type);
-    add(static_cast<std::int32_t>(value.bytes_.size()));
-    bytes_ += value.bytes_;
-  }
-  std::string& text() { return bytes_; }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+  const std::string& bytes() const { return bytes_; }
 
  private:
   std::string bytes_;
+  std::size_t place_ = 0;
 };
 
-Bytes of(const auto&... values) {
-  Bytes bytes;
-  (bytes.add(values), ...);
-  return bytes;
-}
-
-/// Everything before the table of lines.
-Bytes header_of(int width, int height) {
-  constexpr std::uint32_t kMagicNumber = 20000630;
-  constexpr std::uint32_t kVersion = 2;
-  constexpr std::int32_t kFloat = 2;
-  Bytes channels;
-  channels.add_text(kChannel);
-  channels.add(kFloat);
-  channels.add(std::uint32_t{0});  // not perceptually linear, and three bytes that are kept free
-  channels.add(std::int32_t{1});
-  channels.add(std::int32_t{1});
-  channels.add(std::uint8_t{0});
-  const Bytes window = of(std::int32_t{0}, std::int32_t{0}, static_cast<std::int32_t>(width - 1),
-                          static_cast<std::int32_t>(height - 1));
-  Bytes header = of(kMagicNumber, kVersion);
-  header.add_attribute("channels", "chlist", channels);
-  header.add_attribute("compression", "compression", of(std::uint8_t{0}));
-  header.add_attribute("dataWindow", "box2i", window);
-  header.add_attribute("displayWindow", "box2i", window);
-  header.add_attribute("lineOrder", "lineOrder", of(std::uint8_t{0}));
-  header.add_attribute("pixelAspectRatio", "float", of(1.0F));
-  header.add_attribute("screenWindowCenter", "v2f", of(0.0F, 0.0F));
-  header.add_attribute("screenWindowWidth", "float", of(1.0F));
-  header.add(std::uint8_t{0});
-  return header;
-}
-
 std::string exr_bytes(const images::Raster& depth) {
-  Bytes file = header_of(depth.width, depth.height);
-  const std::int32_t line_bytes = depth.width * static_cast<std::int32_t>(sizeof(float));
-  constexpr std::uint64_t kLineHeader = 8;
-  std::uint64_t place =
-      file.text().size() + sizeof(std::uint64_t) * static_cast<std::uint64_t>(depth.height);
-  for (int y = 0; y < depth.height; ++y) {
-    file.add(place);
-    place += kLineHeader + static_cast<std::uint64_t>(line_bytes);
+  std::vector<float> meters;
+  meters.reserve(depth.samples.size());
+  for (const std::uint16_t sample : depth.samples) {
+    meters.push_back(sample == 0 ? std::numeric_limits<float>::infinity()
+                                 : kMetersPerUnit * static_cast<float>(sample));
   }
-  const std::uint16_t* sample = depth.samples.data();
-  for (std::int32_t y = 0; y < depth.height; ++y) {
-    file.add(y);
-    file.add(line_bytes);
-    for (int x = 0; x < depth.width; ++x, ++sample) {
-      file.add(*sample == 0 ? std::numeric_limits<float>::infinity()
-                            : kMetersPerUnit * static_cast<float>(*sample));
-    }
+  Imf::Header header(depth.width, depth.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.channels().insert(kChannel, Imf::Channel(Imf::FLOAT));
+  MemoryStream stream;
+  {
+    constexpr int kThreads = 0;  // that of the caller
+    Imf::OutputFile file(stream, header, kThreads);
+    Imf::FrameBuffer buffer;
+    const auto row_bytes = static_cast<std::size_t>(depth.width) * sizeof(float);
+    buffer.insert(kChannel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(meters.data()),
+                                       sizeof(float), row_bytes));
+    file.setFrameBuffer(buffer);
+    file.writePixels(depth.height);
   }
-  return std::move(file.text());
+  return stream.bytes();
 }
 
 class ExrExporter : public Exporter {

@@ -112,8 +112,9 @@ class Export {
     exporter->finish();
     return exporter->warnings();
   }
-  std::string text(const std::string& path) const { return read_file(root() / "out" / path); }
-  bool has(const std::string& path) const { return std::filesystem::exists(root() / "out" / path); }
+  std::filesystem::path path(const std::string& name) const { return root() / "out" / name; }
+  std::string text(const std::string& name) const { return read_file(path(name)); }
+  bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
  private:
   throng::testing::TemporaryFolder folder_;

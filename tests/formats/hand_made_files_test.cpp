@@ -1,13 +1,19 @@
 // Exports of one image as files of their own (XML, tables, rasters, cards) with known boxes: the
 // expected values are computed by hand from the formats' definitions.
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfCompression.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <set>
+#include <vector>
 
 #include "annotate/rasters/png.h"
 #include "formats/card.h"
@@ -204,23 +210,6 @@ TEST(HandMadeFlow, IsMiddleburysWithUnknownPixels) {
   EXPECT_GT(little_endian<float>(flo, 20), 1e9F) << "above 1e9: unknown";
 }
 
-/// Attributes of an OpenEXR header by name, and where the table of lines begins.
-std::map<std::string, std::string> exr_header(const std::string& bytes, std::size_t& at) {
-  std::map<std::string, std::string> attributes;
-  at = 8;
-  while (bytes.at(at) != '\0') {
-    const std::string name = bytes.c_str() + at;
-    at += name.size() + 1;
-    const std::string type = bytes.c_str() + at;
-    at += type.size() + 1;
-    const auto size = little_endian<std::int32_t>(bytes, at);
-    attributes[name] = type + ":" + bytes.substr(at + 4, static_cast<std::size_t>(size));
-    at += 4 + static_cast<std::size_t>(size);
-  }
-  ++at;
-  return attributes;
-}
-
 TEST(HandMadeDepth, IsOpenExrInMeters) {
   Export out;
   std::vector<std::uint16_t> samples(100 * 80, 1234);
@@ -228,30 +217,20 @@ TEST(HandMadeDepth, IsOpenExrInMeters) {
   samples[100 * 79 + 99] = 65535;
   write_raster(out.root() / "depth/run002/d1/000004.png", 1, samples);
   out.run("depth-exr", {hand_made::image()});
-  const std::string exr = out.text("run002-d1/run002-d1-000004.exr");
-  EXPECT_EQ(little_endian<std::uint32_t>(exr, 0), 20000630U);
-  EXPECT_EQ(little_endian<std::uint32_t>(exr, 4), 2U) << "version 2, scan lines";
-  std::size_t at = 0;
-  const auto header = exr_header(exr, at);
-  EXPECT_EQ(header.at("compression"), std::string("compression:\0", 13));
-  const std::string window = header.at("dataWindow").substr(6);
-  EXPECT_EQ(little_endian<std::int32_t>(window, 8), 99);
-  EXPECT_EQ(little_endian<std::int32_t>(window, 12), 79);
-  const std::string channels = header.at("channels").substr(7);
-  EXPECT_STREQ(channels.c_str(), "Y");
-  EXPECT_EQ(little_endian<std::int32_t>(channels, 2), 2) << "float";
-  for (int row = 0; row < 80; ++row) {
-    const auto line = little_endian<std::uint64_t>(exr, at + 8 * static_cast<std::size_t>(row));
-    EXPECT_EQ(little_endian<std::int32_t>(exr, line), row);
-    EXPECT_EQ(little_endian<std::int32_t>(exr, line + 4), 400);
-    const float first = little_endian<float>(exr, line + 8);
-    if (row == 0) {
-      EXPECT_TRUE(std::isinf(first)) << "sky";
-    } else {
-      EXPECT_FLOAT_EQ(first, 12.34F);
-    }
-  }
-  EXPECT_FLOAT_EQ(little_endian<float>(exr, exr.size() - 4), 655.35F);
+  Imf::InputFile exr(out.path("run002-d1/run002-d1-000004.exr").c_str());
+  EXPECT_EQ(exr.header().compression(), Imf::ZIP_COMPRESSION);
+  EXPECT_EQ(exr.header().dataWindow(), Imath::Box2i({0, 0}, {99, 79}));
+  ASSERT_NE(exr.header().channels().findChannel("Y"), nullptr);
+  EXPECT_EQ(exr.header().channels().findChannel("Y")->type, Imf::FLOAT);
+  std::vector<float> meters(100 * 80);
+  Imf::FrameBuffer buffer;
+  buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(meters.data()), sizeof(float),
+                                100 * sizeof(float)));
+  exr.setFrameBuffer(buffer);
+  exr.readPixels(0, 79);
+  EXPECT_TRUE(std::isinf(meters.front())) << "sky";
+  EXPECT_FLOAT_EQ(meters[1], 12.34F);
+  EXPECT_FLOAT_EQ(meters.back(), 655.35F);
 }
 
 TEST(HandMadeCard, CountsImagesAndPeople) {
