@@ -10,24 +10,12 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/text/csv.h"
+#include "base/text/words.h"
 
 namespace throng::calibrate {
 
 namespace {
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlank = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(trimmed(cell));
-  return cells;
-}
 
 // A byte-order mark, as spreadsheets write it.
 constexpr std::string_view kMark = "\xEF\xBB\xBF";
@@ -52,9 +40,10 @@ Table read_table(const std::filesystem::path& file, const std::vector<std::strin
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const std::string content = trimmed(line);
+    const std::string_view content = trimmed(line);
     if (content.empty() || content.starts_with('#')) continue;
-    const std::vector<std::string> cells = cells_of(content);
+    std::vector<std::string> cells = csv_cells(content);
+    for (std::string& cell : cells) cell = std::string(trimmed(cell));
     if (places.empty()) {
       std::vector<std::string> wanted = columns;
       wanted.insert(wanted.end(), optional_columns.begin(), optional_columns.end());

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/text/csv.h"
 #include "formats/dataset/image_camera.h"
 #include "formats/export/makers.h"
 #include "formats/files/bag_file.h"
@@ -50,7 +51,7 @@ class SensorTable {
     if (!std::getline(file_, header)) {
       throw InputError({path_.string(), "", "no header", "a table of sensors"});
     }
-    const std::vector<std::string> names = cells_of(header);
+    const std::vector<std::string> names = csv_cells(header);
     for (const char* name :
          {"time_s", "gyro_x_rad_s", "gyro_y_rad_s", "gyro_z_rad_s", "accelerometer_x_mps2",
           "accelerometer_y_mps2", "accelerometer_z_mps2"}) {
@@ -72,24 +73,12 @@ class SensorTable {
   }
 
  private:
-  static std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',') {
-        cells.emplace_back();
-      } else {
-        cells.back().push_back(c);
-      }
-    }
-    return cells;
-  }
-
   void step() {
     next_.reset();
     std::string line;
     ++number_;
     if (!std::getline(file_, line)) return;
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     std::vector<double> values;
     for (const std::size_t column : columns_) {
       char* end = nullptr;

@@ -8,31 +8,9 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text/csv.h"
 
 namespace throng::formats {
-
-namespace {
-
-/// The cells of a line. Ends of lines within quotes do not occur in ids.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (is_quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back().push_back(line[++i]);
-    } else if (c == '"') {
-      is_quoted = !is_quoted;
-    } else if (c == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back().push_back(c);
-    }
-  }
-  return cells;
-}
-
-}  // namespace
 
 std::size_t CsvTable::find(const std::string& name) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
@@ -46,9 +24,9 @@ CsvTable read_csv(const std::filesystem::path& path) {
     throw InputError({path.string(), "", "no such file, or an empty one", "a table"});
   }
   CsvTable table;
-  table.columns = cells_of(line);
+  table.columns = csv_cells(line);
   while (std::getline(file, line)) {
-    table.rows.push_back(cells_of(line));
+    table.rows.push_back(csv_cells(line));
     if (table.rows.back().size() == table.columns.size()) continue;
     throw InputError({path.string(), fmt::format("line {}", table.rows.size() + 1),
                       fmt::format("{} cells", table.rows.back().size()),
