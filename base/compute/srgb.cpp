@@ -13,10 +13,6 @@ constexpr int kLevels = 256;
 /// black, 12.92 * 255 bytes per unit of light.
 constexpr int kSteps = 1 << 16;
 
-double decoded(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 double encoded(double light) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
@@ -25,7 +21,7 @@ const std::array<float, kLevels>& decoding() {
   static const std::array<float, kLevels> table = [] {
     std::array<float, kLevels> made{};
     for (std::size_t i = 0; i < made.size(); ++i) {
-      made[i] = static_cast<float>(decoded(static_cast<double>(i) / (kLevels - 1)));
+      made[i] = static_cast<float>(linear_of_encoded(static_cast<double>(i) / (kLevels - 1)));
     }
     return made;
   }();
@@ -45,6 +41,10 @@ const std::array<std::uint8_t, kSteps + 1>& encoding() {
 }
 
 }  // namespace
+
+double linear_of_encoded(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
 
 float linear_of_srgb(std::uint8_t byte) { return decoding()[byte]; }
 

@@ -5,6 +5,9 @@
 
 namespace throng {
 
+/// Linear light of an encoded value in [0, 1].
+double linear_of_encoded(double encoded);
+
 /// Linear light of a byte.
 float linear_of_srgb(std::uint8_t byte);
 

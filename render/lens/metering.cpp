@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/compute/srgb.h"
 #include "base/geometry/angle.h"
 
 namespace throng::render {
@@ -42,13 +43,9 @@ std::array<double, 256> radiances() {
   return table;
 }
 
-double linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 /// L of the film's image of a radiance.
 double lightness_of(double radiance) {
-  const double luminance = linear(film(radiance));
+  const double luminance = linear_of_encoded(film(radiance));
   return luminance > 0.008856 ? 116 * std::cbrt(luminance) - 16 : 903.3 * luminance;
 }
 
