@@ -47,10 +47,10 @@ class EventList {
   std::vector<Event> all() {
     for (const world::TraceEvent& event : trace_.events) {
       time_s_ = event.time_s;
-      std::visit([&](const auto& kind) { add(world::name_of(event.kind), kind); }, event.kind);
+      std::visit([&](const auto& kind) { add(world::to_string(event.kind), kind); }, event.kind);
     }
     const std::vector<metrics::PersonRecord> people =
-        metrics::person_records(trace_, scenario_, world::alarm_of(scenario_));
+        metrics::person_records(trace_, scenario_, world::find_alarm(scenario_));
     for (const metrics::PersonRecord& person : people) {
       if (!person.noticed_s) continue;
       time_s_ = *person.noticed_s;
@@ -104,7 +104,7 @@ class EventList {
   }
 
   void put_partner(world::Partner partner, std::int32_t index, ordered_json& record) const {
-    record["partner"] = world::name_of(partner);
+    record["partner"] = world::to_string(partner);
     if (index < 0) return;
     const auto number = static_cast<std::size_t>(index);
     switch (partner) {

@@ -19,7 +19,8 @@ namespace {
 
 // The heads of the people in the labels, in box coordinates, as the records have them: one at the
 // image's border is inside for both or for none.
-std::vector<Eigen::Vector2d> heads_of(const FrameLabels& labels, const camera::Camera& camera) {
+std::vector<Eigen::Vector2d> head_positions(const FrameLabels& labels,
+                                            const camera::Camera& camera) {
   std::vector<Eigen::Vector2d> heads;
   for (const PersonLabel& label : labels.people) {
     const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
@@ -51,8 +52,8 @@ void write_occluders(FrameOutput& output) { add_occluders(output.frame, output.l
 void write_density(FrameOutput& output) {
   const int width = output.frame.width();
   const int height = output.frame.height();
-  const std::vector<Eigen::Vector2d> heads = heads_of(output.labels, output.frame.camera);
-  output.record.density_file = output.file_of(GroundTruth::density);
+  const std::vector<Eigen::Vector2d> heads = head_positions(output.labels, output.frame.camera);
+  output.record.density_file = output.ground_truth_file(GroundTruth::density);
   output.add(output.record.density_file,
              npz_bytes(density_map(heads, width, height, output.density_sigma_px)));
   output.record.density_count =
@@ -84,7 +85,7 @@ template <GroundTruth kind, std::string (*png)(const render::Frame&)>
 void write_raster(FrameOutput& output) {
   const std::string bytes = png(output.frame);
   output.lap("png");
-  output.add(output.file_of(kind), bytes);
+  output.add(output.ground_truth_file(kind), bytes);
   output.lap("write");
 }
 
@@ -117,8 +118,8 @@ constexpr std::array kWriters = {
 
 }  // namespace
 
-std::string FrameOutput::file_of(GroundTruth kind) const {
-  return annotate::file_of(kind, record.run, record.camera_id, record.frame_index);
+std::string FrameOutput::ground_truth_file(GroundTruth kind) const {
+  return annotate::ground_truth_file(kind, record.run, record.camera_id, record.frame_index);
 }
 
 std::span<const FrameWriter> frame_writers() { return kWriters; }

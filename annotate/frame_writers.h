@@ -36,7 +36,7 @@ struct FrameOutput {
   std::function<void(std::string_view stage)> lap;
 
   /// The frame's file of a kind.
-  std::string file_of(GroundTruth kind) const;
+  std::string ground_truth_file(GroundTruth kind) const;
 };
 
 struct FrameWriter {

@@ -10,8 +10,9 @@ namespace throng::annotate {
 
 namespace {
 
-std::array<float, kTrajectoryValues> values_of(const world::Trace& trace,
-                                               const world::BetweenSteps& at, std::size_t agent) {
+std::array<float, kTrajectoryValues> trajectory_values(const world::Trace& trace,
+                                                       const world::BetweenSteps& at,
+                                                       std::size_t agent) {
   if (!trace.present(at.before, agent)) {
     constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
     return {kAbsent, kAbsent, kAbsent, kAbsent};
@@ -36,7 +37,7 @@ Trajectories trajectories_at(const world::Trace& trace, std::span<const double> 
   for (const double time_s : times_s) {
     const world::BetweenSteps at = trace.steps_around(time_s);
     for (const std::uint32_t agent : found.agents) {
-      const auto values = values_of(trace, at, agent);
+      const auto values = trajectory_values(trace, at, agent);
       found.values.insert(found.values.end(), values.begin(), values.end());
     }
   }

@@ -38,7 +38,7 @@ const render::Frame& frame_with(std::int64_t people) {
   return entry->second;
 }
 
-std::vector<Eigen::Vector2d> heads_of(const render::Frame& frame) {
+std::vector<Eigen::Vector2d> head_positions(const render::Frame& frame) {
   std::vector<Eigen::Vector2d> heads;
   heads.reserve(frame.people.size());
   for (const render::PersonInView& person : frame.people) {
@@ -47,7 +47,7 @@ std::vector<Eigen::Vector2d> heads_of(const render::Frame& frame) {
   return heads;
 }
 
-CocoImage image_of(const render::Frame& frame) {
+CocoImage coco_image(const render::Frame& frame) {
   CocoImage image;
   image.file_name = "run000/d1/000000.jpg";
   image.run = "run000";
@@ -81,7 +81,7 @@ void label(benchmark::State& state) {
 
 void density(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
-  const auto heads = heads_of(frame);
+  const auto heads = head_positions(frame);
   for (auto _ : state) {
     benchmark::DoNotOptimize(density_map(heads, frame.width(), frame.height(), 4));
   }
@@ -91,7 +91,7 @@ void density(benchmark::State& state) {
 void coco_add(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const FrameLabels labels = label_people(frame);
-  CocoImage image = image_of(frame);
+  CocoImage image = coco_image(frame);
   ScratchShard shard;
   for (auto _ : state) {
     ++image.id;
@@ -110,7 +110,7 @@ void keypoints(benchmark::State& state) {
 // Boxes, masks, visibility, density and the COCO records: all but the image.
 void annotate_all(benchmark::State& state, bool with_keypoints) {
   const render::Frame& frame = frame_with(state.range(0));
-  CocoImage image = image_of(frame);
+  CocoImage image = coco_image(frame);
   ScratchShard shard;
   for (auto _ : state) {
     ++image.id;
@@ -118,7 +118,7 @@ void annotate_all(benchmark::State& state, bool with_keypoints) {
     if (with_keypoints) add_keypoints(frame, labels);
     shard.writer().add(image, labels);
     benchmark::DoNotOptimize(
-        npy_bytes(density_map(heads_of(frame), frame.width(), frame.height(), 4)));
+        npy_bytes(density_map(head_positions(frame), frame.width(), frame.height(), 4)));
   }
   state.SetItemsProcessed(state.iterations());
 }
@@ -128,7 +128,7 @@ void annotate_with_keypoints(benchmark::State& state) { annotate_all(state, true
 // Each head's kernel as wide as its three nearest neighbors say, from 2 to 40 px.
 void density_adaptive(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
-  const auto heads = heads_of(frame);
+  const auto heads = head_positions(frame);
   std::vector<double> sigmas;
   for (std::size_t i = 0; i < heads.size(); ++i) {
     sigmas.push_back(2 + 38 * static_cast<double>(i % 20) / 20);

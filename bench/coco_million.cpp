@@ -69,7 +69,7 @@ render::Frame frame_of_crowd() {
 }
 
 /// People who know where they want to go, as jobs record them.
-world::Trace trace_of(std::size_t agents) {
+world::Trace make_trace(std::size_t agents) {
   world::Trace trace;
   trace.header.state_names = {"Walk"};
   trace.header.exit_ids = {"exit1", "exit2", "exit3", "exit4", "exit5"};
@@ -84,7 +84,7 @@ world::Trace trace_of(std::size_t agents) {
   return trace;
 }
 
-skinning::Population population_of(std::size_t characters) {
+skinning::Population make_population(std::size_t characters) {
   skinning::Population population;
   population.characters.resize(characters);
   for (skinning::Character& character : population.characters) {
@@ -97,8 +97,8 @@ skinning::Population population_of(std::size_t characters) {
 
 void run(const fs::path& folder, bool keypoints) {
   const render::Frame frame = frame_of_crowd();
-  const world::Trace trace = trace_of(2 * kPeople);
-  const skinning::Population population = population_of(24);
+  const world::Trace trace = make_trace(2 * kPeople);
+  const skinning::Population population = make_population(24);
   const annotate::PersonFacts facts(trace, population, {});
   annotate::FrameLabels labels = annotate::label_people(frame);
   if (keypoints) annotate::add_keypoints(frame, labels);

@@ -69,6 +69,6 @@ timed() {
   printf '%-10s %9.2f %9.2f   %s\n' "$1" "$wall_s" "$cpu_s" "$(tail -1 "$work/out.txt" | cut -c1-90)"
 }
 printf '%-10s %9s %9s\n' step 'wall, s' 'CPU, s'
-timed import "$throng" scenario import "$work/town.osm" -o "$work/places" --people "${2:-1000}"
-timed check "$throng" scenario check "$work/places"
-THRONG_SCENARIOS="$work/places" timed load "$throng" simulate "$work/job.json" -o "$work/trace.h5"
+timed import "$throng" scenario import "$work/town.osm" -o "$work/scenarios" --people "${2:-1000}"
+timed check "$throng" scenario check "$work/scenarios"
+THRONG_SCENARIOS="$work/scenarios" timed load "$throng" simulate "$work/job.json" -o "$work/trace.h5"

@@ -35,7 +35,7 @@ world::Scenario wall_with_doors() {
 }
 
 // Everybody goes at 1.2 m/s to the nearest door, whose crowd lets four people a second through.
-world::Trace crowd_of(int people, const world::Scenario& scenario) {
+world::Trace random_walk_trace(int people, const world::Scenario& scenario) {
   world::Trace trace;
   trace.header.dt_s = 0.1;
   trace.header.role.assign(people, world::AgentRole::person);
@@ -70,7 +70,7 @@ world::Trace crowd_of(int people, const world::Scenario& scenario) {
 void figures_of_a_run(benchmark::State& state) {
   const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
   const world::Scenario scenario = wall_with_doors();
-  const world::Trace trace = crowd_of(static_cast<int>(state.range(0)), scenario);
+  const world::Trace trace = random_walk_trace(static_cast<int>(state.range(0)), scenario);
   for (auto _ : state) {
     benchmark::DoNotOptimize(run_metrics(trace, scenario, exit_series(trace, scenario)));
   }

@@ -85,7 +85,7 @@ render::Scene crowd(const skinning::Population& people, std::uint32_t count) {
       person.position = {static_cast<float>(at.x()), static_cast<float>(at.y()), 0};
       pixel = camera.project(person.position.cast<double>()).pixel;
     } while (pixel.minCoeff() < 0 || pixel.x() > 1919 || pixel.y() > 1079);
-    person.appearance = skinning::appearance_of(people, 1, i);
+    person.appearance = skinning::sample_appearance(people, 1, i);
     person.yaw_rad = static_cast<float>(random.uniform(-3.1, 3.1));
     const double speed_mps = random.uniform() < 0.2 ? 2.8 : 1.3;
     person.pose = skinning::pose_at(people, random.uniform(), speed_mps, 0);
@@ -193,9 +193,10 @@ Figures measure(render::Quality quality, std::uint32_t count, bool first,
   figures.cpu_s = cpu_s() - cpu_begin_s;
   if (first && clock) print_stages(*clock, figures.frames);
   if (first && !settings.images.empty()) {
-    write_file_atomically(std::filesystem::path(settings.images) /
-                              fmt::format("{}_{}.jpg", render::settings_of(quality).word, count),
-                          worker.jpeg());
+    write_file_atomically(
+        std::filesystem::path(settings.images) /
+            fmt::format("{}_{}.jpg", render::quality_settings(quality).word, count),
+        worker.jpeg());
   }
   return figures;
 }
@@ -221,12 +222,13 @@ void run(render::Quality quality, std::uint32_t count, const Settings& settings)
   while (::wait(nullptr) > 0) {
   }
   if (all.frames == 0) {
-    fmt::print("{:<10}{:>8}  no process drew a frame\n", render::settings_of(quality).word, count);
+    fmt::print("{:<10}{:>8}  no process drew a frame\n", render::quality_settings(quality).word,
+               count);
     return;
   }
   const double cpu_ms = 1000 * all.cpu_s / all.frames;
-  fmt::print("{:<10}{:>8}{:>14.1f}{:>16.1f}{:>20.1f}\n", render::settings_of(quality).word, count,
-             frames_per_s, cpu_ms, 1000 * settings.processes / cpu_ms);
+  fmt::print("{:<10}{:>8}{:>14.1f}{:>16.1f}{:>20.1f}\n", render::quality_settings(quality).word,
+             count, frames_per_s, cpu_ms, 1000 * settings.processes / cpu_ms);
 }
 
 }  // namespace

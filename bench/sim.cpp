@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "base/files/resources.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kPhysicsHz = 480;
 
 const world::Scenario& city_square() {
   static const world::Scenario scenario =
-      places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+      scenarios::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 

@@ -5,11 +5,11 @@ include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/JoinSources.cmake")
 
 # These compute. The others are compiled with less optimization (release) or without (sanitizers), which takes half the time.
-set(THRONG_OPTIMIZED_MODULES base crowd/description world crowd camera camera/calibration places sim metrics crowd/validation skinning render)
+set(THRONG_OPTIMIZED_MODULES base crowd/description world crowd camera camera/calibration world/scenarios sim metrics crowd/validation skinning render)
 # These are optimized with sanitizers too: their tests look at every pixel.
 set(THRONG_PIXEL_MODULES annotate formats)
 # The modules that the fuzz targets (tests/fuzz) cover.
-set(THRONG_FUZZED_MODULES base crowd/description world crowd places/imports spec metrics)
+set(THRONG_FUZZED_MODULES base crowd/description world crowd world/imports spec metrics)
 
 # throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...
 #   REFUSES module...)

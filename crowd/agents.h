@@ -48,7 +48,7 @@ constexpr std::array<PropertySpec, kPropertyCount> kProperties = {{
     {"max_neighbors", 10, 0, 1000, 1, "how many others are noticed"},
 }};
 
-constexpr const PropertySpec& spec_of(Property property) {
+constexpr const PropertySpec& property_spec(Property property) {
   return kProperties[static_cast<std::size_t>(property)];
 }
 

@@ -19,8 +19,8 @@ constexpr double kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMaxRunS = 1e7;
 
 template <std::size_t N>
-std::size_t index_of(std::string_view word, const std::array<std::string_view, N>& words,
-                     const char* what) {
+std::size_t word_index(std::string_view word, const std::array<std::string_view, N>& words,
+                       const char* what) {
   const auto found = std::find(words.begin(), words.end(), word);
   if (found == words.end()) {
     throw InputError(Problem{"", what, in_quotes(word) + did_you_mean(word, words),
@@ -51,7 +51,7 @@ fs::path require_file(const Element& element, const Attributes& attributes, cons
   return path;
 }
 
-std::uint64_t seed_of(const Element& element, const Attributes& attributes) {
+std::uint64_t read_seed(const Element& element, const Attributes& attributes) {
   const auto given = static_cast<std::uint64_t>(attributes.integer("random"));
   if (given == 0 && element.attribute("random")) {
     element.warn_attribute("random", "0, which makes every run of Menge another one; here it is 1",
@@ -60,7 +60,7 @@ std::uint64_t seed_of(const Element& element, const Attributes& attributes) {
   return seed_or_default(given);
 }
 
-std::string model_of(const Element& element, const Attributes& attributes) {
+std::string read_model(const Element& element, const Attributes& attributes) {
   const std::string& name = attributes.text("model");
   try {
     return std::string(find_model(name).name);
@@ -70,7 +70,7 @@ std::string model_of(const Element& element, const Attributes& attributes) {
   }
 }
 
-std::optional<double> time_step_of(const Element& element, const Attributes& attributes) {
+std::optional<double> read_time_step(const Element& element, const Attributes& attributes) {
   constexpr double kMinStepS = 1e-4;
   const double time_step_s = attributes.number("timeStep");
   if (time_step_s <= 0) return std::nullopt;
@@ -90,12 +90,12 @@ void require_file(const fs::path& path, const char* what) {
 
 }  // namespace
 
-Compat compat_of(std::string_view word) {
-  return static_cast<Compat>(index_of(word, kCompatWords, "compat"));
+Compat parse_compat(std::string_view word) {
+  return static_cast<Compat>(word_index(word, kCompatWords, "compat"));
 }
 
 bool is_hard(std::string_view separation) {
-  return index_of(separation, kSeparationWords, "separation") == 1;
+  return word_index(separation, kSeparationWords, "separation") == 1;
 }
 
 AttributeTable project_attributes() {
@@ -129,12 +129,12 @@ Project load_project(const fs::path& file) {
   Project project;
   project.scene_file = require_file(element, attributes, "scene");
   project.behavior_file = require_file(element, attributes, "behavior");
-  project.options.model = model_of(element, attributes);
-  project.options.seed = seed_of(element, attributes);
-  project.options.compat = compat_of(attributes.text("compat"));
+  project.options.model = read_model(element, attributes);
+  project.options.seed = read_seed(element, attributes);
+  project.options.compat = parse_compat(attributes.text("compat"));
   project.options.hard_separation = is_hard(attributes.text("separation"));
   project.options.sub_steps = static_cast<int>(attributes.integer("subSteps"));
-  project.options.time_step_s = time_step_of(element, attributes);
+  project.options.time_step_s = read_time_step(element, attributes);
   project.duration_s = attributes.number("duration");
   if (attributes.has("output")) project.output = element.file_beside(attributes.text("output"));
   project.scb_version = attributes.text("scbVersion");

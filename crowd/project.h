@@ -12,7 +12,7 @@
 namespace throng::crowd {
 
 /// Throws InputError for a word that is not in kCompatWords.
-Compat compat_of(std::string_view word);
+Compat parse_compat(std::string_view word);
 /// Throws InputError for a word that is not in kSeparationWords.
 bool is_hard(std::string_view separation);
 

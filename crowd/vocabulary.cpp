@@ -24,13 +24,13 @@ namespace throng::crowd {
 
 namespace {
 
-std::string name_of(const AttributeSpec& spec) {
+std::string attribute_name(const AttributeSpec& spec) {
   if (spec.type == AttributeType::distribution) return fmt::format("{}dist ...", spec.name);
   if (spec.type == AttributeType::distribution_2) return "dist ...";
   return std::string(spec.name);
 }
 
-std::string type_of(const AttributeSpec& spec) {
+std::string attribute_type(const AttributeSpec& spec) {
   switch (spec.type) {
     case AttributeType::number:
       return "number";
@@ -49,7 +49,7 @@ std::string type_of(const AttributeSpec& spec) {
 }
 
 /// Limits that only keep numbers sane are not worth saying.
-std::string range_of(double min, double max) {
+std::string describe_range(double min, double max) {
   if (min <= -kMaxCoordinate && max >= kMaxCoordinate) return {};
   if (max >= kMaxCoordinate) return fmt::format("at least {:g}", min);
   if (min <= -kMaxCoordinate) return fmt::format("at most {:g}", max);
@@ -60,11 +60,11 @@ VocabularyAttribute described(const AttributeSpec& spec) {
   const bool has_range = spec.type == AttributeType::number ||
                          spec.type == AttributeType::integer ||
                          spec.type == AttributeType::distribution;
-  return {.name = name_of(spec),
-          .type = type_of(spec),
+  return {.name = attribute_name(spec),
+          .type = attribute_type(spec),
           .required = spec.presence == Presence::required,
           .default_text = std::string(spec.default_text),
-          .range = has_range ? range_of(spec.min, spec.max) : std::string(),
+          .range = has_range ? describe_range(spec.min, spec.max) : std::string(),
           .help = std::string(spec.help)};
 }
 
@@ -72,7 +72,7 @@ VocabularyAttribute described(const ModelParameter& parameter) {
   return {.name = std::string(parameter.name),
           .type = "number",
           .default_text = fmt::format("{:g}", parameter.initial),
-          .range = range_of(parameter.min, parameter.max),
+          .range = describe_range(parameter.min, parameter.max),
           .help = std::string(parameter.help)};
 }
 
@@ -148,12 +148,13 @@ VocabularyKind distributions() {
   for (const DistributionForm& form : distribution_forms()) {
     VocabularyEntry entry{std::string(form.word), std::string(form.help), {}};
     for (const DistributionForm::Parameter& parameter : form.parameters) {
-      entry.attributes.push_back(
-          {.name = std::string(parameter.name),
-           .type = "number",
-           .required = true,
-           .range = parameter.is_a_value ? std::string() : range_of(parameter.min, parameter.max),
-           .help = std::string(parameter.help)});
+      entry.attributes.push_back({.name = std::string(parameter.name),
+                                  .type = "number",
+                                  .required = true,
+                                  .range = parameter.is_a_value
+                                               ? std::string()
+                                               : describe_range(parameter.min, parameter.max),
+                                  .help = std::string(parameter.help)});
     }
     if (form.has_limits) {
       entry.attributes.push_back(
@@ -175,7 +176,7 @@ VocabularyKind properties() {
     common.attributes.push_back({.name = std::string(spec.name),
                                  .type = "number",
                                  .default_text = fmt::format("{:g}", spec.initial),
-                                 .range = range_of(spec.min, spec.max),
+                                 .range = describe_range(spec.min, spec.max),
                                  .help = std::string(spec.help)});
   }
   for (const VocabularyAttribute& attribute : described(fixed_common_attributes())) {

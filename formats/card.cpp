@@ -29,31 +29,31 @@ constexpr const char* kPlaceLicense =
     "no third party's: textures and shapes are computed; mesh files of a scenario have their own";
 
 /// "00016-00032": the class of a value between two borders, in names that sort.
-std::string band_of(double value, std::span<const int> borders) {
+std::string band_name(double value, std::span<const int> borders) {
   for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
     if (value < borders[i + 1]) return fmt::format("{:05}-{:05}", borders[i], borders[i + 1]);
   }
   return fmt::format("{:05}-", borders.back());
 }
 
-std::string light_of(const json& record) {
+std::string light_name(const json& record) {
   const auto environment = record.find("environment");
   if (environment == record.end() || !environment->contains("sun_elevation_deg")) return "unknown";
-  constexpr double kCivil_deg = -6;
-  constexpr double kLow_deg = 10;
+  constexpr double kCivilDeg = -6;
+  constexpr double kLowDeg = 10;
   const double elevation = environment->at("sun_elevation_deg");
-  if (elevation < kCivil_deg) return "night";
+  if (elevation < kCivilDeg) return "night";
   if (elevation < 0) return "twilight";
-  return elevation < kLow_deg ? "low sun" : "day";
+  return elevation < kLowDeg ? "low sun" : "day";
 }
 
-std::string weather_of(const json& record) {
+std::string weather_name(const json& record) {
   const auto environment = record.find("environment");
   return environment == record.end() ? "unknown" : environment->value("weather", "unknown");
 }
 
 /// The place of a kind of ground truth, and its content.
-std::string place_of(const annotate::GroundTruthKind& kind) {
+std::string folder_column(const annotate::GroundTruthKind& kind) {
   return kind.content.empty() ? std::string(kind.file)
                               : fmt::format("{}: {}", kind.file, kind.content);
 }
@@ -134,16 +134,16 @@ void DatasetCard::add(const Image& image) {
   ++images_;
   people_ += static_cast<std::int64_t>(image.people.size());
   max_in_image_ = std::max(max_in_image_, static_cast<std::int64_t>(image.people.size()));
-  ++by_count_[band_of(static_cast<double>(image.people.size()), kCounts)];
-  ++by_light_[light_of(image.record)];
-  ++by_weather_[weather_of(image.record)];
-  ++by_split_[std::string(name_of(image.split))];
+  ++by_count_[band_name(static_cast<double>(image.people.size()), kCounts)];
+  ++by_light_[light_name(image.record)];
+  ++by_weather_[weather_name(image.record)];
+  ++by_split_[std::string(to_string(image.split))];
   for (const Person& object : image.objects) {
     ++objects_[info_.object_categories.at(object.category - info_.categories.size()).id];
   }
   for (const Person& person : image.people) {
-    ++by_height_[band_of(person.amodal.height, kHeights)];
-    ++by_visibility_[band_of(kPercent * person.visibility, kShares)];
+    ++by_height_[band_name(person.amodal.height, kHeights)];
+    ++by_visibility_[band_name(kPercent * person.visibility, kShares)];
     ++by_state_[person.state.empty() ? "unknown" : person.state];
     truncated_ += person.truncation >= kTruncated ? 1 : 0;
     ignored_ += person.is_ignored ? 1 : 0;
@@ -159,7 +159,7 @@ void DatasetCard::add_character(const Person& person) {
   if (character != attributes->end()) characters_.insert(character->get<std::string>());
 }
 
-std::int64_t DatasetCard::count_of(int category) const {
+std::int64_t DatasetCard::count_annotations(int category) const {
   const auto found = objects_.find(category);
   return found == objects_.end() ? 0 : found->second;
 }
@@ -175,7 +175,7 @@ json DatasetCard::classes() const {
 json DatasetCard::statistics() const {
   json figures = {{"images", images_},
                   {"annotations", people_},
-                  {"annotations_of_drones", count_of(annotate::kDroneCategory)},
+                  {"annotations_of_drones", count_annotations(annotate::kDroneCategory)},
                   {"most_people_in_an_image", max_in_image_},
                   {"distinct_characters", characters_.size()},
                   {"truncated", truncated_},
@@ -189,7 +189,7 @@ json DatasetCard::statistics() const {
                   {"images_by_split", by_split_}};
   for (const annotate::ObjectCategory& category : info_.object_categories) {
     if (category.id == annotate::kDroneCategory) continue;
-    figures["annotations_of_vehicles"][std::string(category.name)] = count_of(category.id);
+    figures["annotations_of_vehicles"][std::string(category.name)] = count_annotations(category.id);
   }
   return figures;
 }
@@ -202,7 +202,7 @@ json DatasetCard::description() const {
        "cameras/RUN/CAMERA.opencv.yaml and .ros.yaml; .mask.png: 0 where the lens shows nothing"},
       {"files", "manifest.json: size and SHA-256 of each file"}};
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
-    if (info_.has(kind.kind)) places_here[std::string(kind.name)] = place_of(kind);
+    if (info_.has(kind.kind)) places_here[std::string(kind.name)] = folder_column(kind);
   }
   json formats = json::object();
   for (const json& name : manifest_.at("job").at("outputs").value("formats", json::array())) {
@@ -213,7 +213,7 @@ json DatasetCard::description() const {
   json scenarios = json::object();
   for (const json& run : manifest_.at("runs")) {
     const std::string name = run.at("run");
-    splits[std::string(name_of(info_.split_of(name)))].push_back(name);
+    splits[std::string(to_string(info_.split_of(name)))].push_back(name);
     seeds[name] = run.value("seed", json());
     if (run.contains("scenario")) scenarios[name] = run["scenario"];
   }

@@ -25,7 +25,7 @@ class DatasetCard : public Exporter {
   /// Counts the character of a track, at its first annotation.
   void add_character(const Person& person);
   /// Annotations of a category that is not people's.
-  std::int64_t count_of(int category) const;
+  std::int64_t count_annotations(int category) const;
   /// Names of the COCO file's categories, by id.
   nlohmann::json classes() const;
   nlohmann::json statistics() const;

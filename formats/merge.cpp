@@ -61,7 +61,7 @@ json value_at(const json& document, const char* pointer) {
   return document.contains(place) ? document.at(place) : json(nullptr);
 }
 
-json ids_of(const json& drones) {
+json list_ids(const json& drones) {
   json ids = json::array();
   for (const json& drone : drones) ids.push_back(drone.value("id", json()));
   return ids;
@@ -101,13 +101,13 @@ void require_alike(const Part& first, const Part& other) {
   for (const char* field : kEqualFields) {
     compare(fmt::format("/job{}", field), value_at(a, field), value_at(b, field));
   }
-  compare("/job/drones", ids_of(a.value("drones", json::array())),
-          ids_of(b.value("drones", json::array())));
+  compare("/job/drones", list_ids(a.value("drones", json::array())),
+          list_ids(b.value("drones", json::array())));
   compare("/people", value_at(first.manifest, "/people"), value_at(other.manifest, "/people"));
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-Part part_of(const fs::path& root, std::size_t first_run) {
+Part read_part(const fs::path& root, std::size_t first_run) {
   if (!fs::is_directory(root)) {
     throw InputError({root.string(), "", fs::exists(root) ? "a file" : "no such folder",
                       "the folder of a finished dataset"});
@@ -126,7 +126,7 @@ Part part_of(const fs::path& root, std::size_t first_run) {
 }
 
 /// The ids of scenarios that a job names.
-std::string scenario_of(const Part& part, const json& run) {
+std::string scenario_name(const Part& part, const json& run) {
   const json scenario = part.manifest.at("job").value("scenario", json());
   return run.value("scenario", scenario.is_string() ? scenario.get<std::string>() : "");
 }
@@ -232,7 +232,7 @@ class Merger {
       job = in_common(job, part.manifest.at("job"));
       runs += part.runs.size();
       for (const json& run : part.manifest.at("runs")) {
-        const std::string id = scenario_of(part, run);
+        const std::string id = scenario_name(part, run);
         if (std::find(scenarios.begin(), scenarios.end(), id) == scenarios.end()) {
           scenarios.push_back(id);
         }
@@ -246,7 +246,7 @@ class Merger {
       std::size_t run = part.first_run;
       for (const std::string& name : part.runs) {
         const Split split = part.splits.at(part.new_name(name));
-        splits[fmt::format("{}_runs", name_of(split))].push_back(run++);
+        splits[fmt::format("{}_runs", to_string(split))].push_back(run++);
       }
     }
     job["outputs"]["splits"] = std::move(splits);
@@ -261,7 +261,7 @@ class Merger {
     const json job = merged_job();
     for (const Part& part : parts_) {
       for (json run : part.manifest.at("runs")) {
-        if (job.at("scenario").is_array()) run["scenario"] = scenario_of(part, run);
+        if (job.at("scenario").is_array()) run["scenario"] = scenario_name(part, run);
         run["run"] = part.new_name(run.at("run"));
         runs.push_back(std::move(run));
       }
@@ -317,7 +317,7 @@ MergedCounts merge_datasets(const std::vector<fs::path>& datasets, const fs::pat
   std::vector<Part> parts;
   std::size_t runs = 0;
   for (const fs::path& dataset : datasets) {
-    parts.push_back(part_of(dataset, runs));
+    parts.push_back(read_part(dataset, runs));
     runs += parts.back().runs.size();
     require_alike(parts.front(), parts.back());
   }

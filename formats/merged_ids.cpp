@@ -26,7 +26,7 @@ namespace {
                     "a record that throng wrote"});
 }
 
-ordered_json record_of(const fs::path& file, std::size_t line, std::string_view text) {
+ordered_json parse_record(const fs::path& file, std::size_t line, std::string_view text) {
   try {
     return parse_ordered_json(text);
   } catch (const nlohmann::json::exception& error) {
@@ -88,7 +88,7 @@ std::string shifted_lines(const fs::path& file, const std::string& text, std::in
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     ordered_json record =
-        record_of(file, ++line, std::string_view(text).substr(start, end - start));
+        parse_record(file, ++line, std::string_view(text).substr(start, end - start));
     if (record.contains("track_id")) shift_ids(record["track_id"], shift);
     result += record.dump() + "\n";
     start = end + 1;
@@ -169,7 +169,7 @@ class Lines {
 
 constexpr std::array<std::string_view, 3> kLists = {"tracks", "images", "annotations"};
 
-std::string header_of(Lines& lines, const std::string& description) {
+std::string make_header(Lines& lines, const std::string& description) {
   std::string header;
   for (std::string line = lines.next(); line != "\"tracks\":["; line = lines.next()) {
     header += line + "\n";
@@ -194,7 +194,7 @@ std::optional<std::string> with_shifted_tracks(const fs::path& file, const std::
   }
   if (kind == "events") return shifted_lines(file, read_file(file), shift);
   if (kind == "trajectories" && ending == ".json") {
-    ordered_json people = record_of(file, 1, read_file(file));
+    ordered_json people = parse_record(file, 1, read_file(file));
     shift_ids(people.at("track_ids"), shift);
     return people.dump() + "\n";
   }
@@ -209,7 +209,7 @@ void join_coco_files(const std::vector<CocoPart>& parts, const std::string& desc
   StagedFile joined(output);
   std::string header;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string own = header_of(lines[i], description);
+    const std::string own = make_header(lines[i], description);
     if (i == 0) header = own;
     if (own != header) refuse(parts[i].file, 1, "other categories than the first dataset's");
   }
@@ -224,7 +224,7 @@ void join_coco_files(const std::vector<CocoPart>& parts, const std::string& desc
       const NewIds ids(parts[i], image_shift[i]);
       for (std::string line = lines[i].next(); !line.starts_with(']'); line = lines[i].next()) {
         if (line.ends_with(',')) line.pop_back();
-        ordered_json record = record_of(parts[i].file, lines[i].number(), line);
+        ordered_json record = parse_record(parts[i].file, lines[i].number(), line);
         ids.rename(list, record);
         if (list == "images") max_image = std::max(max_image, record["id"].get<std::int64_t>());
         joined.write(before);

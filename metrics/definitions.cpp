@@ -58,11 +58,11 @@ const std::vector<Definition>& definitions_of_run() {
   return kDefinitions;
 }
 
-std::string address_of(const Definition& definition) {
+std::string anchor_address(const Definition& definition) {
   return "docs/metrics.md#" + definition.anchor;
 }
 
-const Definition* definition_of(const std::string& path) {
+const Definition* find_definition(const std::string& path) {
   const std::vector<Definition>& all = definitions_of_run();
   for (std::string at = path; !at.empty(); at.resize(at.find_last_of(".[") + 1)) {
     while (!at.empty() && (at.back() == '.' || at.back() == '[')) at.pop_back();

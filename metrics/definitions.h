@@ -18,9 +18,9 @@ struct Definition {
 const std::vector<Definition>& definitions_of_run();
 
 /// "docs/metrics.md#ANCHOR".
-std::string address_of(const Definition& definition);
+std::string anchor_address(const Definition& definition);
 
 /// The definition of the value, or of the nearest object that holds it. Null if there is none.
-const Definition* definition_of(const std::string& path);
+const Definition* find_definition(const std::string& path);
 
 }  // namespace throng::metrics

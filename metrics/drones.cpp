@@ -49,7 +49,7 @@ struct Count {
   void operator()(const world::Falling&) const { figures.falling_s = time_s; }
   void operator()(const world::FallHazard&) const { ++figures.fall_hazard_people; }
   void operator()(const world::Collision& event) const {
-    ++figures.collisions[std::string(world::name_of(event.partner))];
+    ++figures.collisions[std::string(world::to_string(event.partner))];
     figures.hardest_ns = std::max(figures.hardest_ns, event.impulse_ns);
   }
   void operator()(const auto&) const {}
@@ -66,7 +66,7 @@ std::vector<DroneFigures> drone_figures(const world::Trace& trace) {
   }
   std::vector<std::set<std::int32_t>> blown_on(list.size());
   for (const world::TraceEvent& event : trace.events) {
-    const auto drone = world::drone_of(event.kind);
+    const auto drone = world::drone_of_event(event.kind);
     if (!drone) continue;
     const auto index = static_cast<std::size_t>(*drone);
     std::visit(Count{event.time_s, list[index]}, event.kind);

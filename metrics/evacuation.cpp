@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::array kHorizonsS = {300.0, 600.0};
 
-std::vector<double> curve_of(const std::vector<double>& times, int people, double duration_s) {
+std::vector<double> escape_curve(const std::vector<double>& times, int people, double duration_s) {
   const auto seconds = static_cast<std::size_t>(std::floor(duration_s + world::kTimeSlackS));
   std::vector<double> curve;
   for (std::size_t second = 0; second <= seconds; ++second) {
@@ -42,7 +42,7 @@ std::vector<double> escape_times_of_run(const std::vector<PersonRecord>& people)
   return times_s;
 }
 
-RunMetrics::Horizon horizon_of(const EscapeTimes& escapes, double at_s) {
+RunMetrics::Horizon summarize_horizon(const EscapeTimes& escapes, double at_s) {
   const auto mean_s = escapes.restricted_mean_s(at_s);
   if (!mean_s) return {at_s, {}, {}};
   return {at_s, escapes.inside_after(at_s), mean_s};
@@ -67,7 +67,7 @@ json horizons_json(const std::vector<RunMetrics::Horizon>& horizons) {
 json definitions_json() {
   json addresses = json::object();
   for (const Definition& definition : definitions_of_run()) {
-    for (const std::string& path : definition.paths) addresses[path] = address_of(definition);
+    for (const std::string& path : definition.paths) addresses[path] = anchor_address(definition);
   }
   return addresses;
 }
@@ -83,7 +83,7 @@ std::string model_of_run(const world::Trace& trace, const world::Scenario& scena
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<ExitSeries>& exits,
                        const std::optional<world::Alarm>& given) {
-  const world::Alarm alarm = given ? *given : world::alarm_of(scenario);
+  const world::Alarm alarm = given ? *given : world::find_alarm(scenario);
   RunMetrics metrics;
   metrics.persons = person_records(trace, scenario, alarm);
   const std::vector<PersonRecord>& people = metrics.persons;
@@ -93,7 +93,8 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   metrics.duration_s = trace.duration_s();
   metrics.alarm_s = alarm.at_s;
   metrics.escapes = escape_times(people, metrics.duration_s);
-  metrics.escape_curve = curve_of(escape_times_of_run(people), metrics.people, metrics.duration_s);
+  metrics.escape_curve =
+      escape_curve(escape_times_of_run(people), metrics.people, metrics.duration_s);
   for (const int percent : kPercents) {
     metrics.percentiles.push_back({percent, metrics.escapes.percentile_s(percent)});
   }
@@ -101,14 +102,14 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   metrics.not_escaped = metrics.escapes.not_escaped();
   metrics.mean_escape_time_s = metrics.escapes.mean_censored_s();
   for (const double at_s : kHorizonsS) {
-    metrics.horizons.push_back(horizon_of(metrics.escapes, at_s));
+    metrics.horizons.push_back(summarize_horizon(metrics.escapes, at_s));
   }
   metrics.exits = exit_totals(exits, trace.header.dt_s);
-  metrics.balance = balance_of(metrics.exits);
+  metrics.balance = balance_exits(metrics.exits);
   metrics.drones = drone_figures(trace);
-  if (alarm.at_s) metrics.notification = notification_of(people, metrics.duration_s);
-  metrics.guidance = guidance_of(people, metrics.drones);
-  metrics.exposure = exposure_of(trace, scenario, people);
+  if (alarm.at_s) metrics.notification = summarize_notification(people, metrics.duration_s);
+  metrics.guidance = measure_guidance(people, metrics.drones);
+  metrics.exposure = measure_exposure(trace, scenario, people);
   if (!people.empty()) {
     const std::vector<WalkingDistance> distances = walking_distances(scenario);
     metrics.journeys = journeys(trace, scenario, exits, people, distances);
@@ -117,7 +118,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
         {model_of_run(trace, scenario), max_radius_m(trace.header), Knowledge::as_noticed});
     metrics.reference = reference_time(scenario, people, alarm, metrics.duration_s,
                                        Knowledge::as_noticed, distances);
-    metrics.remaining = remaining_of(trace, scenario, people, distances);
+    metrics.remaining = count_remaining(trace, scenario, people, distances);
   }
   for (const world::TraceEvent& event : trace.events) {
     const auto* fall = std::get_if<world::PersonFall>(&event.kind);
@@ -141,7 +142,7 @@ json to_json(const RunMetrics& metrics) {
           {"crowd_model", metrics.crowd_model.empty() ? json(nullptr) : json(metrics.crowd_model)},
           {"people", metrics.people},
           {"people_counts", to_json(metrics.counts)},
-          {"warnings", warnings_of(metrics.counts)},
+          {"warnings", count_warnings(metrics.counts)},
           {"left_before_alarm", metrics.escapes.left_before_alarm},
           {"alarm_s", seconds_or_null(metrics.alarm_s)},
           {"duration_s", metrics.duration_s},

@@ -68,7 +68,7 @@ struct RunMetrics {
 
 /// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is
 /// 0 (and no percentile reached) when there is nobody. Without `alarm` it is
-/// world::alarm_of(scenario), whose exceptions pass.
+/// world::find_alarm(scenario), whose exceptions pass.
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<ExitSeries>& exits,
                        const std::optional<world::Alarm>& alarm = {});

@@ -41,8 +41,8 @@ void check_nobody_followed(const std::vector<PersonRecord>& people) {
 
 }  // namespace
 
-GuidanceFigures guidance_of(const std::vector<PersonRecord>& people,
-                            const std::vector<DroneFigures>& drones) {
+GuidanceFigures measure_guidance(const std::vector<PersonRecord>& people,
+                                 const std::vector<DroneFigures>& drones) {
   GuidanceFigures guidance;
   for (const PersonRecord& person : people) {
     if (person.followed_s <= 0) continue;
@@ -72,7 +72,7 @@ json to_json(const GuidanceFigures& guidance) {
 LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_guides,
                        const world::Scenario& scenario) {
   check_pair(trace.header, without_guides.header);
-  const world::Alarm alarm = world::alarm_of(scenario);
+  const world::Alarm alarm = world::find_alarm(scenario);
   const double end_s = std::min(trace.duration_s(), without_guides.duration_s());
   const auto out_by = [&](const PersonRecord& person) {
     return std::min(person.escaped_s.value_or(end_s), end_s);

@@ -19,8 +19,8 @@ struct GuidanceFigures {
   double energy_wh = 0;
 };
 
-GuidanceFigures guidance_of(const std::vector<PersonRecord>& people,
-                            const std::vector<DroneFigures>& drones);
+GuidanceFigures measure_guidance(const std::vector<PersonRecord>& people,
+                                 const std::vector<DroneFigures>& drones);
 
 nlohmann::json to_json(const GuidanceFigures& guidance);
 

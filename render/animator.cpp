@@ -32,14 +32,14 @@ struct Curiosity {
 
 /// Direction of a drone that is near and high enough to be looked at.
 Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float yaw_rad) {
-  constexpr double kFar_m = 45;
-  constexpr double kEyes_m = 1.6;
+  constexpr double kFarM = 45;
+  constexpr double kEyesM = 1.6;
   constexpr double kMinElevationRad = 15 * kDegree;
   constexpr double kAhead = 35 * kDegree;
   constexpr double kBehind = 120 * kDegree;
   const Eigen::Vector2d to = drone.head<2>() - from.cast<double>();
   const double away = to.norm();
-  if (away > kFar_m || std::atan2(drone.z() - kEyes_m, away) < kMinElevationRad) return Gaze::none;
+  if (away > kFarM || std::atan2(drone.z() - kEyesM, away) < kMinElevationRad) return Gaze::none;
   const double bearing =
       geometry::turn_rad(static_cast<double>(yaw_rad), std::atan2(to.y(), to.x()));
   if (std::abs(bearing) < kAhead) return Gaze::ahead;
@@ -91,8 +91,8 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   const Watcher watcher(trace);
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    appearance_.push_back(skinning::appearance_of(population, trace.header.seed,
-                                                  static_cast<std::uint32_t>(agent), styling));
+    appearance_.push_back(skinning::sample_appearance(population, trace.header.seed,
+                                                      static_cast<std::uint32_t>(agent), styling));
     if (!is_rendered(trace.header.role[agent])) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));

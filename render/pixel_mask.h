@@ -37,7 +37,7 @@ struct PixelMask {
 };
 
 /// Union of two masks.
-inline PixelMask union_of(const PixelMask& a, const PixelMask& b) {
+inline PixelMask unite_masks(const PixelMask& a, const PixelMask& b) {
   if (a.set.empty()) return b;
   if (b.set.empty()) return a;
   PixelMask both(a.pixels.merged(b.pixels));

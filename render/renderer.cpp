@@ -14,17 +14,17 @@
 #include "render/lens/metering.h"
 #include "render/passes/airframe_pass.h"
 #include "render/passes/contact_pass.h"
-#include "render/passes/place_pass.h"
 #include "render/passes/prop_pass.h"
+#include "render/passes/scenery_pass.h"
 #include "render/passes/sky_pass.h"
 #include "render/passes/smoke_pass.h"
 #include "render/passes/smooth_edges.h"
 #include "render/passes/still_surfaces.h"
 #include "render/people/people_in_view.h"
 #include "render/people/people_pass.h"
-#include "render/place/lamps.h"
-#include "render/place/lighting.h"
-#include "render/place/surface_classes.h"
+#include "render/scenery/lamps.h"
+#include "render/scenery/lighting.h"
+#include "render/scenery/surface_classes.h"
 #include "render/truth/coverage.h"
 #include "render/truth/objects_in_view.h"
 #include "render/truth/silhouettes.h"
@@ -35,7 +35,7 @@ namespace throng::render {
 namespace {
 
 /// Whole pixels that a box touches, and one more on each side for the rasterizer's rounding.
-Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
+Eigen::AlignedBox2i pixel_box(const Eigen::AlignedBox2d& box) {
   return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
 }
 
@@ -70,7 +70,7 @@ std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::A
   return sum;
 }
 
-std::vector<PersonDraw> draws_of(const std::vector<Seen>& seen) {
+std::vector<PersonDraw> make_draws(const std::vector<Seen>& seen) {
   std::vector<PersonDraw> draws;
   draws.reserve(seen.size());
   for (const Seen& person : seen) draws.push_back(person.draw);
@@ -121,7 +121,7 @@ struct Renderer::State {
                    Frame& frame);
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                  PeoplePass::Purpose purpose);
-  void place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
+  void scenery_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NeighborFrame* next, const NeighborFrame* previous,
                      const std::vector<Seen>& seen, Frame& frame);
   void draw_opacity(const Scene& scene, Frame& frame);
@@ -148,7 +148,7 @@ struct Renderer::State {
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
-  PlacePass place;
+  SceneryPass place;
   PropPass props;
   AirframePass airframes;
   ContactPass contacts;
@@ -180,7 +180,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
                        const RenderOptions& wanted)
     : context(device.name),
       options(wanted),
-      quality(settings_of(wanted.quality)),
+      quality(quality_settings(wanted.quality)),
       multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
       population(&people),
       finder(people, quality),
@@ -205,7 +205,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
   glFrontFace(GL_CW);
   glDepthFunc(GL_GREATER);
   if (daylight.lamps_on) lamp_map.emplace(scenario);
-  if (options.vehicles) vehicles = vehicles_of(scenario);
+  if (options.vehicles) vehicles = list_vehicles(scenario);
   check_gl("setting up");
 }
 
@@ -231,7 +231,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
 }
 
-void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen) {
+void Renderer::State::scenery_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen) {
   const Eigen::AlignedBox2i image(
       Eigen::Vector2i::Zero(), Eigen::Vector2i(camera.intrinsics.width, camera.intrinsics.height));
   struct Room {
@@ -241,7 +241,7 @@ void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vecto
   std::vector<Room> rooms;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!seen[i].is_listed) continue;
-    const Eigen::AlignedBox2i pixels = pixels_of(seen[i].truth.amodal_box);
+    const Eigen::AlignedBox2i pixels = pixel_box(seen[i].truth.amodal_box);
     if (image.contains(pixels)) rooms.push_back({i, pixels});
   }
   std::stable_sort(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) {
@@ -274,14 +274,14 @@ void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camer
 }
 
 const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Camera& camera) {
-  Scene place_only;
-  place_only.index = scene.index;
-  place_only.time_s = scene.time_s;
-  place_only.dangers = scene.dangers;
-  draw_light(place_only, camera, 1, metering_shadows);
+  Scene scenery_only;
+  scenery_only.index = scene.index;
+  scenery_only.time_s = scene.time_s;
+  scenery_only.dangers = scene.dangers;
+  draw_light(scenery_only, camera, 1, metering_shadows);
   resize(metering_target, camera.intrinsics.width, camera.intrinsics.height);
   metering_target->begin(Eigen::Vector3f::Zero());
-  draw_view(place_only, camera, {}, PeoplePass::Purpose::image);
+  draw_view(scenery_only, camera, {}, PeoplePass::Purpose::image);
   metering_target->read(true, metered);
   lap("metering");
   return metered;
@@ -295,7 +295,7 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);
   using Purpose = PeoplePass::Purpose;
-  if (choice.truth) place_silhouettes(camera, seen);
+  if (choice.truth) scenery_silhouettes(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
   draw_view(scene, camera, seen, choice.truth ? Purpose::image_and_silhouettes : Purpose::image);
   lap("draw");
@@ -330,7 +330,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
   // People first: they are many small triangles, and hide ground that then costs nothing.
-  people_pass.draw(purpose, scene.people, draws_of(seen));
+  people_pass.draw(purpose, scene.people, make_draws(seen));
   props.draw(clip_planes(camera), scene.time_s);
   airframes.draw(scene.drones, camera);
   place.draw();
@@ -357,7 +357,7 @@ void Renderer::State::draw_surfaces(const Scene& scene, const NeighborFrame* nex
     read_motion(scene, next, frame, frame.flow, options.flow_depth ? &frame.flow_depth_m : nullptr);
   }
   if (options.scene_flow) {
-    frame.scene_flow_m = scene_flow_of(frame, next == nullptr ? frame.camera : next->camera);
+    frame.scene_flow_m = compute_scene_flow(frame, next == nullptr ? frame.camera : next->camera);
   }
   if (!options.flow_backward) return;
   draw_motion(scene, previous, seen, frame.camera);
@@ -379,7 +379,7 @@ void Renderer::State::draw_motion(const Scene& scene, const NeighborFrame* other
   glBindBufferBase(GL_UNIFORM_BUFFER, 2, next_view_buffer.name());
   surface_target->begin();
   people_pass.draw_surfaces(
-      scene.people, draws_of(seen),
+      scene.people, make_draws(seen),
       other == nullptr ? std::span<const PersonInstance>() : std::span(other->scene.people));
   surface_target->end();
 }
@@ -409,7 +409,7 @@ void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
       continue;
     }
     measured.push_back(i);
-    requests.push_back({seen[i].draw, pixels_of(truth.amodal_box)});
+    requests.push_back({seen[i].draw, pixel_box(truth.amodal_box)});
   }
   std::vector<PixelMask> masks;
   if (options.whole_masks) {

@@ -4,7 +4,7 @@
 usage: scripts/make_stadium.py    (writes scenarios/stadium_exit/stadium.obj and stadium.mtl)
 
 World coordinates are x east, y north, z up, in meters; the file's are y up. The crowd's obstacles are in
-everyday.place.json and must agree with SOUTH_BLOCKS.
+everyday.blueprint.json and must agree with SOUTH_BLOCKS.
 """
 import math
 from pathlib import Path

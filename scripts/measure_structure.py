@@ -141,12 +141,12 @@ def measure(root):
         ]
         sums = [a + b for a, b in zip(sums, counts)]
         folders = collections.Counter(path.rsplit("/", 1)[0] for path in own)
-        table[module] = row_of(counts, lengths, f"{len(folders)} ({max(folders.values())})")
-    table["**all**"] = row_of(sums, everything, "")
+        table[module] = table_row(counts, lengths, f"{len(folders)} ({max(folders.values())})")
+    table["**all**"] = table_row(sums, everything, "")
     return table
 
 
-def row_of(counts, lengths, folders):
+def table_row(counts, lengths, folders):
     sources, source_lines, headers, header_lines, public, cycles, functions, words, tests = counts
     quantiles = f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)}"
     return [

@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 
-def lines_of(path):
+def read_lines(path):
     return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
 
 
@@ -20,7 +20,7 @@ def duration(seconds):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    steps, tests = lines_of(folder / "steps.jsonl"), lines_of(folder / "tests.jsonl")
+    steps, tests = read_lines(folder / "steps.jsonl"), read_lines(folder / "tests.jsonl")
     print(f"\n{'step':10} {'wall':>6} {'CPU':>6}  min:s")
     for step in steps:
         verdict = "passed" if step["status"] == 0 else "FAILED: " + (step["failed_parts"] or "see above")

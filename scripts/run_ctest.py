@@ -34,7 +34,7 @@ def run(preset, junit, arguments):
     return status, tests
 
 
-def labels_of_tests(preset):
+def read_labels(preset):
     """Labels of every test of a preset, by name."""
     text = subprocess.run(
         ["ctest", "--preset", preset, "--show-only=json-v1"], cwd=ROOT, capture_output=True, text=True
@@ -72,7 +72,7 @@ def main():
     status, tests = run(preset, CHECKS / f"{step}.xml", arguments)
     failed = [name for name, test in tests.items() if test["outcome"] == "failed"]
     if status != 0 and repeat and 0 < len(failed) <= MOST_REPEATED:
-        labels = labels_of_tests(preset)
+        labels = read_labels(preset)
         if all("waits" in labels[name] for name in failed) and repeat_alone(step, preset, tests, failed):
             status = 0
     with (CHECKS / "tests.jsonl").open("a") as file:

@@ -44,7 +44,7 @@ def run_cell(source, name, namespace):
     return printed.getvalue(), text, figures
 
 
-def outputs_of(printed, text, figures, count):
+def make_outputs(printed, text, figures, count):
     """A cell's outputs as nbformat 4 has them."""
     outputs = []
     if printed:
@@ -71,7 +71,7 @@ def run_notebook(path):
         count += 1
         result = run_cell("".join(cell["source"]), f"{path.name} {cell['id']}", namespace)
         cell["execution_count"] = count
-        cell["outputs"] = outputs_of(*result, count)
+        cell["outputs"] = make_outputs(*result, count)
     return notebook, namespace
 
 

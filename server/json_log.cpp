@@ -13,9 +13,9 @@ void JsonLogFormatter::format(const spdlog::details::log_msg& message, spdlog::m
       std::chrono::duration_cast<std::chrono::milliseconds>(message.time.time_since_epoch());
   const auto level = spdlog::level::to_string_view(message.level);
   const std::string text =
-      text_of({{"time", time_json(unix_ms.count())},
-               {"level", std::string(level.data(), level.size())},
-               {"message", std::string(message.payload.data(), message.payload.size())}}) +
+      dump_text({{"time", time_json(unix_ms.count())},
+                 {"level", std::string(level.data(), level.size())},
+                 {"message", std::string(message.payload.data(), message.payload.size())}}) +
       "\n";
   line.append(text.data(), text.data() + text.size());
 }

@@ -128,7 +128,7 @@ std::unique_ptr<jobs::Executor> made_executor(const ServeOptions& options) {
   return kind.make(wanted);
 }
 
-std::string url_of(const std::string& host, int port) {
+std::string service_url(const std::string& host, int port) {
   const bool is_ipv6 = host.find(':') != std::string::npos;
   return is_ipv6 ? fmt::format("http://[{}]:{}", host, port)
                  : fmt::format("http://{}:{}", host, port);
@@ -194,7 +194,7 @@ int serve(const ServeOptions& options) {
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }
-  const std::string url = url_of(options.host, api.port());
+  const std::string url = service_url(options.host, api.port());
   if (logs_json && is_container) {
     spdlog::info("serving on {}", url);
     spdlog::default_logger()->flush();

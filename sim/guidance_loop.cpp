@@ -4,7 +4,7 @@ namespace throng::sim {
 
 namespace {
 
-std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDrone>& drones) {
+std::vector<std::optional<world::GoalRef>> list_goals(const std::vector<PlannedDrone>& drones) {
   std::vector<std::optional<world::GoalRef>> goals;
   goals.reserve(drones.size());
   for (const PlannedDrone& drone : drones) goals.push_back(drone.moves_goal);
@@ -29,7 +29,7 @@ GuidanceLoop::GuidanceLoop(const world::Scenario& scenario,
                            const std::vector<world::AgentRole>& roles,
                            const std::vector<PlannedDrone>& drones, std::uint64_t seed,
                            double step_s)
-    : drones_(drones), goals_(goals_of(drones)), observer_(scenario, roles, goals_, step_s) {
+    : drones_(drones), goals_(list_goals(drones)), observer_(scenario, roles, goals_, step_s) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
     const auto& perception = drones[i].mission.guidance.perception;
     cameras_.emplace_back();

@@ -60,7 +60,7 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
 
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec) {
-  const crowd::CrowdDescription description = world::crowd_of(scenario);
+  const crowd::CrowdDescription description = world::build_crowd(scenario);
   crowd::LoadOptions options;
   options.seed = seed;
   options.model = model_for(scenario, spec);

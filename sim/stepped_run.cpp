@@ -117,12 +117,13 @@ void report_closed_doors(const world::Scenario& scenario, double before_s, doubl
   }
 }
 
-world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
-                             const CrowdSource& crowd, const std::vector<world::AgentRole>& roles) {
+world::TraceHeader make_header(const world::Scenario& scenario, const RunSpec& spec,
+                               const CrowdSource& crowd,
+                               const std::vector<world::AgentRole>& roles) {
   world::TraceHeader header = crowd.header(spec.seed);
   header.scenario_id = scenario.id;
   header.scenario_document = scenario.document;
-  header.alarm = world::alarm_of(scenario);
+  header.alarm = world::find_alarm(scenario);
   if (crowd.has_intents()) {
     for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
   }
@@ -131,8 +132,8 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
   return header;
 }
 
-std::vector<Problem> warnings_of(const CrowdSource& crowd, const std::vector<PlannedDrone>& drones,
-                                 const HoldWarnings& hold, const PropWatch& props) {
+std::vector<Problem> run_warnings(const CrowdSource& crowd, const std::vector<PlannedDrone>& drones,
+                                  const HoldWarnings& hold, const PropWatch& props) {
   std::vector<Problem> warnings = crowd.warnings();
   for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
   for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));
@@ -196,7 +197,7 @@ struct SteppedRun::State {
             }};
   }
 
-  double time_of(long number) const { return static_cast<double>(number) * crowd.dt_s(); }
+  double step_time_s(long number) const { return static_cast<double>(number) * crowd.dt_s(); }
 
   // In the order in which each uses those above it.
   const world::Scenario& scenario;
@@ -224,7 +225,7 @@ SteppedRun::SteppedRun(const world::Scenario& scenario, const RunSpec& spec,
   props.look(run.crowd->positions(), people_there(*run.crowd, run.roles, there), 0);
   problems.insert(problems.end(), props.problems().begin(), props.problems().end());
   if (!problems.empty()) throw InputError(std::move(problems));
-  observer.begin(header_of(scenario, spec, *run.crowd, run.roles));
+  observer.begin(make_header(scenario, spec, *run.crowd, run.roles));
   state_ = std::make_unique<State>(scenario, spec, observer, std::move(run), std::move(props));
   state_->recorder.record(state_->crowd, 0, observer);
 }
@@ -233,7 +234,7 @@ SteppedRun::~SteppedRun() = default;
 
 double SteppedRun::dt_s() const { return state_->crowd.dt_s(); }
 
-double SteppedRun::time_s() const { return state_->time_of(state_->steps); }
+double SteppedRun::time_s() const { return state_->step_time_s(state_->steps); }
 
 const std::vector<PlannedDrone>& SteppedRun::drones() const { return state_->drones; }
 
@@ -247,13 +248,13 @@ void SteppedRun::fly_on(std::size_t drone, const PilotSample& setpoint) {
 
 void SteppedRun::step() {
   State& s = *state_;
-  const double before_s = s.time_of(s.steps);
+  const double before_s = s.step_time_s(s.steps);
   s.guidance.look(s.crowd, s.recorder, s.flight, before_s);
   s.guidance.report(s.flight, s.observer);
   s.guidance.move_goals(s.flight, s.crowd);
   s.crowd.step();
   s.flight.advance({s.crowd.positions(), people_there(s.crowd, s.roles, s.there)});
-  const double time_s = s.time_of(++s.steps);
+  const double time_s = s.step_time_s(++s.steps);
   s.props.look(s.crowd.positions(), s.there, time_s);
   s.recorder.record(s.crowd, time_s, s.observer);
   report_falls(s.crowd, time_s, s.observer);
@@ -262,7 +263,7 @@ void SteppedRun::step() {
 
 std::vector<Problem> SteppedRun::finish() {
   state_->flight.finish();
-  return warnings_of(state_->crowd, state_->drones, state_->hold, state_->props);
+  return run_warnings(state_->crowd, state_->drones, state_->hold, state_->props);
 }
 
 }  // namespace throng::sim

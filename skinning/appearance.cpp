@@ -28,7 +28,7 @@ void shuffle(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t e
 // Agents come in blocks in which everybody occurs once. The people are dealt into two halves for
 // the whole run, and each block has the one half in an order of its own before the other: between
 // two agents with the same character there is always at least the other half.
-std::uint32_t place_of(std::uint64_t seed, std::uint32_t agent, std::uint32_t count) {
+std::uint32_t draw_index(std::uint64_t seed, std::uint32_t agent, std::uint32_t count) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0);
   Random dealing(seed, Stream::appearance, kOrders);
@@ -80,8 +80,8 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
 
 // Everybody without an umbrella once, and so many with one, again and again from the front, as make
 // up their share. If all characters have umbrellas, all come with them.
-std::vector<CharacterCopy> cast_of(const Population& population, std::uint64_t seed,
-                                   const Styling& styling) {
+std::vector<CharacterCopy> choose_cast(const Population& population, std::uint64_t seed,
+                                       const Styling& styling) {
   const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
   std::vector<std::uint32_t> bare = take_part(population, false, seed, styling);
   if (dry.empty() && bare.empty()) refuse_ages(population, styling);
@@ -158,12 +158,12 @@ Appearance shown(const Population& population, std::uint32_t number, std::uint64
 
 }  // namespace
 
-Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Styling& styling) {
+Appearance sample_appearance(const Population& population, std::uint64_t run_seed,
+                             std::uint32_t agent, const Styling& styling) {
   check(!population.characters.empty(), "a population has characters");
-  const std::vector<CharacterCopy> cast = cast_of(population, run_seed, styling);
+  const std::vector<CharacterCopy> cast = choose_cast(population, run_seed, styling);
   const auto count = static_cast<std::uint32_t>(cast.size());
-  const CharacterCopy& place = cast[place_of(run_seed, agent, count)];
+  const CharacterCopy& place = cast[draw_index(run_seed, agent, count)];
   return shown(population, place.character, run_seed, agent, agent / count + place.copy, styling);
 }
 

@@ -24,8 +24,8 @@ struct Appearance {
 /// more than n / 2 - 1 ids apart, and when a character comes again it wears other colors. Those
 /// under umbrellas, who are few, may come several times among n. Throws InputError when nobody is
 /// of the ages.
-Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Styling& styling = {});
+Appearance sample_appearance(const Population& population, std::uint64_t run_seed,
+                             std::uint32_t agent, const Styling& styling = {});
 
 /// The first look of this character in a run, whether it takes part or not.
 Appearance appearance_as(const Population& population, std::uint32_t character,

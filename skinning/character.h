@@ -97,7 +97,7 @@ struct Character {
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
   /// Joint position of each bone in the rest pose, in model space.
   std::array<Eigen::Vector3f, kBoneCount> joints{};
-  /// Colors that suit this character, by Tint: what appearance_of picks from.
+  /// Colors that suit this character, by Tint: what sample_appearance picks from.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 

@@ -9,7 +9,7 @@ namespace throng::skinning {
 
 namespace {
 
-std::optional<ClothesSlot> slot_of(Slot slot) {
+std::optional<ClothesSlot> clothes_slot(Slot slot) {
   switch (slot) {
     case Slot::top:
       return ClothesSlot::upper;
@@ -29,7 +29,7 @@ std::optional<ClothesSlot> slot_of(Slot slot) {
 }
 
 /// Descriptions call trousers by their hem and cloth, and a dress of two pieces a dress, whatever
-/// garments the package has (description_of() in wardrobe/outfit.h).
+/// garments the package has (describe_outfit() in wardrobe/outfit.h).
 constexpr std::array kDescribed = {Clothing{ClothesSlot::lower, "shorts"},
                                    Clothing{ClothesSlot::lower, "jeans"},
                                    Clothing{ClothesSlot::whole, "dress"}};
@@ -39,7 +39,7 @@ std::optional<Clothing> clothing_named(std::string_view word) {
     if (described.type == word) return described;
   }
   for (const GarmentInfo& info : all_garments()) {
-    const std::optional<ClothesSlot> slot = slot_of(info.slot);
+    const std::optional<ClothesSlot> slot = clothes_slot(info.slot);
     if (slot && info.label == word) return Clothing{*slot, info.label};
   }
   return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<Clothing> clothing_named(std::string_view word) {
 
 }  // namespace
 
-std::string_view name_of(ClothesSlot slot) {
+std::string_view to_string(ClothesSlot slot) {
   constexpr std::array<std::string_view, 5> kNames = {"upper", "lower", "whole", "shoes", "hat"};
   return kNames.at(static_cast<std::size_t>(slot));
 }

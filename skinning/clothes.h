@@ -9,7 +9,7 @@ namespace throng::skinning {
 
 /// A garment's place on the body; `whole` covers the upper and the lower body.
 enum class ClothesSlot : std::uint8_t { upper, lower, whole, shoes, hat };
-std::string_view name_of(ClothesSlot slot);
+std::string_view to_string(ClothesSlot slot);
 
 struct Clothing {
   ClothesSlot slot;

@@ -50,7 +50,7 @@ class Reader {
       if (node == nullptr) fail("no bone \"" + name + "\"", "the 21 bones of throng's rig");
       const Eigen::Vector3f offset(node->mTransformation.c4, node->mTransformation.a4,
                                    node->mTransformation.b4);
-      asset.joints[bone] = bone == 0 ? offset : asset.joints[index_of(kParent[bone])] + offset;
+      asset.joints[bone] = bone == 0 ? offset : asset.joints[index_from(kParent[bone])] + offset;
     }
   }
 

@@ -74,11 +74,12 @@ class Writer {
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       const Eigen::Vector3f& joint = asset_->joints[bone];
       const bool root = bone == 0;
-      const Eigen::Vector3f offset = root ? joint : joint - asset_->joints[index_of(kParent[bone])];
+      const Eigen::Vector3f offset =
+          root ? joint : joint - asset_->joints[index_from(kParent[bone])];
       json node = {{"name", kBoneNames[bone]},
                    {"translation", {offset.y(), offset.z(), offset.x()}}};
       for (std::size_t child = bone + 1; child < kBoneCount; ++child) {
-        if (index_of(kParent[child]) == bone) node["children"].push_back(child);
+        if (index_from(kParent[child]) == bone) node["children"].push_back(child);
       }
       document_["nodes"].push_back(node);
       joints.push_back(bone);
@@ -140,9 +141,9 @@ class Writer {
     }
     json attributes;
     const auto column = [&](const char* name, int component, const char* type,
-                            const auto& value_of) {
+                            const auto& tag_value) {
       const std::size_t start = binary_.size();
-      for (const Vertex* vertex : vertices) append(value_of(*vertex));
+      for (const Vertex* vertex : vertices) append(tag_value(*vertex));
       attributes[name] = add_accessor(start, kVertexBuffer, component, type, vertices.size());
     };
     column("POSITION", kFloat, "VEC3",

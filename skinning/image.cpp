@@ -25,7 +25,7 @@ Image resized(const Image& image, int size) {
           const std::uint8_t* from = image.pixel(from_x, from_y);
           const float weight = static_cast<float>(from[3]) + 1e-3F;
           for (int channel = 0; channel < 3; ++channel) {
-            color[channel] += weight * linear_of_srgb(from[channel]);
+            color[channel] += weight * linear_from_srgb(from[channel]);
           }
           weight_sum += weight;
           alpha_sum += from[3];
@@ -33,7 +33,7 @@ Image resized(const Image& image, int size) {
       }
       std::uint8_t* to = small.pixel(x, y);
       for (int channel = 0; channel < 3; ++channel) {
-        to[channel] = srgb_of_linear(color[channel] / weight_sum);
+        to[channel] = srgb_from_linear(color[channel] / weight_sum);
       }
       const auto count = static_cast<float>((bottom - top) * (right - left));
       to[3] = static_cast<std::uint8_t>(std::lround(alpha_sum / count));

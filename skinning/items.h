@@ -29,6 +29,6 @@ struct Grip {
 
 /// Grip of the item; nothing when it needs no hand or hangs on the hand itself (a handbag, which
 /// wants a hand that stays upright and an arm that swings little).
-std::optional<Grip> grip_of(Carry carry, const Joints& neutral);
+std::optional<Grip> find_grip(Carry carry, const Joints& neutral);
 
 }  // namespace throng::skinning

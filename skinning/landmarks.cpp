@@ -15,12 +15,12 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr std::size_t kNose = index_of(Joint::nose);
-constexpr std::size_t kLeftEye = index_of(Joint::left_eye);
-constexpr std::size_t kRightEye = index_of(Joint::right_eye);
-constexpr std::size_t kLeftEar = index_of(Joint::left_ear);
-constexpr std::size_t kRightEar = index_of(Joint::right_ear);
-constexpr std::size_t kLeftShoulder = index_of(Joint::left_shoulder);
+constexpr std::size_t kNose = index_from(Joint::nose);
+constexpr std::size_t kLeftEye = index_from(Joint::left_eye);
+constexpr std::size_t kRightEye = index_from(Joint::right_eye);
+constexpr std::size_t kLeftEar = index_from(Joint::left_ear);
+constexpr std::size_t kRightEar = index_from(Joint::right_ear);
+constexpr std::size_t kLeftShoulder = index_from(Joint::left_shoulder);
 
 /// Bones that begin at the keypoints from the left shoulder on.
 constexpr std::array kJointBones = {
@@ -30,7 +30,7 @@ constexpr std::array kJointBones = {
 };
 static_assert(kLeftShoulder + kJointBones.size() == kKeypointCount);
 
-Eigen::Vector3f position_of(const Vertex& vertex) {
+Eigen::Vector3f vertex_position(const Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
 }
 
@@ -40,7 +40,7 @@ struct Face {
   std::vector<Eigen::Vector3f> eyes;
 };
 
-Face face_of(const Mesh& mesh) {
+Face measure_face(const Mesh& mesh) {
   constexpr std::size_t kMaxEyeCorners = 1200;  // triangle corners of both eyeballs
   Face face;
   for (const Part& part : mesh.parts) {
@@ -50,7 +50,7 @@ Face face_of(const Mesh& mesh) {
     for (std::uint32_t i = 0; i < part.index_count; ++i) {
       const Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
       if (moves_mostly_with(vertex, {Bone::head})) {
-        points.push_back(position_of(vertex));
+        points.push_back(vertex_position(vertex));
       } else {
         is_all_head = false;
       }
@@ -102,13 +102,13 @@ constexpr std::array kRigJoints = {
 
 /// Points of the surface that move with one of two bones by more than a half, but for carried
 /// items.
-std::vector<Eigen::Vector3f> surface_of(const Mesh& mesh, Bone one, Bone other) {
+std::vector<Eigen::Vector3f> surface_points(const Mesh& mesh, Bone one, Bone other) {
   std::vector<Eigen::Vector3f> points;
   for (const Part& part : mesh.parts) {
     if (part.tint == Tint::item) continue;
     for (std::uint32_t i = 0; i < part.index_count; ++i) {
       const Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
-      if (moves_mostly_with(vertex, {one, other})) points.push_back(position_of(vertex));
+      if (moves_mostly_with(vertex, {one, other})) points.push_back(vertex_position(vertex));
     }
   }
   return points;
@@ -121,20 +121,20 @@ constexpr float kHighest = std::numeric_limits<float>::infinity();
 void add_ends_of_limbs(const Character& character, float side, Landmarks& landmarks) {
   const bool is_left = side > 0;
   const auto set = [&](Joint left, Bone bone, const Eigen::Vector3f& at) {
-    const std::size_t joint = index_of(left) + (is_left ? 0 : 1);
+    const std::size_t joint = index_from(left) + (is_left ? 0 : 1);
     landmarks.bone[joint] = bone;
     landmarks.rest[joint] = at;
   };
   const Bone hand = is_left ? Bone::left_hand : Bone::right_hand;
   const Bone foot = is_left ? Bone::left_foot : Bone::right_foot;
   const Bone toe = is_left ? Bone::left_toe : Bone::right_toe;
-  const Eigen::Vector3f wrist = character.joints[index_of(hand)];
-  const Eigen::Vector3f ankle = character.joints[index_of(foot)];
+  const Eigen::Vector3f wrist = character.joints[index_from(hand)];
+  const Eigen::Vector3f ankle = character.joints[index_from(foot)];
   std::vector<Eigen::Vector3f> of_hand;
   std::vector<Eigen::Vector3f> of_foot;
   if (!character.levels.empty()) {
-    of_hand = surface_of(character.levels.front(), hand, hand);
-    of_foot = surface_of(character.levels.front(), foot, toe);
+    of_hand = surface_points(character.levels.front(), hand, hand);
+    of_foot = surface_points(character.levels.front(), foot, toe);
   }
   Eigen::AlignedBox3f bounds;
   // Hands are 0.108 of stature long; what is farther from the wrist is carried.
@@ -173,14 +173,14 @@ const std::array<std::string_view, kJointCount>& joint_names() {
 
 const std::array<std::string_view, kBoneCount>& bone_names() { return kBoneNames; }
 
-Landmarks landmarks_of(const Character& character) {
-  const Eigen::Vector3f head = character.joints[index_of(Bone::head)];
+Landmarks find_landmarks(const Character& character) {
+  const Eigen::Vector3f head = character.joints[index_from(Bone::head)];
   // Sizes of a head of average proportions, in statures.
   const float stature = character.stature_m;
   const float eye_height = 0.936F * stature;
   const float half_eyes = 0.018F * stature;
   const float half_ears = 0.042F * stature;
-  const Face face = character.levels.empty() ? Face{} : face_of(character.levels.front());
+  const Face face = character.levels.empty() ? Face{} : measure_face(character.levels.front());
 
   float foremost = face.skin.empty() ? head.x() + 0.055F * stature : face.skin.front().x();
   for (const Eigen::Vector3f& point : face.skin) foremost = std::max(foremost, point.x());
@@ -209,18 +209,18 @@ Landmarks landmarks_of(const Character& character) {
   }
   for (std::size_t i = 0; i < kJointBones.size(); ++i) {
     landmarks.bone[kLeftShoulder + i] = kJointBones[i];
-    landmarks.rest[kLeftShoulder + i] = character.joints[index_of(kJointBones[i])];
+    landmarks.rest[kLeftShoulder + i] = character.joints[index_from(kJointBones[i])];
   }
   for (const RigJoint& rig : kRigJoints) {
-    landmarks.bone[index_of(rig.joint)] = rig.bone;
-    landmarks.rest[index_of(rig.joint)] = character.joints[index_of(rig.bone)];
+    landmarks.bone[index_from(rig.joint)] = rig.bone;
+    landmarks.rest[index_from(rig.joint)] = character.joints[index_from(rig.bone)];
   }
   for (const Joint joint : {Joint::head_top, Joint::head_center}) {
-    landmarks.bone[index_of(joint)] = Bone::head;
+    landmarks.bone[index_from(joint)] = Bone::head;
   }
-  landmarks.rest[index_of(Joint::head_center)] =
+  landmarks.rest[index_from(Joint::head_center)] =
       0.5F * (landmarks.rest[kLeftEar] + landmarks.rest[kRightEar]);
-  landmarks.rest[index_of(Joint::head_top)] =
+  landmarks.rest[index_from(Joint::head_top)] =
       farthest(face.skin, kLowest, kHighest, Eigen::Vector3f::UnitZ())
           .value_or(Eigen::Vector3f(head.x(), 0, stature));
   for (const float side : {1.0F, -1.0F}) add_ends_of_limbs(character, side, landmarks);
@@ -230,7 +230,7 @@ Landmarks landmarks_of(const Character& character) {
 Keypoints posed_keypoints(const Landmarks& landmarks, const Palette& palette) {
   Keypoints posed;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const BoneMatrix& bone = palette[index_of(landmarks.bone[i])];
+    const BoneMatrix& bone = palette[index_from(landmarks.bone[i])];
     posed[i] = bone.leftCols<3>() * landmarks.rest[i] + bone.col(3);
   }
   return posed;

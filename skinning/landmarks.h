@@ -58,7 +58,7 @@ enum class Joint : std::uint8_t {
   right_heel,
 };
 inline constexpr std::size_t kJointCount = 33;
-constexpr std::size_t index_of(Joint joint) { return static_cast<std::size_t>(joint); }
+constexpr std::size_t index_from(Joint joint) { return static_cast<std::size_t>(joint); }
 
 /// Names of all joints, by number. The first ones are kKeypointNames.
 const std::array<std::string_view, kJointCount>& joint_names();
@@ -87,7 +87,7 @@ struct Landmarks {
 /// without such parts they are where the average adult has them (Drillis and Contini, 1966: eyes at
 /// 93.6 % of stature). Toes and heels are found on the feet's surface in the same way; without it
 /// a foot is 15.2 % of stature long (the same source).
-Landmarks landmarks_of(const Character& character);
+Landmarks find_landmarks(const Character& character);
 
 /// The joints of a posed body, in its model space.
 Keypoints posed_keypoints(const Landmarks& landmarks, const Palette& palette);

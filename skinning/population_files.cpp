@@ -23,11 +23,11 @@ namespace {
 
 constexpr const char* kRemedy = " (run `throng people build` to build the character library)";
 
-std::string hex_of(const Rgb& color) {
+std::string encode_hex(const Rgb& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
 }
 
-Rgb color_of(const std::string& hex) {
+Rgb parse_color(const std::string& hex) {
   if (hex.size() != 7 || hex.front() != '#') throw std::out_of_range("colour");
   Rgb color{};
   const auto digit = [&](std::size_t at) -> int {
@@ -61,17 +61,17 @@ Character parse_character(const json& entry) {
     const std::string name(kTintNames[tint]);
     if (!entry.at("tints").contains(name)) continue;
     for (const json& color : entry.at("tints").at(name)) {
-      character.tints[tint].push_back(color_of(color.get<std::string>()));
+      character.tints[tint].push_back(parse_color(color.get<std::string>()));
     }
   }
   return character;
 }
 
-json json_of(const Character& character) {
+json character_json(const Character& character) {
   json tints = json::object();
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     for (const Rgb& color : character.tints[tint]) {
-      tints[std::string(kTintNames[tint])].push_back(hex_of(color));
+      tints[std::string(kTintNames[tint])].push_back(encode_hex(color));
     }
   }
   return {{"name", character.name},
@@ -111,7 +111,9 @@ PopulationIndex parse_index(const json& document) {
 
 }  // namespace
 
-std::string encode_character(const Character& character) { return json_of(character).dump(); }
+std::string encode_character(const Character& character) {
+  return character_json(character).dump();
+}
 
 Character read_character(const fs::path& path) {
   try {
@@ -128,7 +130,7 @@ std::string encode_index(const PopulationIndex& index) {
                    {"licence", index.license},    {"texture_size", index.texture_size},
                    {"characters", json::array()}, {"clips", json::array()}};
   for (const Character& character : index.characters) {
-    document["characters"].push_back(json_of(character));
+    document["characters"].push_back(character_json(character));
   }
   for (const Clip& clip : index.clips) {
     document["clips"].push_back({{"name", clip.name},

@@ -26,7 +26,7 @@ Joints pose_joints(const Joints& rest, const Pose& pose) {
   Joints posed;
   posed[0] = rest[0] + pose.shift;
   for (std::size_t bone = 1; bone < kBoneCount; ++bone) {
-    const std::size_t parent = index_of(kParent[bone]);
+    const std::size_t parent = index_from(kParent[bone]);
     posed[bone] = posed[parent] + pose.rotation[parent] * (rest[bone] - rest[parent]);
   }
   return posed;

@@ -9,7 +9,7 @@
 
 namespace throng::skinning {
 
-inline constexpr std::size_t index_of(Bone bone) { return static_cast<std::size_t>(bone); }
+inline constexpr std::size_t index_from(Bone bone) { return static_cast<std::size_t>(bone); }
 
 /// Parent of each bone; the hips are their own parent. A parent always comes before its children.
 extern const std::array<Bone, kBoneCount> kParent;
@@ -27,7 +27,7 @@ struct Pose {
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();
 
   Pose() { rotation.fill(Eigen::Matrix3f::Identity()); }
-  Eigen::Matrix3f& of(Bone bone) { return rotation[index_of(bone)]; }
+  Eigen::Matrix3f& of(Bone bone) { return rotation[index_from(bone)]; }
 };
 
 /// Joint positions after the pose is applied.

@@ -18,19 +18,19 @@ namespace {
 using crowd::Node;
 using Names = std::set<std::string>;
 
-std::string text_of(const Node& element, std::string_view attribute) {
+std::string read_text(const Node& element, std::string_view attribute) {
   const std::string* const text = element.find(attribute);
   return text == nullptr ? "" : *text;
 }
 
-double number_of(const Node& element, std::string_view attribute) {
-  const std::string text = text_of(element, attribute);
+double read_number(const Node& element, std::string_view attribute) {
+  const std::string text = read_text(element, attribute);
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
 
-std::vector<std::string> words_of(const std::string& list) {
+std::vector<std::string> split_words(const std::string& list) {
   std::vector<std::string> words;
   std::istringstream stream(list);
   for (std::string word; std::getline(stream, word, ',');) {
@@ -76,12 +76,12 @@ struct StateGraph {
 // Whether a condition, or any part of it, is about the disaster, panic or a guide. A part that is
 // negated (the guide is gone) informs nobody.
 bool informs(const Node& element, StateGraph& graph) {
-  const std::string type = text_of(element, "type");
+  const std::string type = read_text(element, "type");
   if (element.name == "Condition" && type == "not") return false;
   bool found = false;
   if (element.name == "Condition") {
     if (type == "proximity") {
-      const double start_s = number_of(element, "start");
+      const double start_s = read_number(element, "start");
       graph.first_proximity_s = std::min(graph.first_proximity_s.value_or(start_s), start_s);
     }
     found = type == "proximity" || type == "panicked" || type == "follow";
@@ -92,21 +92,21 @@ bool informs(const Node& element, StateGraph& graph) {
 
 void gather_targets(const Node& element, Names& targets) {
   for (const Node& child : element.children) {
-    if (child.name == "State") targets.insert(text_of(child, "name"));
+    if (child.name == "State") targets.insert(read_text(child, "name"));
     gather_targets(child, targets);
   }
 }
 
 void read_transition(const Node& element, StateGraph& graph) {
   Names targets;
-  for (const std::string& to : words_of(text_of(element, "to"))) targets.insert(to);
+  for (const std::string& to : split_words(read_text(element, "to"))) targets.insert(to);
   bool informing = false;
   for (const Node& child : element.children) {
     if (child.name == "Condition") informing = informs(child, graph) || informing;
     if (child.name == "Target") gather_targets(child, targets);
   }
   auto& edges = informing ? graph.informing : graph.ordinary;
-  for (const std::string& from : words_of(text_of(element, "from"))) {
+  for (const std::string& from : split_words(read_text(element, "from"))) {
     for (const std::string& to : targets) edges.push_back({from, to});
   }
 }
@@ -117,12 +117,12 @@ void read_behavior(const Node& element, StateGraph& graph) {
       read_transition(child, graph);
       continue;
     }
-    if (const std::string lying = text_of(child, "lying"); !lying.empty()) {
-      graph.lying[text_of(child, "name")] = lying != "0" && lying != "false";
+    if (const std::string lying = read_text(child, "lying"); !lying.empty()) {
+      graph.lying[read_text(child, "name")] = lying != "0" && lying != "false";
     }
-    const std::string type = text_of(child, "type");
-    if (type == "change_state") graph.informed_by_events.insert(text_of(child, "state"));
-    if (child.name == "StateSelector") graph.informed_by_events.insert(text_of(child, "name"));
+    const std::string type = read_text(child, "type");
+    if (type == "change_state") graph.informed_by_events.insert(read_text(child, "state"));
+    if (child.name == "StateSelector") graph.informed_by_events.insert(read_text(child, "name"));
     read_behavior(child, graph);
   }
 }
@@ -131,21 +131,21 @@ void read_behavior(const Node& element, StateGraph& graph) {
 void gather_initial(const Node& element, bool in_selector, Names& states) {
   for (const Node& child : element.children) {
     const bool selects = in_selector || child.name == "StateSelector";
-    if (selects) states.insert(text_of(child, "name"));
+    if (selects) states.insert(read_text(child, "name"));
     gather_initial(child, selects, states);
   }
 }
 
 }  // namespace
 
-Alarm alarm_of(const Scenario& scenario) {
+Alarm find_alarm(const Scenario& scenario) {
   if (scenario.alarm) return *scenario.alarm;
   Alarm alarm;
   for (const Disaster& disaster : scenario.disasters) {
     alarm.at_s = std::min(alarm.at_s.value_or(disaster.start_s), disaster.start_s);
   }
   if (!scenario.has_crowd()) return alarm;
-  const crowd::CrowdDescription crowd = crowd_of(scenario);
+  const crowd::CrowdDescription crowd = build_crowd(scenario);
   StateGraph graph;
   read_behavior(crowd.behavior.root, graph);
   if (!alarm.at_s && !scenario.disaster_agents.empty()) alarm.at_s = graph.first_proximity_s;

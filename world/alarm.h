@@ -25,6 +25,6 @@ struct Alarm {
 /// Scenario::alarm if it is known, else from the scenario's scene and behavior, if it has a crowd.
 /// Throws EnvironmentError for files that cannot be read and InputError for files that are not
 /// well-formed.
-Alarm alarm_of(const Scenario& scenario);
+Alarm find_alarm(const Scenario& scenario);
 
 }  // namespace throng::world

@@ -2,9 +2,9 @@
 
 namespace throng::world {
 
-void DronePath::add(const Eigen::Vector3d& place) {
+void DronePath::add(const Eigen::Vector3d& point) {
   constexpr double kNobodyMissesM = 0.1;
-  if (places.empty() || (place - places.back()).norm() >= kNobodyMissesM) places.push_back(place);
+  if (points.empty() || (point - points.back()).norm() >= kNobodyMissesM) points.push_back(point);
 }
 
 std::vector<DronePath> flown_paths(const Trace& trace) {
@@ -12,7 +12,7 @@ std::vector<DronePath> flown_paths(const Trace& trace) {
   for (std::size_t i = 0; i < trace.drones.size(); ++i) {
     DronePath path{trace.header.drone_ids.at(i), {}};
     for (const DroneSample& sample : trace.drones[i]) path.add(sample.position);
-    if (!path.places.empty()) paths.push_back(std::move(path));
+    if (!path.points.empty()) paths.push_back(std::move(path));
   }
   return paths;
 }

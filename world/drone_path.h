@@ -12,10 +12,10 @@ namespace throng::world {
 /// A drone's flight path, from its start on.
 struct DronePath {
   std::string id;
-  std::vector<Eigen::Vector3d> places;  ///< m, at least one
+  std::vector<Eigen::Vector3d> points;  ///< m, at least one
 
-  /// Adds a place; leaves out those that nobody would miss: less than 10 cm on.
-  void add(const Eigen::Vector3d& place);
+  /// Adds a point; leaves out those that nobody would miss: less than 10 cm on.
+  void add(const Eigen::Vector3d& point);
 };
 
 /// Flight paths of a run's drones.

@@ -67,7 +67,7 @@ std::pair<Vector2d, Vector2d> trimmed(const Exit& door) {
   return {door.from + end, door.to - end};
 }
 
-std::optional<std::string> overlap_of(const Exit& a, const Exit& b) {
+std::optional<std::string> describe_overlap(const Exit& a, const Exit& b) {
   const auto [a_from, a_to] = trimmed(a);
   const auto [b_from, b_to] = trimmed(b);
   constexpr double kSineOf3Degrees = 0.0523;  // what is flatter lies on the other
@@ -96,7 +96,7 @@ std::vector<ExitOverlap> overlapping_exits(const std::vector<Exit>& exits) {
   std::vector<ExitOverlap> overlaps;
   for (std::size_t j = 0; j < exits.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
-      if (auto found = overlap_of(exits[i], exits[j])) {
+      if (auto found = describe_overlap(exits[i], exits[j])) {
         overlaps.push_back({i, j, std::move(*found)});
       }
     }

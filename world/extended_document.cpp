@@ -25,7 +25,7 @@ std::size_t depth_in(const json& document, const std::string& pointer) {
 }
 
 /// The file that a document extends. Throws InputError.
-fs::path base_of(const json& document, const fs::path& file, const std::string& source) {
+fs::path base_document(const json& document, const fs::path& file, const std::string& source) {
   std::vector<Problem> problems;
   const JsonValue value = JsonValue(document, source, problems)["extends"];
   const std::string name = value.text();
@@ -60,7 +60,7 @@ ExtendedDocument read_extended(const fs::path& file, const std::string& source) 
   read.own = parse_json(read_file(file), source);
   read.whole = read.own;
   if (!read.own.is_object() || !read.own.contains("extends")) return read;
-  const fs::path base_file = base_of(read.own, file, source);
+  const fs::path base_file = base_document(read.own, file, source);
   read.base_file = (fs::path(source).parent_path() / base_file.filename()).string();
   read.base = parse_json(read_file(base_file), read.base_file);
   if (read.base.is_object() && read.base.contains("extends")) {

@@ -26,7 +26,7 @@ ExtendedDocument read_extended(const std::filesystem::path& file, const std::str
 
 /// The result of `read`, with the names of the files in its InputError.
 template <typename Read>
-auto with_files_of(const ExtendedDocument& document, Read read) {
+auto read_with_files(const ExtendedDocument& document, Read read) {
   try {
     return read();
   } catch (const InputError& error) {

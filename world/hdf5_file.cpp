@@ -234,7 +234,8 @@ void RowDataset::append(const void* data, hsize_t count) {
       name_);
 }
 
-std::vector<hsize_t> shape_of(const Handle& parent, const std::string& name, std::size_t rank) {
+std::vector<hsize_t> dataset_shape(const Handle& parent, const std::string& name,
+                                   std::size_t rank) {
   const Handle dataset = open_dataset(parent, name);
   const Handle space(H5Dget_space(dataset.id()), H5Sclose, name);
   std::vector<hsize_t> shape = shape_of_space(space, name);
@@ -308,7 +309,7 @@ void write_texts(const Handle& parent, const std::string& name,
 std::vector<std::string> read_texts(const Handle& parent, const std::string& name) {
   const Handle dataset = open_dataset(parent, name);
   const Handle type(H5Dget_type(dataset.id()), H5Tclose, name);
-  const hsize_t count = shape_of(parent, name, 1)[0];
+  const hsize_t count = dataset_shape(parent, name, 1)[0];
   const std::size_t width = H5Tget_size(type.id());
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 || width == 0 ||
       width > kMaxTextLength || count > kMaxTexts) {

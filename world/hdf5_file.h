@@ -123,7 +123,7 @@ class RowDataset {
 };
 
 /// The shape of a dataset, its rank checked. Throws Failure when it is missing or has another rank.
-std::vector<hsize_t> shape_of(const Handle& parent, const std::string& name, std::size_t rank);
+std::vector<hsize_t> dataset_shape(const Handle& parent, const std::string& name, std::size_t rank);
 
 /// Throws Failure when the file holds too few bytes of a dataset for its shape: a damaged shape
 /// must not decide how much memory is asked for.

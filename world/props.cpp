@@ -69,8 +69,8 @@ struct Refusal {
 };
 
 /// Why a prop may not stand where it does.
-std::optional<Refusal> refusal_of(const Prop& prop, const Scenario& scenario) {
-  const auto corners = footprint_of(prop);
+std::optional<Refusal> find_refusal(const Prop& prop, const Scenario& scenario) {
+  const auto corners = prop_footprint(prop);
   for (const Building& building : scenario.buildings) {
     if (building.footprint.size() < 3 || !stands_in(building, corners)) continue;
     return Refusal{fmt::format("a place in building \"{}\"", building.id),
@@ -98,7 +98,7 @@ std::optional<PropKind> read_kind(const JsonValue& value) {
   return std::nullopt;
 }
 
-std::uint32_t look_of(int seed, std::uint64_t index) {
+std::uint32_t look_hash(int seed, std::uint64_t index) {
   return Random(static_cast<std::uint64_t>(seed), Stream::environment, index).bits();
 }
 
@@ -111,7 +111,7 @@ Prop read_prop(const JsonValue& item, std::uint64_t index) {
   if (item["scale"].exists()) prop.scale = item["scale"].number(kMinScale, kMaxScale);
   prop.look = item["look"].exists()
                   ? static_cast<std::uint32_t>(item["look"].integer(0, 1'000'000'000))
-                  : look_of(0, index);
+                  : look_hash(0, index);
   return prop;
 }
 
@@ -138,7 +138,7 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
   const int seed = item["seed"].integer(0, 1'000'000'000);
   const double apart_m = item["apart_m"].exists() ? item["apart_m"].number(0, 1000) : 3;
   if (kinds.empty() || area.size() < 3) return;
-  const auto [low, high] = geometry::bounds_of(area);
+  const auto [low, high] = geometry::bounding_box(area);
   constexpr int kDartsPerProp = 30;
   int placed = 0;
   for (int dart = 0; dart < kDartsPerProp * count && placed < count; ++dart) {
@@ -154,7 +154,7 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
     const bool close = std::any_of(props.begin(), props.end(), [&](const Prop& other) {
       return (other.position - prop.position).norm() < apart_m;
     });
-    if (close || geometry::distance_to(area, prop.position) > 0 || refusal_of(prop, scenario))
+    if (close || geometry::distance_to(area, prop.position) > 0 || find_refusal(prop, scenario))
       continue;
     props.push_back(prop);
     ++placed;
@@ -181,13 +181,13 @@ const std::array<PropType, kPropKinds>& prop_types() {
   return types;
 }
 
-std::array<Eigen::Vector2d, 4> footprint_of(const Prop& prop) {
+std::array<Eigen::Vector2d, 4> prop_footprint(const Prop& prop) {
   const PropType& type = prop_types().at(static_cast<std::size_t>(prop.kind));
   return geometry::turned_rectangle(prop.position, prop.scale * type.half_size, prop.yaw_rad);
 }
 
 double distance_to(const Prop& prop, const Eigen::Vector2d& point) {
-  return geometry::distance_to(footprint_of(prop), point);
+  return geometry::distance_to(prop_footprint(prop), point);
 }
 
 std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,
@@ -195,7 +195,7 @@ std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,
   std::vector<Prop> read;
   for (const JsonValue& item : props.items()) {
     read.push_back(read_prop(item, read.size()));
-    if (const auto refusal = refusal_of(read.back(), scenario)) {
+    if (const auto refusal = find_refusal(read.back(), scenario)) {
       item["position"].reject(refusal->found, refusal->expected);
     }
   }

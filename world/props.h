@@ -47,7 +47,7 @@ struct Prop {
 };
 
 /// Corners of the ground that a prop covers, counter-clockwise (m).
-std::array<Eigen::Vector2d, 4> footprint_of(const Prop& prop);
+std::array<Eigen::Vector2d, 4> prop_footprint(const Prop& prop);
 
 /// Distance from a point to the ground that a prop covers: 0 inside (m).
 double distance_to(const Prop& prop, const Eigen::Vector2d& point);

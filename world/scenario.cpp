@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <span>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include "base/files/confine.h"
 #include "base/files/files.h"
 #include "base/files/resources.h"
+#include "base/geometry/angle.h"
 #include "base/geometry/polygon.h"
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
@@ -63,7 +63,7 @@ Rectangle read_rectangle(const JsonValue& value) {
   return area;
 }
 
-// The side of the exit that leads out: as given, or away from the middle of the place.
+// The side of the exit that leads out: as given, or away from the middle of the scenario.
 Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit, const Rectangle& inside) {
   const Eigen::Vector2d along = exit.to - exit.from;
   const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
@@ -102,7 +102,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
       exit.closes_at_s = closes_at.number(0, kMaxClosingS);
       if (!exit.open) closes_at.reject("a time, though the door is never open", "none");
     }
-    // A place for recorded people has no goals to name.
+    // A scenario for recorded people has no goals to name.
     const auto goals = item["goals"].exists() ? item["goals"].items(1) : std::vector<JsonValue>();
     for (const JsonValue& goal : goals) {
       exit.goals.push_back(read_goal(goal));
@@ -185,7 +185,7 @@ std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Bui
     drone.position = item["start"].vector3(kMaxCoordinateM);
     if (item["start"].is_list_of(3)) check_start(item["start"], drone.position, buildings);
     if (item["yaw_deg"].exists()) {
-      drone.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
+      drone.yaw_rad = radians_from_degrees(item["yaw_deg"].number(-360, 360));
     }
     if (item["moves_goal"].exists()) drone.moves_goal = read_goal(item["moves_goal"]);
     drones.push_back(std::move(drone));
@@ -212,7 +212,7 @@ fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
 /// A mesh is an instance like a prop, so its class is one of theirs.
 SemanticClass read_mesh_class(const JsonValue& value) {
   const auto known = semantic_class_named(value.text());
-  if (known && info_of(*known).group == SemanticGroup::prop) return *known;
+  if (known && semantic_class_info(*known).group == SemanticGroup::prop) return *known;
   std::vector<std::string_view> names;
   for (const SemanticClassInfo& info : semantic_classes()) {
     if (info.group == SemanticGroup::prop) names.push_back(info.name);
@@ -236,7 +236,7 @@ std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scena
     }
     mesh.position = item["position"].vector3(kMaxCoordinateM);
     if (item["yaw_deg"].exists()) {
-      mesh.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
+      mesh.yaw_rad = radians_from_degrees(item["yaw_deg"].number(-360, 360));
     }
     if (item["scale"].exists()) mesh.scale = item["scale"].number(kMinScale, kMaxScale);
     if (item["class"].exists()) mesh.semantic_class = read_mesh_class(item["class"]);
@@ -261,8 +261,8 @@ std::vector<int> read_disaster_agents(const JsonValue& list) {
 
 Scenario load_scenario(const fs::path& file, std::string id) {
   const ExtendedDocument document = read_extended(file, file.string());
-  return with_files_of(document,
-                       [&] { return parse_scenario(document.whole, file, std::move(id)); });
+  return read_with_files(document,
+                         [&] { return parse_scenario(document.whole, file, std::move(id)); });
 }
 
 Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, std::string id) {

@@ -1,5 +1,5 @@
-// A scenario: a place, its exits, who moves there and where the drones start. The JSON file beside
-// the Menge scene and behavior files that it names.
+// A scenario: ground, buildings, exits, crowd and the drones' starts. The JSON file beside the
+// Menge scene and behavior files that it names.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,11 +36,12 @@ struct GoalRef {
 /// A door: a segment on the ground that people cross to get out.
 struct Exit {
   std::string id;
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();      ///< m
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();        ///< m
-  Eigen::Vector2d outward = Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the place
-  bool open = true;                                    ///< otherwise nobody can ever get out here
-  std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
+  Eigen::Vector2d outward =
+      Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the scenario
+  bool open = true;              ///< otherwise nobody can ever get out here
+  std::vector<GoalRef> goals;    ///< an agent heading for one of these intends this exit
   /// From when on nobody can: a disaster has reached it (s).
   double closes_at_s = std::numeric_limits<double>::infinity();
 
@@ -111,11 +112,11 @@ struct Scenario {
   std::vector<Marking> markings;
   /// The file's JSON without its crowd, for those who have the run's trace but not the file.
   std::string document;
-  /// The alarm of a scenario whose crowd is not at hand, as in a trace; otherwise alarm_of() finds
-  /// it.
+  /// The alarm of a scenario whose crowd is not at hand, as in a trace; otherwise find_alarm()
+  /// finds it.
   std::optional<Alarm> alarm;
 
-  /// Whether it has a crowd to simulate; otherwise it is a place for recorded people.
+  /// Whether it has a crowd to simulate; otherwise only recorded people can be in it.
   bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }
 };
 
@@ -138,18 +139,24 @@ void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 /// source tree's.
 std::filesystem::path scenarios_folder();
 
-/// Ending of the files of blueprints (places/blueprint/blueprint.h).
-inline constexpr std::string_view kBlueprintEnding = ".place.json";
+/// Ending of the files of blueprints (world/scenarios/blueprint/blueprint.h).
+inline constexpr std::string_view kBlueprintEnding = ".blueprint.json";
 
-/// `<folder>/<id>.json`, else the blueprint `<folder>/<id>.place.json`. Ids are words of [a-z0-9_]
-/// joined by '/': nothing outside the folder can be named. Throws InputError when the id is
-/// malformed or unknown (listing what there is).
+/// Ending of blueprints in files of version 0.1; they are still read.
+inline constexpr std::string_view kFormerBlueprintEnding = ".place.json";
+
+/// Whether a file's name ends as blueprints' do, now or formerly.
+bool is_blueprint_name(std::string_view file);
+
+/// `<folder>/<id>.json`, else the blueprint `<folder>/<id>.blueprint.json`. Ids are words of
+/// [a-z0-9_] joined by '/': nothing outside the folder can be named. Throws InputError when the id
+/// is malformed or unknown (listing what there is).
 std::filesystem::path scenario_file(const std::filesystem::path& folder, const std::string& id);
 
 /// Whether there is a file for the id, without reading it.
 bool has_scenario(const std::filesystem::path& folder, const std::string& id);
 
-/// The name of a scenario file without its ending, which is ".json" or ".place.json".
+/// The name of a scenario file without its ending, which is ".json" or ".blueprint.json".
 std::string id_from_file(const std::filesystem::path& file);
 
 /// Every scenario id in the folder, sorted, whether its file is a scenario or a blueprint. Sound

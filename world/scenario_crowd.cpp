@@ -5,9 +5,9 @@
 
 namespace throng::world {
 
-crowd::CrowdDescription crowd_of(const Scenario& scenario) {
+crowd::CrowdDescription build_crowd(const Scenario& scenario) {
   if (!scenario.has_crowd()) {
-    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
+    throw InputError({scenario.id, "/crowd", "nothing: only recorded people can be in it",
                       "the scene and behavior of a crowd to simulate"});
   }
   if (scenario.built_crowd) return *scenario.built_crowd;

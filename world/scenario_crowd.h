@@ -8,6 +8,6 @@ namespace throng::world {
 
 /// Scene and behavior of a scenario. Throws InputError when it has no crowd or a file is not XML,
 /// EnvironmentError when one cannot be read.
-crowd::CrowdDescription crowd_of(const Scenario& scenario);
+crowd::CrowdDescription build_crowd(const Scenario& scenario);
 
 }  // namespace throng::world

@@ -58,8 +58,8 @@ std::string_view last_part(std::string_view id) { return id.substr(id.rfind('/')
 /// ("scenarios/campus/everyday.json"), the name is a folder of ids or the last part of some.
 std::vector<std::string_view> meant_by(std::string_view name,
                                        std::span<const std::string_view> known) {
-  for (const std::string_view ending :
-       {kBlueprintEnding, std::string_view(".json"), std::string_view("/")}) {
+  for (const std::string_view ending : {kBlueprintEnding, kFormerBlueprintEnding,
+                                        std::string_view(".json"), std::string_view("/")}) {
     if (name.ends_with(ending)) name.remove_suffix(ending.size());
   }
   std::vector<std::string_view> meant;
@@ -72,7 +72,8 @@ std::vector<std::string_view> meant_by(std::string_view name,
 
 std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id) {
   if (!is_scenario_id(id)) return std::nullopt;
-  for (const std::string_view ending : {std::string_view(".json"), kBlueprintEnding}) {
+  for (const std::string_view ending :
+       {std::string_view(".json"), kBlueprintEnding, kFormerBlueprintEnding}) {
     fs::path file = folder / (id + std::string(ending));
     std::error_code error;
     if (fs::is_regular_file(file, error)) return file;
@@ -125,11 +126,13 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   return ids;
 }
 
+bool is_blueprint_name(std::string_view file) {
+  return file.ends_with(kBlueprintEnding) || file.ends_with(kFormerBlueprintEnding);
+}
+
 std::string id_from_file(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const bool is_blueprint = name.ends_with(kBlueprintEnding);
-  return is_blueprint ? name.substr(0, name.size() - kBlueprintEnding.size())
-                      : file.stem().string();
+  const fs::path stem = file.stem();  // without ".json"
+  return is_blueprint_name(file.filename().string()) ? stem.stem().string() : stem.string();
 }
 
 bool has_scenario(const fs::path& folder, const std::string& id) {

@@ -56,7 +56,7 @@ static_assert(is_in_order(), "the table has the order of the enumerators");
 
 }  // namespace
 
-SemanticClass class_of(PropKind kind) {
+SemanticClass semantic_class(PropKind kind) {
   // Both lists have the same order.
   return static_cast<SemanticClass>(static_cast<std::size_t>(C::tree) +
                                     static_cast<std::size_t>(kind));

@@ -14,7 +14,7 @@ namespace throng::world {
 
 enum class SemanticClass : std::uint8_t {
   sky = 0,       ///< or nothing, where a lens ends
-  terrain = 1,   ///< the plain around a place
+  terrain = 1,   ///< the plain around a scenario
   building = 2,  ///< facades
   object = 3,    ///< of no other class: meshes whose scenario names none
   person = 4,    ///< with clothes and what is carried
@@ -69,7 +69,7 @@ struct SemanticClassInfo {
 };
 
 /// The class of a kind of prop.
-SemanticClass class_of(PropKind kind);
+SemanticClass semantic_class(PropKind kind);
 
 /// The class of this name; nothing if there is none.
 std::optional<SemanticClass> semantic_class_named(std::string_view name);
@@ -77,7 +77,7 @@ std::optional<SemanticClass> semantic_class_named(std::string_view name);
 /// All classes, by value.
 std::span<const SemanticClassInfo, kSemanticClasses> semantic_classes();
 
-inline const SemanticClassInfo& info_of(SemanticClass value) {
+inline const SemanticClassInfo& semantic_class_info(SemanticClass value) {
   return semantic_classes()[static_cast<std::size_t>(value)];
 }
 

@@ -37,7 +37,7 @@ void write(const BatteryLow& event, EventRow& row) { row.value = event.charge; }
 void write(const Landed& event, EventRow& row) { row.value = event.height_m; }
 void write(const BatteryFlat& event, EventRow& row) { row.value = event.height_m; }
 void write_partner(Partner partner, std::int32_t index, EventRow& row) {
-  row.partner = name_of(partner);
+  row.partner = to_string(partner);
   (partner == Partner::person ? row.agent : row.other) = index;
 }
 void write(const Collision& event, EventRow& row) {
@@ -174,11 +174,11 @@ constexpr std::array<Read, std::variant_size_v<EventKind>> kReaders = {
 
 }  // namespace
 
-std::string_view name_of(Partner partner) { return kPartners[static_cast<std::size_t>(partner)]; }
+std::string_view to_string(Partner partner) { return kPartners[static_cast<std::size_t>(partner)]; }
 
-std::string_view name_of(const EventKind& kind) { return kNames[kind.index()]; }
+std::string_view to_string(const EventKind& kind) { return kNames[kind.index()]; }
 
-std::optional<std::int32_t> drone_of(const EventKind& kind) {
+std::optional<std::int32_t> drone_of_event(const EventKind& kind) {
   return std::visit(
       [](const auto& event) -> std::optional<std::int32_t> {
         if constexpr (requires { event.drone; }) return event.drone;
@@ -190,8 +190,8 @@ std::optional<std::int32_t> drone_of(const EventKind& kind) {
 EventRow to_row(const TraceEvent& event) {
   EventRow row;
   row.time_s = event.time_s;
-  row.type = name_of(event.kind);
-  row.drone = drone_of(event.kind).value_or(-1);
+  row.type = to_string(event.kind);
+  row.drone = drone_of_event(event.kind).value_or(-1);
   std::visit([&](const auto& kind) { write(kind, row); }, event.kind);
   return row;
 }

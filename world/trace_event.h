@@ -14,7 +14,7 @@ namespace throng::world {
 enum class Partner : std::uint8_t { ground, building, drone, person };
 
 /// "ground", "building", "drone" or "person".
-std::string_view name_of(Partner partner);
+std::string_view to_string(Partner partner);
 
 /// A person is outside of the scenario's `inside` for the first time.
 struct AgentEscaped {
@@ -147,9 +147,9 @@ EventRow to_row(const TraceEvent& event);
 TraceEvent from_row(const EventRow& row, const std::string& source);
 
 /// The type's name in the file, such as "collision".
-std::string_view name_of(const EventKind& kind);
+std::string_view to_string(const EventKind& kind);
 
 /// The drone that the event is about.
-std::optional<std::int32_t> drone_of(const EventKind& kind);
+std::optional<std::int32_t> drone_of_event(const EventKind& kind);
 
 }  // namespace throng::world

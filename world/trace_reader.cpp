@@ -104,7 +104,7 @@ class Reader {
     header.exit_ids = texts("exit_ids");
     header.drone_ids = texts("drone_ids");
     if (H5Lexists(root_.id(), "scenario", H5P_DEFAULT) > 0) {
-      const hsize_t bytes = hdf5::shape_of(root_, "scenario", 1)[0];
+      const hsize_t bytes = hdf5::dataset_shape(root_, "scenario", 1)[0];
       const auto document = numbers<std::uint8_t>(root_, "scenario", {bytes});
       header.scenario_document.assign(document.begin(), document.end());
     }
@@ -115,7 +115,7 @@ class Reader {
       }
     }
     const hdf5::Handle agents = open_group("agents");
-    const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
+    const hsize_t count = hdf5::dataset_shape(agents, "role", 1)[0];
     for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {
       if (role > static_cast<std::uint8_t>(AgentRole::attacker)) {
         reject(source_, "agents/role", std::to_string(role), "0, 1 or 2");
@@ -130,7 +130,7 @@ class Reader {
 
   void read_crowd(Trace& trace) {
     const hdf5::Handle crowd = open_group("crowd");
-    const hsize_t steps = hdf5::shape_of(crowd, "time_s", 1)[0];
+    const hsize_t steps = hdf5::dataset_shape(crowd, "time_s", 1)[0];
     const hsize_t agents = trace.agents();
     trace.time_s = numbers<double>(crowd, "time_s", {steps});
     for (std::size_t i = 0; i < steps; ++i) {
@@ -169,7 +169,7 @@ class Reader {
     const std::string name = std::to_string(index);
     const hdf5::Handle group(H5Gopen2(drones.id(), name.c_str(), H5P_DEFAULT), H5Gclose,
                              "drones/" + name);
-    const hsize_t count = hdf5::shape_of(group, "time_s", 1)[0];
+    const hsize_t count = hdf5::dataset_shape(group, "time_s", 1)[0];
     const auto time_s = numbers<double>(group, "time_s", {count});
     const auto position = numbers<double>(group, "position", {count, 3});
     const auto velocity = numbers<double>(group, "velocity", {count, 3});
@@ -207,7 +207,7 @@ class Reader {
 
   std::vector<TraceEvent> read_events(const TraceHeader& header) {
     const hdf5::Handle group = open_group("events");
-    const hsize_t count = hdf5::shape_of(group, "time_s", 1)[0];
+    const hsize_t count = hdf5::dataset_shape(group, "time_s", 1)[0];
     const auto time_s = numbers<double>(group, "time_s", {count});
     const auto types = hdf5::read_texts(group, "type");
     const auto agent = numbers<std::int32_t>(group, "agent", {count});

@@ -294,7 +294,7 @@ void sync_to_disk(const fs::path& path) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(fs::path final_path)
-      : final_(std::move(final_path)), path_(staging_path_of(final_).string()) {}
+      : final_(std::move(final_path)), path_(staging_path(final_).string()) {}
   ~TemporaryFile() {
     std::error_code ignored;
     fs::remove(path_, ignored);

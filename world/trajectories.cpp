@@ -40,9 +40,9 @@ struct TrajectoryReader::File {
     dt_s = hdf5::read_attribute<double>(root, "dt_s");
     if (!(dt_s > 0)) throw hdf5::Failure("dt_s");
     crowd = hdf5::Handle(H5Gopen2(root.id(), "crowd", H5P_DEFAULT), H5Gclose, "crowd");
-    steps = hdf5::shape_of(crowd, "time_s", 1)[0];
+    steps = hdf5::dataset_shape(crowd, "time_s", 1)[0];
     const hdf5::Handle agents(H5Gopen2(root.id(), "agents", H5P_DEFAULT), H5Gclose, "agents");
-    const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
+    const hsize_t count = hdf5::dataset_shape(agents, "role", 1)[0];
     hdf5::require_stored(agents, "role", {count}, 1);
     std::vector<std::uint8_t> roles(count);
     hdf5::read_into(agents, "role", {count}, hdf5::element_type<std::uint8_t>(), roles.data());

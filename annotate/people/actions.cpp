@@ -66,7 +66,7 @@ ActionFacts::ActionFacts(const world::Trace& trace, const skinning::Population& 
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const auto number = static_cast<std::uint32_t>(agent);
     const skinning::Appearance appearance =
-        skinning::appearance_of(population, trace.header.seed, number, styling);
+        skinning::sample_appearance(population, trace.header.seed, number, styling);
     carries_.push_back(population.characters[appearance.character].carries !=
                        skinning::Carry::nothing);
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
@@ -78,8 +78,8 @@ ActionFacts::ActionFacts(const world::Trace& trace, const skinning::Population& 
   }
 }
 
-std::vector<std::string_view> ActionFacts::names_of(std::uint32_t agent,
-                                                    skinning::Actions actions) const {
+std::vector<std::string_view> ActionFacts::action_names(std::uint32_t agent,
+                                                        skinning::Actions actions) const {
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < skinning::kActionCount; ++i) {
     if (actions.has(static_cast<skinning::Action>(i))) names.push_back(skinning::kActionNames[i]);
@@ -106,7 +106,7 @@ std::vector<std::uint32_t> ActionFacts::together_with(std::uint32_t agent,
 void add_actions(const ActionFacts& facts, double time_s, FrameLabels& labels) {
   const world::BetweenSteps at = facts.trace().steps_around(time_s);
   for (PersonLabel& label : labels.people) {
-    label.actions = ActionLabel{facts.names_of(label.agent, label.person.actions),
+    label.actions = ActionLabel{facts.action_names(label.agent, label.person.actions),
                                 facts.together_with(label.agent, at)};
   }
 }
@@ -128,7 +128,7 @@ std::string actions_csv(const world::Trace& trace, const render::Animator& anima
       const skinning::Actions actions = animator.actions_at(agent, step);
       if (actions.empty()) continue;
       std::vector<Doing> doings;
-      for (const std::string_view name : facts.names_of(number, actions)) {
+      for (const std::string_view name : facts.action_names(number, actions)) {
         doings.emplace_back(name, 0);
       }
       for (const std::uint32_t other : facts.together_with(number, {step, step, 0})) {

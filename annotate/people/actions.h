@@ -24,7 +24,7 @@ class ActionFacts {
               const skinning::Styling& styling);
 
   /// Names of what a body's motion shows, with "carry" if the person carries something.
-  std::vector<std::string_view> names_of(std::uint32_t agent, skinning::Actions actions) const;
+  std::vector<std::string_view> action_names(std::uint32_t agent, skinning::Actions actions) const;
 
   /// Members of the agent's group who are within kTogetherM at a time of the trace, at which the
   /// agent is present.

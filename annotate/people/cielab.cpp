@@ -18,9 +18,9 @@ float lightness_root(float share) {
 }  // namespace
 
 Eigen::Vector3f cielab_of_srgb(const std::uint8_t* rgb) {
-  const float r = linear_of_srgb(rgb[0]);
-  const float g = linear_of_srgb(rgb[1]);
-  const float b = linear_of_srgb(rgb[2]);
+  const float r = linear_from_srgb(rgb[0]);
+  const float g = linear_from_srgb(rgb[1]);
+  const float b = linear_from_srgb(rgb[2]);
   // IEC 61966-2-1's matrix, its rows over the white point's X, Y and Z.
   const float x = lightness_root((0.4124F * r + 0.3576F * g + 0.1805F * b) / 0.9505F);
   const float y = lightness_root(0.2126F * r + 0.7152F * g + 0.0722F * b);

@@ -199,7 +199,7 @@ class CocoShardWriter::Files {
   }
 
   void add_object(const CocoImage& image, const render::ObjectInView& object) {
-    const auto [track, is_new] = tracks_.try_emplace(track_id(image, number_of(object)));
+    const auto [track, is_new] = tracks_.try_emplace(track_id(image, object_number(object)));
     if (is_new) append_object_track_record(track->second, image, object);
   }
 

@@ -116,7 +116,7 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
   text.push_back(']');
 }
 
-const ObjectCategory& category_of(world::SemanticClass surface) {
+const ObjectCategory& object_category(world::SemanticClass surface) {
   const auto* found =
       std::find_if(kObjectCategories.begin(), kObjectCategories.end(),
                    [&](const ObjectCategory& category) { return category.surface == surface; });
@@ -135,7 +135,7 @@ void append_counts(std::string& text, const RunLengths& mask) {
 /// The visible part of a person, drone or vehicle in the image.
 struct Shown {
   int category;
-  std::uint32_t number;  ///< agent, or number_of()
+  std::uint32_t number;  ///< agent, or object_number()
   const PixelBox* box;
   const RunLengths* mask;
   std::uint64_t area_px;
@@ -229,7 +229,7 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   text += "}\n";
 }
 
-std::uint32_t number_of(const render::ObjectInView& object) {
+std::uint32_t object_number(const render::ObjectInView& object) {
   const bool is_drone = render::is_drone(object.id);
   check(object.number < (is_drone ? kMaxDronesPerRun : kMaxVehiclesPerRun),
         "a run has at most kMaxDronesPerRun drones and kMaxVehiclesPerRun vehicles");
@@ -239,13 +239,13 @@ std::uint32_t number_of(const render::ObjectInView& object) {
 
 void append_object_track_record(std::string& text, const CocoImage& image,
                                 const render::ObjectInView& object) {
-  append(text, R"({{"id":{},"run":{},)", track_id(image, number_of(object)), quoted(image.run));
+  append(text, R"({{"id":{},"run":{},)", track_id(image, object_number(object)), quoted(image.run));
   if (render::is_drone(object.id)) {
     check(image.drone_ids != nullptr && object.number < image.drone_ids->size(),
           "drones that are seen are drones of the run");
     append(text, R"("drone":{}}})", quoted((*image.drone_ids)[object.number]));
   } else {
-    append(text, R"("vehicle":"{}","prop":{}}})", category_of(object.surface).name,
+    append(text, R"("vehicle":"{}","prop":{}}})", object_category(object.surface).name,
            object.id - render::kIdProp);
   }
   text.push_back('\n');
@@ -253,9 +253,10 @@ void append_object_track_record(std::string& text, const CocoImage& image,
 
 void append_object_record(std::string& text, const CocoImage& image, const ObjectLabel& label) {
   const render::ObjectInView& object = label.object;
-  const std::uint32_t number = number_of(object);
-  append_shown(text, image,
-               {category_of(object.surface).id, number, &label.box, &label.mask, label.area_px});
+  const std::uint32_t number = object_number(object);
+  append_shown(
+      text, image,
+      {object_category(object.surface).id, number, &label.box, &label.mask, label.area_px});
   if (image.whole_masks) append_whole_mask(text, image, *object.whole_mask);
   append_whole(text, image, number, object.amodal_box, object.amodal_area_px, label.visibility);
   append_decimals(text, object.position, kMeterDecimals);

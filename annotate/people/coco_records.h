@@ -19,7 +19,7 @@ std::int64_t track_id(const CocoImage& image, std::uint32_t agent);
 void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent);
 
 /// The number of a drone or vehicle, in place of people's agent number.
-std::uint32_t number_of(const render::ObjectInView& object);
+std::uint32_t object_number(const render::ObjectInView& object);
 
 /// The like for a drone or vehicle.
 void append_object_track_record(std::string& text, const CocoImage& image,

@@ -157,7 +157,7 @@ double edge_contrast(const Cutout& cutout) {
 
 }  // namespace
 
-Contrast contrast_of(const ColorImage& image, const render::PixelMask& mask) {
+Contrast measure_contrast(const ColorImage& image, const render::PixelMask& mask) {
   if (mask.set.empty()) return {};
   constexpr double kMarginShare = 0.15;
   constexpr int kMinMarginPx = 2;

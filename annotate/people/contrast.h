@@ -27,6 +27,6 @@ struct Contrast {
 };
 
 /// The contrast of the object whose visible pixels are set in `mask` and whose box is in the image.
-Contrast contrast_of(const ColorImage& image, const render::PixelMask& mask);
+Contrast measure_contrast(const ColorImage& image, const render::PixelMask& mask);
 
 }  // namespace throng::annotate

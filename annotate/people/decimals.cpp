@@ -11,7 +11,7 @@ namespace throng::annotate {
 
 namespace {
 
-std::int64_t unit_of(int decimals) {
+std::int64_t decimal_unit(int decimals) {
   constexpr std::array<std::int64_t, 10> kPowers = {
       1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
   return kPowers.at(static_cast<std::size_t>(decimals));
@@ -27,12 +27,12 @@ std::int64_t scaled_by(double value, std::int64_t unit) {
 }  // namespace
 
 double rounded(double value, int decimals) {
-  const std::int64_t unit = unit_of(decimals);
+  const std::int64_t unit = decimal_unit(decimals);
   return static_cast<double>(scaled_by(value, unit)) / static_cast<double>(unit);
 }
 
 void append_decimal(std::string& text, double value, int decimals) {
-  const std::int64_t unit = unit_of(decimals);
+  const std::int64_t unit = decimal_unit(decimals);
   std::int64_t scaled = scaled_by(value, unit);
   if (scaled < 0) {
     text.push_back('-');

@@ -16,7 +16,7 @@ namespace throng::annotate {
 namespace {
 
 /// Instances that hide the person, the largest share first.
-std::vector<Occluder> occluders_of(const render::Frame& frame, const PersonLabel& label) {
+std::vector<Occluder> find_occluders(const render::Frame& frame, const PersonLabel& label) {
   const render::PixelMask& whole = *label.person.whole_mask;
   const std::uint32_t own = render::id_of_agent(label.agent);
   std::map<std::uint32_t, std::uint64_t> hidden_px;
@@ -61,9 +61,9 @@ void add_difficulty(const render::Frame& frame, FrameLabels& labels) {
     const render::PixelMask mask =
         visible_mask(frame, render::id_of_agent(label.agent),
                      {first, first + Eigen::Vector2i(box.width, box.height)});
-    const Contrast contrast = contrast_of(image, mask);
+    const Contrast contrast = measure_contrast(image, mask);
     const Eigen::AlignedBox2d& whole = label.person.amodal_box;
-    looks.push_back({whole.center(), whole.sizes().y(), look_of(image, mask)});
+    looks.push_back({whole.center(), whole.sizes().y(), describe_look(image, mask)});
     const std::vector<Keypoint>& keypoints = with_keypoints.people[i].keypoints;
     const auto visible =
         std::count_if(keypoints.begin(), keypoints.end(),
@@ -71,7 +71,7 @@ void add_difficulty(const render::Frame& frame, FrameLabels& labels) {
     label.difficulty =
         Difficulty{contrast.region, contrast.edge, label.person.blur_px, static_cast<int>(visible)};
   }
-  const std::vector<std::vector<std::size_t>> lookalikes = lookalikes_of(looks);
+  const std::vector<std::vector<std::size_t>> lookalikes = group_lookalikes(looks);
   for (std::size_t i = 0; i < labels.people.size(); ++i) {
     for (const std::size_t other : lookalikes[i]) {
       labels.people[i].difficulty->lookalikes.push_back(labels.people[other].agent);
@@ -82,7 +82,7 @@ void add_difficulty(const render::Frame& frame, FrameLabels& labels) {
 void add_occluders(const render::Frame& frame, FrameLabels& labels) {
   for (PersonLabel& label : labels.people) {
     check(label.person.whole_mask != nullptr, "the frame has whole masks");
-    label.occluders = occluders_of(frame, label);
+    label.occluders = find_occluders(frame, label);
   }
 }
 

@@ -22,7 +22,7 @@ constexpr double kDoorDepthM = 0.5;
 /// Sides that stand for the zone's half circle.
 constexpr int kArcSides = 24;
 
-std::vector<Eigen::Vector2d> zone_of(const world::Exit& exit) {
+std::vector<Eigen::Vector2d> zone_outline(const world::Exit& exit) {
   const metrics::ControlZone zone(exit, {});
   const Eigen::Vector2d along(exit.outward.y(), -exit.outward.x());
   std::vector<Eigen::Vector2d> corners;
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector2d> zone_of(const world::Exit& exit) {
   return with_short_sides(corners);
 }
 
-std::vector<Eigen::Vector2d> door_of(const world::Exit& exit) {
+std::vector<Eigen::Vector2d> door_outline(const world::Exit& exit) {
   const Eigen::Vector2d depth = kDoorDepthM * exit.outward;
   return with_short_sides({exit.from, exit.to, exit.to + depth, exit.from + depth});
 }
@@ -46,7 +46,7 @@ ExitView::ExitView(const world::Scenario& scenario, std::vector<metrics::ExitSer
     : exits_(std::move(exits)), step_times_s_(std::move(step_times_s)) {
   check(exits_.size() == scenario.exits.size(), "each exit has a series");
   for (const world::Exit& exit : scenario.exits) {
-    outlines_.push_back({nlohmann::json(exit.id).dump(), door_of(exit), zone_of(exit)});
+    outlines_.push_back({nlohmann::json(exit.id).dump(), door_outline(exit), zone_outline(exit)});
   }
 }
 
@@ -59,7 +59,7 @@ std::string ExitView::json(const camera::Camera& camera, double time_s) const {
     fmt::format_to(std::back_inserter(text),
                    R"({}{{"id":{},"state":"{}","in_zone":{},"queue":{},"queue_length_m":{:.2f},)"
                    R"("clogging_index":{:.4f},"flow_per_s":{:.2f},"door":)",
-                   i > 0 ? "," : "", outlines_[i].id, metrics::name_of(sample.state),
+                   i > 0 ? "," : "", outlines_[i].id, metrics::to_string(sample.state),
                    sample.in_zone, sample.queue, sample.queue_length_m, sample.clogging_index,
                    sample.flow_per_s);
     append_ground_polygon(text, outlines_[i].door, camera);

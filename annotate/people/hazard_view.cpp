@@ -31,7 +31,7 @@ std::vector<Eigen::Vector2d> circle(const Eigen::Vector2d& center, double radius
 HazardView::HazardView(const world::Scenario& scenario, const world::Trace& trace)
     : hazards_(scenario.disasters), trace_(&trace), inside_s_(trace.agents(), 0) {}
 
-Eigen::Vector2d HazardView::center_of(const world::Disaster& hazard, double time_s) const {
+Eigen::Vector2d HazardView::hazard_center(const world::Disaster& hazard, double time_s) const {
   const auto agent = static_cast<std::size_t>(hazard.agent);
   const bool moves = hazard.kind == world::DisasterKind::attacker && agent < trace_->agents();
   if (!moves || trace_->steps() == 0) return hazard.position;
@@ -49,7 +49,7 @@ std::vector<HazardView::Reach> HazardView::reaches_at(double time_s) const {
   std::vector<Reach> reaches;
   for (std::size_t i = 0; i < hazards_.size(); ++i) {
     const double radius_m = hazards_[i].reach_m(time_s);
-    if (radius_m > 0) reaches.push_back({i, center_of(hazards_[i], time_s), radius_m});
+    if (radius_m > 0) reaches.push_back({i, hazard_center(hazards_[i], time_s), radius_m});
   }
   return reaches;
 }

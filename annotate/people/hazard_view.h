@@ -38,7 +38,7 @@ class HazardView {
 
   /// Hazards that have begun at a time, as they are then.
   std::vector<Reach> reaches_at(double time_s) const;
-  Eigen::Vector2d center_of(const world::Disaster& hazard, double time_s) const;
+  Eigen::Vector2d hazard_center(const world::Disaster& hazard, double time_s) const;
 
   std::vector<world::Disaster> hazards_;
   const world::Trace* trace_;

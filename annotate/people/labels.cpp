@@ -89,7 +89,7 @@ RunsByPerson group(const std::vector<RowRun>& runs, std::size_t people) {
   return grouped;
 }
 
-PixelBox bounds_of(std::span<const RowRun> runs) {
+PixelBox run_bounds(std::span<const RowRun> runs) {
   int left = runs.front().begin;
   int right = runs.front().end;
   for (const RowRun& run : runs) {
@@ -100,7 +100,7 @@ PixelBox bounds_of(std::span<const RowRun> runs) {
   return {left, top, right - left, runs.back().y + 1 - top};
 }
 
-std::uint64_t area_of(std::span<const RowRun> runs) {
+std::uint64_t count_pixels(std::span<const RowRun> runs) {
   std::uint64_t area = 0;
   for (const RowRun& run : runs) area += static_cast<std::uint64_t>(run.end - run.begin);
   return area;
@@ -226,9 +226,9 @@ FrameLabels label_people(const render::Frame& frame) {
     PersonLabel& label = labels.people.emplace_back();
     label.person = frame.people[p];
     label.agent = label.person.agent;
-    label.box = bounds_of(runs);
+    label.box = run_bounds(runs);
     label.mask = column_runs.of(runs, label.box, frame.width(), frame.height());
-    label.area_px = area_of(runs);
+    label.area_px = count_pixels(runs);
     // The amodal area comes from another draw, which may round an outline pixel the other way.
     label.person.amodal_area_px = std::max(label.person.amodal_area_px, label.area_px);
     label.visibility =

@@ -10,7 +10,7 @@
 
 namespace throng::annotate {
 
-std::optional<Look> look_of(const ColorImage& image, const render::PixelMask& mask) {
+std::optional<Look> describe_look(const ColorImage& image, const render::PixelMask& mask) {
   Look look;
   int upper = 0;
   int lower = 0;
@@ -46,7 +46,7 @@ bool are_comparable(const PersonLook& a, const PersonLook& b) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> lookalikes_of(std::span<const PersonLook> people) {
+std::vector<std::vector<std::size_t>> group_lookalikes(std::span<const PersonLook> people) {
   // From left to right, so that only neighbors are compared.
   std::vector<std::size_t> order(people.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -25,7 +25,7 @@ inline constexpr double kMaxLookDifference = 6;
 inline constexpr double kMaxLookalikeHeights = 3;
 
 /// Halves are those of the mask's box. Nothing if one has less than kMinLookPixels pixels.
-std::optional<Look> look_of(const ColorImage& image, const render::PixelMask& mask);
+std::optional<Look> describe_look(const ColorImage& image, const render::PixelMask& mask);
 
 /// The larger one of the color differences of the halves.
 double look_difference(const Look& a, const Look& b);
@@ -38,6 +38,6 @@ struct PersonLook {
 };
 
 /// For each person the indices of those who look alike and are near, the nearest first.
-std::vector<std::vector<std::size_t>> lookalikes_of(std::span<const PersonLook> people);
+std::vector<std::vector<std::size_t>> group_lookalikes(std::span<const PersonLook> people);
 
 }  // namespace throng::annotate

@@ -87,23 +87,23 @@ bool shows_tint(const skinning::Population& population, const skinning::Characte
          tinted_m2(population, character, tint, low_m, high_m) >= kMinTintedM2;
 }
 
-std::string hex_of(const skinning::Rgb& color) {
+std::string encode_hex(const skinning::Rgb& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
 }
 
 /// A garment or item with the color that it is rendered in, unless it has several.
-nlohmann::json clothing_of(std::string_view slot, std::string_view type, bool has_color,
-                           const skinning::Rgb& color) {
+nlohmann::json garment_json(std::string_view slot, std::string_view type, bool has_color,
+                            const skinning::Rgb& color) {
   nlohmann::json clothing = {{"slot", slot}, {"type", type}};
   if (!has_color) return clothing;
-  clothing["colour"] = hex_of(color);
+  clothing["colour"] = encode_hex(color);
   clothing["colour_name"] = color_name(color.data());
   return clothing;
 }
 
-nlohmann::json clothes_of(const skinning::Population& population,
-                          const skinning::Character& character,
-                          const skinning::Appearance& appearance) {
+nlohmann::json clothes_json(const skinning::Population& population,
+                            const skinning::Character& character,
+                            const skinning::Appearance& appearance) {
   using skinning::ClothesSlot;
   using skinning::Tint;
   const auto color = [&](Tint tint) { return appearance.tint[static_cast<std::size_t>(tint)]; };
@@ -120,19 +120,19 @@ nlohmann::json clothes_of(const skinning::Population& population,
                            : is_dyed_as_shoes
                                ? shows_tint(population, character, tint, -1e9, middle_m)
                                : shows_tint(population, character, tint);
-    clothes.push_back(clothing_of(name_of(slot), type, has_color, color(tint)));
+    clothes.push_back(garment_json(to_string(slot), type, has_color, color(tint)));
   }
   if (character.carries != skinning::Carry::nothing) {
     clothes.push_back(
-        clothing_of("carried", skinning::kCarryNames[static_cast<std::size_t>(character.carries)],
-                    shows_tint(population, character, Tint::item), color(Tint::item)));
+        garment_json("carried", skinning::kCarryNames[static_cast<std::size_t>(character.carries)],
+                     shows_tint(population, character, Tint::item), color(Tint::item)));
   }
   return clothes;
 }
 
-nlohmann::json attributes_of(const skinning::Population& population,
-                             const skinning::Character& character,
-                             const skinning::Appearance& appearance) {
+nlohmann::json person_attributes(const skinning::Population& population,
+                                 const skinning::Character& character,
+                                 const skinning::Appearance& appearance) {
   nlohmann::json attributes = {
       {"character", character.name},
       {"sex", character.male ? "male" : "female"},
@@ -141,27 +141,27 @@ nlohmann::json attributes_of(const skinning::Population& population,
       {"stature_m", std::round(1000.0 * static_cast<double>(character.stature_m)) / 1000.0},
       {"wears", character.wears},
       {"carries", skinning::kCarryNames[static_cast<std::size_t>(character.carries)]},
-      {"clothes", clothes_of(population, character, appearance)}};
+      {"clothes", clothes_json(population, character, appearance)}};
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
     if (!shows_tint(population, character, tint)) continue;
     const auto index = static_cast<std::size_t>(tint);
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
-        hex_of(appearance.tint[index]);
+        encode_hex(appearance.tint[index]);
   }
   return attributes;
 }
 
 }  // namespace
 
-std::string_view name_of(Activity activity) {
+std::string_view to_string(Activity activity) {
   constexpr std::array<std::string_view, 8> kNames = {
       "waiting", "walking", "running", "following", "panicking", "lying", "falling", "getting_up"};
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
-Activity activity_of(std::string_view state, std::uint8_t flags, skinning::Actions actions,
-                     double speed_mps) {
+Activity classify_activity(std::string_view state, std::uint8_t flags, skinning::Actions actions,
+                           double speed_mps) {
   using skinning::Action;
   if (actions.has(Action::fall)) return Activity::falling;
   if (actions.has(Action::get_up)) return Activity::getting_up;
@@ -180,12 +180,13 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
   }
   for (const std::string& id : trace.header.exit_ids) exit_.push_back(nlohmann::json(id).dump());
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    const skinning::Appearance appearance = skinning::appearance_of(
+    const skinning::Appearance appearance = skinning::sample_appearance(
         population, trace.header.seed, static_cast<std::uint32_t>(agent), styling);
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
     fixed_.push_back(fmt::format(
         R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),
-        attributes_of(population, population.characters[appearance.character], appearance).dump()));
+        person_attributes(population, population.characters[appearance.character], appearance)
+            .dump()));
   }
 }
 
@@ -200,11 +201,11 @@ void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
   const std::size_t at = trace_->at(step_at(time_s), agent);
   const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
   const bool is_named = state < behavior_.size();
-  const Activity activity = activity_of(is_named ? trace_->header.state_names[state] : "",
-                                        trace_->flags[at], actions, speed_mps);
+  const Activity activity = classify_activity(is_named ? trace_->header.state_names[state] : "",
+                                              trace_->flags[at], actions, speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
-  fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));
+  fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", to_string(activity));
   if (is_named) text += R"(,"behaviour":)" + behavior_[state];
   if (has_exit) text += R"(,"exit":)" + exit_[static_cast<std::size_t>(exit)];
 }

@@ -25,15 +25,15 @@ enum class Activity : std::uint8_t {
   falling,
   getting_up
 };
-std::string_view name_of(Activity activity);
+std::string_view to_string(Activity activity);
 
 /// The activity of somebody in a behavior's state of this name, with the trace's flags, whose body
 /// is rendered in such a motion: falling, lying or getting up where that shows it, and lying with
 /// world::kFallen where it shows neither; else panicking with world::kPanicked, else by
 /// speed: below 0.2 m/s they wait; faster they follow if the state's name says so, and above
 /// 2.07 m/s they run (Hreljac, 1993: where people change from walking to running).
-Activity activity_of(std::string_view state, std::uint8_t flags, skinning::Actions actions,
-                     double speed_mps);
+Activity classify_activity(std::string_view state, std::uint8_t flags, skinning::Actions actions,
+                           double speed_mps);
 
 class PersonFacts {
  public:

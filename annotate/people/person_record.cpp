@@ -6,7 +6,7 @@
 
 namespace throng::annotate {
 
-double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
+double measure_truncation(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
   const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(), Eigen::Vector2d(k.width, k.height));
   const Eigen::AlignedBox2d inside = box.intersection(image);
   if (box.volume() <= 0) return 0;
@@ -21,7 +21,7 @@ Eigen::AlignedBox2d recorded_box(const Eigen::AlignedBox2d& box) {
 }
 
 double recorded_truncation(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
-  return rounded(truncation_of(recorded_box(box), k), kShareDecimals);
+  return rounded(measure_truncation(recorded_box(box), k), kShareDecimals);
 }
 
 namespace {

@@ -10,7 +10,7 @@
 namespace throng::annotate {
 
 /// Share of a box that is outside of the image.
-double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k);
+double measure_truncation(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k);
 
 /// A box with its corner and size rounded as records have them.
 Eigen::AlignedBox2d recorded_box(const Eigen::AlignedBox2d& box);

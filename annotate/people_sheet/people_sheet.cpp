@@ -16,15 +16,15 @@ const cv::Scalar kPaper(250, 250, 248);
 const cv::Scalar kInk(45, 45, 45);
 
 world::Scenario plain_ground() {
-  constexpr double kHalf_m = 150;
+  constexpr double kHalfM = 150;
   world::Scenario scenario;
   scenario.id = "people_sheet";
-  scenario.ground = {{-kHalf_m, -kHalf_m}, {kHalf_m, kHalf_m}};
+  scenario.ground = {{-kHalfM, -kHalfM}, {kHalfM, kHalfM}};
   scenario.ground_material = "concrete";
   return scenario;
 }
 
-int height_of(const SheetRow& row) {
+int row_height(const SheetRow& row) {
   int height = 0;
   for (const SheetShot& shot : row.shots) {
     height = std::max(height, shot.camera.intrinsics.height);
@@ -40,7 +40,7 @@ class Page {
 
   void reserve(int height) { height_ += height; }
   void reserve(const SheetRow& row) {
-    reserve(height_of(row) + px(6) + (row.title.empty() ? 0 : title_height()));
+    reserve(row_height(row) + px(6) + (row.title.empty() ? 0 : title_height()));
   }
   int title_height() const { return px(48); }
 
@@ -131,7 +131,7 @@ void draw_rows(const std::vector<SheetRow>& rows, render::Renderer& renderer, Pa
       scene.people = shot.people;
       page.add(shot.label, renderer.draw(scene, shot.camera));
     }
-    page.end_row(height_of(row));
+    page.end_row(row_height(row));
   }
 }
 

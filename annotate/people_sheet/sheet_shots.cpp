@@ -35,9 +35,9 @@ camera::Camera camera_on(const Eigen::Vector3d& target, double distance_m, doubl
 
 // From far away, so that there is next to no perspective.
 camera::Camera portrait_camera(int width, int height) {
-  constexpr double kShown_m = 2.15;
-  constexpr double kFar_m = 20;
-  return camera_on({0, 0, 0.98}, kFar_m, -8 * kDegree, height / kShown_m, width, height);
+  constexpr double kShownM = 2.15;
+  constexpr double kFarM = 20;
+  return camera_on({0, 0, 0.98}, kFarM, -8 * kDegree, height / kShownM, width, height);
 }
 
 // How far somebody who faces the viewer is turned to show this side.
@@ -57,20 +57,20 @@ struct Moment {
   double share = 0;  ///< of the clip
 };
 
-skinning::PoseBlend pose_of(const Population& population, std::uint32_t character,
-                            const Moment& moment) {
+skinning::PoseBlend choose_pose(const Population& population, std::uint32_t character,
+                                const Moment& moment) {
   const double stature_m = population.characters[character].stature_m;
   const double stride =
       moment.speed_mps > 0 ? skinning::stride_length_m(moment.speed_mps, stature_m) / stature_m : 0;
   const skinning::Clip& clip = ClipSet(population).nearest(moment.clip, stride);
-  return skinning::frame_of(clip, moment.share * (clip.cyclic ? clip.frames : clip.frames - 1));
+  return skinning::blend_frame(clip, moment.share * (clip.cyclic ? clip.frames : clip.frames - 1));
 }
 
 constexpr std::size_t kLevelColumns = 16;
 
 constexpr double kSide = 90 * kDegree;
 
-std::string caption_of(const skinning::Character& who) {
+std::string make_caption(const skinning::Character& who) {
   return fmt::format("{}, {}, {:.2f} m", who.name, static_cast<int>(who.age_years), who.stature_m);
 }
 
@@ -95,10 +95,10 @@ double share_of_umbrellas(const Population& population,
 }
 
 // People on a grid that is shaken: two streams that meet, and some who stand.
-std::vector<PersonInstance> crowd_of(const Population& population, const SheetOptions& options,
-                                     double half_m) {
-  constexpr double kApart_m = 2.5;
-  const auto count = static_cast<int>(std::ceil(half_m / kApart_m));
+std::vector<PersonInstance> place_crowd(const Population& population, const SheetOptions& options,
+                                        double half_m) {
+  constexpr double kApartM = 2.5;
+  const auto count = static_cast<int>(std::ceil(half_m / kApartM));
   std::vector<PersonInstance> people;
   skinning::Styling styling;
   styling.umbrellas = share_of_umbrellas(population, options.crowd);
@@ -108,15 +108,17 @@ std::vector<PersonInstance> crowd_of(const Population& population, const SheetOp
       Random random(options.seed, Stream::environment, people.size());
       PersonInstance person;
       do {
-        person.appearance = skinning::appearance_of(population, options.seed, candidate++, styling);
+        person.appearance =
+            skinning::sample_appearance(population, options.seed, candidate++, styling);
       } while (std::find(options.crowd.begin(), options.crowd.end(), person.appearance.character) ==
                options.crowd.end());
       person.agent = static_cast<std::uint32_t>(people.size());
-      person.position = {static_cast<float>(kApart_m * (row + random.uniform(-0.38, 0.38))),
-                         static_cast<float>(kApart_m * (column + random.uniform(-0.38, 0.38))), 0};
+      person.position = {static_cast<float>(kApartM * (row + random.uniform(-0.38, 0.38))),
+                         static_cast<float>(kApartM * (column + random.uniform(-0.38, 0.38))), 0};
       const double stream = random.uniform() < 0.5 ? 0.3 : 0.3 + std::numbers::pi;
       person.yaw_rad = static_cast<float>(stream + random.normal(0, 0.35));
-      person.pose = pose_of(population, person.appearance.character, moment_of_passer_by(random));
+      person.pose =
+          choose_pose(population, person.appearance.character, moment_of_passer_by(random));
       people.push_back(person);
     }
   }
@@ -127,7 +129,7 @@ SheetShot motion_shot(const Population& population, const skinning::Appearance& 
                       const Moment& moment, double turn_rad, const std::string& label, int width) {
   return {label,
           portrait_camera(width, width * 3 / 2),
-          {posed(look, pose_of(population, look.character, moment), turn_rad)}};
+          {posed(look, choose_pose(population, look.character, moment), turn_rad)}};
 }
 
 }  // namespace
@@ -143,30 +145,30 @@ std::vector<SheetRow> portrait_rows(const Population& population, const SheetOpt
     const std::uint32_t character = options.portraits[i];
     const skinning::Appearance look = skinning::appearance_as(population, character, options.seed);
     const double share = static_cast<double>(look.phase_offset);
-    const auto standing = pose_of(population, character, {"idle", 0, share});
-    const auto walking = pose_of(population, character, {"walk", 1.35, share});
+    const auto standing = choose_pose(population, character, {"idle", 0, share});
+    const auto walking = choose_pose(population, character, {"walk", 1.35, share});
     const camera::Camera camera = portrait_camera(width, 2 * width);
     rows.back().shots.push_back(
-        {caption_of(population.characters[character]), camera, {posed(look, standing, 0)}});
+        {make_caption(population.characters[character]), camera, {posed(look, standing, 0)}});
     rows.back().shots.push_back({"", camera, {posed(look, walking, kSide)}});
   }
   return rows;
 }
 
 SheetRow drone_row(const Population& population, const SheetOptions& options) {
-  constexpr std::array<double, 3> kHeights_m = {15, 30, 50};
+  constexpr std::array<double, 3> kHeightsM = {15, 30, 50};
   // The image is the middle of that of a camera with 1920 pixels across 78 degrees.
-  constexpr double kFocal_px = 1185.5;
-  const int width = options.width_px / static_cast<int>(kHeights_m.size());
+  constexpr double kFocalPx = 1185.5;
+  const int width = options.width_px / static_cast<int>(kHeightsM.size());
   const int height = width * 3 / 4;
   SheetRow row{"From drones that look down by 45 degrees (1920 pixels across 78 degrees)", {}};
-  for (const double height_m : kHeights_m) {
+  for (const double height_m : kHeightsM) {
     const double distance_m = height_m * std::numbers::sqrt2;
-    const double half_m = 0.62 * width * distance_m / kFocal_px + 3;
+    const double half_m = 0.62 * width * distance_m / kFocalPx + 3;
     row.shots.push_back(
         {fmt::format("{:.0f} m high", height_m),
-         camera_on({0, 0, 0}, distance_m, -45 * kDegree, kFocal_px / distance_m, width, height),
-         crowd_of(population, options, half_m)});
+         camera_on({0, 0, 0}, distance_m, -45 * kDegree, kFocalPx / distance_m, width, height),
+         place_crowd(population, options, half_m)});
   }
   return row;
 }

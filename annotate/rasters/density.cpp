@@ -112,6 +112,6 @@ std::string npy_bytes(const DensityMap& map) {
   return npy_bytes(std::array{map.height, map.width}, map.value);
 }
 
-std::string npz_bytes(const DensityMap& map) { return zip_of("density.npy", npy_bytes(map)); }
+std::string npz_bytes(const DensityMap& map) { return make_zip("density.npy", npy_bytes(map)); }
 
 }  // namespace throng::annotate

@@ -73,7 +73,7 @@ std::string encoded(const Raster& raster, int bits, const std::uint8_t* bytes) {
   return png;
 }
 
-std::size_t samples_of(const Raster& raster) {
+std::size_t count_samples(const Raster& raster) {
   check(raster.width > 0 && raster.height > 0, "an image has pixels");
   check(raster.channels == 1 || raster.channels == 3, "an image is gray or RGB");
   return static_cast<std::size_t>(raster.width) * raster.height * raster.channels;
@@ -106,12 +106,12 @@ std::string flow_png(const render::Frame& frame, const std::vector<float>& flow)
 }  // namespace
 
 std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples) {
-  check(samples.size() == samples_of(raster), "an image has all its samples");
+  check(samples.size() == count_samples(raster), "an image has all its samples");
   return encoded(raster, 8, samples.data());
 }
 
 std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples) {
-  check(samples.size() == samples_of(raster), "an image has all its samples");
+  check(samples.size() == count_samples(raster), "an image has all its samples");
   static_assert(std::endian::native == std::endian::little);
   thread_local std::vector<std::uint16_t> swapped;
   swapped.resize(samples.size());

@@ -16,7 +16,7 @@ namespace throng::annotate {
 namespace {
 
 // Neighboring ids get hues far apart: steps of the golden ratio never come close to each other.
-cv::Scalar color_of(std::uint32_t agent) {
+cv::Scalar agent_color(std::uint32_t agent) {
   const double hue = 6 * std::fmod(agent * 0.6180339887498949, 1.0);
   const auto channel = [hue](double shift) {
     const double k = std::fmod(hue + shift, 6.0);
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> draw_preview(const render::Frame& frame, const FrameLa
   cv::Mat image(frame.height(), frame.width(), CV_8UC3, rgb.data());
   for (const PersonLabel& person : labels.people) {
     const PixelBox& box = person.box;
-    cv::rectangle(image, cv::Rect(box.x, box.y, box.width, box.height), color_of(person.agent));
+    cv::rectangle(image, cv::Rect(box.x, box.y, box.width, box.height), agent_color(person.agent));
   }
   draw_caption(image, fmt::format("t = {:.1f} s   {} of {} people visible", labels.time_s,
                                   labels.people.size(), frame.people.size()));

@@ -41,7 +41,7 @@ struct Crossing {
 };
 
 /// Standing on the line counts as being on its left, so that no way crosses it twice or not at all.
-std::optional<Crossing> crossing_of(const CountLine& line, const Vector2d& a, const Vector2d& b) {
+std::optional<Crossing> find_crossing(const CountLine& line, const Vector2d& a, const Vector2d& b) {
   const Vector2d along = line.to - line.from;
   const double side_a = geometry::cross(along, Vector2d(a - line.from));
   const double side_b = geometry::cross(along, Vector2d(b - line.from));
@@ -60,17 +60,17 @@ std::size_t frame_after(std::span<const double> times_s, double time_s) {
 }
 
 /// Crossings of a line by frame; those up to the first frame's time are not counted.
-std::vector<Crossers> crossers_of(const world::Trace& trace, const CountLine& line,
-                                  std::span<const std::uint32_t> agents,
-                                  std::span<const double> times_s, std::int64_t run_index) {
+std::vector<Crossers> find_crossers(const world::Trace& trace, const CountLine& line,
+                                    std::span<const std::uint32_t> agents,
+                                    std::span<const double> times_s, std::int64_t run_index) {
   std::vector<Crossers> found(times_s.size());
   for (std::size_t step = 1; step < trace.steps(); ++step) {
     if (trace.time_s[step] <= times_s.front() || trace.time_s[step - 1] > times_s.back()) continue;
     for (const std::uint32_t agent : agents) {
       if (!trace.present(step - 1, agent) || !trace.present(step, agent)) continue;
       const auto crossing =
-          crossing_of(line, trace.position[trace.at(step - 1, agent)].cast<double>(),
-                      trace.position[trace.at(step, agent)].cast<double>());
+          find_crossing(line, trace.position[trace.at(step - 1, agent)].cast<double>(),
+                        trace.position[trace.at(step, agent)].cast<double>());
       if (!crossing) continue;
       const double time_s =
           trace.time_s[step - 1] + crossing->share * (trace.time_s[step] - trace.time_s[step - 1]);
@@ -114,7 +114,7 @@ std::string counts_csv(const world::Trace& trace, const CountAreas& areas,
   const Trajectories people = trajectories_at(trace, times_s);
   std::vector<std::vector<Crossers>> crossers;
   for (const CountLine& line : areas.lines) {
-    crossers.push_back(crossers_of(trace, line, people.agents, times_s, run_index));
+    crossers.push_back(find_crossers(trace, line, people.agents, times_s, run_index));
   }
   std::vector<std::set<std::int64_t>> before(areas.zones.size());
   std::string text = fmt::format("{}\n", kCountColumns);

@@ -19,7 +19,7 @@ inline InstructionSet best_instruction_set() {
   return InstructionSet::baseline;
 }
 
-inline std::string_view name_of(InstructionSet set) {
+inline std::string_view to_string(InstructionSet set) {
   return set == InstructionSet::avx2 ? "avx2" : "baseline";
 }
 

@@ -21,7 +21,7 @@ const std::array<float, kLevels>& decoding() {
   static const std::array<float, kLevels> table = [] {
     std::array<float, kLevels> made{};
     for (std::size_t i = 0; i < made.size(); ++i) {
-      made[i] = static_cast<float>(linear_of_encoded(static_cast<double>(i) / (kLevels - 1)));
+      made[i] = static_cast<float>(linear_from_encoded(static_cast<double>(i) / (kLevels - 1)));
     }
     return made;
   }();
@@ -42,13 +42,13 @@ const std::array<std::uint8_t, kSteps + 1>& encoding() {
 
 }  // namespace
 
-double linear_of_encoded(double encoded) {
+double linear_from_encoded(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-float linear_of_srgb(std::uint8_t byte) { return decoding()[byte]; }
+float linear_from_srgb(std::uint8_t byte) { return decoding()[byte]; }
 
-std::uint8_t srgb_of_linear(float light) {
+std::uint8_t srgb_from_linear(float light) {
   const float clipped = light > 0 ? std::min(light, 1.0F) : 0;  // in this order for NaN
   return encoding()[static_cast<std::size_t>(std::lrint(clipped * kSteps))];
 }

@@ -6,12 +6,12 @@
 namespace throng {
 
 /// Linear light of an encoded value in [0, 1].
-double linear_of_encoded(double encoded);
+double linear_from_encoded(double encoded);
 
 /// Linear light of a byte.
-float linear_of_srgb(std::uint8_t byte);
+float linear_from_srgb(std::uint8_t byte);
 
 /// The nearest byte; light is clipped to [0, 1], and no number is none.
-std::uint8_t srgb_of_linear(float light);
+std::uint8_t srgb_from_linear(float light);
 
 }  // namespace throng

@@ -43,7 +43,7 @@ void sync_tree(const fs::path& folder) {
   sync_path(folder);
 }
 
-fs::path parent_of(const fs::path& path) {
+fs::path parent_folder(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
@@ -55,7 +55,7 @@ void make_folders(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (error) fail("create", folder, error.value());
-  sync_path(parent_of(folder));
+  sync_path(parent_folder(folder));
 }
 
 std::string read_file(const fs::path& path) {
@@ -86,7 +86,7 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_hard_link(from, to, error);
   if (error == std::errc::no_such_file_or_directory) {
-    fs::create_directories(parent_of(to), error);
+    fs::create_directories(parent_folder(to), error);
     if (!error) fs::create_hard_link(from, to, error);
   }
   if (error) fs::copy_file(from, to, error);
@@ -102,8 +102,8 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 }
 
 StagedFile::StagedFile(fs::path final_path)
-    : final_(std::move(final_path)), staging_(staging_path_of(final_)) {
-  make_folders(parent_of(final_));
+    : final_(std::move(final_path)), staging_(staging_path(final_)) {
+  make_folders(parent_folder(final_));
   file_.open(staging_, std::ios::binary);
   if (!file_) fail("write", staging_);
 }
@@ -130,7 +130,7 @@ void StagedFile::commit() {
   sync_path(staging_);
   const std::error_code error = publish_staged(staging_, final_);
   if (error) fail("write", final_, error.value());
-  sync_path(parent_of(final_));
+  sync_path(parent_folder(final_));
 }
 
 void StagedFile::commit_if_absent() {
@@ -139,12 +139,12 @@ void StagedFile::commit_if_absent() {
   sync_path(staging_);
   const std::error_code error = link_staged(staging_, final_);
   if (error && error != std::errc::file_exists) fail("write", final_, error.value());
-  sync_path(parent_of(final_));
+  sync_path(parent_folder(final_));
 }
 
 StagingFolder::StagingFolder(fs::path final_path)
-    : final_(std::move(final_path)), staging_(staging_path_of(final_)) {
-  make_folders(parent_of(final_));
+    : final_(std::move(final_path)), staging_(staging_path(final_)) {
+  make_folders(parent_folder(final_));
   std::error_code error;
   fs::create_directory(staging_, error);
   if (error) fail("create", staging_, error.value());
@@ -162,7 +162,7 @@ void StagingFolder::commit_replacing() {
   if (::renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) != 0) {
     fail("replace", final_);
   }
-  sync_path(parent_of(final_));
+  sync_path(parent_folder(final_));
 }
 
 void StagingFolder::commit() {
@@ -171,7 +171,7 @@ void StagingFolder::commit() {
   if (error && !fs::exists(final_)) {
     throw EnvironmentError(fmt::format("cannot publish {}: {}", final_.string(), error.message()));
   }
-  sync_path(parent_of(final_));
+  sync_path(parent_folder(final_));
 }
 
 void remove_temporaries(const fs::path& folder) {

@@ -64,7 +64,7 @@ bool is_within(const std::filesystem::path& path, const std::filesystem::path& f
 /// removes it.
 class StagingFolder {
  public:
-  /// Creates a folder at staging_path_of(final_path) (base/files/staging.h). Throws
+  /// Creates a folder at staging_path(final_path) (base/files/staging.h). Throws
   /// EnvironmentError.
   explicit StagingFolder(std::filesystem::path final_path);
   ~StagingFolder();

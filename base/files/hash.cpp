@@ -23,8 +23,8 @@ class Sha256 {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
   void add(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
-  std::string hex() { return hex_of(digest()); }
-  std::string base64() { return base64_of(digest()); }
+  std::string hex() { return encode_hex(digest()); }
+  std::string base64() { return encode_base64(digest()); }
 
  private:
   std::string digest() {
@@ -38,13 +38,13 @@ class Sha256 {
 
 }  // namespace
 
-std::string hex_of(std::string_view bytes) {
+std::string encode_hex(std::string_view bytes) {
   std::string text;
   for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   return text;
 }
 
-std::string base64_of(std::string_view bytes) {
+std::string encode_base64(std::string_view bytes) {
   std::vector<unsigned char> text(4 * ((bytes.size() + 2) / 3) + 1);
   const int length =
       EVP_EncodeBlock(text.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -64,7 +64,7 @@ std::string sha256_base64(std::string_view bytes) {
   return hash.base64();
 }
 
-std::uint32_t crc32_of(std::string_view bytes) {
+std::uint32_t crc32(std::string_view bytes) {
   return crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
 }
 

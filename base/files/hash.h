@@ -10,16 +10,16 @@
 namespace throng {
 
 /// Two lower-case hexadecimal digits for each byte.
-std::string hex_of(std::string_view bytes);
+std::string encode_hex(std::string_view bytes);
 /// Base 64 with padding (RFC 4648).
-std::string base64_of(std::string_view bytes);
+std::string encode_base64(std::string_view bytes);
 
 std::string sha256_hex(std::string_view bytes);
 /// In base 64 with padding, as browsers compare scripts (Content Security Policy level 3).
 std::string sha256_base64(std::string_view bytes);
 
 /// The checksum of zip files and gzip (CRC-32 of ISO 3309).
-std::uint32_t crc32_of(std::string_view bytes);
+std::uint32_t crc32(std::string_view bytes);
 
 /// Both of a file, which is read once, in blocks. Throws EnvironmentError when it cannot be read.
 struct FileHashes {

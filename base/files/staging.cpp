@@ -65,7 +65,7 @@ std::vector<fs::path> published_files() {
   return area().published;
 }
 
-fs::path staging_path_of(const fs::path& final_path) {
+fs::path staging_path(const fs::path& final_path) {
   static const std::string host = name_of_this_host();
   static const std::uint32_t random = std::random_device()();
   static std::atomic<unsigned> count{0};

@@ -22,9 +22,9 @@ std::vector<std::filesystem::path> published_files();
 
 /// A new name for what is to become `final_path`: PATH.tmp.HOST.PID.RANDOM.NUMBER beside it, or
 /// such a name in the folder of stage_in(). No other process gets it, on any host.
-std::filesystem::path staging_path_of(const std::filesystem::path& final_path);
+std::filesystem::path staging_path(const std::filesystem::path& final_path);
 
-/// Renames what lies at a path of staging_path_of(). With stage_in() the source is looked up in the
+/// Renames what lies at a path of staging_path(). With stage_in() the source is looked up in the
 /// folder that was opened then: if that was removed, renaming fails, even if a folder of the same
 /// path has been made since.
 std::error_code publish_staged(const std::filesystem::path& staged,

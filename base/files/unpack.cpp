@@ -60,7 +60,7 @@ bool is_plain(char c) {
 }
 
 /// An entry's path in its parts. Throws InputError.
-std::vector<std::string> parts_of(std::string_view name, const UnpackLimits& limits) {
+std::vector<std::string> split_path(std::string_view name, const UnpackLimits& limits) {
   if (name.size() > limits.max_path_bytes) {
     refuse(name, fmt::format("a path of {} characters", name.size()),
            fmt::format("at most {}", limits.max_path_bytes));
@@ -169,7 +169,7 @@ class Unpacking {
     const char* text = archive_entry_pathname(entry);
     if (text == nullptr) refuse("", "an entry whose name is no text", kPlainName);
     const std::string name = text;
-    const std::vector<std::string> parts = parts_of(name, limits_);
+    const std::vector<std::string> parts = split_path(name, limits_);
     if (archive_entry_hardlink(entry) != nullptr || archive_entry_symlink(entry) != nullptr) {
       refuse(name, "a link", "files and folders");
     }

@@ -31,7 +31,7 @@ InputError zip_error(std::string found) {
 }
 
 /// The data of the entry that was read last.
-std::string data_of(archive* zip, std::string_view name, std::size_t max_bytes) {
+std::string read_member(archive* zip, std::string_view name, std::size_t max_bytes) {
   constexpr std::size_t kStepBytes = 1U << 20U;
   std::string bytes;
   std::size_t used = 0;
@@ -51,7 +51,7 @@ std::string data_of(archive* zip, std::string_view name, std::size_t max_bytes) 
 
 }  // namespace
 
-std::string zip_of(std::string_view name, std::string_view bytes) {
+std::string make_zip(std::string_view name, std::string_view bytes) {
   constexpr std::size_t kOverhead = 1000;  // headers, and blocks that do not deflate
   constexpr std::size_t kBlockBytes = 16'000;
   std::string out(bytes.size() + bytes.size() / kBlockBytes * 5 + kOverhead + 4 * name.size(), 0);
@@ -86,7 +86,7 @@ std::string zip_member(std::string_view zip_bytes, std::string_view name, std::s
   while ((result = archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK) {
     const char* path = archive_entry_pathname(entry);
     if (path == nullptr || path != name) continue;
-    return data_of(zip.get(), name, max_bytes);
+    return read_member(zip.get(), name, max_bytes);
   }
   throw zip_error(result == ARCHIVE_EOF ? fmt::format("no member \"{}\"", name)
                                         : std::string("a damaged file"));

@@ -8,7 +8,7 @@
 namespace throng {
 
 /// A ZIP file that holds `bytes` under `name`, deflated. Equal inputs give equal bytes.
-std::string zip_of(std::string_view name, std::string_view bytes);
+std::string make_zip(std::string_view name, std::string_view bytes);
 
 /// The bytes of a member of a ZIP file; nothing of more than `max_bytes` is unpacked. Throws
 /// InputError without a source for a file that is no ZIP file, is damaged, lacks the member, or

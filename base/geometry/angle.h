@@ -9,6 +9,12 @@ namespace throng {
 /// One degree in radians: 30 * kDegree.
 inline constexpr double kDegree = std::numbers::pi / 180;
 
+/// An angle of a file in radians, rounded once more than `angle_deg * kDegree`: recorded datasets
+/// depend on the last bit.
+constexpr double radians_from_degrees(double angle_deg) {
+  return angle_deg * std::numbers::pi / 180;
+}
+
 namespace geometry {
 
 /// The same direction between -pi and pi.

@@ -43,7 +43,7 @@ using Rectangle = BasicRectangle<double>;
 
 /// The smallest rectangle around points, of which there must be one at least.
 template <typename Points>
-auto bounds_of(const Points& points) {
+auto bounding_box(const Points& points) {
   BasicRectangle<typename Points::value_type::Scalar> bounds{*points.begin(), *points.begin()};
   for (const auto& point : points) bounds.extend(point);
   return bounds;

@@ -67,7 +67,7 @@ std::string expectation(const json& schema) {
 
 namespace {
 
-std::string expected_of(const FieldRules& field) {
+std::string describe_expected(const FieldRules& field) {
   if (!field.values.expected.empty()) return field.values.expected;
   return field.is_group ? "an object" : expectation(field.values.rules);
 }
@@ -118,7 +118,7 @@ std::string name_in(const std::string& path) { return path.substr(path.rfind('/'
 
 /// Checks the names in an object of the table: that of the group at `path`, "" for the whole.
 void check_names(const json& object, const std::string& path,
-                 std::span<const FieldRules* const> fields, const FieldPlace& place) {
+                 std::span<const FieldRules* const> fields, const FieldLocation& place) {
   std::vector<std::string> known;
   std::vector<std::string> deprecated;
   for (const FieldRules* field : fields) {
@@ -131,7 +131,7 @@ void check_names(const json& object, const std::string& path,
         (!field->deprecated_name.empty() && object.contains(field->deprecated_name));
     if (!field->is_required || is_given) continue;
     place.problems.push_back(
-        {place.source, place.below(field->path).pointer, "nothing", expected_of(*field)});
+        {place.source, place.below(field->path).pointer, "nothing", describe_expected(*field)});
   }
   const std::vector<std::string_view> names(known.begin(), known.end());
   for (const auto& [name, value] : object.items()) {
@@ -149,7 +149,7 @@ std::string deprecated_path(const FieldRules& field) {
   return field.path.substr(0, field.path.rfind('/') + 1) + field.deprecated_name;
 }
 
-bool FieldPlace::allows_deprecated(const FieldRules& field, bool is_also_given) const {
+bool FieldLocation::allows_deprecated(const FieldRules& field, bool is_also_given) const {
   const std::string name = field.path.substr(field.path.rfind('/') + 1);
   if (is_also_given) {
     problems.push_back({source, pointer,
@@ -161,18 +161,19 @@ bool FieldPlace::allows_deprecated(const FieldRules& field, bool is_also_given) 
   return true;
 }
 
-bool check_value(const json& value, const FieldRules& field, const FieldPlace& place) {
+bool check_value(const json& value, const FieldRules& field, const FieldLocation& place) {
   const ordered_json& rules = field.values.rules;
   if (keeps_type(value, rules.at("type")) && keeps_words(value, rules) &&
       keeps_range(value, rules)) {
     return true;
   }
-  place.problems.push_back({place.source, place.pointer, describe(value), expected_of(field)});
+  place.problems.push_back(
+      {place.source, place.pointer, describe(value), describe_expected(field)});
   return false;
 }
 
 bool check_object(const json& value, std::span<const FieldRules* const> fields,
-                  const FieldPlace& place) {
+                  const FieldLocation& place) {
   if (!value.is_object()) {
     place.problems.push_back({place.source, place.pointer, describe(value), "an object"});
     return false;
@@ -184,8 +185,8 @@ bool check_object(const json& value, std::span<const FieldRules* const> fields,
     if (found->is_object()) {
       check_names(*found, group->path, fields, place);
     } else {
-      place.problems.push_back(
-          {place.source, place.below(group->path).pointer, describe(*found), expected_of(*group)});
+      place.problems.push_back({place.source, place.below(group->path).pointer, describe(*found),
+                                describe_expected(*group)});
     }
   }
   return true;

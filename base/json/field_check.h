@@ -39,12 +39,12 @@ struct FieldRules {
 std::string deprecated_path(const FieldRules& field);
 
 /// Source and pointer of a value that is read, for messages and for files that it names.
-struct FieldPlace {
+struct FieldLocation {
   std::string pointer;        ///< JSON pointer
   const std::string& source;  ///< the file, or "" for a request
   std::vector<Problem>& problems;
 
-  FieldPlace below(const std::string& path) const {
+  FieldLocation below(const std::string& path) const {
     return {pointer + "/" + path, source, problems};
   }
   /// Warns that this is the deprecated name of a field; adds a problem and returns false if the
@@ -57,11 +57,11 @@ std::string expectation(const nlohmann::json& rules);
 
 /// Whether a value keeps the field's rules: type, words, range, length. Patterns are left to the
 /// field's reader. If not, adds a problem.
-bool check_value(const nlohmann::json& value, const FieldRules& field, const FieldPlace& place);
+bool check_value(const nlohmann::json& value, const FieldRules& field, const FieldLocation& place);
 
 /// Whether a value is an object. Adds a problem if it is none, and for each unknown name (with the
 /// nearest known one), missing required field and group that is no object.
 bool check_object(const nlohmann::json& value, std::span<const FieldRules* const> fields,
-                  const FieldPlace& place);
+                  const FieldLocation& place);
 
 }  // namespace throng::fields

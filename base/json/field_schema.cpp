@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json rules_of(const FieldRules& field) {
+ordered_json field_rules(const FieldRules& field) {
   ordered_json rules = {{"title", field.title}, {"description", field.help}};
   for (const auto& [key, value] : field.values.rules.items()) {
     // An object's own default precedes its fields.
@@ -84,7 +84,7 @@ void append_text(const ordered_json& value, const std::string& key, std::size_t 
 
 }  // namespace
 
-ordered_json schema_of(std::span<const FieldRules* const> fields) {
+ordered_json schema_for(std::span<const FieldRules* const> fields) {
   ordered_json schema = {{"additionalProperties", false}};
   ordered_json required = ordered_json::array();
   for (const FieldRules* field : fields) {
@@ -101,11 +101,11 @@ ordered_json schema_of(std::span<const FieldRules* const> fields) {
       parent = &(*parent)[name]["properties"];
       path.remove_prefix(end + 1);
     }
-    (*parent)[std::string(path)] = field->is_group ? rules_of_group(*field) : rules_of(*field);
+    (*parent)[std::string(path)] = field->is_group ? rules_of_group(*field) : field_rules(*field);
     if (field->deprecated_name.empty()) continue;
     check(!field->is_required && field->sampling == Sampling::never,
           "a renamed field is a plain one");
-    ordered_json old = rules_of(*field);
+    ordered_json old = field_rules(*field);
     old["description"] = fmt::format("Deprecated: use {}.", path);
     old["deprecated"] = true;
     old["x-renamed-to"] = path;

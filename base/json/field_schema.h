@@ -10,7 +10,7 @@
 namespace throng::fields {
 
 /// The rules of an object's fields: "additionalProperties", "required" if some are, "properties".
-nlohmann::ordered_json schema_of(std::span<const FieldRules* const> fields);
+nlohmann::ordered_json schema_for(std::span<const FieldRules* const> fields);
 
 /// A schema as text, one member a line but for short lists.
 std::string schema_text(const nlohmann::ordered_json& schema);

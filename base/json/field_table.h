@@ -28,7 +28,7 @@ struct Field : FieldRules {
   /// The value as a job writes it; null: it is left out.
   std::function<nlohmann::json(const Object&)> get;
   /// `value` is what the schema allows.
-  std::function<void(Object&, const nlohmann::json& value, const FieldPlace&)> set;
+  std::function<void(Object&, const nlohmann::json& value, const FieldLocation&)> set;
 
   Field& randomized() {
     sampling = Sampling::by_randomize;
@@ -102,7 +102,7 @@ class FieldTable {
  public:
   using Fields = std::vector<Field<Object>>;
   using Get = std::function<nlohmann::json(const Object&)>;
-  using Set = std::function<void(Object&, const nlohmann::json&, const FieldPlace&)>;
+  using Set = std::function<void(Object&, const nlohmann::json&, const FieldLocation&)>;
 
   /// Begins an object that has its defaults when it is left out.
   Field<Object>& group(std::string path, std::string title, std::string help) {
@@ -122,7 +122,7 @@ class FieldTable {
     return add(
         std::move(path), std::move(title), std::move(unit), std::move(values),
         [access](const Object& object) { return value_json(access(object)); },
-        [access](Object& object, const nlohmann::json& value, const FieldPlace&) {
+        [access](Object& object, const nlohmann::json& value, const FieldLocation&) {
           set_value(value, access(object));
         },
         std::move(help));
@@ -155,11 +155,11 @@ class FieldTable {
   Field<Object>& add_word(std::string path, std::string title, const Words& words, Access access,
                           std::string help) {
     return add(
-        std::move(path), std::move(title), "", one_of(words),
+        std::move(path), std::move(title), "", one_of_words(words),
         [words, access](const Object& object) -> nlohmann::json {
           return words.at(static_cast<std::size_t>(access(object)));
         },
-        [words, access](Object& object, const nlohmann::json& value, const FieldPlace&) {
+        [words, access](Object& object, const nlohmann::json& value, const FieldLocation&) {
           using Enum = std::remove_cvref_t<decltype(access(object))>;
           const auto& word = value.get_ref<const std::string&>();
           for (std::size_t i = 0; i < words.size(); ++i) {
@@ -179,7 +179,7 @@ class FieldTable {
       if (other.is_group) continue;
       field.get = [access, get = other.get](const Object& object) { return get(access(object)); };
       field.set = [access, set = other.set](Object& object, const nlohmann::json& value,
-                                            const FieldPlace& place) {
+                                            const FieldLocation& place) {
         set(access(object), value, place);
       };
     }
@@ -197,19 +197,19 @@ class FieldTable {
 
   /// Reads an object that a schema has been held against; what it leaves out stays as it is.
   /// `place` is the object's.
-  void read(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
+  void read(const nlohmann::json& value, Object& object, const FieldLocation& place) const {
     for_each_given(value, place,
                    [&](const Field<Object>& field, const nlohmann::json& given,
-                       const FieldPlace& at) { field.set(object, given, at); });
+                       const FieldLocation& at) { field.set(object, given, at); });
   }
 
   /// Checks an object and reads what is right of it. Adds a problem for each unknown name, missing
   /// required field and value that breaks its field's rules.
-  void read_checked(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
+  void read_checked(const nlohmann::json& value, Object& object, const FieldLocation& place) const {
     if (!check_object(value, rules(), place)) return;
     for_each_given(
         value, place,
-        [&](const Field<Object>& field, const nlohmann::json& given, const FieldPlace& at) {
+        [&](const Field<Object>& field, const nlohmann::json& given, const FieldLocation& at) {
           if (check_value(given, field, at)) field.set(object, given, at);
         });
   }
@@ -226,19 +226,19 @@ class FieldTable {
 
   /// "required", if there are such fields, and "properties", of the object that the table
   /// describes.
-  nlohmann::ordered_json schema() const { return schema_of(rules()); }
+  nlohmann::ordered_json schema() const { return schema_for(rules()); }
 
  private:
   /// Calls visit(field, value, its place) for the fields that `value` has, under their names or
   /// their deprecated names.
   template <typename Visit>
-  void for_each_given(const nlohmann::json& value, const FieldPlace& place, Visit visit) const {
+  void for_each_given(const nlohmann::json& value, const FieldLocation& place, Visit visit) const {
     for (const Field<Object>& field : fields_) {
       if (field.is_group) continue;
       const nlohmann::json* found = value_at(value, field.path);
       if (found != nullptr) visit(field, *found, place.below(field.path));
       if (field.deprecated_name.empty()) continue;
-      const FieldPlace old = place.below(deprecated_path(field));
+      const FieldLocation old = place.below(deprecated_path(field));
       const nlohmann::json* found_old = value_at(value, deprecated_path(field));
       if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
       visit(field, *found_old, old);

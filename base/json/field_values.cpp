@@ -76,7 +76,7 @@ Values lists(int min_items, int max_items, ordered_json items) {
            {"items", std::move(items)}}};
 }
 
-Values object_of(const ordered_json& fields) {
+Values object_with(const ordered_json& fields) {
   ordered_json rules = {{"type", "object"}};
   rules.update(fields);
   return {std::move(rules)};
@@ -86,7 +86,7 @@ Values raw(ordered_json rules, std::string expected) {
   return {std::move(rules), std::move(expected)};
 }
 
-Values one_of(std::span<const std::string> words) {
+Values one_of_words(std::span<const std::string> words) {
   ordered_json list = ordered_json::array();
   for (const std::string& word : words) list.push_back(word);
   return {{{"type", "string"}, {"enum", std::move(list)}}};

@@ -48,20 +48,20 @@ Values texts_like(const std::string& pattern, const std::string& expected);
 /// Lists of `min_items` to `max_items` items.
 Values lists(int min_items, int max_items, nlohmann::ordered_json items);
 /// Objects with the fields of a table: its schema().
-Values object_of(const nlohmann::ordered_json& fields);
+Values object_with(const nlohmann::ordered_json& fields);
 /// Any other rules of the schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 
 /// Some of words, as they are written in JSON.
-Values one_of(std::span<const std::string> words);
+Values one_of_words(std::span<const std::string> words);
 template <typename Words>
-std::vector<std::string> texts_of(const Words& words) {
+std::vector<std::string> to_texts(const Words& words) {
   return {words.begin(), words.end()};
 }
 template <typename Words>
-Values one_of(const Words& words) {
-  const std::vector<std::string> texts = texts_of(words);
-  return one_of(std::span<const std::string>(texts));
+Values one_of_words(const Words& words) {
+  const std::vector<std::string> texts = to_texts(words);
+  return one_of_words(std::span<const std::string>(texts));
 }
 /// The value as the schema writes it: whole numbers without a point.
 nlohmann::ordered_json plain_numbers(const nlohmann::json& value);

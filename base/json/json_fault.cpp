@@ -34,7 +34,7 @@ bool take_digits(std::string_view& text) {
   return count > 0;
 }
 
-bool take_one_of(std::string_view& text, std::string_view characters) {
+bool take_one(std::string_view& text, std::string_view characters) {
   if (text.empty() || characters.find(text.front()) == std::string_view::npos) return false;
   text.remove_prefix(1);
   return true;
@@ -42,11 +42,11 @@ bool take_one_of(std::string_view& text, std::string_view characters) {
 
 /// Whether the word is a number of JSON (RFC 8259, section 6).
 bool is_number(std::string_view word) {
-  take_one_of(word, "-");
-  if (!take_one_of(word, "0") && !take_digits(word)) return false;
-  if (take_one_of(word, ".") && !take_digits(word)) return false;
-  if (take_one_of(word, "eE")) {
-    take_one_of(word, "+-");
+  take_one(word, "-");
+  if (!take_one(word, "0") && !take_digits(word)) return false;
+  if (take_one(word, ".") && !take_digits(word)) return false;
+  if (take_one(word, "eE")) {
+    take_one(word, "+-");
     if (!take_digits(word)) return false;
   }
   return word.empty();
@@ -54,15 +54,15 @@ bool is_number(std::string_view word) {
 
 /// Whether the text after a backslash is an escape of JSON.
 bool is_escape(std::string_view text) {
-  if (!take_one_of(text, "u")) return take_one_of(text, "\"\\/bfnrt");
+  if (!take_one(text, "u")) return take_one(text, "\"\\/bfnrt");
   constexpr int kDigits = 4;
   for (int i = 0; i < kDigits; ++i) {
-    if (!take_one_of(text, "0123456789abcdefABCDEF")) return false;
+    if (!take_one(text, "0123456789abcdefABCDEF")) return false;
   }
   return true;
 }
 
-std::string beginning_of(std::string_view text, std::size_t count = kMaxShownCharacters) {
+std::string shorten(std::string_view text, std::size_t count = kMaxShownCharacters) {
   const std::string start = first_characters(text, count);
   if (!is_utf8(start)) return "bytes that are not UTF-8";
   return start.size() < text.size() ? start + "..." : start;
@@ -119,7 +119,7 @@ class FaultFinder {
       return false;
     }
     if (next_ == Next::end) {
-      fail(at_, "more text after the end of the value: " + beginning_of(line_from(at_)),
+      fail(at_, "more text after the end of the value: " + shorten(line_from(at_)),
            "one value, and nothing after it");
       return false;
     }
@@ -141,7 +141,7 @@ class FaultFinder {
       const Bracket& last = open_.back();
       fail(text_.size(),
            fmt::format("the end of the text, with the {} of {} still open", last.opened,
-                       position_of(text_, last.byte)),
+                       text_position(text_, last.byte)),
            fmt::format("{}", last.opened == '{' ? '}' : ']'));
     } else if (next_ != Next::end) {
       fail(text_.size(), "the end of the text", "a value");
@@ -154,7 +154,7 @@ class FaultFinder {
     if (c != wanted) {
       return fail(at_,
                   fmt::format("a {} that closes the {} of {}", c, open_.back().opened,
-                              position_of(text_, open_.back().byte)),
+                              text_position(text_, open_.back().byte)),
                   fmt::format("{}", wanted));
     }
     if (next_ == Next::key || (next_ == Next::value && c == ']')) {
@@ -194,8 +194,7 @@ class FaultFinder {
   }
 
   void no_colon() {
-    fail(value_end_, fmt::format("no colon after {}", beginning_of(last_text_)),
-         "a colon and a value");
+    fail(value_end_, fmt::format("no colon after {}", shorten(last_text_)), "a colon and a value");
   }
 
   /// A text, number, word or opening bracket.
@@ -207,11 +206,11 @@ class FaultFinder {
     if (c == '"') {
       read_text();
     } else if (c == '\'' || c == '`') {
-      fail(at_, "a text in other quotes: " + beginning_of(word_from(at_)), "double quotes: \"");
+      fail(at_, "a text in other quotes: " + shorten(word_from(at_)), "double quotes: \"");
     } else if (sees("\xe2\x80\x9c") || sees("\xe2\x80\x9d") || sees("\xe2\x80\x9e")) {
-      fail(at_, "typographic quotes: " + beginning_of(word_from(at_)), "plain double quotes: \"");
+      fail(at_, "typographic quotes: " + shorten(word_from(at_)), "plain double quotes: \"");
     } else if (wants_key()) {
-      fail(at_, fmt::format("{} where a field's name is due", beginning_of(word_from(at_))),
+      fail(at_, fmt::format("{} where a field's name is due", shorten(word_from(at_))),
            "a name in double quotes");
     } else if (c == '{' || c == '[') {
       open_.push_back({c, at_++});
@@ -237,7 +236,7 @@ class FaultFinder {
       ++at_;
     }
     if (is_at_end() || text_[at_] != '"') {
-      return fail(start, "a text without its closing quote: " + beginning_of(line_from(start)),
+      return fail(start, "a text without its closing quote: " + shorten(line_from(start)),
                   "a \" at its end");
     }
     ++at_;
@@ -260,7 +259,7 @@ class FaultFinder {
     }
     if (byte != '\\' || at_ + 1 >= text_.size()) return;
     if (!is_escape(text_.substr(at_ + 1))) {
-      return fail(at_, "the unknown escape " + beginning_of(text_.substr(at_, 2)),
+      return fail(at_, "the unknown escape " + shorten(text_.substr(at_, 2)),
                   R"(\\ for a backslash)");
     }
     ++at_;
@@ -273,7 +272,7 @@ class FaultFinder {
   void read_word() {
     const std::string_view word = word_from(at_);
     const bool is_value = word == "true" || word == "false" || word == "null" || is_number(word);
-    if (!is_value) return fail(at_, beginning_of(word), meant_by(word));
+    if (!is_value) return fail(at_, shorten(word), meant_by(word));
     at_ += word.size();
     after_value();
   }
@@ -331,7 +330,7 @@ std::string_view other_encoding(std::string_view text) {
 
 }  // namespace
 
-std::string position_of(std::string_view text, std::size_t byte) {
+std::string text_position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte, text.size()));
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 = 0: the first line
@@ -349,7 +348,7 @@ Problem json_fault(std::string_view text, std::string_view what) {
   }
   const std::optional<Fault> fault = FaultFinder(text).find();
   if (!fault) return {};
-  return {"", position_of(text, fault->byte), fault->found, fault->expected};
+  return {"", text_position(text, fault->byte), fault->found, fault->expected};
 }
 
 }  // namespace throng

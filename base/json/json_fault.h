@@ -14,6 +14,6 @@ namespace throng {
 Problem json_fault(std::string_view text, std::string_view what);
 
 /// "line 3, column 12" of a byte of the text; columns count characters.
-std::string position_of(std::string_view text, std::size_t byte);
+std::string text_position(std::string_view text, std::size_t byte);
 
 }  // namespace throng

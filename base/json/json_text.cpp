@@ -92,7 +92,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
       problem_ = Problem{"", pointer(), "the number " + shown(token),
                          "a number within the range of a double, 1.8e308"};
     } else {
-      problem_ = Problem{"", position_of(text_, position > 0 ? position - 1 : 0),
+      problem_ = Problem{"", text_position(text_, position > 0 ? position - 1 : 0),
                          "half of a character, a lone surrogate", "\\u escapes in pairs"};
     }
     return false;

@@ -21,11 +21,11 @@ namespace {
 /// valijson names a place ["<root>", "[drones]", "[0]"].
 using Context = std::vector<std::string>;
 
-std::string key_of(const std::string& step) { return step.substr(1, step.size() - 2); }
+std::string strip_brackets(const std::string& step) { return step.substr(1, step.size() - 2); }
 
 json::json_pointer pointer_to(const Context& context) {
   json::json_pointer pointer;
-  for (std::size_t i = 1; i < context.size(); ++i) pointer /= key_of(context[i]);
+  for (std::size_t i = 1; i < context.size(); ++i) pointer /= strip_brackets(context[i]);
   return pointer;
 }
 
@@ -37,7 +37,7 @@ class Rules {
   const json& at(const Context& context) const {
     const json* rules = &resolved(schema_);
     for (std::size_t i = 1; i < context.size(); ++i) {
-      const json* below = child(*rules, key_of(context[i]));
+      const json* below = child(*rules, strip_brackets(context[i]));
       if (below == nullptr) break;
       rules = below;
     }

@@ -36,7 +36,7 @@ const std::array<Entry, 6>& entries() {
   return all;
 }
 
-const JsonSchema& schema_of(Kind kind) {
+const JsonSchema& schema_for(Kind kind) {
   switch (kind) {
     case Kind::scenario:
       return compiled<Kind::scenario>();
@@ -56,7 +56,7 @@ const JsonSchema& schema_of(Kind kind) {
 
 void add_schema_problems(Kind kind, const nlohmann::json& document, const std::string& source,
                          std::vector<Problem>& problems) {
-  add_other_places(problems, schema_of(kind).problems(document, source));
+  add_other_places(problems, schema_for(kind).problems(document, source));
 }
 
 }  // namespace throng::schemas

@@ -22,7 +22,7 @@ struct Entry {
 const std::array<Entry, 6>& entries();
 
 /// The schema of a kind, compiled once.
-const JsonSchema& schema_of(Kind kind);
+const JsonSchema& schema_for(Kind kind);
 
 /// Adds to a reader's problems those places where `document` breaks its schema that the reader did
 /// not name.

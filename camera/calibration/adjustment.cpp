@@ -295,7 +295,7 @@ camera::Pose ViewPose::pose() const {
   return pose;
 }
 
-ViewPose view_pose_of(const camera::Pose& pose) {
+ViewPose to_view_pose(const camera::Pose& pose) {
   const Eigen::AngleAxisd turn(pose.R);
   return {turn.angle() * turn.axis(), pose.t};
 }

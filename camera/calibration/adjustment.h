@@ -21,7 +21,7 @@ struct ViewPose {
   Eigen::Vector3d to_camera(const Eigen::Vector3d& world) const;
   camera::Pose pose() const;
 };
-ViewPose view_pose_of(const camera::Pose& pose);
+ViewPose to_view_pose(const camera::Pose& pose);
 
 /// A point of the world and how well it is known.
 struct WorldPoint {

@@ -87,12 +87,12 @@ std::optional<cv::Size> size_of_any_chessboard(const cv::Mat& small) {
 std::variant<View, Problem> no_board(const std::string& name, const Board& board,
                                      std::string found) {
   return Problem{name, "", std::move(found),
-                 fmt::format("a {} of {} x {}{}", name_of(board.kind), board.columns, board.rows,
+                 fmt::format("a {} of {} x {}{}", to_string(board.kind), board.columns, board.rows,
                              board.kind == Board::Kind::chessboard ? " inner corners" : "")};
 }
 
-View view_of(const std::string& name, const std::vector<Eigen::Vector3d>& points,
-             const std::vector<cv::Point2f>& pixels) {
+View make_view(const std::string& name, const std::vector<Eigen::Vector3d>& points,
+               const std::vector<cv::Point2f>& pixels) {
   View view{name, points, {}};
   for (const cv::Point2f& p : pixels) view.pixels.emplace_back(p.x, p.y);
   return view;
@@ -133,7 +133,7 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
   // it.
   constexpr double kClearShare = 0.45;
   refine(image, kClearShare * smallest_spacing(corners, board.columns), corners);
-  return view_of(name, board_points(board), corners);
+  return make_view(name, board_points(board), corners);
 }
 
 std::variant<View, Problem> find_circles(const cv::Mat& image, const Board& board,
@@ -146,26 +146,26 @@ std::variant<View, Problem> find_circles(const cv::Mat& image, const Board& boar
                                 cv::CALIB_CB_ASYMMETRIC_GRID | cv::CALIB_CB_CLUSTERING);
   }
   if (!found) return no_board(name, board, "no such grid of circles");
-  return view_of(name, board_points(board), centers);
+  return make_view(name, board_points(board), centers);
 }
 
-cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
+cv::Ptr<cv::aruco::Dictionary> marker_dictionary(const Board& board) {
   const auto* found = std::find(kDictionaries.begin(), kDictionaries.end(), board.dictionary);
   check(found != kDictionaries.end(), "boards are checked before they are looked for");
   // OpenCV numbers them in the order of the list above.
   return cv::aruco::getPredefinedDictionary(static_cast<int>(found - kDictionaries.begin()));
 }
 
-double marker_of(const Board& board) {
+double marker_size_m(const Board& board) {
   constexpr double kUsual = 0.75;
   return board.marker > 0 ? board.marker : kUsual * board.square;
 }
 
 std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& board,
                                          const std::string& name) {
-  const auto pattern =
-      cv::aruco::CharucoBoard::create(board.columns, board.rows, static_cast<float>(board.square),
-                                      static_cast<float>(marker_of(board)), dictionary_of(board));
+  const auto pattern = cv::aruco::CharucoBoard::create(
+      board.columns, board.rows, static_cast<float>(board.square),
+      static_cast<float>(marker_size_m(board)), marker_dictionary(board));
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> ids;
   cv::aruco::detectMarkers(image, pattern->dictionary, markers, ids);
@@ -185,13 +185,13 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
     spacing = std::min<double>(
         spacing, std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y));
   }
-  refine(image, 0.5 * (1 - marker_of(board) / board.square) * spacing, corners);
+  refine(image, 0.5 * (1 - marker_size_m(board) / board.square) * spacing, corners);
   std::vector<Eigen::Vector3d> points;
   points.reserve(corner_ids.size());
   for (const int id : corner_ids) {
     points.push_back(board_points(board)[static_cast<std::size_t>(id)]);
   }
-  return view_of(name, points, corners);
+  return make_view(name, points, corners);
 }
 
 std::variant<View, Problem> view_in(const std::filesystem::path& file, const Board& board,
@@ -225,7 +225,7 @@ ImageSize most_frequent(const std::vector<ImageSize>& sizes) {
 
 }  // namespace
 
-std::string_view name_of(Board::Kind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
+std::string_view to_string(Board::Kind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
 
 Board::Kind board_kind_named(std::string_view name, const std::string& source) {
   const auto* found = std::find(kKinds.begin(), kKinds.end(), name);
@@ -258,7 +258,7 @@ void check_board(const Board& board, const std::string& source) {
   }
   constexpr int kMarkersOfFewest = 50;
   if (board.kind == Board::Kind::charuco) {
-    const int capacity = dictionary_of(board)->bytesList.rows;
+    const int capacity = marker_dictionary(board)->bytesList.rows;
     if (board.columns * board.rows / 2 > std::max(capacity, kMarkersOfFewest)) {
       refuse(fmt::format("{} markers", board.columns * board.rows / 2),
              fmt::format("a dictionary with as many; {} has {}", board.dictionary, capacity));

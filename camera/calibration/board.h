@@ -28,7 +28,7 @@ struct Board {
   std::string dictionary = "4X4_50";  ///< ChArUco: OpenCV's name without DICT_
 };
 
-std::string_view name_of(Board::Kind kind);
+std::string_view to_string(Board::Kind kind);
 /// Throws InputError naming `source` for any other word.
 Board::Kind board_kind_named(std::string_view name, const std::string& source);
 

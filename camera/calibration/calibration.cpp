@@ -70,7 +70,7 @@ std::size_t ViewResult::used() const {
 }
 
 camera::Intrinsics Calibration::intrinsics() const {
-  return intrinsics_of(lens, parameters, size.width, size.height);
+  return to_intrinsics(lens, parameters, size.width, size.height);
 }
 
 void take_results(const Adjustment& adjustment, const Fit& fit,

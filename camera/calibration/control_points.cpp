@@ -12,9 +12,9 @@ namespace throng::calibrate {
 namespace {
 
 /// The cells' numbers; problems for those that are none.
-std::vector<double> numbers_of(const std::filesystem::path& file, const TableRow& row,
-                               std::size_t first, std::size_t count,
-                               std::vector<Problem>& problems) {
+std::vector<double> parse_numbers(const std::filesystem::path& file, const TableRow& row,
+                                  std::size_t first, std::size_t count,
+                                  std::vector<Problem>& problems) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < first + count; ++i) {
     const std::optional<double> number = number_in(row.cells[i]);
@@ -36,7 +36,7 @@ ControlPoints read_control_points(const std::filesystem::path& file) {
   std::vector<Problem> problems;
   for (const TableRow& row : table.rows) {
     const std::size_t count = row.cells[kSdCell].empty() ? 3 : 4;  // without a deviation: exact
-    std::vector<double> n = numbers_of(file, row, 1, count, problems);
+    std::vector<double> n = parse_numbers(file, row, 1, count, problems);
     n.resize(kSdCell, 0);
     if (n[3] < 0) {
       problems.push_back({file.string(), fmt::format("line {}", row.line),
@@ -57,7 +57,7 @@ std::vector<NamedPixel> read_named_pixels(const std::filesystem::path& file) {
   std::vector<Problem> problems;
   std::set<std::pair<std::string, std::string>> seen;
   for (const TableRow& row : table.rows) {
-    const std::vector<double> n = numbers_of(file, row, 1, 2, problems);
+    const std::vector<double> n = parse_numbers(file, row, 1, 2, problems);
     const std::string& image = row.cells[3];
     pixels.push_back({image, row.cells[0], {n[0], n[1]}});
     if (!seen.emplace(image, row.cells[0]).second) {

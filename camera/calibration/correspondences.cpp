@@ -82,7 +82,7 @@ bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size) {
          pixel.y() > size.height - 1 + kSlackPx;
 }
 
-std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
+std::vector<Problem> list_problems(const View& view, const ImageSize& size) {
   const auto problem = [&](std::string found, std::string expected) {
     return std::vector<Problem>{{view.name, "", std::move(found), std::move(expected)}};
   };
@@ -110,7 +110,7 @@ void leave_out_bad_views(Correspondences& all) {
   check_image_size(all);
   std::vector<View> good;
   for (View& view : all.views) {
-    std::vector<Problem> problems = problems_of(view, all.size);
+    std::vector<Problem> problems = list_problems(view, all.size);
     if (problems.empty()) {
       good.push_back(std::move(view));
     } else {

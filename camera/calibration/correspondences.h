@@ -32,7 +32,7 @@ bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size);
 
 /// Errors of a view: too few points, more than a tenth of them outside the image, values that are
 /// not finite, points or pixels that occur twice, points in a line. Empty: nothing.
-std::vector<Problem> problems_of(const View& view, const ImageSize& size);
+std::vector<Problem> list_problems(const View& view, const ImageSize& size);
 
 /// Moves views that have problems to `left_out`. Throws InputError when a quarter of the views or
 /// more are of another image size: the size is wrong then, not these views.

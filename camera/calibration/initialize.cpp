@@ -45,7 +45,7 @@ Eigen::Matrix<double, 1, 6> constraint(const Matrix3d& h, int i, int j) {
   return v;
 }
 
-Vector2d center_of(const ImageSize& size) {
+Vector2d image_center(const ImageSize& size) {
   return {0.5 * (size.width - 1), 0.5 * (size.height - 1)};
 }
 
@@ -78,10 +78,10 @@ ViewPose pose_of_plane(const Matrix3d& h, const PlaneView& plane) {
   camera::Pose pose;
   pose.R = nearest * plane.axes.transpose();
   pose.t = scaled.col(2) - pose.R * plane.origin;
-  return view_pose_of(pose);
+  return to_view_pose(pose);
 }
 
-double misfit_of(const Correspondences& all, Lens lens, const Guess& guess) {
+double mean_misfit(const Correspondences& all, Lens lens, const Guess& guess) {
   // A point behind the camera counts as this many pixels.
   constexpr double kBehind = 1e6;
   double sum = 0;
@@ -102,9 +102,9 @@ double misfit_of(const Correspondences& all, Lens lens, const Guess& guess) {
 
 std::optional<Guess> guess_with(const Correspondences& all, Lens lens, const Rules& rules,
                                 Parameters parameters) {
-  keep_fixed(rules, center_of(all.size), parameters);
+  keep_fixed(rules, image_center(all.size), parameters);
   Guess guess{parameters, {}, 0};
-  const camera::Intrinsics k = intrinsics_of(lens, parameters, all.size.width, all.size.height);
+  const camera::Intrinsics k = to_intrinsics(lens, parameters, all.size.width, all.size.height);
   std::size_t found = 0;
   for (const View& view : all.views) {
     const std::optional<ViewPose> pose = guess_pose(view, k);
@@ -112,15 +112,15 @@ std::optional<Guess> guess_with(const Correspondences& all, Lens lens, const Rul
     guess.poses.push_back(pose ? *pose : any_pose(view));
   }
   if (2 * found <= all.views.size()) return std::nullopt;
-  guess.misfit = misfit_of(all, lens, guess);
+  guess.misfit = mean_misfit(all, lens, guess);
   return guess;
 }
 
 std::vector<Parameters> lens_candidates(const Correspondences& all, Lens lens, const Rules& rules) {
-  const Vector2d center = center_of(all.size);
+  const Vector2d center = image_center(all.size);
   std::vector<Matrix3d> planes;
   for (const View& view : all.views) {
-    const std::optional<PlaneView> plane = plane_of(view.points);
+    const std::optional<PlaneView> plane = fit_plane(view.points);
     if (!plane) continue;
     if (const auto h = homography(plane->points, view.pixels)) planes.push_back(*h);
   }
@@ -140,7 +140,7 @@ std::vector<Parameters> lens_candidates(const Correspondences& all, Lens lens, c
 
 }  // namespace
 
-std::optional<PlaneView> plane_of(const std::vector<Vector3d>& points) {
+std::optional<PlaneView> fit_plane(const std::vector<Vector3d>& points) {
   PlaneView plane;
   for (const Vector3d& p : points) plane.origin += p / static_cast<double>(points.size());
   MatrixXd all(3, points.size());
@@ -265,7 +265,7 @@ std::optional<ViewPose> guess_pose(const View& view, const camera::Intrinsics& l
     points.push_back(view.points[i]);
     directions.push_back(*direction);
   }
-  const std::optional<PlaneView> plane = points.empty() ? std::nullopt : plane_of(points);
+  const std::optional<PlaneView> plane = points.empty() ? std::nullopt : fit_plane(points);
   if (!plane) return pose_from_directions(points, directions);
   const std::optional<Matrix3d> h = homography(plane->points, directions);
   if (!h) return std::nullopt;

@@ -14,7 +14,7 @@ struct PlaneView {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the plane's x, y and normal
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
-std::optional<PlaneView> plane_of(const std::vector<Eigen::Vector3d>& points);
+std::optional<PlaneView> fit_plane(const std::vector<Eigen::Vector3d>& points);
 
 /// Maps plane to pixels (or directions): the normalized linear solution (Hartley and Zisserman
 /// 2004, alg. 4.2), its weights refined so that few outliers do not count. Nothing when degenerate.

@@ -36,7 +36,7 @@ void require_enough_views(const Correspondences& all, const Rules& rules,
   const std::vector<std::size_t> first = first_alike(all.views);
   for (std::size_t v = 0; v < all.views.size(); ++v) {
     if (first[v] != v) continue;
-    equations += plane_of(all.views[v].points) ? 2 : 5;
+    equations += fit_plane(all.views[v].points) ? 2 : 5;
     ++distinct;
   }
   if (distinct > 0 && equations >= unknowns) return;
@@ -70,8 +70,8 @@ void require_principal_point_inside(const Calibration& result, const Rules& rule
               "the images' own size (--size), and points that belong to their pixels"});
 }
 
-Adjustment adjustment_of(const Correspondences& all, Lens lens, const Rules& rules,
-                         const Guess& guess) {
+Adjustment adjust_intrinsics(const Correspondences& all, Lens lens, const Rules& rules,
+                             const Guess& guess) {
   Adjustment adjustment;
   adjustment.lens = lens;
   adjustment.rules = rules;
@@ -92,7 +92,7 @@ Solved solve_views(const Correspondences& all, Lens lens, const Rules& rules,
   const std::vector<Guess> starts = guesses(all, lens, rules);
   std::optional<Solved> best;
   for (std::size_t i = 0; i < std::min(starts.size(), kMaxGuesses); ++i) {
-    Solved tried{adjustment_of(all, lens, rules, starts[i]), {}};
+    Solved tried{adjust_intrinsics(all, lens, rules, starts[i]), {}};
     tried.fit = fit(tried.adjustment, options.fit);
     const auto worth = [](const Solved& s) {
       const double rejected =
@@ -166,8 +166,8 @@ Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
 
 Calibration calibrate_intrinsics(const Correspondences& all, const IntrinsicsOptions& options) {
   if (options.choose_lens) return calibrate_with_best_lens(all, options);
-  return calibrate_with(all, options.lens, rules_of(options.lens, options.wishes, options.source),
-                        options);
+  return calibrate_with(all, options.lens,
+                        calibration_rules(options.lens, options.wishes, options.source), options);
 }
 
 }  // namespace throng::calibrate

@@ -38,7 +38,7 @@ Wishes wishes_for(Lens lens, Wishes wishes) {
   return wishes;
 }
 
-ModelScore score_of(const Calibration& calibration) {
+ModelScore score_model(const Calibration& calibration) {
   constexpr std::size_t kUnknownsOfAPose = 6;
   ModelScore score{calibration.lens, 0, calibration.rms_px, 0};
   score.unknowns = calibration.places.size() + kUnknownsOfAPose * calibration.views.size();
@@ -73,7 +73,7 @@ Calibration calibrate_with_best_lens(const Correspondences& all, const Intrinsic
     try {
       const Calibration tried = calibrate(used, lens);
       const bool open = tried.covariance.size() == 0 && !tried.places.empty();
-      if (!open) scores.push_back(score_of(tried));
+      if (!open) scores.push_back(score_model(tried));
     } catch (const InputError&) {
       continue;  // this lens explains nothing of it
     }

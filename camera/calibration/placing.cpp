@@ -29,9 +29,9 @@ double median_miss(const std::vector<Sighting>& sightings, const camera::Camera&
   return *middle;
 }
 
-std::optional<ViewPose> pose_of(const std::vector<Sighting>& sightings,
-                                const std::vector<Vector2d>& directions,
-                                const std::vector<std::size_t>& chosen) {
+std::optional<ViewPose> estimate_pose(const std::vector<Sighting>& sightings,
+                                      const std::vector<Vector2d>& directions,
+                                      const std::vector<std::size_t>& chosen) {
   std::vector<Vector3d> points;
   std::vector<Vector2d> seen;
   for (const std::size_t i : chosen) {
@@ -75,14 +75,14 @@ std::optional<ViewPose> resect(const std::vector<Sighting>& all, const camera::I
     best = pose;
     min_miss = miss;
   };
-  consider(pose_of(sightings, directions, everything));
+  consider(estimate_pose(sightings, directions, everything));
   // With five of six right, 60 subsets of five miss an all-right one once in 10^13.
   constexpr std::size_t kSubset = 5;
   constexpr std::uint64_t kSubsets = 60;
   if (sightings.size() > kSubset) {
     for (std::uint64_t i = 0; i < kSubsets; ++i) {
       Random random(sightings.size(), Stream::bootstrap, i);
-      consider(pose_of(sightings, directions, draw(random, kSubset, sightings.size())));
+      consider(estimate_pose(sightings, directions, draw(random, kSubset, sightings.size())));
     }
   }
   return best;

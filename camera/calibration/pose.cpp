@@ -24,7 +24,7 @@ struct Images {
   std::map<std::string, std::vector<NamedPixel>> pixels;
 };
 
-Images images_of(const std::vector<NamedPixel>& pixels) {
+Images split_by_image(const std::vector<NamedPixel>& pixels) {
   Images images;
   for (const NamedPixel& seen : pixels) {
     auto& list = images.pixels[seen.image];
@@ -35,7 +35,7 @@ Images images_of(const std::vector<NamedPixel>& pixels) {
 }
 
 /// Middle of the control points: maps' coordinates of millions of meters lose digits.
-Vector3d middle_of(const ControlPoints& points) {
+Vector3d center_of_points(const ControlPoints& points) {
   Vector3d middle = Vector3d::Zero();
   for (const auto& [name, point] : points) {
     middle += point.position / static_cast<double>(points.size());
@@ -47,7 +47,7 @@ Vector3d middle_of(const ControlPoints& points) {
 class Bundle {
  public:
   Bundle(const CameraFile& camera, const ControlPoints& control_points, Images images)
-      : camera_(camera), images_(std::move(images)), middle_(middle_of(control_points)) {
+      : camera_(camera), images_(std::move(images)), middle_(center_of_points(control_points)) {
     for (const auto& [name, point] : control_points) {
       const Vector3d position = point.position - middle_;
       known_[name] = {position, point.sd_m, position};
@@ -212,7 +212,7 @@ Rules fixed_lens() {
 
 Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& control_points,
                            const std::vector<NamedPixel>& pixels, const PoseOptions& options) {
-  Bundle bundle(camera, control_points, images_of(pixels));
+  Bundle bundle(camera, control_points, split_by_image(pixels));
   bundle.place_images(kMinControlPoints);
   const std::vector<Problem> left_out =
       bundle.left_out(fmt::format("at least {} control points", kMinControlPoints));
@@ -224,7 +224,7 @@ Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& contro
 
 Calibration adjust_bundle(const CameraFile& start, const ControlPoints& control_points,
                           const std::vector<NamedPixel>& pixels, const BundleOptions& options) {
-  Bundle bundle(start, control_points, images_of(pixels));
+  Bundle bundle(start, control_points, split_by_image(pixels));
   // By control points first; then by what these images have fixed, which is less sure.
   constexpr std::size_t kMinOthers = 6;
   bool any = bundle.place_images(kMinControlPoints);
@@ -236,8 +236,9 @@ Calibration adjust_bundle(const CameraFile& start, const ControlPoints& control_
       "{} control points, or {} points that other images fix", kMinControlPoints, kMinOthers));
   require_control_points(bundle, options.source, left_out);
   Adjustment adjustment = bundle.adjustment();
-  adjustment.rules =
-      options.fix_lens ? fixed_lens() : rules_of(start.lens, options.wishes, options.source);
+  adjustment.rules = options.fix_lens
+                         ? fixed_lens()
+                         : calibration_rules(start.lens, options.wishes, options.source);
   for (std::size_t i = 0; i < kParameters && !options.fix_lens; ++i) {
     const auto wish = options.wishes.fixed.find(parameter_name(start.lens, i));
     if (wish != options.wishes.fixed.end() && wish->second)

@@ -27,7 +27,7 @@ namespace {
 constexpr std::array kRequestKinds = {"intrinsics", "pose", "bundle"};
 
 using fields::at;
-using fields::FieldPlace;
+using fields::FieldLocation;
 using fields::FieldTable;
 using fields::raw;
 
@@ -38,7 +38,7 @@ struct ReadRequest {
 };
 
 /// A file of the request, which must be one of those that came with it.
-fs::path file_of(const json& value, const fs::path& folder, const FieldPlace& place) {
+fs::path resolve_path(const json& value, const fs::path& folder, const FieldLocation& place) {
   if (value.is_string()) {
     const fs::path name = value.get<std::string>();
     const bool plain = name == name.filename() && !name.empty() && name != "." && name != "..";
@@ -51,7 +51,7 @@ fs::path file_of(const json& value, const fs::path& folder, const FieldPlace& pl
 
 /// Runs a reader that throws; its problems are the field's.
 template <typename Read>
-void collect(const FieldPlace& place, const Read& read) {
+void collect(const FieldLocation& place, const Read& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -66,15 +66,15 @@ fields::Values number_from_0() { return raw({{"type", "number"}, {"minimum", 0}}
 
 void add_file(FieldTable<ReadRequest>& table, const char* path, fs::path Request::*member) {
   table.add_read(path, text(),
-                 [member](ReadRequest& read, const json& value, const FieldPlace& place) {
-                   read.request.*member = file_of(value, read.folder, place);
+                 [member](ReadRequest& read, const json& value, const FieldLocation& place) {
+                   read.request.*member = resolve_path(value, read.folder, place);
                  });
 }
 
 FieldTable<Board> make_board_fields() {
   FieldTable<Board> table;
-  table.add_read("kind", fields::one_of(std::array{"chessboard", "charuco", "circles"}),
-                 [](Board& board, const json& value, const FieldPlace& place) {
+  table.add_read("kind", fields::one_of_words(std::array{"chessboard", "charuco", "circles"}),
+                 [](Board& board, const json& value, const FieldLocation& place) {
                    board.kind = board_kind_named(value.get<std::string>(), place.pointer);
                  });
   table.add("columns", "", "", fields::integers(3, 100), at(&Board::columns), "");
@@ -85,7 +85,7 @@ FieldTable<Board> make_board_fields() {
   return table;
 }
 
-void set_board(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_board(ReadRequest& read, const json& value, const FieldLocation& place) {
   static const FieldTable<Board> table = make_board_fields();
   const std::size_t before = place.problems.size();
   table.read_checked(value, read.request.board, place);
@@ -93,15 +93,16 @@ void set_board(ReadRequest& read, const json& value, const FieldPlace& place) {
   collect(place, [&] { check_board(read.request.board, place.pointer); });
 }
 
-void set_images(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_images(ReadRequest& read, const json& value, const FieldLocation& place) {
   for (std::size_t i = 0; i < value.size(); ++i) {
-    read.request.images.push_back(file_of(value[i], read.folder, place.below(std::to_string(i))));
+    read.request.images.push_back(
+        resolve_path(value[i], read.folder, place.below(std::to_string(i))));
   }
 }
 
 Wishes& wishes_in(ReadRequest& read) { return read.request.options.wishes; }
 
-void set_fixed(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_fixed(ReadRequest& read, const json& value, const FieldLocation& place) {
   for (const auto& [name, fixed] : value.items()) {
     if (fixed.is_null() || fixed.is_number()) {
       wishes_in(read).fixed[name] =
@@ -113,7 +114,7 @@ void set_fixed(ReadRequest& read, const json& value, const FieldPlace& place) {
   }
 }
 
-void set_ties(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_ties(ReadRequest& read, const json& value, const FieldLocation& place) {
   static const FieldTable<Tie> table = [] {
     FieldTable<Tie> fields;
     fields.add("to", "", "", text(), at(&Tie::to), "").required();
@@ -125,7 +126,7 @@ void set_ties(ReadRequest& read, const json& value, const FieldPlace& place) {
   }
 }
 
-void set_priors(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_priors(ReadRequest& read, const json& value, const FieldLocation& place) {
   static const FieldTable<Prior> table = [] {
     FieldTable<Prior> fields;
     fields.add("mean", "", "", number(), at(&Prior::mean), "").required();
@@ -137,7 +138,7 @@ void set_priors(ReadRequest& read, const json& value, const FieldPlace& place) {
   }
 }
 
-void set_lens(ReadRequest& read, const json& value, const FieldPlace& place) {
+void set_lens(ReadRequest& read, const json& value, const FieldLocation& place) {
   IntrinsicsOptions& options = read.request.options;
   options.choose_lens = value == "auto";
   if (options.choose_lens) return;
@@ -145,8 +146,8 @@ void set_lens(ReadRequest& read, const json& value, const FieldPlace& place) {
 }
 
 void add_inputs(FieldTable<ReadRequest>& table) {
-  table.add_read("name", text(), [](ReadRequest&, const json&, const FieldPlace&) {});
-  table.add("kind", "", "", fields::one_of(kRequestKinds),
+  table.add_read("name", text(), [](ReadRequest&, const json&, const FieldLocation&) {});
+  table.add("kind", "", "", fields::one_of_words(kRequestKinds),
             at(&ReadRequest::request, &Request::kind), "");
   table.add_read("images", raw({{"type", "array"}}, "a list of files"), set_images);
   table.add_read("board", raw({{"type", "object"}}, "an object: kind, columns, rows, square"),
@@ -155,10 +156,12 @@ void add_inputs(FieldTable<ReadRequest>& table) {
   add_file(table, "observations", &Request::observations);
   add_file(table, "gcp", &Request::control_points);
   add_file(table, "camera", &Request::camera);
-  table.add_read("size", text(), [](ReadRequest& read, const json& value, const FieldPlace& place) {
-    collect(place,
-            [&] { read.request.size = image_size_of(value.get<std::string>(), place.pointer); });
-  });
+  table.add_read("size", text(),
+                 [](ReadRequest& read, const json& value, const FieldLocation& place) {
+                   collect(place, [&] {
+                     read.request.size = parse_image_size(value.get<std::string>(), place.pointer);
+                   });
+                 });
 }
 
 void add_options(FieldTable<ReadRequest>& table) {
@@ -167,8 +170,8 @@ void add_options(FieldTable<ReadRequest>& table) {
     return at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::fit, member);
   };
   std::vector<std::string> lenses{"auto"};
-  for (const Lens lens : kLenses) lenses.emplace_back(name_of(lens));
-  table.add_read("lens", fields::one_of(lenses), set_lens);
+  for (const Lens lens : kLenses) lenses.emplace_back(to_string(lens));
+  table.add_read("lens", fields::one_of_words(lenses), set_lens);
   table.add("fix_lens", "", "", fields::booleans(), at(&ReadRequest::request, &Request::fix_lens),
             "");
   table.add("skew", "", "", fields::booleans(),

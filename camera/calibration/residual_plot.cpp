@@ -36,7 +36,7 @@ constexpr Color kAxis{{204, 204, 204}};
 constexpr Color kOutlier{{255, 0, 0}};
 
 /// A color per view, around the circle of hues.
-Color color_of(std::size_t view, std::size_t views) {
+Color view_color(std::size_t view, std::size_t views) {
   constexpr double kCircleDeg = 360;
   return drawing::from_hsl(kCircleDeg * static_cast<double>(view) / static_cast<double>(views),
                            0.65, 0.42);
@@ -106,7 +106,7 @@ void draw_image(const Calibration& calibration, Panel panel) {
   }
   constexpr double kOutlierPx = 5;
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
-    const Color color = point.used ? color_of(view, calibration.views.size()) : kOutlier;
+    const Color color = point.used ? view_color(view, calibration.views.size()) : kOutlier;
     const Vector2d at = scale * (point.pixel + Vector2d(0.5, 0.5));
     panel.circle(at, point.used ? kDotPx : kOutlierPx, color);
     if (!point.used || !point.residual.allFinite()) return;
@@ -129,7 +129,7 @@ void draw_scatter(const Calibration& calibration, Panel panel) {
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
     if (!point.used) return;
     panel.circle(center + kHalf / reach_px * point.residual, kDotPx,
-                 color_of(view, calibration.views.size()));
+                 view_color(view, calibration.views.size()));
   });
   panel.text({4, kSide - 6}, fmt::format("residuals up to {:.2f} px; circle: RMS", reach_px));
 }
@@ -148,7 +148,7 @@ void draw_bars(const Calibration& calibration, Panel panel) {
     panel.text({0, y + kBarHeight - 4}, name.substr(0, kMaxNameLength), kSmallTextPx);
     panel.rectangle({kLabelPx, y + 2},
                     {(kSide - kLabelPx - kGap) * view.rms_px / max_px, kBarHeight - 4},
-                    color_of(i, calibration.views.size()));
+                    view_color(i, calibration.views.size()));
     panel.text({kSide - kGap + 4, y + kBarHeight - 4}, fmt::format("{:.3f}", view.rms_px),
                kSmallTextPx);
   }
@@ -172,7 +172,7 @@ Drawing residual_plot(const Calibration& calibration) {
             fmt::format("{}: {} views, {} points, {} outliers; RMS {:.4f} px; points in {:.0f} % "
                         "of the image (gray: none); residuals x {:.0f}",
                         calibration.kind, calibration.views.size(), calibration.points,
-                        calibration.rejected, calibration.rms_px, 100 * coverage_of(calibration),
+                        calibration.rejected, calibration.rms_px, 100 * image_coverage(calibration),
                         kResidualScale),
             kTitlePx);
   draw_image(calibration, Panel(drawing, {kGap, kTop}));

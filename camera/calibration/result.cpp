@@ -22,7 +22,7 @@ namespace {
 json known(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 template <typename Vector>
-json list_of(const Vector& vector) {
+json vector_json(const Vector& vector) {
   json list = json::array();
   for (Eigen::Index i = 0; i < vector.size(); ++i) list.push_back(known(vector[i]));
   return list;
@@ -36,7 +36,7 @@ json covariance_json(const Calibration& calibration) {
   }
   json rows = json::array();
   for (Eigen::Index i = 0; i < calibration.covariance.rows(); ++i) {
-    rows.push_back(list_of(Eigen::VectorXd(calibration.covariance.row(i))));
+    rows.push_back(vector_json(Eigen::VectorXd(calibration.covariance.row(i))));
   }
   return {{"parameters", std::move(names)}, {"matrix", std::move(rows)}};
 }
@@ -45,18 +45,18 @@ json view_json(const ViewResult& view) {
   json outliers = json::array();
   for (const PointResult& point : view.points) {
     if (!point.used) {
-      outliers.push_back({{"point", list_of(point.point)},
-                          {"pixel", list_of(point.pixel)},
-                          {"residual_px", list_of(point.residual)}});
+      outliers.push_back({{"point", vector_json(point.point)},
+                          {"pixel", vector_json(point.pixel)},
+                          {"residual_px", vector_json(point.residual)}});
     }
   }
   return {{"image", view.name},
           {"points", view.used()},
           {"rms_px", known(view.rms_px)},
-          {"rotation_vector", list_of(view.pose.rotation)},
-          {"translation", list_of(view.pose.translation)},
-          {"camera_centre", list_of(view.pose.pose().center())},
-          {"pose_std", list_of(view.pose_sd)},
+          {"rotation_vector", vector_json(view.pose.rotation)},
+          {"translation", vector_json(view.pose.translation)},
+          {"camera_centre", vector_json(view.pose.pose().center())},
+          {"pose_std", vector_json(view.pose_sd)},
           {"outliers", std::move(outliers)}};
 }
 
@@ -83,7 +83,7 @@ json points_json(const Correspondences& found) {
   for (const View& view : found.views) {
     json points = json::array();
     for (const Eigen::Vector2d& pixel : view.pixels) {
-      points.push_back({{"pixel", list_of(pixel)}, {"residual_px", nullptr}, {"used", true}});
+      points.push_back({{"pixel", vector_json(pixel)}, {"residual_px", nullptr}, {"used", true}});
     }
     views.push_back({{"image", view.name}, {"points", std::move(points)}});
   }
@@ -95,8 +95,8 @@ json points_json(const Calibration& calibration) {
   for (const ViewResult& view : calibration.views) {
     json points = json::array();
     for (const PointResult& point : view.points) {
-      points.push_back({{"pixel", list_of(point.pixel)},
-                        {"residual_px", list_of(point.residual)},
+      points.push_back({{"pixel", vector_json(point.pixel)},
+                        {"residual_px", vector_json(point.residual)},
                         {"used", point.used}});
     }
     views.push_back({{"image", view.name}, {"points", std::move(points)}});
@@ -111,7 +111,7 @@ json to_json(const Calibration& calibration) {
   value["sigma_px"] = known(calibration.sigma_px);
   value["points"] = calibration.points;
   value["outliers"] = calibration.rejected;
-  value["coverage"] = coverage_of(calibration);
+  value["coverage"] = image_coverage(calibration);
   value["iterations"] = calibration.iterations;
   value["converged"] = calibration.converged;
   value["std"] = json::object();
@@ -125,7 +125,7 @@ json to_json(const Calibration& calibration) {
   value["left_out"] = json(calibration.left_out);
   value["warnings"] = calibration.warnings;
   for (const ModelScore& score : calibration.models) {
-    value["models"].push_back({{"lens", name_of(score.lens)},
+    value["models"].push_back({{"lens", to_string(score.lens)},
                                {"unknowns", score.unknowns},
                                {"rms_px", score.rms_px},
                                {"bic", score.bic}});
@@ -163,7 +163,7 @@ std::string summary(const Calibration& calibration) {
       counted(static_cast<std::int64_t>(calibration.views.size()), "view"),
       counted(static_cast<std::int64_t>(calibration.points), "point"),
       counted(static_cast<std::int64_t>(calibration.rejected), "outlier"), calibration.rms_px,
-      calibration.size.width, calibration.size.height, name_of(calibration.lens));
+      calibration.size.width, calibration.size.height, to_string(calibration.lens));
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(calibration.lens, i);
     if (name.empty() || (calibration.sd.at(i) == 0 && calibration.parameters.at(i) == 0)) continue;
@@ -179,7 +179,7 @@ std::string summary(const Calibration& calibration) {
     text += fmt::format("    camera at {:.4f} {:.4f} {:.4f}\n", at.x(), at.y(), at.z());
   }
   for (const ModelScore& score : calibration.models) {
-    text += fmt::format("  model {:<8} BIC {:12.1f}  RMS {:.4f} px\n", name_of(score.lens),
+    text += fmt::format("  model {:<8} BIC {:12.1f}  RMS {:.4f} px\n", to_string(score.lens),
                         score.bic, score.rms_px);
   }
   for (const Problem& problem : calibration.left_out) {

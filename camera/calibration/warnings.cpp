@@ -30,7 +30,7 @@ std::optional<double> spread_of_tilts(const Calibration& calibration) {
     std::vector<Eigen::Vector3d> points;
     points.reserve(view.points.size());
     for (const PointResult& point : view.points) points.push_back(point.point);
-    const std::optional<PlaneView> plane = plane_of(points);
+    const std::optional<PlaneView> plane = fit_plane(points);
     if (!plane) return std::nullopt;
     normals.emplace_back(view.pose.pose().R * plane->axes.col(2));
   }
@@ -63,7 +63,7 @@ void warn_of_views(const Rules& rules, Calibration& calibration) {
              *tilts * (1 / kDegree)));
   }
   constexpr double kThin = 0.4;
-  const double coverage = coverage_of(calibration);
+  const double coverage = image_coverage(calibration);
   if (coverage < kThin) {
     warn(calibration, fmt::format("points cover {:.0f} % of the image: outside of them the lens is "
                                   "extrapolated; show the board near borders and corners, too",
@@ -197,7 +197,7 @@ Coverage covered_cells(const Calibration& calibration) {
   return covered;
 }
 
-double coverage_of(const Calibration& calibration) {
+double image_coverage(const Calibration& calibration) {
   const Coverage covered = covered_cells(calibration);
   return static_cast<double>(std::count(covered.begin(), covered.end(), true)) /
          static_cast<double>(covered.size());
@@ -234,7 +234,7 @@ void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_poin
     warn(calibration, "the control points are nearly in a line: turning about it is barely fixed");
   }
   constexpr double kThin = 0.15;
-  if (coverage_of(calibration) < kThin && count >= kEnoughControlPoints) {
+  if (image_coverage(calibration) < kThin && count >= kEnoughControlPoints) {
     warn(calibration, "the control points are in a small part of the image");
   }
   if (!fit.derivatives.poses_determined) {

@@ -29,6 +29,6 @@ using Coverage = std::array<bool, kCoverageColumns * kCoverageRows>;
 Coverage covered_cells(const Calibration& calibration);
 
 /// Share of these cells that hold one.
-double coverage_of(const Calibration& calibration);
+double image_coverage(const Calibration& calibration);
 
 }  // namespace throng::calibrate

@@ -40,7 +40,7 @@ struct CalibrateArguments {
   std::string plot;
 };
 
-double number_of(const std::string& text, const std::string& source, const std::string& whole) {
+double parse_number(const std::string& text, const std::string& source, const std::string& whole) {
   try {
     std::size_t end = 0;
     const double value = std::stod(text, &end);
@@ -58,22 +58,22 @@ std::pair<std::string, std::string> split(const std::string& text, char sign) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-calibrate::Wishes wishes_of(const CalibrateArguments& arguments) {
+calibrate::Wishes read_wishes(const CalibrateArguments& arguments) {
   calibrate::Wishes wishes = arguments.request.options.wishes;
   for (const std::string& text : arguments.fixed) {
     const auto [name, value] = split(text, '=');
     wishes.fixed[name] =
-        value.empty() ? std::nullopt : std::optional(number_of(value, "--fix", text));
+        value.empty() ? std::nullopt : std::optional(parse_number(value, "--fix", text));
   }
   for (const std::string& text : arguments.tied) {
     const auto [name, rest] = split(text, '=');
     const auto [to, ratio] = split(rest, '*');
-    wishes.tied[name] = {to, ratio.empty() ? 1 : number_of(ratio, "--tie", text)};
+    wishes.tied[name] = {to, ratio.empty() ? 1 : parse_number(ratio, "--tie", text)};
   }
   for (const std::string& text : arguments.priors) {
     const auto [name, rest] = split(text, '=');
     const auto [mean, sd] = split(rest, ':');
-    wishes.priors[name] = {number_of(mean, "--prior", text), number_of(sd, "--prior", text)};
+    wishes.priors[name] = {parse_number(mean, "--prior", text), parse_number(sd, "--prior", text)};
   }
   return wishes;
 }
@@ -120,13 +120,13 @@ void run(CalibrateArguments& arguments, const std::string& kind) {
   request.board.kind = calibrate::board_kind_named(arguments.board, "--board");
   calibrate::check_board(request.board, "--board");
   if (!arguments.size.empty()) {
-    request.size = calibrate::image_size_of(arguments.size, "--size");
+    request.size = calibrate::parse_image_size(arguments.size, "--size");
   }
   request.options.choose_lens = arguments.lens == "auto";
   if (!request.options.choose_lens) {
     request.options.lens = calibrate::lens_named(arguments.lens, "--lens");
   }
-  request.options.wishes = wishes_of(arguments);
+  request.options.wishes = read_wishes(arguments);
   request.options.fit.reject = !arguments.keep_outliers;
   if (arguments.sigma_px > 0) request.options.fit.sigma_px = arguments.sigma_px;
   check_outputs(arguments);

@@ -75,7 +75,7 @@ class WorkFolder {
   fs::path path_;
 };
 
-images::GrayImage gray_of(const render::Frame& frame) {
+images::GrayImage to_gray(const render::Frame& frame) {
   images::GrayImage image{frame.width(), frame.camera.intrinsics.height, {}};
   constexpr double kRed = 0.299;  // as cameras' JPEG files weigh them
   constexpr double kGreen = 0.587;
@@ -141,7 +141,7 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
     const camera::Camera camera{truth.intrinsics(), poses[i]};
     const render::Frame frame = lens.draw({}, camera);
     const std::string name = fmt::format("view{:02}", i);
-    const images::GrayImage gray = gray_of(frame);
+    const images::GrayImage gray = to_gray(frame);
     if (!arguments.images.empty()) {
       write_file_atomically(fs::path(arguments.images) / (name + ".png"),
                             annotate::png_bytes({gray.width, gray.height, 1}, gray.pixels));

@@ -39,11 +39,11 @@ struct SheetArguments {
   int width_px = 2400;
 };
 
-std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
+std::string lower_extension(const fs::path& file) { return lower_case(file.extension().string()); }
 
 // All input is checked before anything is rendered.
 void check_arguments(const SheetArguments& arguments) {
-  const std::string extension = extension_of(arguments.output);
+  const std::string extension = lower_extension(arguments.output);
   if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") {
     throw InputError({arguments.output, "people sheet: --output",
                       extension.empty() ? "no extension" : extension, ".png, .jpg or .jpeg"});
@@ -77,8 +77,8 @@ std::uint32_t find(const skinning::Population& population, const std::string& na
   return static_cast<std::uint32_t>(found - population.characters.begin());
 }
 
-annotate::SheetOptions options_of(const SheetArguments& arguments,
-                                  const skinning::Population& population) {
+annotate::SheetOptions read_options(const SheetArguments& arguments,
+                                    const skinning::Population& population) {
   annotate::SheetOptions options;
   options.seed = arguments.seed;
   options.width_px = arguments.width_px;
@@ -117,12 +117,12 @@ void draw(const SheetArguments& arguments) {
   ProgressBar bar("drawing the sheet");
   const skinning::Population population = skinning::load_population(arguments.folder);
   const annotate::Sheet sheet = annotate::draw_people_sheet(
-      population, options_of(arguments, population), [&](double share, std::string_view what) {
+      population, read_options(arguments, population), [&](double share, std::string_view what) {
         if (interrupt.token().stop_requested()) throw Cancelled();
         bar.show(share, what);
       });
   if (interrupt.token().stop_requested()) throw Cancelled();
-  write_file_atomically(arguments.output, sheet_encoded(sheet, extension_of(arguments.output)));
+  write_file_atomically(arguments.output, sheet_encoded(sheet, lower_extension(arguments.output)));
   bar.show(1, fmt::format("{} x {} pixels", sheet.width, sheet.height));
 }
 

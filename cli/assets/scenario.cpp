@@ -26,14 +26,14 @@
 #include "cli/shell/trace_file.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
-#include "places/blueprint/blueprint.h"
-#include "places/blueprint/generate.h"
-#include "places/blueprint/generated.h"
-#include "places/check/check.h"
-#include "places/plan/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
 #include "world/drone_path.h"
+#include "world/scenarios/blueprint/blueprint.h"
+#include "world/scenarios/blueprint/generate.h"
+#include "world/scenarios/blueprint/generated.h"
+#include "world/scenarios/check/check.h"
+#include "world/scenarios/plan/plan.h"
 
 namespace throng::cli {
 
@@ -60,11 +60,11 @@ void add_scenario_check(CLI::App& scenario) {
   const auto name = std::make_shared<std::string>();
   command->add_option("scenario", *name, "FILE.json, a folder or an id")->required();
   command->callback([name] {
-    const std::vector<places::Finding> findings = places::check_files(scenario_path(*name));
+    const std::vector<scenarios::Finding> findings = scenarios::check_files(scenario_path(*name));
     std::size_t errors = 0;
-    for (const places::Finding& finding : findings) {
+    for (const scenarios::Finding& finding : findings) {
       fmt::print("{}\n", finding.text());
-      if (finding.severity == places::Severity::error) ++errors;
+      if (finding.severity == scenarios::Severity::error) ++errors;
     }
     fmt::print("{}, {}\n", counted(errors, "error"), counted(findings.size() - errors, "warning"));
     if (errors > 0) throw CLI::RuntimeError(exit_input);
@@ -91,13 +91,14 @@ void draw_plan(const PlanArguments& arguments) {
   std::optional<world::Scenario> scenario;
   if (is_job(arguments.name)) {
     const jobs::JobSpec job = jobs::in_scenario_of_run(read_job_file(arguments.name).spec(), 0);
-    scenario = jobs::scenario_of(job, world::scenarios_folder());
+    scenario = jobs::load_job_scenario(job, world::scenarios_folder());
     paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
   } else {
     scenario = scenario_named(arguments.name);
   }
   if (!arguments.trace.empty()) paths = world::flown_paths(read_trace_file(arguments.trace));
-  drawing::write_drawing(places::draw_plan(*scenario, arguments.size_px, paths), arguments.output);
+  drawing::write_drawing(scenarios::draw_plan(*scenario, arguments.size_px, paths),
+                         arguments.output);
 }
 
 void add_plan(CLI::App& scenario) {
@@ -118,12 +119,12 @@ void add_make(CLI::App& scenario) {
       "make", "Make a scenario's files, including its Menge files, from a blueprint");
   const auto file = std::make_shared<fs::path>();
   const auto folder = std::make_shared<fs::path>(".");
-  command->add_option("blueprint", *file, "ID.place.json (docs/blueprint.md)")->required();
+  command->add_option("blueprint", *file, "ID.blueprint.json (docs/blueprint.md)")->required();
   command->add_option("-o,--output", *folder, "Folder for ID.json and its Menge files");
   command->callback([file, folder] {
     require_kind(DocumentKind::blueprint, read_input_file(*file, "a blueprint"), *file);
     const std::string id = world::id_from_file(*file);
-    const fs::path made = places::make_scenario(*file, *folder, id);
+    const fs::path made = scenarios::make_scenario(*file, *folder, id);
     fmt::print("{}\n", made.string());
   });
 }
@@ -154,15 +155,15 @@ void generate(const GenerateArguments& arguments) {
     spec["kind"] = arguments.kind;
     spec["seed"] = arguments.seed + i;
     std::vector<Problem> problems;
-    const places::PlaceSpec place = places::read_place_spec(spec, "", problems);
+    const scenarios::GeneratorSpec place = scenarios::read_generator_spec(spec, "", problems);
     if (!problems.empty()) refuse(arguments, std::move(problems));
-    const std::string id = places::id_of(place);
+    const std::string id = scenarios::generated_name(place);
     try {
       const fs::path made =
-          places::make_scenario(places::generate_place(place), id, arguments.folder, id);
+          scenarios::make_scenario(scenarios::generate_blueprint(place), id, arguments.folder, id);
       fmt::print("{}\n", made.string());
     } catch (const InputError& error) {
-      refuse(arguments, places::problems_of_spec(error.problems()));
+      refuse(arguments, scenarios::problems_of_spec(error.problems()));
     }
   }
 }

@@ -20,7 +20,7 @@ namespace throng::cli {
 namespace {
 
 /// The words that give a command what it was given; values that begin with a dash stay values.
-std::vector<std::string> words_of(const CLI::App& command) {
+std::vector<std::string> import_arguments(const CLI::App& command) {
   std::vector<std::string> words;
   std::vector<std::string> positional{"--"};
   for (const CLI::Option* option : command.get_options()) {
@@ -39,7 +39,7 @@ std::vector<std::string> words_of(const CLI::App& command) {
 void start_import(const CLI::App& command) {
   std::filesystem::path program =
       program_path().parent_path().parent_path() / "libexec/throng/throng-import";
-  std::vector<std::string> words = words_of(command);
+  std::vector<std::string> words = import_arguments(command);
   words.insert(words.begin(), program.string());
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);

@@ -115,7 +115,7 @@ void run(const CrowdArguments& arguments) {
                                             : static_cast<int>(std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(std::max(threads, 1)));
-  const crowd::Project project = project_of(arguments);
+  const crowd::Project project = load_project(arguments);
   for (const auto& [option, output] : {std::pair{"--output", with_suffix(project.output).string()},
                                        std::pair{"--series", arguments.series_file},
                                        std::pair{"--positions", arguments.positions_file}}) {

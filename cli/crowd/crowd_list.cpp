@@ -14,12 +14,12 @@ using crowd::VocabularyKind;
 
 namespace {
 
-std::string default_of(const VocabularyAttribute& attribute) {
+std::string describe_default(const VocabularyAttribute& attribute) {
   return attribute.required ? "required" : attribute.default_text;
 }
 
 /// "number, 0 to 100"
-std::string values_of(const VocabularyAttribute& attribute) {
+std::string describe_values(const VocabularyAttribute& attribute) {
   return attribute.range.empty() ? attribute.type
                                  : fmt::format("{}, {}", attribute.type, attribute.range);
 }
@@ -31,10 +31,10 @@ std::string as_text() {
     for (const VocabularyEntry& entry : kind.entries) {
       out += fmt::format("  {:<22} {}\n", entry.name, entry.help);
       for (const VocabularyAttribute& attribute : entry.attributes) {
-        const std::string fallback = default_of(attribute);
+        const std::string fallback = describe_default(attribute);
         out += fmt::format("    {:<20} {}{} ({})\n", attribute.name, attribute.help,
                            fallback.empty() ? "" : fmt::format(" [{}]", fallback),
-                           values_of(attribute));
+                           describe_values(attribute));
       }
     }
     out += "\n";
@@ -69,7 +69,7 @@ std::string as_markdown() {
       for (const VocabularyAttribute& attribute : entry.attributes) {
         const std::string fallback = attribute.required ? "required" : code(attribute.default_text);
         out += fmt::format("|  | {} | {} | {} | {} |\n", code(attribute.name),
-                           cell(values_of(attribute)), fallback, cell(attribute.help));
+                           cell(describe_values(attribute)), fallback, cell(attribute.help));
       }
     }
   }

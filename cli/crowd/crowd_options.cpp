@@ -89,13 +89,13 @@ void add_crowd_options(CLI::App& command, CrowdArguments& arguments) {
   add_ignored_options(command, arguments);
 }
 
-crowd::Project project_of(const CrowdArguments& arguments) {
+crowd::Project load_project(const CrowdArguments& arguments) {
   crowd::Project project;
   if (!arguments.project_file.empty()) project = crowd::load_project(arguments.project_file);
   if (!arguments.scene_file.empty()) project.scene_file = arguments.scene_file;
   if (!arguments.behavior_file.empty()) project.behavior_file = arguments.behavior_file;
   if (!arguments.model.empty()) project.options.model = arguments.model;
-  if (!arguments.compat.empty()) project.options.compat = crowd::compat_of(arguments.compat);
+  if (!arguments.compat.empty()) project.options.compat = crowd::parse_compat(arguments.compat);
   if (!arguments.separation.empty()) {
     project.options.hard_separation = crowd::is_hard(arguments.separation);
   }

@@ -39,6 +39,6 @@ struct CrowdArguments {
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments);
 
 /// The project with the command line's changes. Throws InputError.
-crowd::Project project_of(const CrowdArguments& arguments);
+crowd::Project load_project(const CrowdArguments& arguments);
 
 }  // namespace throng::cli

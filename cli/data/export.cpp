@@ -36,7 +36,8 @@ struct ExportArguments {
 };
 
 /// "left=right" as its two sides.
-std::pair<std::string, std::string> sides_of(const std::string& text, const std::string& option) {
+std::pair<std::string, std::string> split_assignment(const std::string& text,
+                                                     const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError({"", option, text, "NAME=VALUE"});
@@ -45,11 +46,11 @@ std::pair<std::string, std::string> sides_of(const std::string& text, const std:
 }
 
 /// train=0.8, val=0.2 or val=run003: shares or runs.
-formats::SplitOptions splits_of(const std::vector<std::string>& words) {
+formats::SplitOptions read_splits(const std::vector<std::string>& words) {
   formats::SplitOptions splits;
   bool has_train = false;
   for (const std::string& word : words) {
-    const auto [name, value] = sides_of(word, "--split");
+    const auto [name, value] = split_assignment(word, "--split");
     const auto found = std::find(formats::kSplitNames.begin(), formats::kSplitNames.end(), name);
     if (found == formats::kSplitNames.end()) {
       throw InputError({"", "--split", name, "train, val or test"});
@@ -73,9 +74,9 @@ formats::SplitOptions splits_of(const std::vector<std::string>& words) {
   return splits;
 }
 
-formats::ExportOptions options_of(const ExportArguments& arguments) {
+formats::ExportOptions read_options(const ExportArguments& arguments) {
   formats::ExportOptions options;
-  options.splits = splits_of(arguments.splits);
+  options.splits = read_splits(arguments.splits);
   options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation,
                      arguments.min_contrast};
   options.webdataset.shard_mb = arguments.shard_mb;
@@ -89,7 +90,7 @@ formats::ExportOptions options_of(const ExportArguments& arguments) {
 void export_formats(const ExportArguments& arguments) {
   const fs::path root = arguments.dataset;
   const formats::DatasetInfo info =
-      formats::describe_dataset(root, formats::read_manifest(root), options_of(arguments));
+      formats::describe_dataset(root, formats::read_manifest(root), read_options(arguments));
   if (arguments.min_contrast > 0 && !info.has(annotate::GroundTruth::difficulty)) {
     throw InputError({"", "--min-contrast", "a dataset without the annotation difficulty",
                       "one whose job has \"difficulty\" in outputs.annotations"});

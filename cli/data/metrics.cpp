@@ -105,7 +105,7 @@ void measure(const MetricsArguments& arguments) {
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
-  for (const std::string& warning : metrics::warnings_of(measured.counts)) {
+  for (const std::string& warning : metrics::count_warnings(measured.counts)) {
     fmt::print(stderr, "warning: {}\n", warning);
   }
   if (!arguments.without_guides.empty()) {

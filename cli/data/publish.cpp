@@ -37,7 +37,7 @@ void add_publish(CLI::App& app) {
           arguments->dataset, address,
           [&](std::int64_t done_bytes, std::int64_t total_bytes) {
             bar.show(static_cast<double>(done_bytes) / static_cast<double>(total_bytes),
-                     megabytes_of(done_bytes, total_bytes));
+                     format_megabytes(done_bytes, total_bytes));
           },
           interrupt.token());
     }

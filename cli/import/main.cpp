@@ -6,7 +6,7 @@
 
 #include "cli/common/exit_code.h"
 #include "cli/common/import_options.h"
-#include "cli/import/import_place.h"
+#include "cli/import/import_scenario.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "throng-import: {}\n", error.what());
     return cli::exit_input;
   }
-  cli::import_place(options);
+  cli::import_scenario(options);
   return cli::exit_ok;
 }
 

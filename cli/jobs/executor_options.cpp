@@ -13,7 +13,7 @@ namespace throng::cli {
 namespace {
 
 /// The words of a program and its first arguments, and that of the command for workers.
-std::vector<std::string> worker_of(const std::string& program) {
+std::vector<std::string> worker_command(const std::string& program) {
   std::istringstream text(program);
   std::vector<std::string> words(std::istream_iterator<std::string>(text), {});
   words.emplace_back("worker");
@@ -51,7 +51,8 @@ void add_executor_options(CLI::App& command, jobs::ExecutorOptions& options) {
                   "A further option of sbatch, e.g. --slurm-option=--qos=low; repeatable")
       ->allow_extra_args(false);
   command.add_option_function<std::string>(
-      "--slurm-program", [&slurm](const std::string& text) { slurm.command = worker_of(text); },
+      "--slurm-program",
+      [&slurm](const std::string& text) { slurm.command = worker_command(text); },
       "The program as the nodes know it, e.g. \"apptainer exec /shared/throng.sif throng\" "
       "(default: this program's path)");
   command.add_option("--slurm-poll", slurm.poll_s, "Seconds between two looks at Slurm's queue")

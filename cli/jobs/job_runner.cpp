@@ -36,7 +36,7 @@ namespace {
 // Simulating is quick beside drawing; a tenth of a run's bar is near enough.
 constexpr double kSimulationShare = 0.1;
 
-double fraction_of(const jobs::RunProgress& run) {
+double done_fraction(const jobs::RunProgress& run) {
   const double simulated = run.duration_s > 0 ? run.simulated_s / run.duration_s : 0;
   const double drawn =
       run.images_total > 0 ? static_cast<double>(run.images_done) / run.images_total : 0;
@@ -48,13 +48,13 @@ void show_job(ProgressBar& bar, const jobs::JobProgress& progress) {
     const jobs::DeliveryProgress& delivery = *progress.delivery;
     return bar.show(
         static_cast<double>(delivery.bytes_done) / static_cast<double>(delivery.bytes_total),
-        "publishing " + megabytes_of(delivery.bytes_done, delivery.bytes_total));
+        "publishing " + format_megabytes(delivery.bytes_done, delivery.bytes_total));
   }
   double fraction = 0;
   std::int64_t done = 0;
   std::int64_t total = 0;
   for (const jobs::RunProgress& run : progress.runs) {
-    fraction += fraction_of(run) / static_cast<double>(progress.runs.size());
+    fraction += done_fraction(run) / static_cast<double>(progress.runs.size());
     done += run.images_done;
     total += run.images_total;
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kGibShift = 30;
 
-std::string day_of(std::int64_t unix_ms) {
+std::string format_day(std::int64_t unix_ms) {
   constexpr std::int64_t kMsPerS = 1000;
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(unix_ms / kMsPerS)));
 }
@@ -27,11 +27,12 @@ void print_keys(const std::vector<server::KeyRow>& keys) {
   for (const server::KeyRow& key : keys) {
     const int max_priority =
         key.scope >= server::Scope::admin ? server::kMaxPriority : key.max_priority;
-    fmt::print(
-        "{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
-        key.max_active == 0 ? "any" : std::to_string(key.max_active),
-        key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift), max_priority,
-        day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
+    fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id,
+               server::to_string(key.scope),
+               key.max_active == 0 ? "any" : std::to_string(key.max_active),
+               key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift),
+               max_priority, format_day(key.created_ms),
+               key.revoked_ms == 0 ? "" : format_day(key.revoked_ms), key.name);
   }
 }
 

@@ -38,8 +38,8 @@ void simulate(const SimulateArguments& arguments) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});
   }
-  const world::Scenario scenario =
-      jobs::scenario_of(jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder());
+  const world::Scenario scenario = jobs::load_job_scenario(
+      jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder());
   std::vector<Problem> warnings;
   {
     const Interrupt interrupt;

@@ -45,9 +45,9 @@ void report_of_study(const jobs::JobFolder& folder, const std::string& /*name*/,
 
 jobs::OtherTasks other_tasks() {
   return {{jobs::kStudyRunName, &simulate_of_study},
-          {jobs::name_of({jobs::Task::Kind::study_report}), &report_of_study},
-          {jobs::name_of({jobs::Task::Kind::calibrate}), &calibrate_in},
-          {jobs::name_of({jobs::Task::Kind::report}), &write_report}};
+          {jobs::to_string({jobs::Task::Kind::study_report}), &report_of_study},
+          {jobs::to_string({jobs::Task::Kind::calibrate}), &calibrate_in},
+          {jobs::to_string({jobs::Task::Kind::report}), &write_report}};
 }
 
 /// An attempt on a cluster's node: its supervisor reads the messages and the end from files.

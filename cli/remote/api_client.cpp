@@ -35,7 +35,7 @@ std::string variable(const char* name, const char* otherwise) {
 std::vector<Problem> problems_in(const httplib::Response& response, const std::string& url) {
   const json document = parse_json_or_discard(response.body);
   std::vector<Problem> problems;
-  if (document.is_object()) problems = problems_of(document.value("errors", json::array()));
+  if (document.is_object()) problems = read_problems(document.value("errors", json::array()));
   if (problems.empty()) {
     const std::string detail = document.is_object() ? document.value("detail", "") : "";
     problems.push_back(
@@ -48,7 +48,7 @@ bool is_success(int status) { return status >= 200 && status < 300; }
 
 }  // namespace
 
-std::vector<Problem> problems_of(const json& list) {
+std::vector<Problem> read_problems(const json& list) {
   std::vector<Problem> problems;
   for (const json& error : list) {
     problems.push_back({error.value("source", ""), error.value("pointer", ""),

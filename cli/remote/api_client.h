@@ -15,7 +15,7 @@
 namespace throng::cli {
 
 /// Mistakes as the API lists them: [{"pointer", "found", "expected", "source"?}].
-std::vector<Problem> problems_of(const nlohmann::json& list);
+std::vector<Problem> read_problems(const nlohmann::json& list);
 
 /// The server has no such resource (404).
 struct NotFound : InputError {

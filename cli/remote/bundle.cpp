@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxBundleBytes = 64 << 20;
 
-std::string name_of(const fs::path& from) {
+std::string bundle_name(const fs::path& from) {
   fs::path name = fs::absolute(from).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
   std::string word = lower_case(name.filename().string());
@@ -33,7 +33,7 @@ std::string name_of(const fs::path& from) {
 }
 
 /// Regular files below a folder, as paths in it, in order.
-std::vector<std::string> files_of(const fs::path& folder) {
+std::vector<std::string> list_bundle_files(const fs::path& folder) {
   std::vector<std::string> names;
   for (auto at = fs::recursive_directory_iterator(folder); at != fs::end(at); ++at) {
     if (at->path().filename().string().starts_with('.')) {
@@ -53,7 +53,7 @@ std::vector<std::string> files_of(const fs::path& folder) {
                            fmt::format("at most {} bytes", kMaxBundleBytes)});
 }
 
-std::string tar_of(const fs::path& folder) {
+std::string pack_tar(const fs::path& folder) {
   const std::unique_ptr<archive, int (*)(archive*)> writer(archive_write_new(), archive_write_free);
   archive_write_set_format_pax_restricted(writer.get());
   archive_write_set_bytes_in_last_block(writer.get(), 1);
@@ -63,7 +63,7 @@ std::string tar_of(const fs::path& folder) {
     return static_cast<la_ssize_t>(size);
   };
   archive_write_open(writer.get(), &bytes, nullptr, append, nullptr);
-  for (const std::string& name : files_of(folder)) {
+  for (const std::string& name : list_bundle_files(folder)) {
     if (fs::file_size(folder / name) + bytes.size() > kMaxBundleBytes) refuse_size(folder);
     const std::string content = read_file(folder / name);
     const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(),
@@ -86,13 +86,13 @@ std::string tar_of(const fs::path& folder) {
 }  // namespace
 
 Bundle read_bundle(const fs::path& from) {
-  if (fs::is_directory(from)) return {name_of(from), tar_of(from)};
+  if (fs::is_directory(from)) return {bundle_name(from), pack_tar(from)};
   if (!fs::is_regular_file(from)) {
     throw InputError(Problem{from.string(), "", "no file or folder",
                              "a folder of scenarios, or a zip or tar file"});
   }
   if (fs::file_size(from) > kMaxBundleBytes) refuse_size(from);
-  return {name_of(from), read_file(from)};
+  return {bundle_name(from), read_file(from)};
 }
 
 }  // namespace throng::cli

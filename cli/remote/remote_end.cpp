@@ -46,7 +46,7 @@ void require_success(const json& job) {
   if (job["state"] == "succeeded") return;
   if (job["state"] == "cancelled") throw Cancelled();
   const json& error = job["error"];
-  const std::vector<Problem> problems = problems_of(error["problems"]);
+  const std::vector<Problem> problems = read_problems(error["problems"]);
   if (error["kind"] == "input" && !problems.empty()) throw InputError(problems);
   std::string message = error["message"].get<std::string>();
   if (job["state"] != "partial") {

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string path_of(const std::string& id) { return "/v1/jobs/" + percent_encoded(id); }
+std::string job_path(const std::string& id) { return "/v1/jobs/" + percent_encoded(id); }
 
 /// Does something with a job; one that the server does not have is reported with the nearest id.
 template <typename Work>
@@ -72,11 +72,11 @@ void show(ProgressBar& bar, const json& job) {
 /// Follows a job until it has ended.
 json watched(ApiClient& api, const std::string& id) {
   std::int64_t seen = 0;
-  return followed(api, path_of(id), id, {&show, [&] {
-                                           const json news = api.get(fmt::format(
-                                               "{}/events?after={}&wait_s=1", path_of(id), seen));
-                                           seen = news["next"];
-                                         }});
+  return followed(api, job_path(id), id, {&show, [&] {
+                                            const json news = api.get(fmt::format(
+                                                "{}/events?after={}&wait_s=1", job_path(id), seen));
+                                            seen = news["next"];
+                                          }});
 }
 
 struct FetchArguments {
@@ -93,9 +93,9 @@ struct FetchArguments {
 
 std::string fetched_path(const FetchArguments& arguments) {
   if (arguments.trace >= 0) {
-    return fmt::format("{}/runs/{}/trace", path_of(arguments.id), arguments.trace);
+    return fmt::format("{}/runs/{}/trace", job_path(arguments.id), arguments.trace);
   }
-  std::string path = path_of(arguments.id) + "/archive";
+  std::string path = job_path(arguments.id) + "/archive";
   char before = '?';
   const auto add = [&](const char* name, const std::string& value) {
     if (value.empty()) return;
@@ -233,10 +233,10 @@ void logs(const std::string& id, const std::string& name) {
   ApiClient api;
   with_job(api, id, [&] {
     if (!name.empty()) {
-      std::cout << api.get_text(path_of(id) + "/logs/" + percent_encoded(name));
+      std::cout << api.get_text(job_path(id) + "/logs/" + percent_encoded(name));
       return;
     }
-    const json all = api.get(path_of(id) + "/logs");
+    const json all = api.get(job_path(id) + "/logs");
     for (const json& log : all["logs"]) {
       fmt::print("{:>10}  {}\n", log["bytes"].dump(), log["name"].get<std::string>());
     }
@@ -320,16 +320,16 @@ void add_remote_jobs(CLI::App& app) {
   });
   add_for_id(app, "cancel", "Cancel a job; finished work is kept for a retry", id)->callback([id] {
     ApiClient api;
-    with_job(api, *id, [&] { api.cancel(path_of(*id)); });
+    with_job(api, *id, [&] { api.cancel(job_path(*id)); });
   });
   add_for_id(app, "retry", "Queue a failed, partly failed or cancelled job again", id)
       ->callback([id] {
         ApiClient api;
-        with_job(api, *id, [&] { api.post(path_of(*id) + "/retry"); });
+        with_job(api, *id, [&] { api.post(job_path(*id) + "/retry"); });
       });
   add_for_id(app, "remove", "Cancel a job and delete its files", id)->callback([id] {
     ApiClient api;
-    with_job(api, *id, [&] { api.remove(path_of(*id)); });
+    with_job(api, *id, [&] { api.remove(job_path(*id)); });
   });
   auto* show_logs = add_for_id(app, "logs", "Print the logs of a job's workers", id);
   const auto name = std::make_shared<std::string>();

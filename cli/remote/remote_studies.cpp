@@ -52,7 +52,7 @@ auto with_study(ApiClient& api, const std::string& id, const Work& work) {
   }
 }
 
-double share_of(const json& study) {
+double done_share(const json& study) {
   const auto total = study["progress"].value("runs_total", std::int64_t{0});
   return total == 0 ? 0.0
                     : static_cast<double>(study["progress"].value("runs_done", std::int64_t{0})) /
@@ -72,7 +72,7 @@ void show_study(ProgressBar& bar, const json& study) {
   if (study["waiting_for"].is_string()) {
     text += fmt::format(", waits: {}", study["waiting_for"].get<std::string>());
   }
-  bar.show(share_of(study), text);
+  bar.show(done_share(study), text);
 }
 
 void watch_study(ApiClient& api, const std::string& id) {
@@ -127,7 +127,7 @@ void list_studies() {
   for (const json& study : list["studies"]) {
     constexpr double kPercent = 100;
     fmt::print("{:<18}{:<11}{:>4.0f}%  {:<26}{}\n", study["id"].get<std::string>(),
-               study["state"].get<std::string>(), kPercent * share_of(study),
+               study["state"].get<std::string>(), kPercent * done_share(study),
                study["created_at"].get<std::string>(), study["name"].get<std::string>());
   }
 }

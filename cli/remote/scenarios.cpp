@@ -12,8 +12,8 @@
 #include "cli/remote/bundle.h"
 #include "cli/shell/commands.h"
 #include "cli/shell/input_file.h"
-#include "places/blueprint/load_scenario.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::cli {
 
@@ -24,7 +24,7 @@ void list() {
   std::vector<Problem> problems;  // one broken file hides no other
   for (const std::string& id : world::list_scenarios(folder)) {
     try {
-      fmt::print("{:<32} {}\n", id, places::find_scenario(folder, id).name);
+      fmt::print("{:<32} {}\n", id, scenarios::find_scenario(folder, id).name);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

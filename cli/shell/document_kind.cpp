@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "world/scenario.h"
 
 namespace throng::cli {
 
@@ -26,11 +27,11 @@ constexpr std::array kWords = {
     KindWords{"a study", "`throng study`"},
 };
 
-const KindWords& words_of(DocumentKind kind) { return kWords.at(static_cast<std::size_t>(kind)); }
+const KindWords& kind_words(DocumentKind kind) { return kWords.at(static_cast<std::size_t>(kind)); }
 
 }  // namespace
 
-std::string_view name_of(DocumentKind kind) { return words_of(kind).name; }
+std::string_view to_string(DocumentKind kind) { return kind_words(kind).name; }
 
 DocumentKind document_kind(std::string_view text, const std::string& file) {
   const nlohmann::json value = parse_json_or_discard(text);
@@ -41,7 +42,7 @@ DocumentKind document_kind(std::string_view text, const std::string& file) {
   };
   if (has_any({"scenario", "generate"})) return DocumentKind::job;
   if (has_any({"policies", "cases"})) return DocumentKind::study;
-  if (file.ends_with(".place.json") || has_any({"people", "rows"})) return DocumentKind::blueprint;
+  if (world::is_blueprint_name(file) || has_any({"people", "rows"})) return DocumentKind::blueprint;
   if (has_any({"inside", "disaster_agents"})) return DocumentKind::scenario;
   if (has_any({"ground", "buildings", "exits"})) {
     return value.contains("crowd") ? DocumentKind::scenario : DocumentKind::blueprint;
@@ -59,9 +60,9 @@ void require_scenario(std::string_view text, const std::string& file) {
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file) {
   const DocumentKind kind = document_kind(text, file);
   if (kind == expected || kind == DocumentKind::unknown) return;
-  throw InputError({file, "", std::string(words_of(kind).name),
-                    fmt::format("{}; {} is for {}", words_of(expected).name, words_of(kind).name,
-                                words_of(kind).command)});
+  throw InputError({file, "", std::string(kind_words(kind).name),
+                    fmt::format("{}; {} is for {}", kind_words(expected).name,
+                                kind_words(kind).name, kind_words(kind).command)});
 }
 
 }  // namespace throng::cli

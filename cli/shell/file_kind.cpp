@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kTrace = "a trace (HDF5)";
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 
-std::string beginning_of(const fs::path& file) {
+std::string read_beginning(const fs::path& file) {
   std::string bytes(kHdf5Signature.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -29,7 +29,7 @@ std::string beginning_of(const fs::path& file) {
   return bytes;
 }
 
-bool is_hdf5(const fs::path& file) { return beginning_of(file) == kHdf5Signature; }
+bool is_hdf5(const fs::path& file) { return read_beginning(file) == kHdf5Signature; }
 
 [[noreturn]] void refuse(const fs::path& file, std::string found, std::string expected) {
   throw InputError({file.string(), "", std::move(found), std::move(expected)});
@@ -70,7 +70,7 @@ void require_trace(const fs::path& file) {
     refuse(file, "a job",
            fmt::format("{}; `throng simulate {} -o RUN.h5` makes one", kTrace, file.string()));
   } else if (kind != DocumentKind::unknown) {
-    refuse(file, std::string(name_of(kind)), kTrace);
+    refuse(file, std::string(to_string(kind)), kTrace);
   }
   if (is_recording(file)) {
     refuse(file, "a table",
@@ -88,7 +88,7 @@ void refuse_as_trajectory(const fs::path& file) {
     refuse(file, "a trace", fmt::format("{}; a trace is given without --trajectory", kExpected));
   }
   const DocumentKind kind = kind_of_json(file);
-  if (kind != DocumentKind::unknown) refuse(file, std::string(name_of(kind)), kExpected);
+  if (kind != DocumentKind::unknown) refuse(file, std::string(to_string(kind)), kExpected);
 }
 
 void check_ending(const std::string& option, const fs::path& file,

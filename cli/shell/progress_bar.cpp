@@ -50,7 +50,7 @@ std::string progress_line(std::string_view title, double fraction, std::string_v
       columns > 0 ? columns - 1 : 0);
 }
 
-std::string megabytes_of(std::int64_t done_bytes, std::int64_t total_bytes) {
+std::string format_megabytes(std::int64_t done_bytes, std::int64_t total_bytes) {
   constexpr double kMegabyte = 1e6;
   return fmt::format("{:.1f} of {:.1f} MB", static_cast<double>(done_bytes) / kMegabyte,
                      static_cast<double>(total_bytes) / kMegabyte);

@@ -13,7 +13,7 @@ std::string progress_line(std::string_view title, double fraction, std::string_v
                           std::size_t columns);
 
 /// Note of a transfer: "12 of 340 MB".
-std::string megabytes_of(std::int64_t done_bytes, std::int64_t total_bytes);
+std::string format_megabytes(std::int64_t done_bytes, std::int64_t total_bytes);
 
 class ProgressBar {
  public:

@@ -6,9 +6,9 @@
 
 #include "cli/shell/document_kind.h"
 #include "cli/shell/input_file.h"
-#include "places/blueprint/load_scenario.h"
 #include "world/scenario.h"
 #include "world/scenario_id.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace_scenario.h"
 
 namespace throng::cli {
@@ -24,10 +24,10 @@ namespace throng::cli {
 /// InputError.
 inline world::Scenario scenario_named(const std::string& name) {
   const std::filesystem::path file(name);
-  if (file.extension() != ".json") return places::find_scenario(world::scenarios_folder(), name);
+  if (file.extension() != ".json") return scenarios::find_scenario(world::scenarios_folder(), name);
   if (!std::filesystem::exists(file)) refuse_missing_scenario(name);
   require_scenario(read_input_file(name, "a scenario file"), name);
-  return places::load_scenario(file, world::id_from_file(file));
+  return scenarios::load_scenario(file, world::id_from_file(file));
 }
 
 /// The scenario that the user names; where `name` is empty the one that the trace holds, else the

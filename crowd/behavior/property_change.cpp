@@ -38,7 +38,7 @@ Property property_named(std::string_view name) {
 }
 
 float within_limits(Property property, float value) {
-  const PropertySpec& spec = spec_of(property);
+  const PropertySpec& spec = property_spec(property);
   return std::clamp(value, spec.min * spec.file_unit, spec.max * spec.file_unit);
 }
 
@@ -51,7 +51,7 @@ PropertyChange PropertyChange::read(const Element& element, const Attributes& at
                                     Change change, BehaviorContext& context) {
   const Distribution& operand = attributes.distribution("");
   const Property property = property_named(attributes.text("property"));
-  const PropertySpec& spec = spec_of(property);
+  const PropertySpec& spec = property_spec(property);
   const double low = spec.min * spec.file_unit;
   const double high = spec.max * spec.file_unit;
   if (change == Change::set && (operand.first < low || operand.first > high)) {

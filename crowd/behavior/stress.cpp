@@ -13,7 +13,7 @@ constexpr float kMinHorizon = 0.01F;  // s
 
 float limited(int affected, float value) {
   if (affected == Stress::time_horizon) return std::max(value, kMinHorizon);
-  const PropertySpec& spec = spec_of(kProperty[static_cast<std::size_t>(affected)]);
+  const PropertySpec& spec = property_spec(kProperty[static_cast<std::size_t>(affected)]);
   value = std::clamp(value, spec.min * spec.file_unit, spec.max * spec.file_unit);
   return affected == Stress::max_neighbors ? std::floor(value) : value;
 }

@@ -54,7 +54,7 @@ double share_below(const Distribution& of, double x) {
 }
 
 /// The limits, and of normal values those that all have.
-std::pair<double, double> limits_of(const Distribution& of) {
+std::pair<double, double> value_limits(const Distribution& of) {
   if (of.kind != Distribution::Kind::normal) return {of.at_least, of.at_most};
   const double farthest = kDeviations * of.second;
   return {std::max(of.at_least, of.first - farthest), std::min(of.at_most, of.first + farthest)};
@@ -63,7 +63,7 @@ std::pair<double, double> limits_of(const Distribution& of) {
 }  // namespace
 
 double Distribution::share_between_limits() const {
-  const auto [low, high] = limits_of(*this);
+  const auto [low, high] = value_limits(*this);
   return low < high ? share_below(*this, high) - share_below(*this, low) : 0;
 }
 
@@ -73,7 +73,7 @@ bool Distribution::is_by_quantile() const {
 }
 
 double Distribution::quantile_between_limits(double unit) const {
-  const auto [low, high] = limits_of(*this);
+  const auto [low, high] = value_limits(*this);
   const double below = share_below(*this, low);
   const double max_share = std::nextafter(1.0, 0.0);  // the quantile of 1 is infinite
   const double share = std::min(below + unit * (share_below(*this, high) - below), max_share);

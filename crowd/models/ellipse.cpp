@@ -13,7 +13,7 @@ struct Shape {
   float yy;
 };
 
-Shape shape_of(const Ellipse& ellipse) {
+Shape ellipse_shape(const Ellipse& ellipse) {
   const float a = ellipse.along * ellipse.along;
   const float b = ellipse.across * ellipse.across;
   const Eigen::Vector2f& u = ellipse.direction;
@@ -35,8 +35,8 @@ float determinant(const Shape& shape) { return shape.xx * shape.yy - shape.xy * 
 // there; in the plane it is a cubic p over a quadratic q, so that its maximum is the root of
 // p' q - p q'.
 float contact_distance(const Ellipse& a, const Ellipse& b, const Eigen::Vector2f& direction) {
-  const Shape first = shape_of(a);
-  const Shape second = shape_of(b);
+  const Shape first = ellipse_shape(a);
+  const Shape second = ellipse_shape(b);
   const Shape change{second.xx - first.xx, second.xy - first.xy, second.yy - first.yy};
   const float form = adjugate_form(first, direction);
   const float form_slope = adjugate_form(change, direction);

@@ -48,14 +48,15 @@ class Gcf : public LocalModel {
  protected:
   Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
-    const Ellipse body = body_of(crowd, self.id, self.velocity);
+    const Ellipse body = make_body(crowd, self.id, self.velocity);
     Eigen::Vector2f acceleration =
         (self.preferred_velocity() - self.velocity) / constants_[reaction_time];
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const std::size_t id = grid.id(neighbor.slot);
       const Eigen::Vector2f& velocity = grid.velocity(neighbor.slot);
       const BodyOffset apart(self, id, grid.position(neighbor.slot));
-      acceleration += push(self, body, apart, velocity, body_of(crowd, id, velocity)) * apart.away;
+      acceleration +=
+          push(self, body, apart, velocity, make_body(crowd, id, velocity)) * apart.away;
     }
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
       constexpr float kMinLength = 0.1F;  // m
@@ -67,7 +68,7 @@ class Gcf : public LocalModel {
   }
 
  private:
-  static Ellipse body_of(const Crowd& crowd, std::size_t id, const Eigen::Vector2f& velocity) {
+  static Ellipse make_body(const Crowd& crowd, std::size_t id, const Eigen::Vector2f& velocity) {
     constexpr float kThinnest = 0.01F;  // m
     constexpr float kSwaySpeed = 1.3F;  // m/s
     const auto& parameters = crowd.agents.model_parameters;

@@ -27,7 +27,7 @@ Tangents tangents(const Eigen::Vector2f& center, float radius) {
   const float distance_sq = center.squaredNorm();
   const float length = std::sqrt(std::max(0.0F, distance_sq - radius * radius));
   const Eigen::Vector2f along = length * center / distance_sq;
-  const Eigen::Vector2f across = radius * left_of(center) / distance_sq;
+  const Eigen::Vector2f across = radius * turn_left(center) / distance_sq;
   return {along + across, along - across};
 }
 
@@ -48,12 +48,12 @@ struct VelocityObstacle {
 /// The half-plane outside a circle of the capsule's radius, in the direction of v.
 HalfPlane outside_circle(const Eigen::Vector2f& center, float radius, const Eigen::Vector2f& v) {
   const Eigen::Vector2f outward = unit(v - center);
-  return {center + radius * outward, -left_of(outward)};
+  return {center + radius * outward, -turn_left(outward)};
 }
 
 HalfPlane outside_line(const Eigen::Vector2f& through, const Eigen::Vector2f& direction,
                        float radius) {
-  return {through + radius * left_of(direction), direction};
+  return {through + radius * turn_left(direction), direction};
 }
 
 /// The half-plane at the point of the obstacle's boundary that is nearest to v; nothing when that
@@ -146,7 +146,7 @@ class WallAvoidance {
  private:
   /// Touching a corner: no nearer.
   static HalfPlane stop_at(const Eigen::Vector2f& corner) {
-    return {Eigen::Vector2f::Zero(), unit(left_of(corner))};
+    return {Eigen::Vector2f::Zero(), unit(turn_left(corner))};
   }
 
   /// The velocity obstacle of the wall from the corner where `left` begins to the one where

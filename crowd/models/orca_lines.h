@@ -16,7 +16,7 @@ namespace throng::crowd {
 inline constexpr float kOrcaEpsilon = 1e-5F;
 
 /// v turned by 90 degrees counter-clockwise.
-inline Eigen::Vector2f left_of(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
+inline Eigen::Vector2f turn_left(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
 
 /// One moving disc as the avoidance sees it.
 struct Disc {

@@ -43,7 +43,7 @@ class Bias {
  private:
   Eigen::Vector2f scale_aside(const Eigen::Vector2f& v, float scale) const {
     return direction_.dot(v) * direction_ +
-           scale * geometry::cross(direction_, v) * left_of(direction_);
+           scale * geometry::cross(direction_, v) * turn_left(direction_);
   }
 
   Eigen::Vector2f direction_;

@@ -39,8 +39,8 @@ constexpr float kBehind = 0.3F;               // how much counts what is not in 
 constexpr float kView = -0.2F;                // cosine of the edge of the view
 constexpr float kAlongside = 0.7F;            // of the force between two who walk the same way
 constexpr float kMaxForce = 15;               // m/s^2
-constexpr float kSamePlace = 1e-3F;           // m: nearer than that two have no direction
-constexpr float kSamePlaceSq = kSamePlace * kSamePlace;
+constexpr float kSamePosition = 1e-3F;        // m: nearer than that two have no direction
+constexpr float kSamePositionSq = kSamePosition * kSamePosition;
 constexpr float kContact = 100;         // 1/s^2: force per depth of an overlap
 constexpr float kWall = 10;             // m/s^2 at a wall
 constexpr float kWallRangeM = 0.03F;    // over which that falls to 1/e
@@ -154,9 +154,9 @@ class TimeToCollision : public LocalModel {
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const std::size_t other = grid.id(neighbor.slot);
       Eigen::Vector2f offset = grid.position(neighbor.slot) - position;
-      if (neighbor.distance_sq < kSamePlaceSq) {
+      if (neighbor.distance_sq < kSamePositionSq) {
         // Two in one place part along x, the one with the higher id to the right.
-        offset = {around.agent > other ? -kSamePlace : kSamePlace, 0};
+        offset = {around.agent > other ? -kSamePosition : kSamePosition, 0};
       }
       const float cosine = direction.dot(agents.preferred_direction[other]);
       const float alongside = std::clamp(2 * cosine - 1, 0.0F, 1.0F);

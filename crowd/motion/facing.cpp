@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kFacingPart = 0x666163696e67;  // apart from other draws of the stream
 
-Random random_of(std::uint64_t seed, std::size_t agent) {
+Random agent_random(std::uint64_t seed, std::size_t agent) {
   return {derive_seed(seed, Stream::crowd_generator, kFacingPart), Stream::crowd_generator, agent};
 }
 
@@ -23,7 +23,7 @@ Vector2f unit(double angle_rad) {
 }
 
 Vector2f any_direction(std::uint64_t seed, std::size_t agent) {
-  return unit(random_of(seed, agent).uniform(-std::numbers::pi, std::numbers::pi));
+  return unit(agent_random(seed, agent).uniform(-std::numbers::pi, std::numbers::pi));
 }
 
 AttributeSpec spread() {
@@ -46,7 +46,7 @@ class OneDirection : public Facing {
   OneDirection(std::uint64_t seed, double angle_rad, double spread_rad)
       : seed_(seed), angle_rad_(angle_rad), spread_rad_(spread_rad) {}
   Vector2f direction(std::size_t agent, const Vector2f& /*place*/) const override {
-    return unit(random_of(seed_, agent).normal(angle_rad_, spread_rad_));
+    return unit(agent_random(seed_, agent).normal(angle_rad_, spread_rad_));
   }
 
  private:
@@ -63,7 +63,7 @@ class TowardsPoint : public Facing {
     constexpr float kThere = 0.05F;  // m
     const Vector2f way = point_ - place;
     if (way.norm() < kThere) return any_direction(seed_, agent);
-    return unit(random_of(seed_, agent)
+    return unit(agent_random(seed_, agent)
                     .normal(std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x())),
                             spread_rad_));
   }

@@ -18,7 +18,7 @@ AutoNavigation::AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& op
       }) {
   walls_.local();  // this thread's, so that no step has to make it
   const std::vector<Eigen::Vector2f>& positions = crowd.agents.position;
-  if (!positions.empty()) everyone_ = geometry::bounds_of(positions);
+  if (!positions.empty()) everyone_ = geometry::bounding_box(positions);
   for (const Polygon& polygon : crowd.obstacles.polygons()) all_classes_ |= polygon.obstacle_class;
 }
 
@@ -58,7 +58,7 @@ bool AutoNavigation::fits(float agent_radius, float mesh_radius) {
 /// that of the biggest agent that may share it, rounded up. So people of random sizes who arrive
 /// one by one, or learn of closed doors one by one, do not each need a mesh of their own.
 float AutoNavigation::mesh_radius(const Crowd& crowd, std::size_t agent) const {
-  constexpr float kStep_m = 0.01F;
+  constexpr float kStepM = 0.01F;
   const std::vector<float>& radii = crowd.agents[Property::radius];
   float shared = 0;
   for (const auto& ground : grounds_) {
@@ -70,7 +70,7 @@ float AutoNavigation::mesh_radius(const Crowd& crowd, std::size_t agent) const {
     if (fits(radii[agent], radius)) biggest = std::max(biggest, radius);
   }
   constexpr float kRounding = 1e-3F;  // steps: 0.25 m stays 0.25 m
-  const float rounded = std::max(biggest, kStep_m * std::ceil(biggest / kStep_m - kRounding));
+  const float rounded = std::max(biggest, kStepM * std::ceil(biggest / kStepM - kRounding));
   return fits(radii[agent], rounded) ? rounded : biggest;
 }
 
@@ -105,9 +105,9 @@ void AutoNavigation::prefer(const Crowd& crowd, std::size_t agent, PreferredVelo
 
 /// Not everybody at the same time.
 bool AutoNavigation::is_time_to_look(const Crowd& crowd, std::size_t agent) const {
-  constexpr double kEvery_s = 0.5;
+  constexpr double kEveryS = 0.5;
   const auto every =
-      std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(kEvery_s / crowd.dt_s)));
+      std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(kEveryS / crowd.dt_s)));
   return (crowd.step + agent) % every == 0;
 }
 

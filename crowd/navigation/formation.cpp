@@ -13,12 +13,12 @@ namespace throng::crowd {
 
 namespace {
 
-struct WeightedPlace {
+struct WeightedPosition {
   Eigen::Vector2f place;
   float weight = 1;
 };
 
-std::vector<float> rest_of(NumberFile& file) {
+std::vector<float> read_rest(NumberFile& file) {
   constexpr std::size_t kMaxNumbers = 3000;
   std::vector<float> numbers;
   while (!file.at_end()) {
@@ -35,7 +35,7 @@ std::vector<float> rest_of(NumberFile& file) {
 Formation::Formation(const TextFile& source) {
   NumberFile file(source);
   const int border = file.count("the number of border points", 1, 3);
-  const std::vector<float> numbers = rest_of(file);
+  const std::vector<float> numbers = read_rest(file);
   // The way may have a weight like the points.
   const std::size_t way_numbers = numbers.size() % 3 == 0 ? 3 : numbers.size() % 3;
   const std::size_t points = numbers.size() / 3 - (way_numbers == 3 ? 1 : 0);
@@ -47,15 +47,15 @@ Formation::Formation(const TextFile& source) {
   const Eigen::Vector2f way(numbers[3 * points], numbers[3 * points + 1]);
   if (way.isZero(0)) file.fail("a direction of 0 0", "a direction");
   const Eigen::Vector2f ahead = way.normalized();
-  std::vector<WeightedPlace> all;
+  std::vector<WeightedPosition> all;
   for (std::size_t i = 0; i < points; ++i) {
     const Eigen::Vector2f p(numbers[3 * i], numbers[3 * i + 1]);
     all.push_back({{ahead.dot(p), geometry::cross(ahead, p)}, numbers[3 * i + 2]});
   }
-  std::stable_sort(all.begin(), all.end(), [](const WeightedPlace& a, const WeightedPlace& b) {
-    return a.weight > b.weight;
-  });
-  for (const WeightedPlace& each : all) places_.push_back(each.place);
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const WeightedPosition& a, const WeightedPosition& b) { return a.weight > b.weight; });
+  for (const WeightedPosition& each : all) places_.push_back(each.place);
 }
 
 FormationGroup::FormationGroup(Formation formation, std::size_t agent_count)
@@ -130,7 +130,7 @@ void FormationGroup::before_decisions(Crowd& crowd, Machine&) {
 
 PreferredVelocity FormationGroup::lead(const Crowd& crowd, std::size_t agent,
                                        const PreferredVelocity& alone) {
-  constexpr float kCatchUp_s = 1;     // in which somebody would be at its place
+  constexpr float kCatchUpS = 1;      // in which somebody would be at its place
   constexpr float kHaste = 1.5F;      // how much faster than alone it goes for that
   constexpr float kStanding = 1e-6F;  // m/s
   const bool was_member =
@@ -140,7 +140,7 @@ PreferredVelocity FormationGroup::lead(const Crowd& crowd, std::size_t agent,
   if (!was_member || place_[agent] == kNone || alone.speed <= 0) return alone;
   const Eigen::Vector2f place =
       origin_ + turned(formation_.places()[static_cast<std::size_t>(place_[agent])]);
-  const Eigen::Vector2f velocity = velocity_ + (place - crowd.agents.position[agent]) / kCatchUp_s;
+  const Eigen::Vector2f velocity = velocity_ + (place - crowd.agents.position[agent]) / kCatchUpS;
   const float speed = velocity.norm();
   if (speed <= kStanding) return {alone.direction, 0};
   const float max_speed_mps =

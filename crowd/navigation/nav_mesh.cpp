@@ -34,7 +34,8 @@ Eigen::Vector2f nearest_on(const NavPolygon& polygon, const Eigen::Vector2f& poi
 NavMesh::NavMesh(std::vector<NavPolygon> polygons) : polygons_(std::move(polygons)) {
   std::vector<Box> boxes;
   boxes.reserve(polygons_.size());
-  for (const NavPolygon& polygon : polygons_) boxes.push_back(geometry::bounds_of(polygon.corners));
+  for (const NavPolygon& polygon : polygons_)
+    boxes.push_back(geometry::bounding_box(polygon.corners));
   if (!boxes.empty()) bounds_ = boxes.front();
   for (const Box& box : boxes) bounds_.extend(box);
   tree_.build(boxes);

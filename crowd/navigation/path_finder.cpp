@@ -12,7 +12,7 @@ namespace throng::crowd {
 namespace {
 
 /// Floats that are not negative are in the order of their bits.
-std::uint64_t key_of(float estimate_m, std::uint32_t rank) {
+std::uint64_t queue_key(float estimate_m, std::uint32_t rank) {
   constexpr unsigned kRankBits = 32;
   return (std::uint64_t{std::bit_cast<std::uint32_t>(estimate_m)} << kRankBits) | rank;
 }
@@ -172,7 +172,7 @@ void PathFinder::expand(const Search& how, int polygon, int before) {
     const float cost = from.cost + (point - start).norm();
     if (known && cost >= node.cost) continue;
     node = {search_, false, before, cost, point};
-    open_.push_back({key_of(cost + (how.end - point).norm(), reached_++), reached});
+    open_.push_back({queue_key(cost + (how.end - point).norm(), reached_++), reached});
     std::push_heap(open_.begin(), open_.end());
   }
 }

@@ -36,15 +36,15 @@ std::uint32_t get(const char* bytes) {
   return word;
 }
 
-std::size_t index_of(std::string_view version) {
+std::size_t version_index(std::string_view version) {
   const auto found = std::find(kScbVersions.begin(), kScbVersions.end(), version);
   check(found != kScbVersions.end(), "the version of an .scb file is a known one");
   return static_cast<std::size_t>(found - kScbVersions.begin());
 }
 
 /// A version's values of an agent; as many as kFloats are used.
-std::array<float, kMaxRecordValues> values_of(std::size_t version, const Simulation& crowd,
-                                              std::size_t agent) {
+std::array<float, kMaxRecordValues> record_values(std::size_t version, const Simulation& crowd,
+                                                  std::size_t agent) {
   const Eigen::Vector2f& p = crowd.positions()[agent];
   const float yaw_rad = crowd.yaws_rad()[agent];
   const auto state = static_cast<float>(crowd.states()[agent]);
@@ -82,7 +82,7 @@ void ScbFile::add(std::span<const float> values) {
 }
 
 ScbWriter::ScbWriter(const fs::path& path, std::string_view version, const Simulation& crowd)
-    : version_(index_of(version)), file_(path, version, crowd.dt_s(), crowd.agent_classes()) {}
+    : version_(version_index(version)), file_(path, version, crowd.dt_s(), crowd.agent_classes()) {}
 
 void ScbWriter::record(const Simulation& crowd) {
   const std::size_t floats = kFloats[version_];
@@ -90,7 +90,7 @@ void ScbWriter::record(const Simulation& crowd) {
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
     std::array<float, kMaxRecordValues> values{};
     if (crowd.present()[i] != 0) {
-      values = values_of(version_, crowd, i);
+      values = record_values(version_, crowd, i);
     } else {
       values.fill(std::numeric_limits<float>::quiet_NaN());
     }

@@ -19,7 +19,7 @@ struct Spread {
 };
 
 /// The spread of the positions of all agents that take part; NaN if none does.
-Spread spread_of(const Simulation& crowd, double count) {
+Spread measure_spread(const Simulation& crowd, double count) {
   Spread spread;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
     if (crowd.present()[i] != 0) spread.mean += crowd.positions()[i].cast<double>();
@@ -88,7 +88,7 @@ void SeriesWriter::write_line(const Simulation& crowd) {
     if (!crowd.has_exits(static_cast<std::uint8_t>(state))) terminal += in_state[state];
   }
   const auto count = static_cast<double>(all);
-  const Spread spread = spread_of(crowd, count);
+  const Spread spread = measure_spread(crowd, count);
   const PairDistances pairs = pairs_.measure(crowd.positions(), crowd.radii_m(), crowd.present());
   std::string line = csv_number(crowd.time_s(), kDecimals);
   const auto add = [&](double value) { line += fmt::format(",{}", csv_number(value, kDecimals)); };

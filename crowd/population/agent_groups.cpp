@@ -137,8 +137,8 @@ Element only(const Element& group, std::string_view name) {
 }
 
 /// Orientation of a group's standing agents; null: their heading, as in Menge.
-std::unique_ptr<Facing> facing_of(const Element& group, const GroupContext& context,
-                                  const Crowd& crowd) {
+std::unique_ptr<Facing> make_facing(const Element& group, const GroupContext& context,
+                                    const Crowd& crowd) {
   FacingContext facing{context.seed};
   if (const std::optional<Element> given = at_most_one(group, "Facing")) {
     return facing_registry().make(*given, facing);
@@ -185,14 +185,14 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   const Attributes no_attributes(group, {});
   const auto profile = profile_selector_registry().make(only(group, "ProfileSelector"), context);
   const auto state = state_selector_registry().make(only(group, "StateSelector"), context);
-  const std::unique_ptr<Facing> facing = facing_of(group, context, crowd);
+  const std::unique_ptr<Facing> facing = make_facing(group, context, crowd);
   const std::size_t first = crowd.agents.count();
   const std::optional<Element> arrivals = at_most_one(group, "Arrivals");
   std::vector<Eigen::Vector2f> places;
   for (const Element& child : group.children()) {
     if (child.name() == "Generator") {
-      const std::vector<Eigen::Vector2f> more =
-          generate_places(child, {crowd, context.seed, first + places.size()}, context.sequences);
+      const std::vector<Eigen::Vector2f> more = generate_positions(
+          child, {crowd, context.seed, first + places.size()}, context.sequences);
       places.insert(places.end(), more.begin(), more.end());
       // Each generator's agents are made at once: the order in which compatible runs draw.
       if (!arrivals) add_agents(more, *profile, *state, facing.get(), context, crowd);

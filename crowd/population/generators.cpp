@@ -321,8 +321,8 @@ const GeneratorRegistry& generator_registry() {
   return kRegistry;
 }
 
-std::vector<Eigen::Vector2f> generate_places(const Element& element, GeneratorContext context,
-                                             MengeSequences& sequences) {
+std::vector<Eigen::Vector2f> generate_positions(const Element& element, GeneratorContext context,
+                                                MengeSequences& sequences) {
   const GeneratorRegistry::Entry& entry = generator_registry().find(element);
   const Attributes attributes(element, entry.attributes);
   const std::unique_ptr<Generator> generator = entry.make(element, attributes, context);

@@ -33,7 +33,7 @@ using GeneratorRegistry = Registry<Generator, GeneratorContext>;
 const GeneratorRegistry& generator_registry();
 
 /// The places of a <Generator>'s agents. Compatible runs draw the noise from `sequences`.
-std::vector<Eigen::Vector2f> generate_places(const Element& element, GeneratorContext context,
-                                             MengeSequences& sequences);
+std::vector<Eigen::Vector2f> generate_positions(const Element& element, GeneratorContext context,
+                                                MengeSequences& sequences);
 
 }  // namespace throng::crowd

@@ -20,7 +20,7 @@ constexpr std::size_t kParts = 32;        // at least, in a large crowd: work fo
 constexpr std::size_t kPartAgents = 256;  // in a small crowd
 constexpr std::size_t kRunAgents = 2048;
 
-std::size_t runs_of(std::size_t count) { return (count + kRunAgents - 1) / kRunAgents; }
+std::size_t count_grid_runs(std::size_t count) { return (count + kRunAgents - 1) / kRunAgents; }
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void Grid::build(const Agents& agents) {
 Grid::Extent Grid::extent_of(const Agents& agents) {
   constexpr float kFar = 1e9F;
   const Extent nobody{Eigen::Vector2f::Constant(kFar), Eigen::Vector2f::Constant(-kFar)};
-  extents_.assign(runs_of(agents.count()), nobody);
+  extents_.assign(count_grid_runs(agents.count()), nobody);
   parallel_ranges(extents_.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t run = first; run < last; ++run) {
       Extent& extent = extents_[run];
@@ -81,8 +81,8 @@ void Grid::lay_out(const Agents& agents) {
   const float rows = (all.high.y() - all.low.y()) / kCellHeight + 2;
   if (columns > 0 && rows > 0 && columns * rows < static_cast<float>(max_buckets)) {
     row_stride_ = static_cast<std::uint32_t>(columns);
-    first_cell_ = static_cast<std::uint32_t>(row_of(all.low.y())) * row_stride_ +
-                  static_cast<std::uint32_t>(column_of(all.low.x()));
+    first_cell_ = static_cast<std::uint32_t>(row_at(all.low.y())) * row_stride_ +
+                  static_cast<std::uint32_t>(column_at(all.low.x()));
     const std::size_t cells = std::bit_ceil(static_cast<std::size_t>(columns * rows) + 1);
     buckets = std::clamp(cells, kMinBuckets, max_buckets);
   }
@@ -93,7 +93,7 @@ void Grid::lay_out(const Agents& agents) {
   parts_ = buckets / part_buckets;
   const std::size_t max_parts = std::max(kParts, max_buckets / kMaxPartBuckets);
   bucket_begin_.reserve(max_buckets + 1);
-  place_.reserve(runs_of(count) * max_parts);
+  place_.reserve(count_grid_runs(count) * max_parts);
   part_begin_.reserve(max_parts + 1);
   bucket_begin_.resize(buckets + 1);
   bucket_of_.resize(count);
@@ -102,7 +102,7 @@ void Grid::lay_out(const Agents& agents) {
 
 // Assigns agents to buckets, counts those of each part, and finds where each run's agents go.
 void Grid::count_parts(const Agents& agents) {
-  const std::size_t runs = runs_of(agents.count());
+  const std::size_t runs = count_grid_runs(agents.count());
   place_.assign(runs * parts_, 0);
   parallel_ranges(runs, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t run = first; run < last; ++run) {
@@ -111,7 +111,7 @@ void Grid::count_parts(const Agents& agents) {
       for (std::size_t i = run * kRunAgents; i < end; ++i) {
         if (agents.present[i] == 0) continue;
         const Eigen::Vector2f& p = agents.position[i];
-        bucket_of_[i] = bucket(column_of(p.x()), row_of(p.y()));
+        bucket_of_[i] = bucket(column_at(p.x()), row_at(p.y()));
         ++counts[bucket_of_[i] >> part_shift_];
       }
     }
@@ -129,7 +129,7 @@ void Grid::count_parts(const Agents& agents) {
 }
 
 void Grid::split(const Agents& agents) {
-  parallel_ranges(runs_of(agents.count()), 1, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(count_grid_runs(agents.count()), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t run = first; run < last; ++run) {
       std::uint32_t* const place = &place_[run * parts_];
       const std::size_t end = std::min((run + 1) * kRunAgents, agents.count());
@@ -156,7 +156,7 @@ void Grid::sort_part(const Agents& agents, std::size_t part) {
     const std::uint32_t slot = --bucket_begin_[bucket_of_[id]];
     const Eigen::Vector2f& p = agents.position[id];
     id_[slot] = id;
-    row_[slot] = row_of(p.y());
+    row_[slot] = row_at(p.y());
     x_[slot] = p.x();
     y_[slot] = p.y();
     body_[slot] = {p, agents.velocity[id]};

@@ -91,8 +91,8 @@ class Grid {
   };
 
   static Nearest* pick_nearest(InstructionSet set);
-  static int column_of(float x) { return cell_of(x / kCellWidth); }
-  static int row_of(float y) { return cell_of(y / kCellHeight); }
+  static int column_at(float x) { return cell_of(x / kCellWidth); }
+  static int row_at(float y) { return cell_of(y / kCellHeight); }
   /// Far away, cells are shared.
   static int cell_of(float cells) {
     constexpr float kFar = 1e9F;
@@ -112,10 +112,10 @@ class Grid {
   void for_each_run(const Eigen::Vector2f& point, float range, const Look& look) const {
     constexpr float kRounding = 1e-3F;  // m; nobody at the edge is missed
     const float padded = range + kRounding;
-    const int first_row = row_of(point.y() - padded);
-    const int last_row = row_of(point.y() + padded);
-    const int first_column = column_of(point.x() - padded);
-    const int last_column = column_of(point.x() + padded);
+    const int first_row = row_at(point.y() - padded);
+    const int last_row = row_at(point.y() + padded);
+    const int first_column = column_at(point.x() - padded);
+    const int last_column = column_at(point.x() + padded);
     const auto buckets = static_cast<std::size_t>(bucket_mask_) + 1;
     const auto columns = static_cast<std::size_t>(last_column - first_column) + 1;
     const auto rows = static_cast<std::size_t>(last_row - first_row) + 1;

@@ -12,7 +12,7 @@ namespace throng::validation::criteria {
 
 namespace {
 
-double mean_of(const std::vector<double>& values) {
+double compute_mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -72,7 +72,8 @@ Verdict age_speeds(const std::vector<AgeSpeeds>& groups) {
     passed =
         passed && *slowest >= group.min_mps - kTolerance && *fastest <= group.max_mps + kTolerance;
     if (i >= 2) {
-      passed = passed && mean_of(groups[i - 1].measured_mps) > mean_of(group.measured_mps);
+      passed =
+          passed && compute_mean(groups[i - 1].measured_mps) > compute_mean(group.measured_mps);
     }
     values += fmt::format("{}{:.2f}-{:.2f}", i == 0 ? "" : ", ", *slowest, *fastest);
   }
@@ -143,7 +144,7 @@ Verdict single_file_speeds(const std::vector<FileSpeeds>& files) {
 }
 
 Verdict speed_distribution(const std::vector<double>& speeds_mps) {
-  const double mean = mean_of(speeds_mps);
+  const double mean = compute_mean(speeds_mps);
   double variance = 0;
   for (const double speed : speeds_mps) variance += (speed - mean) * (speed - mean);
   const double deviation = std::sqrt(variance / static_cast<double>(speeds_mps.size() - 1));

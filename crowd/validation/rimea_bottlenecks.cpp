@@ -83,14 +83,14 @@ Outcome walk(const Tested& tested, const Series& series, std::uint64_t seed) {
   return outcome;
 }
 
-std::size_t people_of(Effort effort) { return effort == Effort::full ? 150 : 50; }
-std::size_t runs_of(Effort effort) { return effort == Effort::full ? 7 : 3; }
+std::size_t count_people(Effort effort) { return effort == Effort::full ? 150 : 50; }
+std::size_t count_runs(Effort effort) { return effort == Effort::full ? 7 : 3; }
 
 /// Median of the times until all are out; infinite where most runs jam.
 double median_end(const Tested& tested, const Series& series, Effort effort) {
   std::vector<double> ends;
-  ends.reserve(runs_of(effort));
-  for (std::uint64_t seed = 1; seed <= runs_of(effort); ++seed) {
+  ends.reserve(count_runs(effort));
+  for (std::uint64_t seed = 1; seed <= count_runs(effort); ++seed) {
     ends.push_back(walk(tested, series, seed).end_s.value_or(INFINITY));
   }
   return median(ends);
@@ -98,7 +98,7 @@ double median_end(const Tested& tested, const Series& series, Effort effort) {
 
 Verdict near_goal(const Tested& tested, Effort effort) {
   Series series;
-  series.people = people_of(effort);
+  series.people = count_people(effort);
   series.goal_m = 1;
   const double near = median_end(tested, series, effort);
   series.goal_m = 5;
@@ -109,7 +109,7 @@ Verdict near_goal(const Tested& tested, Effort effort) {
 Verdict long_bottleneck(const Tested& tested, Effort) {
   constexpr Effort kAlways = Effort::full;  // fewer runs do not tell 2 % from chance
   Series series;
-  series.people = people_of(kAlways);
+  series.people = count_people(kAlways);
   series.length_m = 0.2;
   series.goal_m = 5.8;
   const double shorter = median_end(tested, series, kAlways);
@@ -121,12 +121,12 @@ Verdict long_bottleneck(const Tested& tested, Effort) {
 
 Verdict two_bottlenecks(const Tested& tested, Effort effort) {
   Series series;
-  series.people = people_of(effort);
+  series.people = count_people(effort);
   series.second_room = true;
   std::vector<double> differences;
   std::vector<double> first;
   std::vector<double> last;
-  for (std::uint64_t seed = 1; seed <= runs_of(effort); ++seed) {
+  for (std::uint64_t seed = 1; seed <= count_runs(effort); ++seed) {
     const Outcome outcome = walk(tested, series, seed);
     differences.push_back(outcome.last_flow > 0 ? outcome.first_flow - outcome.last_flow
                                                 : -INFINITY);
@@ -140,9 +140,9 @@ Verdict widths(const Tested& tested, Effort effort) {
   std::vector<double> flows;
   for (const double width : {0.8, 1.0, 1.2}) {
     std::vector<double> of_seeds;
-    of_seeds.reserve(runs_of(effort));
-    for (std::uint64_t seed = 1; seed <= runs_of(effort); ++seed) {
-      of_seeds.push_back(width * specific_flow(tested, {width, 0.2, people_of(effort)}, seed));
+    of_seeds.reserve(count_runs(effort));
+    for (std::uint64_t seed = 1; seed <= count_runs(effort); ++seed) {
+      of_seeds.push_back(width * specific_flow(tested, {width, 0.2, count_people(effort)}, seed));
     }
     flows.push_back(median(of_seeds));
   }

@@ -11,20 +11,20 @@ namespace throng::validation {
 
 namespace {
 
-std::size_t seeds_of(Effort effort) { return effort == Effort::full ? 5 : 1; }
+std::size_t count_seeds(Effort effort) { return effort == Effort::full ? 5 : 1; }
 
 /// The worst of several runs.
 template <typename Measure>
 double greatest(Effort effort, const Measure& measure) {
   double worst = measure(1);
-  for (std::size_t seed = 2; seed <= seeds_of(effort); ++seed)
+  for (std::size_t seed = 2; seed <= count_seeds(effort); ++seed)
     worst = std::max(worst, measure(seed));
   return worst;
 }
 
 Verdict exit_flow(const Tested& tested, Effort effort) {
   std::vector<ExitRun> runs;
-  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+  for (std::size_t seed = 1; seed <= count_seeds(effort); ++seed) {
     runs.push_back(leave_room(tested, seed));
   }
   return criteria::exit_flow(runs);
@@ -51,7 +51,7 @@ Verdict open_square(const Tested& tested, Effort effort) {
 Verdict against_each_other(const Tested& tested, Effort effort) {
   const CounterRun alone = pass_corridor(tested, 0, 1);
   std::vector<CounterRun> against;
-  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+  for (std::size_t seed = 1; seed <= count_seeds(effort); ++seed) {
     against.push_back(pass_corridor(tested, 100, seed));
   }
   return criteria::counter_flow(alone, against);
@@ -59,7 +59,7 @@ Verdict against_each_other(const Tested& tested, Effort effort) {
 
 Verdict both_ways(const Tested& tested, Effort effort) {
   std::vector<TwoWayRun> runs;
-  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+  for (std::size_t seed = 1; seed <= count_seeds(effort); ++seed) {
     runs.push_back(walk_both_ways(tested, 0.75, seed));
   }
   return criteria::two_way(runs, 0.75);

@@ -84,14 +84,14 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order(), "the table has the order of the enumerators");
 
-const Mapping& mapping_of(C value) { return kMappings.at(static_cast<std::size_t>(value)); }
+const Mapping& class_mapping(C value) { return kMappings.at(static_cast<std::size_t>(value)); }
 
 }  // namespace
 
 const CityscapesClass& cityscapes_class(world::SemanticClass value) {
-  return mapping_of(value).cityscapes;
+  return class_mapping(value).cityscapes;
 }
 
-const UavidClass& uavid_class(world::SemanticClass value) { return mapping_of(value).uavid; }
+const UavidClass& uavid_class(world::SemanticClass value) { return class_mapping(value).uavid; }
 
 }  // namespace throng::formats

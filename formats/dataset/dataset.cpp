@@ -24,7 +24,7 @@ constexpr const char* kImagesStart = "\"images\":[";
 constexpr const char* kAnnotationsStart = "\"annotations\":[";
 
 template <typename Vector>
-Vector vector_of(const json& value) {
+Vector read_vector(const json& value) {
   Vector vector;
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
     vector[i] = value.at(static_cast<std::size_t>(i)).get<double>();
@@ -32,20 +32,20 @@ Vector vector_of(const json& value) {
   return vector;
 }
 
-Eigen::Matrix3d matrix_of(const json& value) {
+Eigen::Matrix3d read_matrix(const json& value) {
   Eigen::Matrix3d matrix;
   for (Eigen::Index row = 0; row < 3; ++row) {
-    matrix.row(row) = vector_of<Eigen::Vector3d>(value.at(static_cast<std::size_t>(row)));
+    matrix.row(row) = read_vector<Eigen::Vector3d>(value.at(static_cast<std::size_t>(row)));
   }
   return matrix;
 }
 
-Box box_of(const json& value) { return {value.at(0), value.at(1), value.at(2), value.at(3)}; }
+Box read_box(const json& value) { return {value.at(0), value.at(1), value.at(2), value.at(3)}; }
 
 void read_pose(const json& record, Person& person) {
   person.heading_rad = record.value("heading", 0.0);
   if (const auto box = record.find("box_3d"); box != record.end()) {
-    const auto both = vector_of<Eigen::Matrix<double, 6, 1>>(*box);
+    const auto both = read_vector<Eigen::Matrix<double, 6, 1>>(*box);
     person.box_middle = both.head<3>();
     person.box_size = both.tail<3>();
   }
@@ -57,7 +57,7 @@ void read_pose(const json& record, Person& person) {
   }
 }
 
-std::size_t category_of(const json& record, const json& track, const ClassOptions& classes) {
+std::size_t choose_category(const json& record, const json& track, const ClassOptions& classes) {
   if (classes.by == "none") return 0;
   const json& value =
       classes.by == "state" ? record.at("state") : track.at("attributes").at(classes.by);
@@ -76,18 +76,18 @@ std::optional<std::size_t> object_index(const DatasetInfo& info, const json& id)
 }
 
 /// The values that people, drones and vehicles have in common.
-Person object_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
+Person make_object(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
   Person person;
   record.at("id").get_to(person.id);
   record.at("track_id").get_to(person.track_id);
-  person.box = box_of(record.at("bbox"));
-  person.amodal = box_of(record.at("bbox_amodal"));
+  person.box = read_box(record.at("bbox"));
+  person.amodal = read_box(record.at("bbox_amodal"));
   record.at("segmentation").at("counts").get_to(person.mask);
   record.at("area").get_to(person.area);
   record.at("visibility").get_to(person.visibility);
   person.truncation = record.value("truncation", 0.0);
-  person.position = vector_of<Eigen::Vector3d>(record.at("position"));
-  person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
+  person.position = read_vector<Eigen::Vector3d>(record.at("position"));
+  person.velocity = read_vector<Eigen::Vector2d>(record.at("velocity"));
   read_pose(record, person);
   person.is_ignored = person.visibility < options.filters.min_visibility ||
                       person.amodal.height < options.filters.min_height_px ||
@@ -105,20 +105,20 @@ bool is_indistinct(const json& record, double min_contrast) {
                   difficulty->at("edge_contrast").get<double>()) < min_contrast;
 }
 
-Person person_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
-  Person person = object_of(std::move(record), std::move(track), options);
+Person make_person(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
+  Person person = make_object(std::move(record), std::move(track), options);
   if (const json& head = person.record.at("head"); !head.is_null()) {
-    person.head = vector_of<Eigen::Vector2d>(head);
+    person.head = read_vector<Eigen::Vector2d>(head);
   }
   if (const auto box = person.record.find("head_box"); box != person.record.end()) {
-    if (!box->is_null()) person.head_box = box_of(*box);
+    if (!box->is_null()) person.head_box = read_box(*box);
     const json& visibility = person.record.at("head_visibility");
     if (!visibility.is_null()) person.head_visibility = visibility.get<double>();
   }
   person.is_ignored =
       person.is_ignored || is_indistinct(person.record, options.filters.min_contrast);
   person.state = person.record.value("state", "");
-  person.category = category_of(person.record, *person.track, options.classes);
+  person.category = choose_category(person.record, *person.track, options.classes);
   return person;
 }
 
@@ -127,7 +127,7 @@ void read_hidden(const json& record, const FilterOptions& filters, Image& image)
   const auto hidden = record.find("hidden");
   if (hidden == record.end()) return;
   for (const json& person : *hidden) {
-    const Box amodal = box_of(person.at("bbox_amodal"));
+    const Box amodal = read_box(person.at("bbox_amodal"));
     image.hidden.push_back({person.at("track_id"), amodal,
                             filters.min_visibility > 0 || amodal.height < filters.min_height_px});
   }
@@ -143,9 +143,9 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   record.at("frame").get_to(image.frame);
   record.at("time_s").get_to(image.time_s);
   const json& camera = record.at("camera");
-  image.camera_matrix = matrix_of(camera.at("K"));
-  image.R = matrix_of(camera.at("R"));
-  image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
+  image.camera_matrix = read_matrix(camera.at("K"));
+  image.R = read_matrix(camera.at("R"));
+  image.t = read_vector<Eigen::Vector3d>(camera.at("t"));
   image.split = info.split_of(image.run);
   image.people.clear();
   image.objects.clear();
@@ -155,7 +155,7 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
 
 }  // namespace
 
-json sample_of(const Image& image, const DatasetInfo& info) {
+json webdataset_sample(const Image& image, const DatasetInfo& info) {
   json sample = image.record;
   sample["annotations"] = json::array();
   const auto add = [&](const Person& object, const std::string& category) {
@@ -192,7 +192,7 @@ std::vector<std::string> DatasetInfo::class_names() const {
   return names;
 }
 
-world::SemanticClass DatasetInfo::surface_of(const Person& object) const {
+world::SemanticClass DatasetInfo::surface_material(const Person& object) const {
   return object_categories.at(object.category - categories.size()).surface;
 }
 
@@ -317,7 +317,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
   }
   for (const auto& [run, split] : options.splits.runs) {
     if (std::find(info.runs.begin(), info.runs.end(), run) == info.runs.end()) {
-      throw InputError({"", fmt::format("split {}", name_of(split)), run,
+      throw InputError({"", fmt::format("split {}", to_string(split)), run,
                         fmt::format("a run of the dataset, run000 to {}", info.runs.back())});
     }
   }
@@ -430,10 +430,10 @@ bool DatasetReader::next(Image& image) {
     while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {
       std::shared_ptr<const json> track = tracks_->find(waiting_.at("track_id"));
       if (const auto category = object_index(*info_, waiting_.at("category_id"))) {
-        image.objects.push_back(object_of(std::move(waiting_), std::move(track), info_->options));
+        image.objects.push_back(make_object(std::move(waiting_), std::move(track), info_->options));
         image.objects.back().category = *category;
       } else {
-        image.people.push_back(person_of(std::move(waiting_), std::move(track), info_->options));
+        image.people.push_back(make_person(std::move(waiting_), std::move(track), info_->options));
       }
       waiting_ = annotations_->next();
     }

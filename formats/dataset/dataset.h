@@ -122,7 +122,7 @@ struct DatasetInfo {
   /// People's classes, then those of objects.
   std::vector<std::string> class_names() const;
   /// Drone, car or train, of one of an image's objects.
-  world::SemanticClass surface_of(const Person& object) const;
+  world::SemanticClass surface_material(const Person& object) const;
   /// The splits that have runs.
   std::vector<Split> splits() const;
   Split split_of(const std::string& run) const;
@@ -131,7 +131,7 @@ struct DatasetInfo {
 /// The image's record with `annotations`, its people's and objects' records with what their tracks
 /// say, in which `category` names their class and `ignored` is true of who fails the filters:
 /// everything about an image in one object.
-nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
+nlohmann::json webdataset_sample(const Image& image, const DatasetInfo& info);
 
 /// The splits, filters and classes that the dataset's other formats were written with.
 ExportOptions export_options(const nlohmann::json& manifest);

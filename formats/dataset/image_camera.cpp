@@ -8,7 +8,7 @@ namespace throng::formats {
 
 using nlohmann::json;
 
-camera::Camera camera_of(const Image& image) {
+camera::Camera image_camera(const Image& image) {
   using camera::Distortion;
   camera::Camera camera;
   const Eigen::Matrix3d& K = image.camera_matrix;

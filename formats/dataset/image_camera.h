@@ -7,7 +7,7 @@
 namespace throng::formats {
 
 /// As the image's record says it.
-camera::Camera camera_of(const Image& image);
+camera::Camera image_camera(const Image& image);
 
 /// Pixels that an object of this size covers at a point of the world: for a pinhole fx size / z;
 /// with a lens the mean of two directions at right angles to the line of sight, as the lens shows

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-const json& list_of(const json& record, const char* key, std::size_t size) {
+const json& find_list(const json& record, const char* key, std::size_t size) {
   const auto found = record.find(key);
   if (found != record.end() && found->size() == size) return *found;
   const std::size_t has = found == record.end() ? 0 : found->size();
@@ -21,8 +21,8 @@ const json& list_of(const json& record, const char* key, std::size_t size) {
 
 }  // namespace
 
-std::vector<JointInImage> joints_of(const json& record) {
-  const json& values = list_of(record, "joints", 3 * skinning::kJointCount);
+std::vector<JointInImage> read_joints(const json& record) {
+  const json& values = find_list(record, "joints", 3 * skinning::kJointCount);
   std::vector<JointInImage> joints;
   for (std::size_t i = 0; i < values.size(); i += 3) {
     joints.push_back(
@@ -31,9 +31,9 @@ std::vector<JointInImage> joints_of(const json& record) {
   return joints;
 }
 
-std::vector<Eigen::Vector3d> joints_3d_of(const json& record) {
+std::vector<Eigen::Vector3d> read_joints_3d(const json& record) {
   std::vector<Eigen::Vector3d> joints;
-  for (const json& place : list_of(record, "joints_3d", skinning::kJointCount)) {
+  for (const json& place : find_list(record, "joints_3d", skinning::kJointCount)) {
     joints.push_back(numbers_at<3>(place));
   }
   return joints;

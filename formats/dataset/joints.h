@@ -21,9 +21,9 @@ struct JointInImage {
 };
 
 /// By skinning::Joint. Throws InputError if the record has not all of them.
-std::vector<JointInImage> joints_of(const nlohmann::json& record);
+std::vector<JointInImage> read_joints(const nlohmann::json& record);
 
 /// The same in the world, m.
-std::vector<Eigen::Vector3d> joints_3d_of(const nlohmann::json& record);
+std::vector<Eigen::Vector3d> read_joints_3d(const nlohmann::json& record);
 
 }  // namespace throng::formats

@@ -16,7 +16,7 @@ namespace {
 
 }  // namespace
 
-std::vector<std::uint32_t> runs_of(std::string_view counts, std::uint64_t pixels) {
+std::vector<std::uint32_t> decode_runs(std::string_view counts, std::uint64_t pixels) {
   constexpr int kBits = 5;
   constexpr int kMaxShift = 40;
   std::vector<std::uint32_t> runs;
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> runs_of(std::string_view counts, std::uint64_t pixels
   return runs;
 }
 
-std::string counts_of(const std::vector<std::uint32_t>& runs) {
+std::string encode_counts(const std::vector<std::uint32_t>& runs) {
   return annotate::coco_counts(runs);
 }
 
@@ -54,7 +54,7 @@ bool Bitmap::at(int column, int row) const {
              static_cast<std::size_t>(column - x)] != 0;
 }
 
-render::PixelMask pixel_mask_of(const Bitmap& bitmap) {
+render::PixelMask to_pixel_mask(const Bitmap& bitmap) {
   render::PixelMask mask(
       Eigen::AlignedBox2i(Eigen::Vector2i(bitmap.x, bitmap.y),
                           Eigen::Vector2i(bitmap.x + bitmap.width, bitmap.y + bitmap.height)));
@@ -66,7 +66,7 @@ std::uint64_t Bitmap::area() const {
   return std::accumulate(set.begin(), set.end(), std::uint64_t{0});
 }
 
-Bitmap bitmap_of(const std::vector<std::uint32_t>& runs, int image_height) {
+Bitmap decode_bitmap(const std::vector<std::uint32_t>& runs, int image_height) {
   const auto height = static_cast<std::uint64_t>(image_height);
   const auto each_piece = [&](const auto& piece) {
     std::uint64_t position = 0;
@@ -104,7 +104,7 @@ Bitmap bitmap_of(const std::vector<std::uint32_t>& runs, int image_height) {
   return mask;
 }
 
-std::vector<std::uint32_t> runs_of(const std::vector<Bitmap>& bitmaps, int width, int height) {
+std::vector<std::uint32_t> decode_runs(const std::vector<Bitmap>& bitmaps, int width, int height) {
   std::vector<std::uint32_t> runs = {0};
   bool is_set = false;
   for (int x = 0; x < width; ++x) {

@@ -13,10 +13,10 @@ namespace throng::formats {
 
 /// Lengths of runs of 0, 1, 0, ... pixels down the columns. Throws InputError unless the counts are
 /// well-formed and sum to `pixels`.
-std::vector<std::uint32_t> runs_of(std::string_view counts, std::uint64_t pixels);
+std::vector<std::uint32_t> decode_runs(std::string_view counts, std::uint64_t pixels);
 
 /// Compressed counts of such runs.
-std::string counts_of(const std::vector<std::uint32_t>& runs);
+std::string encode_counts(const std::vector<std::uint32_t>& runs);
 
 /// The pixels of a part of an image, row by row.
 struct Bitmap {
@@ -32,12 +32,12 @@ struct Bitmap {
 };
 
 /// A mask of an image `image_height` pixels high, cut to its bounds; width 0 for an empty one.
-Bitmap bitmap_of(const std::vector<std::uint32_t>& runs, int image_height);
+Bitmap decode_bitmap(const std::vector<std::uint32_t>& runs, int image_height);
 
 /// Pixels of the same place, as annotations take them.
-render::PixelMask pixel_mask_of(const Bitmap& bitmap);
+render::PixelMask to_pixel_mask(const Bitmap& bitmap);
 
 /// Run lengths of the union of bitmaps of one image.
-std::vector<std::uint32_t> runs_of(const std::vector<Bitmap>& bitmaps, int width, int height);
+std::vector<std::uint32_t> decode_runs(const std::vector<Bitmap>& bitmaps, int width, int height);
 
 }  // namespace throng::formats

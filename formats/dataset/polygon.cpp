@@ -13,17 +13,15 @@ namespace throng::formats {
 
 namespace {
 
-using Places = std::vector<PixelPlace>;
+using Places = std::vector<Pixel>;
 
 /// Directions of edges between pixels: right, down, left, up; the mask is on their right side.
 constexpr int kUp = 3;
-constexpr std::array<PixelPlace, 4> kStep = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<Pixel, 4> kStep = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 /// From an edge's first corner to the pixel of the mask beside it.
-constexpr std::array<PixelPlace, 4> kBeside = {{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
+constexpr std::array<Pixel, 4> kBeside = {{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
 
-PixelPlace sum(const PixelPlace& a, const PixelPlace& b) {
-  return {a.first + b.first, a.second + b.second};
-}
+Pixel sum(const Pixel& a, const Pixel& b) { return {a.first + b.first, a.second + b.second}; }
 
 /// The border between the mask and one region of its background, through the mask's pixels.
 struct BorderRing {
@@ -33,7 +31,7 @@ struct BorderRing {
 };
 
 /// Edges that are not in a ring yet: from each corner a bit for each direction.
-using OpenEdges = std::map<PixelPlace, unsigned>;
+using OpenEdges = std::map<Pixel, unsigned>;
 
 OpenEdges open_edges(const Bitmap& mask) {
   OpenEdges edges;
@@ -52,8 +50,8 @@ OpenEdges open_edges(const Bitmap& mask) {
 
 BorderRing take_border(OpenEdges& edges) {
   BorderRing ring;
-  const PixelPlace start = edges.begin()->first;
-  PixelPlace at = start;
+  const Pixel start = edges.begin()->first;
+  Pixel at = start;
   int direction = -1;
   std::int64_t twice_area = 0;
   do {
@@ -65,10 +63,10 @@ BorderRing take_border(OpenEdges& edges) {
     direction = next;
     found->second &= ~(1U << direction);
     if (found->second == 0) edges.erase(found);
-    const PixelPlace pixel = sum(at, kBeside[static_cast<std::size_t>(direction)]);
+    const Pixel pixel = sum(at, kBeside[static_cast<std::size_t>(direction)]);
     if (ring.places.empty() || ring.places.back() != pixel) ring.places.push_back(pixel);
     if (direction == kUp) ring.left_sides.push_back(pixel);
-    const PixelPlace to = sum(at, kStep[static_cast<std::size_t>(direction)]);
+    const Pixel to = sum(at, kStep[static_cast<std::size_t>(direction)]);
     twice_area += std::int64_t{at.first} * to.second - std::int64_t{to.first} * at.second;
     at = to;
     // The leftmost corner is passed once: where a ring passes twice, it has edges farther left.
@@ -79,7 +77,7 @@ BorderRing take_border(OpenEdges& edges) {
 }
 
 /// The places from `first` on, all the way round and back to it.
-Places turned_to(const Places& ring, const PixelPlace& first) {
+Places turned_to(const Places& ring, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), first);
   check(at != ring.end(), "a ring passes its own places");
   Places turned(at, ring.end());
@@ -89,7 +87,7 @@ Places turned_to(const Places& ring, const PixelPlace& first) {
 }
 
 /// Goes from a place of the ring to `first` of another one, around that one, and back.
-void splice(Places& ring, const PixelPlace& from, const Places& other, const PixelPlace& first) {
+void splice(Places& ring, const Pixel& from, const Places& other, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), from);
   check(at != ring.end(), "rings are joined where they pass");
   Places detour = turned_to(other, first);
@@ -104,23 +102,23 @@ struct Piece {
 };
 
 /// The pixel of the mask farthest to the left in a row without a gap.
-PixelPlace row_start(const Bitmap& mask, PixelPlace place) {
+Pixel row_start(const Bitmap& mask, Pixel place) {
   while (mask.at(place.first - 1, place.second)) --place.first;
   return place;
 }
 
-std::vector<Piece> pieces_of(const Bitmap& mask) {
+std::vector<Piece> split_pieces(const Bitmap& mask) {
   OpenEdges edges = open_edges(mask);
   std::vector<BorderRing> holes;
   std::vector<Piece> pieces;
-  std::map<PixelPlace, std::size_t> piece_left_of;  // by a pixel whose left side is on its border
+  std::map<Pixel, std::size_t> piece_left_of;  // by a pixel whose left side is on its border
   while (!edges.empty()) {
     BorderRing ring = take_border(edges);
     if (ring.area < 0) {
       holes.push_back(std::move(ring));
       continue;
     }
-    for (const PixelPlace& place : ring.left_sides) piece_left_of[place] = pieces.size();
+    for (const Pixel& place : ring.left_sides) piece_left_of[place] = pieces.size();
     pieces.push_back({std::move(ring.places), ring.area});
   }
   // From its leftmost place a hole is joined to the border that its row begins at: the outer one,
@@ -131,10 +129,10 @@ std::vector<Piece> pieces_of(const Bitmap& mask) {
   std::sort(holes.begin(), holes.end(),
             [&](const BorderRing& a, const BorderRing& b) { return leftmost(a) < leftmost(b); });
   for (const BorderRing& hole : holes) {
-    const PixelPlace first = leftmost(hole);
-    const PixelPlace border = row_start(mask, first);
+    const Pixel first = leftmost(hole);
+    const Pixel border = row_start(mask, first);
     const std::size_t piece = piece_left_of.at(border);
-    for (const PixelPlace& place : hole.left_sides) piece_left_of[place] = piece;
+    for (const Pixel& place : hole.left_sides) piece_left_of[place] = piece;
     splice(pieces[piece].places, border, hole.places, first);
     pieces[piece].area += hole.area;
   }
@@ -143,14 +141,14 @@ std::vector<Piece> pieces_of(const Bitmap& mask) {
 
 /// The shortest path from what is joined to a piece that is not.
 struct Bridge {
-  PixelPlace from;
-  PixelPlace to;
+  Pixel from;
+  Pixel to;
   int pixels = std::numeric_limits<int>::max();  ///< that a line from one to the other adds
 };
 
 void shorten(Bridge& bridge, const Places& joined, const Places& piece) {
-  for (const PixelPlace& a : joined) {
-    for (const PixelPlace& b : piece) {
+  for (const Pixel& a : joined) {
+    for (const Pixel& b : piece) {
       const int between = std::max(std::abs(a.first - b.first), std::abs(a.second - b.second)) - 1;
       if (between < bridge.pixels) bridge = {a, b, between};
     }
@@ -190,17 +188,17 @@ Places joined(std::vector<Piece> pieces, PolygonFit& fit) {
 
 /// Without the places in the middle of straight lines of single steps.
 Places straightened(const Places& ring) {
-  const auto step = [](const PixelPlace& a, const PixelPlace& b) {
-    return PixelPlace(b.first - a.first, b.second - a.second);
+  const auto step = [](const Pixel& a, const Pixel& b) {
+    return Pixel(b.first - a.first, b.second - a.second);
   };
-  const auto is_single = [](const PixelPlace& d) {
+  const auto is_single = [](const Pixel& d) {
     return std::abs(d.first) <= 1 && std::abs(d.second) <= 1;
   };
   Places kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const PixelPlace before = step(ring[(i + ring.size() - 1) % ring.size()], ring[i]);
-    const PixelPlace after = step(ring[i], ring[(i + 1) % ring.size()]);
-    const bool is_repeated = before == PixelPlace(0, 0);
+    const Pixel before = step(ring[(i + ring.size() - 1) % ring.size()], ring[i]);
+    const Pixel after = step(ring[i], ring[(i + 1) % ring.size()]);
+    const bool is_repeated = before == Pixel(0, 0);
     if (!is_repeated && (before != after || !is_single(before))) kept.push_back(ring[i]);
   }
   if (kept.empty()) kept.push_back(ring.front());
@@ -209,8 +207,8 @@ Places straightened(const Places& ring) {
 
 }  // namespace
 
-std::vector<PixelPlace> polygon_of(const Bitmap& mask, PolygonFit* fit) {
-  std::vector<Piece> pieces = pieces_of(mask);
+std::vector<Pixel> trace_polygon(const Bitmap& mask, PolygonFit* fit) {
+  std::vector<Piece> pieces = split_pieces(mask);
   if (pieces.empty()) return {};
   PolygonFit found;
   Places polygon = straightened(joined(std::move(pieces), found));

@@ -9,7 +9,7 @@
 
 namespace throng::formats {
 
-using PixelPlace = std::pair<int, int>;  ///< column, row
+using Pixel = std::pair<int, int>;  ///< column, row
 
 /// The pixels in which a filled polygon differs from its mask.
 struct PolygonFit {
@@ -31,6 +31,6 @@ struct PolygonFit {
 /// piece of fewer pixels than its line would add is left out. At least three points, the last ones
 /// repeated if need be; none for an empty mask.
 /// Sets `fit`, if given, to how well it does.
-std::vector<PixelPlace> polygon_of(const Bitmap& mask, PolygonFit* fit = nullptr);
+std::vector<Pixel> trace_polygon(const Bitmap& mask, PolygonFit* fit = nullptr);
 
 }  // namespace throng::formats

@@ -39,7 +39,7 @@ std::string reid_attribute_line(int number, ReidSide side, const Person& person)
   static const json kNone = json::object();
   const auto found = person.track->find("attributes");
   const json& attributes = found == person.track->end() ? kNone : *found;
-  std::string text = fmt::format("{},{}", number, name_of(side));
+  std::string text = fmt::format("{},{}", number, to_string(side));
   for (const char* key : {"sex", "age_years", "age_band", "stature_m"}) {
     text += "," + csv_field(attributes, key);
   }

@@ -12,22 +12,22 @@ constexpr std::uint64_t kReidPairs = std::uint64_t{1} << 44;  // apart from agen
 
 /// Everything in the attributes is constant and rendered: equal ones look alike. Somebody without
 /// attributes is like nobody else.
-std::string look_of(const Person& person) {
+std::string look_key(const Person& person) {
   const auto attributes = person.track->find("attributes");
   if (attributes == person.track->end()) return "track " + std::to_string(person.track_id);
   return attributes->dump();
 }
 
-std::string character_of(const Person& person) {
+std::string character_name(const Person& person) {
   const auto attributes = person.track->find("attributes");
-  if (attributes == person.track->end()) return look_of(person);
-  return attributes->value("character", look_of(person));
+  if (attributes == person.track->end()) return look_key(person);
+  return attributes->value("character", look_key(person));
 }
 
 }  // namespace
 
-ReidSide ReidIdentities::side_of(const Person& person) {
-  const auto [found, is_new] = sides_.try_emplace(character_of(person), ReidSide::train);
+ReidSide ReidIdentities::side_for(const Person& person) {
+  const auto [found, is_new] = sides_.try_emplace(character_name(person), ReidSide::train);
   if (is_new) {
     const std::size_t order = sides_.size() - 1;
     Random drawing(seed_, Stream::participants, kReidPairs + order / 2);
@@ -39,7 +39,7 @@ ReidSide ReidIdentities::side_of(const Person& person) {
 
 ReidIdentities::Number ReidIdentities::number_of(const Person& person) {
   const int next = static_cast<int>(numbers_.size()) + 1;
-  const auto [found, is_new] = numbers_.try_emplace(look_of(person), next);
+  const auto [found, is_new] = numbers_.try_emplace(look_key(person), next);
   return {found->second, is_new};
 }
 

@@ -11,7 +11,7 @@
 namespace throng::formats {
 
 enum class ReidSide : std::uint8_t { train, test };
-inline const char* name_of(ReidSide side) { return side == ReidSide::train ? "train" : "test"; }
+inline const char* to_string(ReidSide side) { return side == ReidSide::train ? "train" : "test"; }
 
 /// An identity is a look: the character and the colors that it is rendered in. Two people who look
 /// exactly alike, as characters without colors of their own do, are one identity in all runs, since
@@ -23,7 +23,7 @@ class ReidIdentities {
 
   /// The side of somebody's character. Characters are dealt out in pairs, in the order in which
   /// they are first asked for; the seed says who of a pair is for training.
-  ReidSide side_of(const Person& person);
+  ReidSide side_for(const Person& person);
 
   struct Number {
     int number = 0;  ///< from 1, in the order of first calls

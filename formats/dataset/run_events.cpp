@@ -69,7 +69,7 @@ constexpr std::array kChanges = {Change{"arrives", "departs"}, Change{"lies_down
                                  Change{"panic_begins", "panic_ends"},
                                  Change{"following_begins", "following_ends"}};
 
-std::optional<std::int64_t> track_of(const RunEvent& event) {
+std::optional<std::int64_t> event_track(const RunEvent& event) {
   const auto track = event.record.find("track_id");
   if (track == event.record.end() || !track->is_number_integer()) return std::nullopt;
   return track->get<std::int64_t>();
@@ -78,10 +78,10 @@ std::optional<std::int64_t> track_of(const RunEvent& event) {
 /// Times of a type of event by track, with the events' numbers, in their order.
 using Times = std::map<std::int64_t, std::vector<std::pair<double, std::size_t>>>;
 
-Times times_of(const std::vector<RunEvent>& events, std::string_view type) {
+Times event_times(const std::vector<RunEvent>& events, std::string_view type) {
   Times times;
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const auto track = track_of(events[i]);
+    const auto track = event_track(events[i]);
     if (events[i].type == type && track) times[*track].emplace_back(events[i].time_s, i);
   }
   return times;
@@ -96,8 +96,8 @@ bool has_at(const Times& times, std::int64_t track, double time_s) {
 }
 
 /// A column of by_person as times by track; what is null is left out.
-std::map<std::int64_t, double> column_of(const json& people, const char* key,
-                                         std::int64_t first_track) {
+std::map<std::int64_t, double> read_column(const json& people, const char* key,
+                                           std::int64_t first_track) {
   std::map<std::int64_t, double> times;
   const json agents = people.value("agent", json::array());
   const json column = people.value(key, json::array());
@@ -111,8 +111,8 @@ std::map<std::int64_t, double> column_of(const json& people, const char* key,
 /// Each notice is that of by_person, and each of by_person has its event.
 void check_notices(const std::vector<RunEvent>& events, const json& people,
                    std::int64_t first_track, const EventReport& report) {
-  const Times notices = times_of(events, "notices");
-  const auto noticed = column_of(people, "noticed_s", first_track);
+  const Times notices = event_times(events, "notices");
+  const auto noticed = read_column(people, "noticed_s", first_track);
   for (const auto& [track, times] : notices) {
     const auto known = noticed.find(track);
     if (times.size() == 1 && known != noticed.end() &&
@@ -137,10 +137,10 @@ void check_notices(const std::vector<RunEvent>& events, const json& people,
 /// people whom the crowd takes away at a door depart instead.
 void check_escapes(const std::vector<RunEvent>& events, const json& people,
                    std::int64_t first_track, const EventReport& report) {
-  const Times escapes = times_of(events, "escapes");
-  const Times departures = times_of(events, "departs");
-  const auto escaped = column_of(people, "escaped_s", first_track);
-  const auto arrived = column_of(people, "arrived_s", first_track);
+  const Times escapes = event_times(events, "escapes");
+  const Times departures = event_times(events, "departs");
+  const auto escaped = read_column(people, "escaped_s", first_track);
+  const auto arrived = read_column(people, "arrived_s", first_track);
   const auto was_outside = [&](std::int64_t track) {
     const auto own = escapes.find(track);
     const auto arrival = arrived.find(track);
@@ -202,7 +202,7 @@ std::map<std::string, DroneCounts> counts_of_drones(const std::vector<RunEvent>&
     if (event.type == "collision") ++counts.collisions[event.record.value("partner", "")];
     if (event.type != "downwash") continue;
     counts.figures["downwash_person_s"] += event.record.value("duration_s", 0.0);
-    if (const auto track = track_of(event)) counts.blown_on.insert(*track);
+    if (const auto track = event_track(event)) counts.blown_on.insert(*track);
   }
   return drones;
 }
@@ -244,7 +244,7 @@ void check_drones(const std::vector<RunEvent>& events, const json& drones,
 }  // namespace
 
 std::vector<RunEvent> read_run_events(const fs::path& root, const std::string& run) {
-  const fs::path file = root / annotate::file_of(annotate::GroundTruth::events, run);
+  const fs::path file = root / annotate::ground_truth_file(annotate::GroundTruth::events, run);
   std::vector<RunEvent> events;
   std::istringstream lines(read_file(file));
   for (std::string line; std::getline(lines, line);) {
@@ -256,7 +256,7 @@ std::vector<RunEvent> read_run_events(const fs::path& root, const std::string& r
   return events;
 }
 
-std::int64_t first_track_of(const DatasetInfo& info, const std::string& run) {
+std::int64_t first_track(const DatasetInfo& info, const std::string& run) {
   const auto at = std::find(info.runs.begin(), info.runs.end(), run);
   return (at - info.runs.begin()) * annotate::kTrackIdsPerRun + 1;
 }
@@ -283,7 +283,7 @@ void check_event_records(const std::vector<RunEvent>& events, const EventReport&
       if (!event.record.contains(member))
         report(i, fmt::format("{} without {}", event.type, member));
     }
-    const auto track = track_of(event);
+    const auto track = event_track(event);
     if (!track) continue;
     for (const Change& change : kChanges) {
       const bool begins = event.type == change.begins;
@@ -326,7 +326,7 @@ void check_events_against_trajectories(const std::vector<RunEvent>& events,
                                        const EventReport& report) {
   std::map<std::int64_t, std::vector<std::pair<double, std::size_t>>> changes;
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const auto track = track_of(events[i]);
+    const auto track = event_track(events[i]);
     const bool is_change = events[i].type == "arrives" || events[i].type == "departs";
     if (is_change && track) changes[*track].emplace_back(events[i].time_s, i);
   }

@@ -40,7 +40,7 @@ void check_events_against_trajectories(const std::vector<RunEvent>& events,
                                        const EventReport& report);
 
 /// Track id of a run's agent 0.
-std::int64_t first_track_of(const DatasetInfo& info, const std::string& run);
+std::int64_t first_track(const DatasetInfo& info, const std::string& run);
 
 /// The figures of a run, metrics/RUN.json; an empty object if that is not there or no JSON.
 nlohmann::json run_figures(const std::filesystem::path& root, const std::string& run);

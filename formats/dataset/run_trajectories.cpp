@@ -26,8 +26,9 @@ RunTrajectories read_run_trajectories(const fs::path& root, const std::string& r
   if (!std::is_sorted(recorded.tracks.begin(), recorded.tracks.end())) {
     throw InputError({description, "/track_ids", "another order", "ascending ids"});
   }
-  recorded.values = read_npy(root / annotate::file_of(annotate::GroundTruth::trajectories, run),
-                             {frames, people, kTrajectoryValues});
+  recorded.values =
+      read_npy(root / annotate::ground_truth_file(annotate::GroundTruth::trajectories, run),
+               {frames, people, kTrajectoryValues});
   return recorded;
 }
 

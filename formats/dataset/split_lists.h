@@ -23,7 +23,7 @@ class SplitLists {
     if (found == lists_.end()) {
       std::string path = pattern_;
       constexpr std::string_view kSplit = "SPLIT";
-      path.replace(path.find(kSplit), kSplit.size(), name_of(split));
+      path.replace(path.find(kSplit), kSplit.size(), to_string(split));
       found = lists_.emplace(split, output_->open(path)).first;
     }
     found->second.write(line);

@@ -98,7 +98,7 @@ class CocoFile {
   std::set<std::int64_t> tracks_of_run_;
 };
 
-json categories_of(const DatasetInfo& info, bool keypoints) {
+json coco_categories(const DatasetInfo& info, bool keypoints) {
   json categories = json::array();
   for (std::size_t i = 0; i < info.categories.size(); ++i) {
     json& category = categories.emplace_back(
@@ -118,16 +118,16 @@ json categories_of(const DatasetInfo& info, bool keypoints) {
 /// Which of COCO's kinds of files is written.
 enum class CocoKind : std::uint8_t { instances, keypoints, whole_bodies };
 
-std::string coco_file_of(CocoKind kind, Split split) {
+std::string coco_file_name(CocoKind kind, Split split) {
   switch (kind) {
     case CocoKind::instances:
       break;
     case CocoKind::keypoints:
-      return fmt::format("annotations/person_keypoints_{}.json", name_of(split));
+      return fmt::format("annotations/person_keypoints_{}.json", to_string(split));
     case CocoKind::whole_bodies:
-      return fmt::format("annotations/coco_wholebody_{}_v1.0.json", name_of(split));
+      return fmt::format("annotations/coco_wholebody_{}_v1.0.json", to_string(split));
   }
-  return fmt::format("annotations/instances_{}.json", name_of(split));
+  return fmt::format("annotations/instances_{}.json", to_string(split));
 }
 
 /// COCO-WholeBody's members (Jin et al. 2020): six points of the feet; faces and hands have none.
@@ -135,11 +135,11 @@ void add_whole_body(json& record) {
   using skinning::Joint;
   constexpr std::array kFeet = {Joint::left_big_toe,  Joint::left_small_toe,  Joint::left_heel,
                                 Joint::right_big_toe, Joint::right_small_toe, Joint::right_heel};
-  const std::vector<JointInImage> joints = joints_of(record);
+  const std::vector<JointInImage> joints = read_joints(record);
   json feet = json::array();
   bool are_valid = false;
   for (const Joint joint : kFeet) {
-    const JointInImage& at = joints.at(index_of(joint));
+    const JointInImage& at = joints.at(index_from(joint));
     const int visibility = at.coco_visibility();
     feet.insert(feet.end(), {at.place.x(), at.place.y(), visibility});
     are_valid = are_valid || visibility > 0;
@@ -158,15 +158,16 @@ class CocoExporter : public Exporter {
   CocoExporter(const DatasetInfo& info, Output output, CocoKind kind)
       : root_(info.root), output_(std::move(output)), kind_(kind) {
     for (const Split split : info.splits()) {
-      CocoFile& file = files_.try_emplace(split, output_, coco_file_of(kind, split)).first->second;
-      file.begin(info, categories_of(info, kind != CocoKind::instances));
+      CocoFile& file =
+          files_.try_emplace(split, output_, coco_file_name(kind, split)).first->second;
+      file.begin(info, coco_categories(info, kind != CocoKind::instances));
     }
   }
 
   void add(const Image& image) override {
     CocoFile& file = files_.at(image.split);
     const std::string name = image.stem() + ".jpg";
-    output_.link(fs::path(name_of(image.split)) / name, root_ / image.file);
+    output_.link(fs::path(to_string(image.split)) / name, root_ / image.file);
     json record = image.record;
     record["file_name"] = name;
     file.add_image(record);
@@ -187,8 +188,8 @@ class CocoExporter : public Exporter {
       record["iscrowd"] = 1;
       // COCO has run lengths of regions as plain numbers.
       record["segmentation"]["counts"] =
-          runs_of(object.mask, static_cast<std::uint64_t>(image.width) *
-                                   static_cast<std::uint64_t>(image.height));
+          decode_runs(object.mask, static_cast<std::uint64_t>(image.width) *
+                                       static_cast<std::uint64_t>(image.height));
     }
     if (kind_ == CocoKind::whole_bodies) add_whole_body(record);
     if (kind_ == CocoKind::instances) {

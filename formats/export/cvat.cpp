@@ -24,11 +24,11 @@ class CvatExporter : public Exporter {
   }
 
   void add(const Image& image) override {
-    const std::string name = fmt::format("{}/{}.jpg", name_of(image.split), image.stem());
+    const std::string name = fmt::format("{}/{}.jpg", to_string(image.split), image.stem());
     output_.link("images/" + name, info_.root / image.file);
     std::string text =
         fmt::format("  <image id=\"{}\" name=\"{}\" subset=\"{}\" width=\"{}\" height=\"{}\">\n",
-                    number_++, name, name_of(image.split), image.width, image.height);
+                    number_++, name, to_string(image.split), image.width, image.height);
     for (const Person& person : image.people) {
       if (!person.is_ignored) append(text, person);
     }

@@ -75,7 +75,7 @@ class CvatVideoExporter : public Exporter {
     Task& task = tasks_[image.camera];
     if (task.frames == 0) {
       task = {image.sequence(),
-              fmt::format("{}/{}", name_of(image.split), image.sequence()),
+              fmt::format("{}/{}", to_string(image.split), image.sequence()),
               0,
               image.width,
               image.height,

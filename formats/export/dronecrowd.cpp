@@ -23,11 +23,11 @@ class DroneCrowdExporter : public Exporter {
       : info_(info), output_(std::move(output)), texts_(output_) {}
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     output_.link(fmt::format("{}/images/{}/{:06}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
     std::string lines;
-    const camera::Camera camera = camera_of(image);
+    const camera::Camera camera = image_camera(image);
     for (const Person& person : image.people) {
       if (!person.is_ignored && person.head) append(lines, image, camera, person);
     }

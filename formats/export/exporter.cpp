@@ -36,7 +36,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
       if (annotate::holds(annotations, need)) continue;
       problems.push_back({"", place, names[i],
                           fmt::format("\"{}\" among outputs.annotations, which {} is made of",
-                                      annotate::kind_of(need).name, names[i])});
+                                      annotate::ground_truth_kind(need).name, names[i])});
     }
     chosen.push_back(format);
   }
@@ -49,7 +49,7 @@ std::vector<Problem> split_warnings(const DatasetInfo& info,
   const std::vector<Split> used = info.splits();
   std::vector<std::string_view> empty;
   for (const Split split : {Split::train, Split::val}) {
-    if (std::find(used.begin(), used.end(), split) == used.end()) empty.push_back(name_of(split));
+    if (std::find(used.begin(), used.end(), split) == used.end()) empty.push_back(to_string(split));
   }
   std::vector<Problem> warnings;
   if (empty.empty()) return warnings;

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-json detection_of(const Person& person, const Image& image) {
+json make_detection(const Person& person, const Image& image) {
   const Box& box = person.box;
   json attributes = {{"track_id", person.track_id},
                      {"visibility", person.visibility},
@@ -32,18 +32,18 @@ class FiftyOneExporter : public Exporter {
       : info_(info), output_(std::move(output)) {
     for (const Split split : info.splits()) {
       OutputStream& labels =
-          labels_.try_emplace(split, output_.open(fmt::format("{}/labels.json", name_of(split))))
+          labels_.try_emplace(split, output_.open(fmt::format("{}/labels.json", to_string(split))))
               .first->second;
       labels.write(fmt::format("{{\"classes\": {}, \"labels\": {{", json(info.categories).dump()));
     }
   }
 
   void add(const Image& image) override {
-    output_.link(fmt::format("{}/data/{}.jpg", name_of(image.split), image.stem()),
+    output_.link(fmt::format("{}/data/{}.jpg", to_string(image.split), image.stem()),
                  info_.root / image.file);
     json detections = json::array();
     for (const Person& person : image.people) {
-      if (!person.is_ignored) detections.push_back(detection_of(person, image));
+      if (!person.is_ignored) detections.push_back(make_detection(person, image));
     }
     labels_.at(image.split)
         .write(fmt::format("{}\n{}: {}", counts_[image.split]++ > 0 ? "," : "",

@@ -23,14 +23,14 @@ void append_bytes(std::string& bytes, const auto& value) {
   std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
-std::string flo_of(const images::Raster& flow) {
+std::string encode_flo(const images::Raster& flow) {
   std::string bytes;
   bytes.reserve(12 + flow.samples.size() / 3 * 8);
   append_bytes(bytes, kMagic);
   append_bytes(bytes, static_cast<std::int32_t>(flow.width));
   append_bytes(bytes, static_cast<std::int32_t>(flow.height));
   for (std::size_t i = 0; i < flow.samples.size(); i += 3) {
-    const auto motion_px = flow_of(&flow.samples[i]);
+    const auto motion_px = decode_flow(&flow.samples[i]);
     for (const Eigen::Index axis : {0, 1}) {
       append_bytes(bytes, motion_px ? static_cast<float>((*motion_px)[axis]) : kUnknownFlow);
     }
@@ -56,9 +56,9 @@ class FloExporter : public Exporter {
       return images::read_raster(raster_path(info_.root, kind, image.file));
     };
     const std::string stem = image.sequence() + "/" + image.stem();
-    output_.write(stem + ".flo", flo_of(raster_of("flow")));
+    output_.write(stem + ".flo", encode_flo(raster_of("flow")));
     if (info_.has(annotate::GroundTruth::flow_backward)) {
-      output_.write(stem + ".backward.flo", flo_of(raster_of("flow_backward")));
+      output_.write(stem + ".backward.flo", encode_flo(raster_of("flow_backward")));
     }
     if (info_.has(annotate::GroundTruth::flow_occlusion)) {
       output_.write(stem + ".occlusion.png", occlusion_png(raster_of("flow_occlusion")));

@@ -30,13 +30,15 @@ class ImageFolderExporter : public Exporter {
   ImageFolderExporter(const DatasetInfo& info, Output output)
       : info_(info), output_(std::move(output)) {
     for (const Split split : info.splits()) {
-      lines_.try_emplace(split, output_.open(fmt::format("{}/metadata.jsonl", folder_of(split))));
+      lines_.try_emplace(
+          split, output_.open(fmt::format("{}/metadata.jsonl", ground_truth_folder(split))));
     }
   }
 
   void add(const Image& image) override {
     const std::string name = image.stem() + ".jpg";
-    output_.link(fmt::format("{}/{}", folder_of(image.split), name), info_.root / image.file);
+    output_.link(fmt::format("{}/{}", ground_truth_folder(image.split), name),
+                 info_.root / image.file);
     json objects = {{"bbox", json::array()},
                     {"categories", json::array()},
                     {"area", json::array()},
@@ -84,8 +86,8 @@ class ImageFolderExporter : public Exporter {
   }
 
   /// The loader's own names of splits.
-  static std::string_view folder_of(Split split) {
-    return split == Split::val ? "validation" : name_of(split);
+  static std::string_view ground_truth_folder(Split split) {
+    return split == Split::val ? "validation" : to_string(split);
   }
 
   const DatasetInfo& info_;

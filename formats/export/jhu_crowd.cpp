@@ -18,7 +18,7 @@ namespace {
 
 /// 1: visible, 2: partially occluded, 3: fully occluded. Its people judged by eye; here a twentieth
 /// decides.
-int jhu_occlusion_of(double visibility) {
+int jhu_occlusion(double visibility) {
   constexpr double kLittle = 0.05;
   if (visibility >= 1 - kLittle) return 1;
   return visibility > kLittle ? 2 : 3;
@@ -33,7 +33,7 @@ bool is_blurred(const Head& head) {
 }
 
 /// 0: none, 1: fog or haze, 2: rain. (3 is snow, of which there is none.)
-int weather_of(const Image& image) {
+int jhu_weather(const Image& image) {
   const auto environment = image.record.find("environment");
   if (environment == image.record.end()) return 0;
   const std::string weather = environment->value("weather", "");
@@ -54,7 +54,7 @@ class JhuCrowdExporter : public Exporter {
 
   void add(const Image& image) override {
     const std::string name = fmt::format("{:04}", ++number_);
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     output_.link(fmt::format("{}/images/{}.jpg", split, name), info_.root / image.file);
     const std::vector<Head> heads = heads_with_boxes(image);
     std::string lines;
@@ -63,7 +63,7 @@ class JhuCrowdExporter : public Exporter {
     const std::string scene = image.scenario().empty() ? info_.scenario : image.scenario();
     labels_.add(image.split,
                 fmt::format("{},{},{},{},{}", name, heads.size(), without_commas(scene),
-                            weather_of(image), heads.empty() ? 1 : 0));
+                            jhu_weather(image), heads.empty() ? 1 : 0));
   }
   void finish() override { labels_.close(); }
 
@@ -74,7 +74,7 @@ class JhuCrowdExporter : public Exporter {
     const auto size = [](double side) { return std::max(1, static_cast<int>(std::lround(side))); };
     fmt::format_to(std::back_inserter(lines), "{} {} {} {} {} {}\n", pixel(head.place.x()),
                    pixel(head.place.y()), size(head.box.width), size(head.box.height),
-                   jhu_occlusion_of(head.visibility), is_blurred(head) ? 1 : 0);
+                   jhu_occlusion(head.visibility), is_blurred(head) ? 1 : 0);
   }
 
   const DatasetInfo& info_;

@@ -41,13 +41,13 @@ struct JtaJoint {
 class JtaPerson {
  public:
   JtaPerson(const Image& image, const Person& person)
-      : camera_(camera_of(image)),
-        joints_(joints_of(person.record)),
-        in_world_(joints_3d_of(person.record)) {}
+      : camera_(image_camera(image)),
+        joints_(read_joints(person.record)),
+        in_world_(read_joints_3d(person.record)) {}
 
   JtaJoint at(Joint joint) const {
-    const JointInImage& seen = joints_.at(index_of(joint));
-    const Eigen::Vector3d& in_world = in_world_.at(index_of(joint));
+    const JointInImage& seen = joints_.at(index_from(joint));
+    const Eigen::Vector3d& in_world = in_world_.at(index_from(joint));
     // Outside of the image it is where the camera would have it.
     const Eigen::Vector2d place = seen.is_inside() ? seen.place : projected(in_world);
     return {place, in_world, !seen.is_visible(), seen.is_self_hidden()};
@@ -85,7 +85,7 @@ class JtaExporter : public Exporter {
   void add(const Image& image) override {
     if (image.run != run_) end_tables();
     run_ = image.run;
-    const std::string split(name_of(image.split));
+    const std::string split(to_string(image.split));
     output_.link(fmt::format("frames/{}/{}/{}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
     const std::string path = fmt::format("annotations/{}/{}.json", split, image.sequence());

@@ -50,7 +50,7 @@ void append_label(std::string& text, const Image& image, const Person& person,
 /// The lens's coefficients in OpenCV's order, on a line whose name says the model; "" for a
 /// pinhole. KITTI's own images are rectified and have no such line.
 std::string distortion_line(const Image& image) {
-  const auto distortion = camera_of(image).intrinsics.distortion;
+  const auto distortion = image_camera(image).intrinsics.distortion;
   if (!distortion) return "";
   using Model = camera::Distortion::Model;
   const bool is_fisheye = distortion->model() == Model::fisheye;
@@ -96,19 +96,19 @@ class KittiExporter : public Exporter {
   KittiExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     const std::string stem = image.stem();
     output_.link(fmt::format("{}/image_2/{}.jpg", split, stem), info_.root / image.file);
     std::string labels;
     for (const Person& person : image.people) append_label(labels, image, person, "Pedestrian");
     for (const Person& object : image.objects) {
-      const world::SemanticClass surface = info_.surface_of(object);
+      const world::SemanticClass surface = info_.surface_material(object);
       if (surface == world::SemanticClass::drone) continue;
       append_label(labels, image, object, surface == world::SemanticClass::car ? "Car" : "Tram");
     }
     output_.write(fmt::format("{}/label_2/{}.txt", split, stem), labels);
     output_.write(fmt::format("{}/calib/{}.txt", split, stem), calibration(image));
-    has_lens_ = has_lens_ || camera_of(image).intrinsics.distortion.has_value();
+    has_lens_ = has_lens_ || image_camera(image).intrinsics.distortion.has_value();
   }
   void finish() override {
     if (has_lens_) output_.write("README.txt", kLensNote);

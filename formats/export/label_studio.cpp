@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPercent = 100;
 
-json rectangle_of(const Person& person, const Image& image, const std::string& label) {
+json make_rectangle(const Person& person, const Image& image, const std::string& label) {
   const Box& box = person.box;
   return {{"id", fmt::format("p{}", person.id)},
           {"type", "rectanglelabels"},
@@ -51,16 +51,16 @@ class LabelStudioExporter : public Exporter {
   }
 
   void add(const Image& image) override {
-    const std::string name = fmt::format("images/{}/{}.jpg", name_of(image.split), image.stem());
+    const std::string name = fmt::format("images/{}/{}.jpg", to_string(image.split), image.stem());
     output_.link(name, info_.root / image.file);
     json result = json::array();
     for (const Person& person : image.people) {
       if (person.is_ignored) continue;
-      result.push_back(rectangle_of(person, image, info_.categories[person.category]));
+      result.push_back(make_rectangle(person, image, info_.categories[person.category]));
     }
     const json task = {{"data",
                         {{"image", "/data/local-files/?d=" + name},
-                         {"split", name_of(image.split)},
+                         {"split", to_string(image.split)},
                          {"run", image.run},
                          {"camera", image.camera},
                          {"frame", image.frame}}},

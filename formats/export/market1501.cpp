@@ -58,7 +58,7 @@ struct CropBox {
 };
 
 /// The whole body, as far as it is in the image, in whole pixels.
-CropBox crop_box_of(const Image& image, const Box& whole) {
+CropBox crop_box(const Image& image, const Box& whole) {
   const auto low = [](double value, int size) {
     return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(size)));
   };
@@ -179,9 +179,9 @@ class Market1501Exporter : public Exporter {
     const double min_visibility =
         filters.min_visibility > 0 ? filters.min_visibility : kMinCropVisibility;
     const bool is_hidden = person.visibility < min_visibility;
-    const CropBox box = crop_box_of(image, person.amodal);
+    const CropBox box = crop_box(image, person.amodal);
     if (!is_usable(person, box) || (person.is_ignored && !is_hidden)) return;
-    const ReidSide side = identities_.side_of(person);
+    const ReidSide side = identities_.side_for(person);
     const Use use = use_of(side, image.split);
     if (use == Use::none || (use == Use::train && is_hidden)) return;
     Crop crop{box, kGalleryFolder, kDistractor, person.track_id, person.visibility};
@@ -218,14 +218,14 @@ class Market1501Exporter : public Exporter {
   void choose_queries_of(int number, std::map<int, std::vector<Crop*>>& cameras) {
     std::size_t left = 0;  // in the gallery
     for (const auto& [camera, crops] : cameras) left += crops.size();
-    std::map<int, std::size_t> left_of;  // by camera, of those with a query
+    std::map<int, std::size_t> last_crop_of;  // by camera, of those with a query
     for (auto& [camera, crops] : cameras) {
       if (queried_.contains({number, camera})) continue;
-      left_of[camera] = crops.size() - 1;
-      const bool is_found = std::all_of(left_of.begin(), left_of.end(),
+      last_crop_of[camera] = crops.size() - 1;
+      const bool is_found = std::all_of(last_crop_of.begin(), last_crop_of.end(),
                                         [&](const auto& entry) { return left - 1 > entry.second; });
       if (!is_found) {
-        left_of.erase(camera);
+        last_crop_of.erase(camera);
         continue;
       }
       --left;

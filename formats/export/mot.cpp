@@ -38,7 +38,7 @@ class SequenceExporter : public Exporter {
       : info_(info), output_(std::move(output)), texts_(output_) {}
 
   void add(const Image& image) override {
-    const std::string folder = fmt::format("{}/{}", name_of(image.split), image.sequence());
+    const std::string folder = fmt::format("{}/{}", to_string(image.split), image.sequence());
     bool is_new = false;
     OutputStream& text = texts_.of(image.run, folder + "/gt/gt.txt", is_new);
     if (is_new) output_.write(folder + "/seqinfo.ini", sequence_info(info_, image));
@@ -125,13 +125,14 @@ class MotsExporter : public SequenceExporter {
     };
     for (const Person& person : image.people) {
       if (person.is_ignored) {
-        ignored.push_back(bitmap_of(runs_of(person.mask, pixels), image.height));
+        ignored.push_back(decode_bitmap(decode_runs(person.mask, pixels), image.height));
       } else {
         add(mots_id(person.number_in_run()), kMotsPedestrian, person.mask);
       }
     }
     if (ignored.empty()) return;
-    add(kMotsIgnoredId, kMotsIgnored, counts_of(runs_of(ignored, image.width, image.height)));
+    add(kMotsIgnoredId, kMotsIgnored,
+        encode_counts(decode_runs(ignored, image.width, image.height)));
   }
 
   /// The same ids as pixels. Ids beyond 16 bits are ignored there.
@@ -142,7 +143,7 @@ class MotsExporter : public SequenceExporter {
     for (const Person& person : image.people) {
       const std::int64_t id = mots_id(person.number_in_run());
       const bool fits = !person.is_ignored && id <= std::numeric_limits<std::uint16_t>::max();
-      const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+      const Bitmap mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
       for (int y = mask.y; y < mask.y + mask.height; ++y) {
         for (int x = mask.x; x < mask.x + mask.width; ++x) {
           if (!mask.at(x, y)) continue;

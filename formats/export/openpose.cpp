@@ -31,18 +31,19 @@ constexpr std::array kBody25 = {
 };
 
 /// Between two joints in the image, as sure as the rig's joint there.
-JointInImage middle_of(const JointInImage& left, const JointInImage& right,
-                       const JointInImage& joint) {
+JointInImage joint_between(const JointInImage& left, const JointInImage& right,
+                           const JointInImage& joint) {
   if (!left.is_inside() || !right.is_inside() || !joint.is_inside()) return {};
   return {0.5 * (left.place + right.place), joint.state};
 }
 
-json body_25_of(const json& record) {
+json body_25_keypoints(const json& record) {
   constexpr double kHiddenConfidence = 0.5;
-  std::vector<JointInImage> joints = joints_of(record);
-  const auto at = [&](Joint joint) -> JointInImage& { return joints.at(index_of(joint)); };
-  at(Joint::neck) = middle_of(at(Joint::left_shoulder), at(Joint::right_shoulder), at(Joint::neck));
-  at(Joint::pelvis) = middle_of(at(Joint::left_hip), at(Joint::right_hip), at(Joint::pelvis));
+  std::vector<JointInImage> joints = read_joints(record);
+  const auto at = [&](Joint joint) -> JointInImage& { return joints.at(index_from(joint)); };
+  at(Joint::neck) =
+      joint_between(at(Joint::left_shoulder), at(Joint::right_shoulder), at(Joint::neck));
+  at(Joint::pelvis) = joint_between(at(Joint::left_hip), at(Joint::right_hip), at(Joint::pelvis));
   json values = json::array();
   for (const Joint joint : kBody25) {
     const JointInImage& found = at(joint);
@@ -58,13 +59,13 @@ class OpenPoseExporter : public Exporter {
       : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const std::string split(name_of(image.split));
+    const std::string split(to_string(image.split));
     output_.link(fmt::format("{}/images/{}.jpg", split, image.stem()), info_.root / image.file);
     json people = json::array();
     for (const Person& person : image.people) {
       if (person.is_ignored) continue;
       json entry = {{"person_id", {person.track_id}},
-                    {"pose_keypoints_2d", body_25_of(person.record)}};
+                    {"pose_keypoints_2d", body_25_keypoints(person.record)}};
       for (const char* none : {"face_keypoints_2d", "hand_left_keypoints_2d",
                                "hand_right_keypoints_2d", "pose_keypoints_3d", "face_keypoints_3d",
                                "hand_left_keypoints_3d", "hand_right_keypoints_3d"}) {

@@ -44,7 +44,7 @@ struct Segment {
 
 /// The supercategory of a class that segments have; null for the others. A building is one segment,
 /// whatever surfaces of it show.
-const char* supercategory_of(const world::SemanticClassInfo& known) {
+const char* supercategory(const world::SemanticClassInfo& known) {
   using world::SemanticClass;
   using world::SemanticGroup;
   switch (known.group) {
@@ -66,7 +66,7 @@ const char* supercategory_of(const world::SemanticClassInfo& known) {
 }
 
 /// The class of a segment that is no person.
-world::SemanticClass class_of(std::uint32_t number, const Segment& segment) {
+world::SemanticClass segment_class(std::uint32_t number, const Segment& segment) {
   using world::SemanticClass;
   if (number < kFirstBuilding) return SemanticClass::umbrella;
   const SemanticClass shown = segment.surface;
@@ -107,7 +107,7 @@ class PanopticExporter : public Exporter {
   }
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     const std::string name = image.stem() + ".jpg";
     const fs::path instances = raster_path(info_.root, "instances", image.file);
     output_.link(fs::path(split) / name, info_.root / image.file);
@@ -154,7 +154,7 @@ class PanopticExporter : public Exporter {
   };
 
   static std::string annotations_path(Split split) {
-    return fmt::format("annotations/panoptic_{}.json", name_of(split));
+    return fmt::format("annotations/panoptic_{}.json", to_string(split));
   }
 
   OutputStream& stream_of(Split split, std::map<Split, Aside>& asides, const char* suffix) {
@@ -188,7 +188,7 @@ class PanopticExporter : public Exporter {
     }
     if (has_classes_) {
       for (const world::SemanticClassInfo& known : world::semantic_classes()) {
-        const char* group = supercategory_of(known);
+        const char* group = supercategory(known);
         if (group == nullptr) continue;
         const bool is_thing = known.group != world::SemanticGroup::ground;
         list.push_back({{"id", category_of(known.value)},
@@ -245,8 +245,8 @@ class PanopticExporter : public Exporter {
       std::size_t category = 0;
       bool is_crowd = false;
       if (number >= kFirstUmbrella) {
-        category =
-            has_classes_ ? category_of(class_of(number, segment)) - 1 : classes + place_of(number);
+        category = has_classes_ ? category_of(segment_class(number, segment)) - 1
+                                : classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;
         is_crowd = person->second->is_ignored;

@@ -32,7 +32,7 @@ struct Heads {
   std::vector<Eigen::Vector3d> body;   ///< middles of the people, m, world
 };
 
-Heads heads_of(const Image& image) {
+Heads head_positions(const Image& image) {
   Heads heads;
   for (const Person& person : image.people) {
     if (person.is_ignored || !person.head) continue;
@@ -69,17 +69,17 @@ std::vector<double> adaptive_sigmas(const Heads& heads, const Image& image) {
 
 /// 0.2 m at the head's distance (Zhang et al., 2015: 0.2 times the pixels of a meter).
 std::vector<double> perspective_sigmas(const Heads& heads, const Image& image) {
-  constexpr double kSigma_m = 0.2;
-  const camera::Camera camera = camera_of(image);
+  constexpr double kSigmaM = 0.2;
+  const camera::Camera camera = image_camera(image);
   std::vector<double> sigmas;
   sigmas.reserve(heads.body.size());
   for (const Eigen::Vector3d& body : heads.body) {
-    sigmas.push_back(pixels_across(camera, body, kSigma_m));
+    sigmas.push_back(pixels_across(camera, body, kSigmaM));
   }
   return sigmas;
 }
 
-std::vector<double> sigmas_of(Kernel kernel, const Heads& heads, const Image& image) {
+std::vector<double> kernel_sigmas(Kernel kernel, const Heads& heads, const Image& image) {
   std::vector<double> sigmas(heads.place.size(), kFixedSigmaPx);
   if (kernel == Kernel::adaptive) sigmas = adaptive_sigmas(heads, image);
   if (kernel == Kernel::perspective) sigmas = perspective_sigmas(heads, image);
@@ -111,17 +111,17 @@ class PointsExporter : public Exporter {
       : info_(info), output_(std::move(output)), kernel_(kernel) {}
 
   void add(const Image& image) override {
-    const std::string folder = fmt::format("{}_data", name_of(image.split));
+    const std::string folder = fmt::format("{}_data", to_string(image.split));
     const std::string name = "IMG_" + image.stem();
     output_.link(fmt::format("{}/images/{}.jpg", folder, name), info_.root / image.file);
-    const Heads heads = heads_of(image);
+    const Heads heads = head_positions(image);
     // MATLAB's pixels: the middle of the first is 1.
     std::vector<Eigen::Vector2d> points = heads.place;
     for (Eigen::Vector2d& point : points) point.array() += 0.5;
     const std::string truth = fmt::format("{}/ground_truth/", folder);
     output_.write(truth + "GT_" + name + ".mat", image_info_mat(points));
     const annotate::DensityMap map = annotate::density_map(
-        heads.place, sigmas_of(kernel_, heads, image), image.width, image.height);
+        heads.place, kernel_sigmas(kernel_, heads, image), image.width, image.height);
     output_.write(truth + name + ".npy", annotate::npy_bytes(map));
     write_h5(output_.folder() / (truth + name + ".h5"), map);
     output_.written(truth + name + ".h5");

@@ -98,7 +98,7 @@ class SensorTable {
   std::size_t number_ = 1;
 };
 
-BagMotion motion_of(const json& truth) {
+BagMotion read_motion(const json& truth) {
   BagMotion motion;
   motion.pose.position = vector_in(truth.at("position"));
   const json& q = truth.at("orientation_wxyz");
@@ -119,7 +119,7 @@ BagPose relative_to(const BagPose& parent, const BagPose& pose) {
   return {back * (pose.position - parent.position), back * pose.rotation};
 }
 
-std::vector<BagBox> boxes_of(const Image& image) {
+std::vector<BagBox> make_boxes(const Image& image) {
   std::vector<BagBox> boxes;
   boxes.reserve(image.people.size());
   for (const Person& person : image.people) {
@@ -166,7 +166,7 @@ class RosbagExporter : public Exporter {
     if (image.run == run_) return;
     close();
     run_ = image.run;
-    place_ = fmt::format("{}/{}.bag", name_of(image.split), image.run);
+    place_ = fmt::format("{}/{}.bag", to_string(image.split), image.run);
     const fs::path path = output_.folder() / place_;
     fs::create_directories(path.parent_path());
     bag_ = std::make_unique<BagFile>(path, is_compressed_);
@@ -203,11 +203,12 @@ class RosbagExporter : public Exporter {
     const double time_s = image.time_s;
     add_flight(image, root, body_frame, optical_frame);
     bag_->add_lens(root + "/camera/camera_info", optical_frame, time_s,
-                   camera_of(image).intrinsics);
+                   image_camera(image).intrinsics);
     bag_->add_image(root + "/camera/image_color/compressed", optical_frame, time_s,
                     read_file(info_.root / image.file));
-    bag_->add_boxes(root + "/ground_truth/boxes", kWorldFrame, time_s, boxes_of(image));
-    bag_->add_text(root + "/ground_truth/annotations", time_s, sample_of(image, info_).dump());
+    bag_->add_boxes(root + "/ground_truth/boxes", kWorldFrame, time_s, make_boxes(image));
+    bag_->add_text(root + "/ground_truth/annotations", time_s,
+                   webdataset_sample(image, info_).dump());
   }
 
   /// Poses of the drone and its camera, and the readings of its inertial unit. Of a dataset without
@@ -220,7 +221,7 @@ class RosbagExporter : public Exporter {
       bag_->add_transforms(image.time_s, {{kWorldFrame, optical_frame, camera}});
       return;
     }
-    const BagMotion motion = motion_of(flight->at("true"));
+    const BagMotion motion = read_motion(flight->at("true"));
     bag_->add_transforms(image.time_s,
                          {{kWorldFrame, body_frame, motion.pose},
                           {body_frame, optical_frame, relative_to(motion.pose, camera)}});

@@ -31,7 +31,7 @@ struct Classes {
   std::vector<SemanticClass> pixels;
 };
 
-Classes classes_of(const DatasetInfo& info, const Image& image) {
+Classes list_classes(const DatasetInfo& info, const Image& image) {
   return {image.width, image.height,
           read_classes(raster_path(info.root, "semantic", image.file), image.width, image.height)};
 }
@@ -90,9 +90,9 @@ class CityscapesExporter : public Exporter {
       : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const Classes classes = classes_of(info_, image);
+    const Classes classes = list_classes(info_, image);
     const std::string name =
-        fmt::format("{}/{}/{}", name_of(image.split), image.sequence(), image.stem());
+        fmt::format("{}/{}/{}", to_string(image.split), image.sequence(), image.stem());
     output_.link("leftImg8bit/" + name + "_leftImg8bit.jpg", info_.root / image.file);
     const std::string labels = "gtFine/" + name + "_gtFine_";
     output_.write(labels + "labelIds.png", gray_png(classes, [](SemanticClass pixel) {
@@ -121,8 +121,9 @@ class UavidExporter : public Exporter {
   UavidExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const Classes classes = classes_of(info_, image);
-    const std::string sequence = fmt::format("uavid_{}/{}", name_of(image.split), image.sequence());
+    const Classes classes = list_classes(info_, image);
+    const std::string sequence =
+        fmt::format("uavid_{}/{}", to_string(image.split), image.sequence());
     output_.link(fmt::format("{}/Images/{}.jpg", sequence, image.stem()), info_.root / image.file);
     output_.write(fmt::format("{}/Labels/{}.png", sequence, image.stem()),
                   color_png(classes, [](SemanticClass pixel) { return uavid_class(pixel).color; }));

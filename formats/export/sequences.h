@@ -32,7 +32,8 @@ class SequenceTexts {
   OutputStream& annotations_of(const Image& image) {
     bool is_new = false;
     return of(image.run,
-              fmt::format("{}/annotations/{}.txt", name_of(image.split), image.sequence()), is_new);
+              fmt::format("{}/annotations/{}.txt", to_string(image.split), image.sequence()),
+              is_new);
   }
 
   void close() {

@@ -40,7 +40,7 @@ class TableExporter : public Exporter {
     const Box& box = person.box;
     const Box& amodal = person.amodal;
     fmt::format_to(out, "{},{},{},{},{},{},{},{},", image.run, image.camera, image.frame,
-                   image.time_s, name_of(image.split), image.id, person.id, person.track_id);
+                   image.time_s, to_string(image.split), image.id, person.id, person.track_id);
     fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},", box.x, box.y, box.width, box.height,
                    amodal.x, amodal.y, amodal.width, amodal.height, person.visibility,
                    person.truncation, amodal.height);

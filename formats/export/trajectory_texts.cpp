@@ -87,7 +87,7 @@ class TrajectoryExporter : public Exporter {
   void add(const Image& /*image*/) override {}
   void finish() override {
     for (const std::string& run : info_.runs) {
-      output_.write(fmt::format("{}/{}.{}", name_of(info_.split_of(run)), run, suffix_),
+      output_.write(fmt::format("{}/{}.{}", to_string(info_.split_of(run)), run, suffix_),
                     text_(read_run_trajectories(info_.root, run)));
     }
   }

@@ -18,7 +18,7 @@ constexpr int kUavdtCar = 1;
 constexpr int kUavdtPerson = 4;
 
 /// 1: nothing, and then 3: up to `small`, 2: more, as UAVDT numbers how much is out of view.
-int out_of_view_of(const Person& person) {
+int out_of_view_level(const Person& person) {
   constexpr double kNothing = 0.005;
   constexpr double kSmall = 0.3;
   if (person.truncation < kNothing) return 1;
@@ -26,7 +26,7 @@ int out_of_view_of(const Person& person) {
 }
 
 /// 1: nothing, 4: up to 30 %, 3: up to 70 %, 2: more.
-int uavdt_occlusion_of(const Person& person) {
+int uavdt_occlusion(const Person& person) {
   constexpr double kNothing = 0.005;
   constexpr double kSmall = 0.3;
   constexpr double kMedium = 0.7;
@@ -42,7 +42,7 @@ class UavdtExporter : public Exporter {
       : info_(info), output_(std::move(output)), texts_(output_) {}
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     const std::string sequence = image.sequence();
     output_.link(
         fmt::format("{}/UAV-benchmark-M/{}/img{:06}.jpg", split, sequence, image.frame + 1),
@@ -54,11 +54,11 @@ class UavdtExporter : public Exporter {
       std::string& text = person.is_ignored ? ignored : lines;
       fmt::format_to(std::back_inserter(text), "{},{},{:.0f},{:.0f},{:.0f},{:.0f},{},{},{}\n",
                      image.frame + 1, person.number_in_run(), box.x, box.y, box.width, box.height,
-                     out_of_view_of(person), uavdt_occlusion_of(person), category);
+                     out_of_view_level(person), uavdt_occlusion(person), category);
     };
     for (const Person& person : image.people) add(person, kUavdtPerson);
     for (const Person& object : image.objects) {
-      if (info_.surface_of(object) == world::SemanticClass::car) add(object, kUavdtCar);
+      if (info_.surface_material(object) == world::SemanticClass::car) add(object, kUavdtCar);
     }
     bool is_new = false;
     const std::string place = fmt::format("{}/GT/{}", split, sequence);

@@ -24,7 +24,7 @@ enum class Category : std::uint8_t {
 };
 
 /// Standing and walking people are pedestrians; in other poses they are "people".
-Category category_of(const Person& person) {
+Category visdrone_category(const Person& person) {
   if (person.is_ignored) return Category::ignored;
   const bool is_down =
       person.state == "lying" || person.state == "falling" || person.state == "getting_up";
@@ -33,14 +33,14 @@ Category category_of(const Person& person) {
 
 /// Trains are "others"; drones have no category: nothing.
 std::optional<Category> category_of_object(const DatasetInfo& info, const Person& object) {
-  const world::SemanticClass surface = info.surface_of(object);
+  const world::SemanticClass surface = info.surface_material(object);
   if (surface == world::SemanticClass::drone) return std::nullopt;
   if (object.is_ignored) return Category::ignored;
   return surface == world::SemanticClass::car ? Category::car : Category::others;
 }
 
 /// 0 none, 1 up to a half, 2 more; what rounds to nothing is none.
-int occlusion_of(const Person& person) {
+int occlusion_level(const Person& person) {
   constexpr double kNone = 0.005;
   const double hidden = 1 - person.visibility;
   if (hidden < kNone) return 0;
@@ -54,7 +54,7 @@ void append(std::string& text, const Person& person, Category category) {
   fmt::format_to(std::back_inserter(text), "{:.0f},{:.0f},{:.0f},{:.0f},{},{},{},{}\n", box.x,
                  box.y, box.width, box.height, person.is_ignored ? 0 : 1,
                  static_cast<int>(category), person.truncation < kNone ? 0 : 1,
-                 occlusion_of(person));
+                 occlusion_level(person));
 }
 
 class VisDroneDet : public Exporter {
@@ -62,10 +62,10 @@ class VisDroneDet : public Exporter {
   VisDroneDet(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     output_.link(fmt::format("{}/images/{}.jpg", split, image.stem()), info_.root / image.file);
     std::string text;
-    for (const Person& person : image.people) append(text, person, category_of(person));
+    for (const Person& person : image.people) append(text, person, visdrone_category(person));
     for (const Person& object : image.objects) {
       if (const auto category = category_of_object(info_, object)) append(text, object, *category);
     }
@@ -84,7 +84,7 @@ class VisDroneMot : public Exporter {
       : info_(info), output_(std::move(output)), texts_(output_) {}
 
   void add(const Image& image) override {
-    const std::string_view split = name_of(image.split);
+    const std::string_view split = to_string(image.split);
     output_.link(fmt::format("{}/sequences/{}/{:07}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
     std::string lines;
@@ -92,7 +92,7 @@ class VisDroneMot : public Exporter {
       fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1, object.number_in_run());
       append(lines, object, category);
     };
-    for (const Person& person : image.people) add(person, category_of(person));
+    for (const Person& person : image.people) add(person, visdrone_category(person));
     for (const Person& object : image.objects) {
       if (const auto category = category_of_object(info_, object)) add(object, *category);
     }

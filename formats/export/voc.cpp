@@ -32,7 +32,8 @@ class VocExporter : public Exporter {
   VocExporter(const DatasetInfo& info, Output output)
       : info_(info), output_(std::move(output)), names_(info.class_names()) {
     for (const Split split : info.splits()) {
-      sets_.try_emplace(split, output_.open(fmt::format("ImageSets/Main/{}.txt", name_of(split))));
+      sets_.try_emplace(split,
+                        output_.open(fmt::format("ImageSets/Main/{}.txt", to_string(split))));
     }
   }
 

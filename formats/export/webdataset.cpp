@@ -82,14 +82,14 @@ class WebDatasetExporter : public Exporter {
   void add(const Image& image) override {
     // Keys end at the first dot, and have none.
     const std::string jpeg = read_file(info_.root / image.file);
-    const std::string sample = sample_of(image, info_).dump();
+    const std::string sample = webdataset_sample(image, info_).dump();
     const std::int64_t bytes = bytes_in_tar(jpeg) + bytes_in_tar(sample);
     Shards& shards = shards_[image.split];
     const bool is_full =
         static_cast<double>(shards.bytes + bytes) > info_.options.webdataset.shard_mb * kBytesPerMb;
     if (!shards.open || is_full) {
       close(shards);
-      shards.place = fmt::format("{}-{:06}.tar", name_of(image.split), shards.list.size());
+      shards.place = fmt::format("{}-{:06}.tar", to_string(image.split), shards.list.size());
       shards.open = std::make_unique<TarFile>(output_.folder() / shards.place);
     }
     ++shards.samples;
@@ -102,7 +102,7 @@ class WebDatasetExporter : public Exporter {
     nlohmann::json list = nlohmann::json::object();
     for (auto& [split, shards] : shards_) {
       close(shards);
-      list[std::string(name_of(split))] = std::move(shards.list);
+      list[std::string(to_string(split))] = std::move(shards.list);
     }
     output_.write("shards.json", list.dump(2) + "\n");
   }

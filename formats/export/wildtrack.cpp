@@ -46,7 +46,7 @@ struct View {
 };
 
 /// In box coordinates; nothing of it may be in the image.
-bool view_box_of(const Image& image, const Box& box, ViewBox& pixels) {
+bool find_view_box(const Image& image, const Box& box, ViewBox& pixels) {
   const auto low = [](double value) { return std::max(static_cast<int>(std::floor(value)), 0); };
   const auto high = [](double value, int size) {
     return std::min(static_cast<int>(std::ceil(value)), size) - 1;
@@ -76,7 +76,7 @@ void append_matrix(std::string& xml, const char* name, int rows, int columns,
   xml += fmt::format("</data></{}>\n", name);
 }
 
-std::string storage_of(const std::string& content) {
+std::string opencv_storage(const std::string& content) {
   return "<?xml version=\"1.0\"?>\n<opencv_storage>\n" + content + "</opencv_storage>\n";
 }
 
@@ -94,15 +94,15 @@ std::string intrinsics_xml(const camera::Intrinsics& k) {
   append_matrix(xml, "distortion_coefficients", 1, static_cast<int>(coefficients.size()),
                 coefficients);
   if (is_fisheye) xml += "<model>fisheye</model>\n";
-  return storage_of(xml);
+  return opencv_storage(xml);
 }
 
 std::string extrinsics_xml(const camera::Pose& pose) {
   const Eigen::AngleAxisd turn(pose.R);
   const Eigen::Vector3d r = turn.angle() * turn.axis();
   const Eigen::Vector3d t = kCentimeters * pose.t;
-  return storage_of(fmt::format("<rvec>\n  {} {} {}</rvec>\n<tvec>\n  {} {} {}</tvec>\n", r.x(),
-                                r.y(), r.z(), t.x(), t.y(), t.z()));
+  return opencv_storage(fmt::format("<rvec>\n  {} {} {}</rvec>\n<tvec>\n  {} {} {}</tvec>\n", r.x(),
+                                    r.y(), r.z(), t.x(), t.y(), t.z()));
 }
 
 /// Places on the ground that people of a run are at.
@@ -125,7 +125,7 @@ class WildtrackExporter : public Exporter {
   void add(const Image& image) override {
     if (image.run != run_) write_run();
     run_ = image.run;
-    folder_ = fmt::format("{}/{}", name_of(image.split), image.run);
+    folder_ = fmt::format("{}/{}", to_string(image.split), image.run);
     const int view = view_of(image);
     views_[static_cast<std::size_t>(view)].poses[image.frame] = {image.R, image.t};
     output_.link(fmt::format("{}/Image_subsets/C{}/{:08}.jpg", folder_, view + 1, image.frame),
@@ -133,7 +133,7 @@ class WildtrackExporter : public Exporter {
     std::map<std::int64_t, Sighting>& people = frames_[image.frame];
     const auto add_box = [&](std::int64_t person, const Box& box) {
       ViewBox pixels;
-      if (view_box_of(image, box, pixels)) people[person].views[view] = pixels;
+      if (find_view_box(image, box, pixels)) people[person].views[view] = pixels;
     };
     for (const HiddenPerson& person : image.hidden) {
       if (!person.is_ignored) add_box(person.number_in_run(), person.amodal);
@@ -170,7 +170,7 @@ class WildtrackExporter : public Exporter {
     const auto found = std::find_if(views_.begin(), views_.end(),
                                     [&](const View& view) { return view.name == image.camera; });
     if (found != views_.end()) return static_cast<int>(found - views_.begin());
-    views_.push_back({image.camera, camera_of(image), {}});
+    views_.push_back({image.camera, image_camera(image), {}});
     return static_cast<int>(views_.size()) - 1;
   }
 
@@ -181,7 +181,7 @@ class WildtrackExporter : public Exporter {
     const PlaceGrid grid = grid_of_run();
     for (const auto& [frame, people] : frames_) {
       output_.write(fmt::format("{}/annotations_positions/{:08}.json", folder_, frame),
-                    positions_of(people, grid).dump(1) + "\n");
+                    grid_positions(people, grid).dump(1) + "\n");
     }
     write_grid(grid);
     views_.clear();
@@ -223,8 +223,8 @@ class WildtrackExporter : public Exporter {
     return grid;
   }
 
-  nlohmann::json positions_of(const std::map<std::int64_t, Sighting>& people,
-                              const PlaceGrid& grid) const {
+  nlohmann::json grid_positions(const std::map<std::int64_t, Sighting>& people,
+                                const PlaceGrid& grid) const {
     nlohmann::json positions = nlohmann::json::array();
     for (const auto& [id, sighting] : people) {
       if (!sighting.is_seen || sighting.views.empty()) continue;

@@ -35,7 +35,7 @@ class YoloExporter : public Exporter {
       : info_(info), output_(std::move(output)), task_(task) {}
 
   void add(const Image& image) override {
-    const fs::path place = fs::path(name_of(image.split)) / image.stem();
+    const fs::path place = fs::path(to_string(image.split)) / image.stem();
     output_.link("images" / fs::path(place.string() + ".jpg"), info_.root / image.file);
     std::string text;
     int line = 0;
@@ -53,7 +53,7 @@ class YoloExporter : public Exporter {
     // A split without images is left out: a trainer that wants it must not get another one's.
     std::string yaml;
     for (const Split split : info_.splits())
-      yaml += fmt::format("{0}: images/{0}\n", name_of(split));
+      yaml += fmt::format("{0}: images/{0}\n", to_string(split));
     const std::vector<std::string> names =
         task_ == Task::pose ? info_.categories : info_.class_names();
     yaml += fmt::format("nc: {}\nnames:\n", names.size());
@@ -78,13 +78,13 @@ class YoloExporter : public Exporter {
       const auto pixels =
           static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
       PolygonFit fit;
-      const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
-      for (const auto& [x, y] : polygon_of(mask, &fit)) {
+      const Bitmap mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
+      for (const auto& [x, y] : trace_polygon(mask, &fit)) {
         fmt::format_to(out, " {:.6f} {:.6f}", share(x + kInPixel, image.width),
                        share(y + kInPixel, image.height));
       }
       if (fit.pieces > 1) {
-        fits_ += fmt::format("{}/{}.txt,{},{},{},{},{:.4f}\n", name_of(image.split), image.stem(),
+        fits_ += fmt::format("{}/{}.txt,{},{},{},{},{:.4f}\n", to_string(image.split), image.stem(),
                              line, fit.pieces, fit.left_out_px, fit.line_px, fit.iou());
       }
     } else {

@@ -18,7 +18,7 @@ namespace throng::formats {
 
 namespace {
 
-std_msgs::Header header_of(const std::string& frame, double time_s) {
+std_msgs::Header make_header(const std::string& frame, double time_s) {
   std_msgs::Header header;
   header.stamp = ros::Time(time_s);
   header.frame_id = frame;
@@ -68,7 +68,7 @@ BagFile::~BagFile() = default;
 void BagFile::add_image(const std::string& topic, const std::string& frame, double time_s,
                         const std::string& jpeg) {
   sensor_msgs::CompressedImage message;
-  message.header = header_of(frame, time_s);
+  message.header = make_header(frame, time_s);
   message.format = "jpeg";
   message.data.assign(jpeg.begin(), jpeg.end());
   bag_->add(topic, time_s, message);
@@ -79,7 +79,7 @@ void BagFile::add_lens(const std::string& topic, const std::string& frame, doubl
   camera::RosLens ros = camera::ros_lens(lens);
   const Eigen::Matrix3d matrix = lens.matrix();
   sensor_msgs::CameraInfo message;
-  message.header = header_of(frame, time_s);
+  message.header = make_header(frame, time_s);
   message.width = static_cast<std::uint32_t>(lens.width);
   message.height = static_cast<std::uint32_t>(lens.height);
   message.distortion_model = std::move(ros.model);
@@ -101,7 +101,7 @@ void BagFile::add_transforms(double time_s, const std::vector<BagTransform>& tra
   tf2_msgs::TFMessage message;
   for (const BagTransform& transform : transforms) {
     geometry_msgs::TransformStamped& part = message.transforms.emplace_back();
-    part.header = header_of(transform.parent, time_s);
+    part.header = make_header(transform.parent, time_s);
     part.child_frame_id = transform.child;
     set_vector(part.transform.translation, transform.pose.position);
     set_rotation(part.transform.rotation, transform.pose.rotation);
@@ -112,7 +112,7 @@ void BagFile::add_transforms(double time_s, const std::vector<BagTransform>& tra
 void BagFile::add_odometry(const std::string& topic, const std::string& frame,
                            const std::string& child, double time_s, const BagMotion& motion) {
   nav_msgs::Odometry message;
-  message.header = header_of(frame, time_s);
+  message.header = make_header(frame, time_s);
   message.child_frame_id = child;
   set_pose(message.pose.pose, motion.pose);
   set_vector(message.twist.twist.linear, motion.velocity_mps);
@@ -123,7 +123,7 @@ void BagFile::add_odometry(const std::string& topic, const std::string& frame,
 void BagFile::add_imu(const std::string& topic, const std::string& frame, double time_s,
                       const Eigen::Vector3d& rates, const Eigen::Vector3d& acceleration) {
   sensor_msgs::Imu message;
-  message.header = header_of(frame, time_s);
+  message.header = make_header(frame, time_s);
   message.orientation_covariance[0] = -1;  // ROS' way to say that there is no orientation
   set_vector(message.angular_velocity, rates);
   set_vector(message.linear_acceleration, acceleration);
@@ -135,11 +135,11 @@ void BagFile::add_boxes(const std::string& topic, const std::string& frame, doub
   constexpr float kOpacity = 0.5F;
   visualization_msgs::MarkerArray message;
   visualization_msgs::Marker& first = message.markers.emplace_back();
-  first.header = header_of(frame, time_s);
+  first.header = make_header(frame, time_s);
   first.action = visualization_msgs::Marker::DELETEALL;
   for (const BagBox& box : boxes) {
     visualization_msgs::Marker& marker = message.markers.emplace_back();
-    marker.header = header_of(frame, time_s);
+    marker.header = make_header(frame, time_s);
     marker.ns = "people";
     marker.id = box.id;
     marker.type = visualization_msgs::Marker::CUBE;

@@ -35,7 +35,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
   return table;
 }
 
-double number_of(const std::string& cell) {
+double parse_number(const std::string& cell) {
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
   return cell.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;

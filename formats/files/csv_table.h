@@ -21,6 +21,6 @@ struct CsvTable {
 CsvTable read_csv(const std::filesystem::path& path);
 
 /// The cell's number; NaN if it is none.
-double number_of(const std::string& cell);
+double parse_number(const std::string& cell);
 
 }  // namespace throng::formats

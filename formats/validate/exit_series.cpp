@@ -18,7 +18,7 @@ constexpr double kFreeSpeed = 0.6;
 bool differs(double a, double b, double slack) { return std::abs(a - b) > slack; }
 
 /// People gone out less people come in.
-double net_of(const ExitRow& row) { return row["crossed_out"] - row["crossed_in"]; }
+double net_flow(const ExitRow& row) { return row["crossed_out"] - row["crossed_in"]; }
 
 /// Constants of an exit that the table does not name.
 struct ExitSizes {
@@ -27,7 +27,7 @@ struct ExitSizes {
   double width_m = 0;
 };
 
-ExitSizes sizes_of(const ExitSeries& series) {
+ExitSizes exit_sizes(const ExitSeries& series) {
   std::vector<double> areas;
   std::vector<double> packings;
   std::vector<double> widths;
@@ -137,7 +137,7 @@ class ExitRowCheck {
   /// `then`: the row of kFlowS seconds before.
   void check_flow(const ExitRow& then) const {
     if (differs(row_["time_s"] - then["time_s"], kFlowS, 1e-6)) return;
-    const double expected = (net_of(row_) - net_of(then)) / kFlowS;
+    const double expected = (net_flow(row_) - net_flow(then)) / kFlowS;
     // A crossing at the border of the 4 s may be in or out.
     if (differs(row_["flow"], expected, 0.26)) {
       fault(fmt::format("flow {} /s, but crossings changed by {} /s", row_["flow"], expected));
@@ -169,7 +169,7 @@ double ExitRow::operator[](const char* column) const {
 
 void check_exit_series(const std::string& file, const std::string& exit, const ExitSeries& series,
                        Findings& findings) {
-  const ExitSizes sizes = sizes_of(series);
+  const ExitSizes sizes = exit_sizes(series);
   const ExitRow* last = nullptr;
   for (const auto& [frame, row] : series) {
     const ExitRowCheck check(file, exit, sizes, row, findings);

@@ -35,14 +35,14 @@ class Findings {
 };
 
 /// People, drones and vehicles.
-inline std::vector<Person> objects_of(const Image& image) {
+inline std::vector<Person> list_objects(const Image& image) {
   std::vector<Person> objects = image.people;
   objects.insert(objects.end(), image.objects.begin(), image.objects.end());
   return objects;
 }
 
 /// The value of a person, drone or vehicle in images of instances.
-std::uint32_t instance_of(const Person& object);
+std::uint32_t instance_id(const Person& object);
 
 /// One image's annotations by themselves: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
@@ -81,8 +81,9 @@ class FormatCheck {
 
  private:
   /// The first numbers of a format's lines of an image.
-  static std::vector<std::vector<double>> lines_of(const DatasetInfo& info,
-                                                   const std::string& format, const Image& image);
+  static std::vector<std::vector<double>> label_values(const DatasetInfo& info,
+                                                       const std::string& format,
+                                                       const Image& image);
   static void compare(const std::string& file, const Image& image, std::istream& text,
                       const std::vector<std::vector<double>>& expected, Findings& findings);
   static void check_yolo(const DatasetInfo& info, const Image& image,

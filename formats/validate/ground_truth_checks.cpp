@@ -15,7 +15,7 @@ GroundTruthChecks::GroundTruthChecks(const DatasetInfo& info) {
 void GroundTruthChecks::add(const DatasetInfo& info, const Image& image, Findings& findings) {
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
     if (!info.has(kind.kind)) continue;
-    std::string file = file_of(kind.kind, image.run, image.camera, image.frame);
+    std::string file = ground_truth_file(kind.kind, image.run, image.camera, image.frame);
     if (files_.contains(file)) continue;
     if (!fs::is_regular_file(info.root / file)) {
       findings.add("ground-truth", file, fmt::format("image {}", image.id),

@@ -20,7 +20,7 @@ using annotate::GroundTruth;
 namespace {
 
 /// The quantization tables of a JPEG, as they stand in the file.
-std::string quantization_of(const std::string& bytes) {
+std::string quantization_tables(const std::string& bytes) {
   std::string tables;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   for (std::size_t at = 2; at + 4 <= bytes.size() && byte(at) == 0xFF && byte(at + 1) != 0xDA;) {
@@ -44,7 +44,7 @@ std::string quantization_of_quality(int quality) {
   std::string tables;
   if (tjCompress2(encoder.get(), gray.data(), kSide, 0, kSide, TJPF_RGB, &made, &size, TJSAMP_420,
                   quality, 0) == 0) {
-    tables = quantization_of({reinterpret_cast<const char*>(made), size});
+    tables = quantization_tables({reinterpret_cast<const char*>(made), size});
   }
   tjFree(made);
   return tables;
@@ -74,7 +74,8 @@ void read_rgb(const DatasetInfo& info, const Image& image, Pixels& pixels, Findi
   const auto sensor = image.record.find("sensor");
   if (sensor == image.record.end() || !sensor->contains("jpeg_quality")) return;
   const int quality = sensor->at("jpeg_quality").get<int>();
-  if (quality < 1 || quality > 100 || quantization_of(bytes) != quantization_of_quality(quality)) {
+  if (quality < 1 || quality > 100 ||
+      quantization_tables(bytes) != quantization_of_quality(quality)) {
     findings.add("image", image.file, record,
                  fmt::format("not compressed with the quality that its record says, {}", quality));
   }
@@ -84,8 +85,8 @@ void read_rgb(const DatasetInfo& info, const Image& image, Pixels& pixels, Findi
 std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& image, GroundTruth what,
                                       int channels, int bits, Findings& findings) {
   if (!info.has(what)) return {};
-  const std::string name = file_of(what, image.run, image.camera, image.frame);
-  const std::string kind(kind_of(what).name);
+  const std::string name = ground_truth_file(what, image.run, image.camera, image.frame);
+  const std::string kind(ground_truth_kind(what).name);
   try {
     images::Raster raster = images::read_raster(info.root / name);
     if (raster.width == image.width && raster.height == image.height &&
@@ -105,7 +106,7 @@ std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& imag
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> flow_of(const std::uint16_t* sample) {
+std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample) {
   constexpr double kPerPixel = 64;
   constexpr double kZero = 32768;
   if (sample[2] == 0) return std::nullopt;

@@ -52,7 +52,7 @@ struct Pixels {
 Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
 
 /// Motion (px) that a sample of flow/ or flow_backward/ holds; nothing if it is unknown.
-std::optional<Eigen::Vector2d> flow_of(const std::uint16_t* sample);
+std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample);
 
 /// "depth/run000/d1/000003.png"
 std::string raster_name(const char* kind, const Image& image);

@@ -51,7 +51,7 @@ class ExitsCheck : public GroundTruthCheck {
   };
 
   Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
-  static Outline outline_of(const camera::Camera& camera, const nlohmann::json& polygon);
+  static Outline exit_outline(const camera::Camera& camera, const nlohmann::json& polygon);
   static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
                                        const nlohmann::json& polygon);
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
@@ -64,7 +64,7 @@ class ExitsCheck : public GroundTruthCheck {
                     Findings& findings) const;
 
   std::map<std::string, Run> runs_;
-  /// By scenario and exit: the place is one in all runs there.
+  /// By scenario and exit: the outline is the same in all runs there.
   std::map<std::pair<std::string, std::string>, ExitOutlines> places_;
 };
 

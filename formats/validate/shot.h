@@ -30,7 +30,7 @@ struct Shot {
   std::string record() const { return "image " + std::to_string(image.id); }
   const Person* find(std::int64_t track_id) const;
   /// Visible pixels of somebody in the image.
-  Bitmap mask_of(const Person& person) const;
+  Bitmap instance_mask(const Person& person) const;
   /// camera.unproject({x, y}, depth_m) for a pixel of the image.
   Eigen::Vector3d point_at(int x, int y, double depth_m) const;
 };

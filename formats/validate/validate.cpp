@@ -94,7 +94,7 @@ class IdCheck {
     }
     const std::int64_t first_track = (run - info.runs.begin()) * annotate::kTrackIdsPerRun;
     std::set<std::int64_t> tracks;
-    for (const Person& person : objects_of(image)) {
+    for (const Person& person : list_objects(image)) {
       const std::int64_t agent = person.track_id - first_track - 1;
       if (agent < 0 || agent >= annotate::kMaxAgentsPerRun) {
         findings.add("ids", person,
@@ -123,7 +123,7 @@ class ShotChecks {
     Shot shot;
     shot.pixels = read_pixels(info, image, findings);
     shot.image = image;
-    shot.camera = camera_of(image);
+    shot.camera = image_camera(image);
     shot.rays = rays_of(image.camera, shot.camera.intrinsics);
     shot.is_plain = is_plain(image);
     shot.at_once = is_shot_at_once(image);
@@ -217,7 +217,7 @@ void check_dataset_without_images(const DatasetInfo& info, const json& manifest,
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
     if (!info.has(kind.kind)) continue;
     for (const std::string& run : info.runs) {
-      const std::string file = annotate::file_of(kind.kind, run);
+      const std::string file = annotate::ground_truth_file(kind.kind, run);
       if (!fs::is_regular_file(info.root / file)) {
         findings.add("schema", file, "", "no such file, but the job asks for it");
       }

@@ -23,14 +23,14 @@ double number_in(const json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
-std::optional<double> cell_of(const json& columns, const char* key, std::size_t i) {
+std::optional<double> read_cell(const json& columns, const char* key, std::size_t i) {
   const auto column = columns.find(key);
   if (column == columns.end() || i >= column->size() || !column->at(i).is_number()) return {};
   return column->at(i).get<double>();
 }
 
 /// Empty where there is no word.
-std::string word_of(const json& columns, const char* key, std::size_t i) {
+std::string read_word(const json& columns, const char* key, std::size_t i) {
   const auto column = columns.find(key);
   if (column == columns.end() || i >= column->size() || !column->at(i).is_string()) return {};
   return column->at(i).get<std::string>();
@@ -60,7 +60,7 @@ struct Evacuation {
   bool is_complete = true;  ///< the columns are there
 };
 
-Evacuation evacuation_of(const json& run) {
+Evacuation read_evacuation(const json& run) {
   Evacuation people;
   const json columns = run.value("by_person", json::object());
   const double end_s = number_in(run, "duration_s");
@@ -70,9 +70,9 @@ Evacuation evacuation_of(const json& run) {
   if (!people.is_complete || !std::isfinite(end_s)) return people;
   people.all = columns.at("agent").size();
   for (std::size_t i = 0; i < people.all; ++i) {
-    const std::optional<double> start = cell_of(columns, "start_s", i);
-    const std::optional<double> escaped = cell_of(columns, "escaped_s", i);
-    if (word_of(columns, "outcome", i) == "never_inside") {
+    const std::optional<double> start = read_cell(columns, "start_s", i);
+    const std::optional<double> escaped = read_cell(columns, "escaped_s", i);
+    if (read_word(columns, "outcome", i) == "never_inside") {
       ++people.never_inside;
       continue;
     }
@@ -80,8 +80,8 @@ Evacuation evacuation_of(const json& run) {
     if (!start || (escaped && *escaped < *start)) continue;  // had left before the alarm
     ++people.evacuees;
     if (escaped) people.escapes.push_back(*escaped - *start);
-    const std::optional<double> vanished = cell_of(columns, "vanished_s", i);
-    if (!escaped && cell_of(columns, "hurt_s", i)) {
+    const std::optional<double> vanished = read_cell(columns, "vanished_s", i);
+    if (!escaped && read_cell(columns, "hurt_s", i)) {
       ++people.casualties;
     } else if (!escaped && vanished) {
       ++people.vanished;
@@ -134,8 +134,8 @@ void check_people_counts(const json& run, const Report& fault) {
   std::map<std::string, double> number_of;
   std::map<std::string, double> left_by;
   for (std::size_t i = 0; i < columns.at("outcome").size(); ++i) {
-    const std::string outcome = word_of(columns, "outcome", i);
-    const std::string exit = word_of(columns, "exit", i);
+    const std::string outcome = read_word(columns, "outcome", i);
+    const std::string exit = read_word(columns, "exit", i);
     ++number_of[outcome == "left" && exit.empty() ? "left_by_no_exit" : outcome];
     if (outcome == "left" && !exit.empty()) ++left_by[exit];
   }
@@ -306,7 +306,7 @@ void check_exposure(const json& run, const Report& fault) {
   double present_s = 0;
   for (std::size_t i = 0; columns.contains("arrived_s") && i < columns.at("arrived_s").size();
        ++i) {
-    const double arrived_s = cell_of(columns, "arrived_s", i).value_or(end_s);
+    const double arrived_s = read_cell(columns, "arrived_s", i).value_or(end_s);
     present_s += end_s - arrived_s + 0.5;  // each step counts whole
   }
   if (columns.contains("arrived_s") && inside_s > present_s) {
@@ -320,7 +320,7 @@ void check_exposure(const json& run, const Report& fault) {
 }  // namespace
 
 void check_run_figures(const json& run, const Report& fault) {
-  const Evacuation people = evacuation_of(run);
+  const Evacuation people = read_evacuation(run);
   if (people.is_complete) {
     check_escape_times(run, people, fault);
     check_curve(run, people, fault);

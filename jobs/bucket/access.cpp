@@ -62,7 +62,7 @@ Values profile_values() {
   return values;
 }
 
-std::string first_of(std::initializer_list<std::string> texts) {
+std::string first_nonempty(std::initializer_list<std::string> texts) {
   const auto found = std::find_if(texts.begin(), texts.end(),
                                   [](const std::string& text) { return !text.empty(); });
   return found == texts.end() ? "" : *found;
@@ -105,10 +105,10 @@ Access read_access() {
     access.secret = profile["aws_secret_access_key"];
     access.token = profile["aws_session_token"];
   }
-  access.endpoint = first_of(
+  access.endpoint = first_nonempty(
       {variable("AWS_ENDPOINT_URL_S3"), variable("AWS_ENDPOINT_URL"), profile["endpoint_url"]});
   access.region =
-      first_of({variable("AWS_REGION"), variable("AWS_DEFAULT_REGION"), profile["region"]});
+      first_nonempty({variable("AWS_REGION"), variable("AWS_DEFAULT_REGION"), profile["region"]});
   if (access.key_id.empty() || access.secret.empty()) {
     throw EnvironmentError(
         fmt::format("there are no credentials for the object store: set AWS_ACCESS_KEY_ID and "

@@ -41,7 +41,7 @@ class Digester {
     sha256_.add(bytes);
     md5_.add(bytes);
   }
-  Digest take() { return {hex_of(sha256_.take()), md5_.take()}; }
+  Digest take() { return {encode_hex(sha256_.take()), md5_.take()}; }
 
  private:
   Hash sha256_{EVP_sha256()};
@@ -79,7 +79,7 @@ FileDigest digest_of_file(const std::filesystem::path& path, std::int64_t part_s
   return digest;
 }
 
-Digest digest_of(std::string_view bytes) {
+Digest compute_digest(std::string_view bytes) {
   Digester digester;
   digester.add(bytes);
   return digester.take();
@@ -88,7 +88,7 @@ Digest digest_of(std::string_view bytes) {
 std::string tag_of_parts(const std::vector<Digest>& parts) {
   std::string md5s;
   for (const Digest& part : parts) md5s += part.md5;
-  return fmt::format("{}-{}", hex_of(digest_of(md5s).md5), parts.size());
+  return fmt::format("{}-{}", encode_hex(compute_digest(md5s).md5), parts.size());
 }
 
 }  // namespace throng::bucket

@@ -24,7 +24,7 @@ struct FileDigest {
 /// Throws EnvironmentError when the file cannot be read.
 FileDigest digest_of_file(const std::filesystem::path& path, std::int64_t part_size_bytes);
 
-Digest digest_of(std::string_view bytes);
+Digest compute_digest(std::string_view bytes);
 
 /// The tag that S3 gives an object of several parts: the MD5 of the parts' MD5, and their number.
 std::string tag_of_parts(const std::vector<Digest>& parts);

@@ -118,7 +118,7 @@ StoreError read_error(const std::string& xml) {
   return {first_line(text_in(*root, "Code")), first_line(text_in(*root, "Message"))};
 }
 
-std::string text_of(const StoreError& error, long status) {
+std::string error_text(const StoreError& error, long status) {
   if (error.code.empty()) return fmt::format("the object store answered with status {}", status);
   if (error.message.empty()) return error.code;
   return fmt::format("{}: {}", error.code, error.message);

@@ -53,7 +53,7 @@ struct StoreError {
 StoreError read_error(const std::string& xml);
 
 /// For people: "AccessDenied: Access Denied", or the status alone.
-std::string text_of(const StoreError& error, long status);
+std::string error_text(const StoreError& error, long status);
 
 /// The first line of text that a store has sent, of bounded length and without control characters.
 std::string first_line(std::string_view text);

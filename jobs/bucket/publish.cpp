@@ -23,12 +23,12 @@ namespace {
 constexpr std::int64_t kPartSizeBytes = std::int64_t{8} << 20;  // S3 asks for 5 MiB at least
 constexpr std::int64_t kMaxParts = 10'000;
 
-std::int64_t part_size_of(std::int64_t file_bytes) {
+std::int64_t part_size(std::int64_t file_bytes) {
   return std::max(kPartSizeBytes, (file_bytes + kMaxParts - 1) / kMaxParts);
 }
 
 /// A prefix as listings want it: not those of which it is a part.
-std::string folder_of(const Address& address) {
+std::string folder_prefix(const Address& address) {
   return address.prefix.empty() ? "" : address.prefix + "/";
 }
 
@@ -94,7 +94,7 @@ class Publisher {
 
   /// Finds what can be seen to be wrong before anything is sent.
   void look() {
-    for (ListedObject& object : list_objects(asked_, folder_of(address_))) {
+    for (ListedObject& object : list_objects(asked_, folder_prefix(address_))) {
       std::string key = object.key;
       listed_.emplace(std::move(key), std::move(object));
     }
@@ -121,7 +121,7 @@ class Publisher {
   }
 
   FileDigest digest(const FileEntry& file) const {
-    FileDigest digest = digest_of_file(dataset_ / file.path, part_size_of(file.bytes));
+    FileDigest digest = digest_of_file(dataset_ / file.path, part_size(file.bytes));
     if (digest.whole.sha256_hex != file.sha256) refuse_local(file);
     return digest;
   }
@@ -130,7 +130,7 @@ class Publisher {
   /// or its parts were others, leaves the hash that was kept with the object.
   bool is_same(const ListedObject& object, const FileEntry& file, const FileDigest& digest) {
     if (object.bytes != file.bytes) return false;
-    if (object.tag == hex_of(digest.whole.md5)) return true;
+    if (object.tag == encode_hex(digest.whole.md5)) return true;
     if (digest.parts.size() > 1 && object.tag == tag_of_parts(digest.parts)) return true;
     const std::optional<Response> head = head_object(asked_, object.key);
     const std::size_t dash = object.tag.find('-');
@@ -153,7 +153,7 @@ class Publisher {
   void note(const FileEntry& file, const std::string& tag) { tags_[key_of(file)] = tag; }
 
   Payload payload_of_part(const FileEntry& file, const FileDigest& digest, std::size_t part) const {
-    const std::int64_t size_bytes = part_size_of(file.bytes);
+    const std::int64_t size_bytes = part_size(file.bytes);
     const std::int64_t begin_bytes = size_bytes * static_cast<std::int64_t>(part);
     return {.file = dataset_ / file.path,
             .offset_bytes = begin_bytes,
@@ -187,7 +187,7 @@ class Publisher {
     const FileDigest digest = this->digest(file);
     if (is_there(file, digest)) return report(file.bytes);
     std::vector<std::string> tags(digest.parts.size());
-    const ListedUpload upload = upload_of(file, digest, tags);
+    const ListedUpload upload = upload_name(file, digest, tags);
     std::size_t part = 0;
     store_.run([&]() -> std::optional<Transfers::Work> {
       while (part < tags.size() && !tags[part].empty()) ++part;
@@ -218,9 +218,9 @@ class Publisher {
   }
 
   /// An upload of the file that was broken off, with the tags of its parts, or a new one.
-  ListedUpload upload_of(const FileEntry& file, const FileDigest& digest,
-                         std::vector<std::string>& tags) {
-    if (!uploads_) uploads_ = list_uploads(asked_, folder_of(address_));
+  ListedUpload upload_name(const FileEntry& file, const FileDigest& digest,
+                           std::vector<std::string>& tags) {
+    if (!uploads_) uploads_ = list_uploads(asked_, folder_prefix(address_));
     for (const ListedUpload& upload : *uploads_) {
       if (upload.key != key_of(file)) continue;
       const std::vector<ListedPart> parts = list_parts(asked_, upload);
@@ -228,7 +228,7 @@ class Publisher {
         const auto index = static_cast<std::size_t>(part.number) - 1;
         return part.number > 0 && index < tags.size() &&
                part.bytes == payload_of_part(file, digest, index).size_bytes &&
-               part.tag == hex_of(digest.parts[index].md5);
+               part.tag == encode_hex(digest.parts[index].md5);
       };
       if (parts.empty() || !std::all_of(parts.begin(), parts.end(), is_ours)) continue;
       for (const ListedPart& part : parts) {
@@ -243,7 +243,7 @@ class Publisher {
   /// The listing has every object, as it was when the store confirmed it.
   void verify() {
     std::size_t right = 0;
-    for (const ListedObject& object : list_objects(asked_, folder_of(address_))) {
+    for (const ListedObject& object : list_objects(asked_, folder_prefix(address_))) {
       const auto found = tags_.find(object.key);
       if (found != tags_.end() && found->second == object.tag) ++right;
     }
@@ -257,7 +257,7 @@ class Publisher {
   /// Removes uploads of attempts whose answer was lost, or of a file that was made again.
   void remove_stale_uploads() {
     if (std::none_of(manifest_.files.begin(), manifest_.files.end(), &is_large)) return;
-    for (const ListedUpload& upload : list_uploads(asked_, folder_of(address_))) {
+    for (const ListedUpload& upload : list_uploads(asked_, folder_prefix(address_))) {
       if (tags_.contains(upload.key)) abort_upload(asked_, upload);
     }
   }

@@ -40,9 +40,9 @@ std::vector<Entry> list_all(Transfers& store, const Request& first,
 /// The tag of what was sent: the MD5, unless the store says that its tags are something else.
 std::string fault_of_tag(const Response& response, const Digest& sent) {
   const std::string tag = response.tag();
-  if (tag == hex_of(sent.md5) || (response.has_opaque_tag() && !tag.empty())) return "";
+  if (tag == encode_hex(sent.md5) || (response.has_opaque_tag() && !tag.empty())) return "";
   return fmt::format("the store received other bytes than were sent: its ETag is {}, expected {}",
-                     tag.empty() ? "missing" : first_line(tag), hex_of(sent.md5));
+                     tag.empty() ? "missing" : first_line(tag), encode_hex(sent.md5));
 }
 
 Request put(Payload payload) {
@@ -113,7 +113,7 @@ bool complete_upload(Transfers& store, const ListedUpload& upload,
   Request request{.method = "POST",
                   .key = upload.key,
                   .query = {{"uploadId", upload.id}},
-                  .payload = payload_of(std::move(body)),
+                  .payload = make_payload(std::move(body)),
                   .accepted = {404}};
   request.fault = [](const Response& response) {
     return response.status == 404 || !read_value(response.body, "ETag").empty()

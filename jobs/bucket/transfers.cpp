@@ -62,9 +62,9 @@ bool is_lasting(CURLcode code) {
 
 }  // namespace
 
-Payload payload_of(std::string text) {
+Payload make_payload(std::string text) {
   Payload payload;
-  payload.digest = digest_of(text);
+  payload.digest = compute_digest(text);
   payload.size_bytes = static_cast<std::int64_t>(text.size());
   payload.text = std::move(text);
   return payload;
@@ -182,7 +182,7 @@ void Transfers::Transfer::set_headers(const Access& access) {
   const auto add = [&](const std::string& line) { list = ::curl_slist_append(list, line.c_str()); };
   // Given here, so that the library signs it and the store compares it with what arrives.
   add("x-amz-content-sha256: " + request.payload.digest.sha256_hex);
-  if (is_sending(request)) add("Content-MD5: " + base64_of(request.payload.digest.md5));
+  if (is_sending(request)) add("Content-MD5: " + encode_base64(request.payload.digest.md5));
   if (!access.token.empty()) add("x-amz-security-token: " + access.token);
   for (const auto& [name, value] : request.headers) add(name + ": " + value);
   headers.reset(list);
@@ -339,7 +339,7 @@ void Transfers::finish(std::unique_ptr<Transfer> transfer, int curl_code) {
     // An upload that is completed answers 200 first, and says later that it failed.
     const StoreError error = read_error(response.body);
     if (!response.is_success() || !error.code.empty()) {
-      reason = text_of(error, response.status);
+      reason = error_text(error, response.status);
       may_pass = is_passing(response.status, error.code);
       if (response.status == kNotFound && error.code == "NoSuchBucket") {
         throw InputError(

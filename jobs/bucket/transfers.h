@@ -25,10 +25,10 @@ struct Payload {
   std::filesystem::path file = {};  ///< "": the text
   std::int64_t offset_bytes = 0;
   std::int64_t size_bytes = 0;
-  Digest digest = digest_of("");  ///< of what is sent; the store refuses other bytes
+  Digest digest = compute_digest("");  ///< of what is sent; the store refuses other bytes
 };
 
-Payload payload_of(std::string text);
+Payload make_payload(std::string text);
 
 struct Response {
   long status = 0;

@@ -20,8 +20,8 @@ using nlohmann::json;
 namespace {
 
 /// The job that flies the logs: one run, which ends when the flight did.
-jobs::JobSpec replay_of(const jobs::JobSpec& flown, const sim::RemotePilots& pilots,
-                        double duration_s) {
+jobs::JobSpec replay_flight(const jobs::JobSpec& flown, const sim::RemotePilots& pilots,
+                            double duration_s) {
   jobs::JobSpec job = flown;
   job.runs = 1;
   job.name = (flown.name.empty() ? "live flight" : flown.name + ", flown").substr(0, 200);
@@ -73,10 +73,10 @@ class Flight::Recorder : public sim::RunObserver {
   }
   void event(const world::TraceEvent& event) override {
     trace_->add_event(event);
-    const auto drone = world::drone_of(event.kind);
+    const auto drone = world::drone_of_event(event.kind);
     if (!drone) return;
     events_.push_back({{"time_s", event.time_s},
-                       {"type", world::name_of(event.kind)},
+                       {"type", world::to_string(event.kind)},
                        {"drone", header_.drone_ids.at(static_cast<std::size_t>(*drone))}});
   }
 
@@ -167,7 +167,7 @@ json Flight::finish() {
           {"steps", std::lround(time_s() / dt_s())},
           {"trace_sha256", sha256_hex_of_file(trace_file_)},
           {"drones", std::move(logs)},
-          {"job", jobs::to_json(replay_of(job_, *pilots_, time_s()))},
+          {"job", jobs::to_json(replay_flight(job_, *pilots_, time_s()))},
           {"warnings", std::move(texts)}};
 }
 

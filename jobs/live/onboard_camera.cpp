@@ -31,7 +31,7 @@ OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_j
   return {std::move(scenario), environment.light, jobs::styling_in(job, environment.light.weather)};
 }
 
-double smoke_of(const jobs::JobSpec& job) {
+double smoke_amount(const jobs::JobSpec& job) {
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed).light.smoke;
 }

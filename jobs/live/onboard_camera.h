@@ -23,7 +23,7 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera);
 
 /// Owns a GL context: use from the thread that made it.
 /// How much smoke rises from the dangers of a job's first run, 0 to 1.
-double smoke_of(const jobs::JobSpec& job);
+double smoke_amount(const jobs::JobSpec& job);
 
 class OnboardCamera {
  public:

@@ -26,7 +26,7 @@ PeopleInMotion::PeopleInMotion(const world::TraceHeader& header, std::uint64_t s
       fell_at_s_(header.agent_count(), -1) {
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
     looks_.push_back(
-        skinning::appearance_of(population, seed, static_cast<std::uint32_t>(agent), styling));
+        skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent), styling));
   }
 }
 
@@ -39,12 +39,12 @@ skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, do
   } else if (const skinning::Clip* fall = clips_.find("fall_forwards"); fall != nullptr) {
     if (fell_at_s_[agent] < 0) fell_at_s_[agent] = time_s;
     const double share = std::min(1.0, (time_s - fell_at_s_[agent]) / kFallS);
-    return skinning::frame_of(*fall, share * (fall->frames - 1));
+    return skinning::blend_frame(*fall, share * (fall->frames - 1));
   }
   if (speed_mps < skinning::kStandingSpeed) {
     const skinning::Clip& idle = clips_.nearest("idle");
-    return skinning::frame_of(idle,
-                              (look.phase_offset + time_s / skinning::kIdlePeriod) * idle.frames);
+    return skinning::blend_frame(
+        idle, (look.phase_offset + time_s / skinning::kIdlePeriod) * idle.frames);
   }
   const double stature_m = character.stature_m;
   const double stride_m = skinning::stride_length_m(speed_mps, stature_m, character.age_years) *
@@ -54,7 +54,7 @@ skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, do
   const skinning::Clip& clip =
       clips_.nearest(panics ? "panic" : (runs ? "run" : "walk"), stride_m / stature_m);
   const double clip_stride_m = clip.stride > 0 ? clip.stride * stature_m : stride_m;
-  return skinning::frame_of(clip, (look.phase_offset + meters / clip_stride_m) * clip.frames);
+  return skinning::blend_frame(clip, (look.phase_offset + meters / clip_stride_m) * clip.frames);
 }
 
 render::Scene PeopleInMotion::scene_at(const Moment& moment, double time_s) {

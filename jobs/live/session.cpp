@@ -130,7 +130,7 @@ class Session {
   [[noreturn]] void run() {
     std::thread([this] { read(); }).detach();
     try {
-      output_.send(MessageType::hello, hello_of(flight_, scenario_, smoke_of(job_)).dump());
+      output_.send(MessageType::hello, make_hello(flight_, scenario_, smoke_amount(job_)).dump());
       output_.send(MessageType::state, state_bytes(*moment_, 0, true));
       {
         const std::jthread camera([this](const std::stop_token& stop) { show(stop); });
@@ -338,7 +338,7 @@ int run_session(const fs::path& folder) {
   try {
     const jobs::ResolvedJob job =
         jobs::read_resolved_job(read_file(folder / "job.json"), (folder / "job.json").string());
-    const world::Scenario scenario = jobs::scenario_of(job.spec(), scenarios);
+    const world::Scenario scenario = jobs::load_job_scenario(job.spec(), scenarios);
     Session(job.spec(), scenario, folder, output, give_up).run();
   } catch (...) {
     give_up();

@@ -19,7 +19,7 @@ json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
 json rectangle(const world::Rectangle& r) { return {{"min", point(r.min)}, {"max", point(r.max)}}; }
 
-json buildings_of(const world::Scenario& scenario) {
+json buildings_json(const world::Scenario& scenario) {
   json list = json::array();
   for (const world::Building& building : scenario.buildings) {
     json corners = json::array();
@@ -29,7 +29,7 @@ json buildings_of(const world::Scenario& scenario) {
   return list;
 }
 
-json exits_of(const world::Scenario& scenario) {
+json exits_json(const world::Scenario& scenario) {
   json list = json::array();
   for (const world::Exit& exit : scenario.exits) {
     list.push_back(
@@ -39,7 +39,7 @@ json exits_of(const world::Scenario& scenario) {
 }
 
 /// Sources of smoke: dangers that stay where they are.
-json dangers_of(const world::Scenario& scenario) {
+json dangers_json(const world::Scenario& scenario) {
   json list = json::array();
   for (const world::Disaster& disaster : scenario.disasters) {
     if (disaster.kind == world::DisasterKind::attacker) continue;
@@ -53,7 +53,7 @@ json dangers_of(const world::Scenario& scenario) {
   return list;
 }
 
-json drones_of(const Flight& flight) {
+json drones_json(const Flight& flight) {
   json list = json::array();
   for (const sim::PlannedDrone& drone : flight.drones()) {
     const camera::CameraSpec camera = shown_camera(drone.mission.camera);
@@ -71,7 +71,7 @@ json drones_of(const Flight& flight) {
 
 }  // namespace
 
-json hello_of(const Flight& flight, const world::Scenario& scenario, double smoke) {
+json make_hello(const Flight& flight, const world::Scenario& scenario, double smoke) {
   const world::TraceHeader& header = flight.header();
   json roles = json::array();
   for (const world::AgentRole role : header.role) roles.push_back(static_cast<int>(role));
@@ -82,13 +82,13 @@ json hello_of(const Flight& flight, const world::Scenario& scenario, double smok
           {"people", header.agent_count()},
           {"roles", std::move(roles)},
           {"states", header.state_names},
-          {"drones", drones_of(flight)},
+          {"drones", drones_json(flight)},
           {"ground", rectangle(scenario.ground)},
           {"inside", rectangle(scenario.inside)},
-          {"buildings", buildings_of(scenario)},
-          {"exits", exits_of(scenario)},
+          {"buildings", buildings_json(scenario)},
+          {"exits", exits_json(scenario)},
           {"smoke", smoke},
-          {"dangers", dangers_of(scenario)},
+          {"dangers", dangers_json(scenario)},
           {"image", {{"width", kImageWidth}, {"height", kImageHeight}}},
           {"max_speed_mps", sim::kMaxRemoteSpeedMps},
           {"max_climb_mps", sim::kMaxRemoteClimbMps},

@@ -10,7 +10,7 @@
 namespace throng::live {
 
 /// Place, people, drones and image: the first message. `smoke`: how much of it rises, 0 to 1.
-nlohmann::json hello_of(const Flight& flight, const world::Scenario& scenario, double smoke);
+nlohmann::json make_hello(const Flight& flight, const world::Scenario& scenario, double smoke);
 
 /// Everybody's places at the end of the moment's step.
 std::string state_bytes(const Moment& moment, double reached_factor, bool paused);

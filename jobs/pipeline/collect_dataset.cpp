@@ -51,7 +51,7 @@ class Collector {
     }
     add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");
     if (wants(job_, annotate::GroundTruth::coco)) {
-      const std::string path = file_of(annotate::GroundTruth::coco, "");
+      const std::string path = ground_truth_file(annotate::GroundTruth::coco, "");
       fs::create_directories((staging_.path() / path).parent_path());
       annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name,
                            {wants(job_, annotate::GroundTruth::keypoints), job_.drones.size() > 1,

@@ -16,13 +16,13 @@
 #include "jobs/pipeline/checks/scenario_check.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
-#include "places/blueprint/blueprint.h"
-#include "places/blueprint/load_scenario.h"
-#include "places/plan/plan.h"
 #include "sim/planning/planned_paths.h"
 #include "spec/job/scenario_mix.h"
-#include "spec/places/scenario_summary.h"
+#include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/blueprint.h"
+#include "world/scenarios/blueprint/load_scenario.h"
+#include "world/scenarios/plan/plan.h"
 
 namespace throng::jobs {
 
@@ -49,15 +49,15 @@ json dry_run(const json& request) {
 
 json draw_scenario(const json& request) {
   const world::Scenario scenario =
-      places::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
-  return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx))}};
+      scenarios::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
+  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx))}};
 }
 
 json draw_job(const json& request) {
   const JobSpec job = in_scenario_of_run(read_resolved_job(text_at(request, "job"), "").spec(), 0);
-  const world::Scenario scenario = scenario_of(job, text_at(request, "scenarios"));
+  const world::Scenario scenario = load_job_scenario(job, text_at(request, "scenarios"));
   const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
-  return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
+  return {{"svg", drawing::to_svg(scenarios::draw_plan(scenario, kPlanPx, paths))}};
 }
 
 json describe_scenarios(const json& request) {
@@ -65,7 +65,7 @@ json describe_scenarios(const json& request) {
   for (const std::string& id : request.at("ids").get<std::vector<std::string>>()) {
     try {
       summaries.push_back(
-          scenario_summary(places::find_scenario(text_at(request, "scenarios"), id)));
+          scenario_summary(scenarios::find_scenario(text_at(request, "scenarios"), id)));
     } catch (const InputError& error) {
       // One that is damaged hides no other.
       summaries.push_back({{"error", error.what()}});
@@ -77,8 +77,8 @@ json describe_scenarios(const json& request) {
 json read_blueprint(const json& request) {
   const std::string name = text_at(request, "id") + std::string(world::kBlueprintEnding);
   const std::filesystem::path file = std::filesystem::path(text_at(request, "scenarios")) / name;
-  return {
-      {"blueprint", std::filesystem::exists(file) ? places::load_blueprint(file) : json(nullptr)}};
+  return {{"blueprint",
+           std::filesystem::exists(file) ? scenarios::load_blueprint(file) : json(nullptr)}};
 }
 
 json check_calibration(const json& request) {

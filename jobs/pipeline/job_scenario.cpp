@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "base/error.h"
-#include "places/blueprint/generated.h"
-#include "places/blueprint/load_scenario.h"
+#include "world/scenarios/blueprint/generated.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace_scenario.h"
 
 namespace throng::jobs {
 
-world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
-                            const std::string& source, const std::string& pointer) {
+world::Scenario load_job_scenario(const JobSpec& job, const std::filesystem::path& scenarios,
+                                  const std::string& source, const std::string& pointer) {
   try {
-    return job.generate ? places::load_generated(*job.generate)
-                        : places::find_scenario(scenarios, job.scenario);
+    return job.generate ? scenarios::load_generated(*job.generate)
+                        : scenarios::find_scenario(scenarios, job.scenario);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
@@ -29,7 +29,7 @@ world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& sce
 world::Scenario scenario_of_run(const JobSpec& job, const std::filesystem::path& scenarios,
                                 const world::TraceHeader& header) {
   auto kept = world::scenario_in_trace(header, "trace.h5", world::TraceMeshes::needed);
-  return kept ? *std::move(kept) : scenario_of(job, scenarios);
+  return kept ? *std::move(kept) : load_job_scenario(job, scenarios);
 }
 
 }  // namespace throng::jobs

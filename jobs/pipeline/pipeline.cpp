@@ -51,11 +51,11 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
     spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded));
   }
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
-  spec.drones = missions_of(job, spec.seed);
+  spec.drones = make_missions(job, spec.seed);
   return spec;
 }
 
-std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed) {
+std::vector<sim::DroneMission> make_missions(const JobSpec& run_job, std::uint64_t run_seed) {
   std::vector<sim::DroneMission> missions;
   for (std::size_t i = 0; i < run_job.drones.size(); ++i) {
     sim::DroneMission& mission = missions.emplace_back(run_job.drones[i].mission);
@@ -71,7 +71,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
-  const world::Scenario scenario = scenario_of(in_scenario_of_run(job, run), scenarios);
+  const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
   std::vector<std::string> warnings;
   for (const Problem& warning : with_figure_warnings(
            sim::simulate(scenario, run_spec(job, run), trace, progress, stop), scenario)) {
@@ -114,7 +114,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   const nlohmann::json figures = metrics::to_json(measured);
   keep_warnings(folder.output_of({Task::Kind::measure, run}),
-                metrics::warnings_of(measured.counts));
+                metrics::count_warnings(measured.counts));
 
   Publication output(folder.output_of({Task::Kind::measure, run}));
   output.add("metrics/" + run_name(run) + ".json", figures.dump(kJsonIndent) + "\n");

@@ -25,7 +25,7 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind);
 sim::RunSpec run_spec(const JobSpec& job, int run);
 
 /// The drones' missions in a run, with its cameras. `run_job` is that of job_of_run().
-std::vector<sim::DroneMission> missions_of(const JobSpec& run_job, std::uint64_t run_seed);
+std::vector<sim::DroneMission> make_missions(const JobSpec& run_job, std::uint64_t run_seed);
 
 /// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
 void simulate_run(const JobFolder& folder, const JobSpec& job,

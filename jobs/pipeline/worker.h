@@ -12,7 +12,7 @@
 
 namespace throng::jobs {
 
-/// Tasks that belong to no job's plan, by name (name_of(Task)), or the part of it before a slash:
+/// Tasks that belong to no job's plan, by name (to_string(Task)), or the part of it before a slash:
 /// they publish their output in the folder. `name` is the whole name. Throw InputError and
 /// EnvironmentError.
 using OtherTasks =

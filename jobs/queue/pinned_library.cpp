@@ -11,12 +11,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path note_of(const JobFolder& folder) { return folder.path() / "work" / "people"; }
+fs::path pin_file(const JobFolder& folder) { return folder.path() / "work" / "people"; }
 
 }  // namespace
 
 void pin_library(const JobFolder& folder, const std::string& content_hash) {
-  const fs::path note = note_of(folder);
+  const fs::path note = pin_file(folder);
   if (!fs::exists(note)) {
     // Only one of several workers can give the note its name; the others read it.
     StagedFile draft(note);
@@ -32,7 +32,7 @@ void pin_library(const JobFolder& folder, const std::string& content_hash) {
 }
 
 std::string pinned_library(const JobFolder& folder) {
-  const fs::path note = note_of(folder);
+  const fs::path note = pin_file(folder);
   return fs::exists(note) ? read_file(note) : std::string();
 }
 

@@ -19,8 +19,8 @@ using nlohmann::json;
 
 namespace {
 
-std::filesystem::path profile_of(const JobFolder& folder, const Task& task) {
-  return folder.log_of(task).replace_extension(".profile.json");
+std::filesystem::path profile_file(const JobFolder& folder, const Task& task) {
+  return folder.log_file(task).replace_extension(".profile.json");
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void write_profile(const JobFolder& folder, const Task& task, const StageClock& 
   for (const auto& [stage, time] : clock.times()) {
     stages[stage] = {{"cpu_s", time.cpu_s}, {"wall_s", time.wall_s}};
   }
-  write_file_atomically(profile_of(folder, task),
+  write_file_atomically(profile_file(folder, task),
                         json{{"images", images}, {"stages", std::move(stages)}}.dump() + "\n");
 }
 
@@ -42,7 +42,7 @@ std::string profile_table(const JobFolder& folder, const JobSpec& job) {
   std::int64_t images = 0;
   for (const RunPlan& run : plan_runs(job)) {
     for (const Shard& shard : plan_shards(job, run.index)) {
-      const auto file = profile_of(folder, {Task::Kind::render, run.index, shard.index});
+      const auto file = profile_file(folder, {Task::Kind::render, run.index, shard.index});
       if (!std::filesystem::exists(file)) continue;
       const json profile = parse_own_json(read_file(file), file.string());
       images += profile.at("images").get<std::int64_t>();

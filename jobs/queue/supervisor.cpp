@@ -160,7 +160,7 @@ class Supervision {
       } else if (task.kind == Task::Kind::simulate) {
         at(task).simulated_s = at(task).duration_s;
       } else if (task.kind == Task::Kind::render) {
-        images_[task] = images_of(task);
+        images_[task] = count_images(task);
       }
     }
     for (RunProgress& run : progress_.runs) {
@@ -180,7 +180,7 @@ class Supervision {
     for (const Task& task : open) {
       if (folder_.is_done(task) || at(task).stage == Stage::failed) continue;
       throw EnvironmentError(fmt::format(
-          "{}: the worker reported success but its output is not there", name_of(task)));
+          "{}: the worker reported success but its output is not there", to_string(task)));
     }
   }
 
@@ -209,7 +209,7 @@ class Supervision {
     if (result.outcome != Outcome::succeeded) throw EnvironmentError(text_of(task, result));
     if (!folder_.is_done(task)) {
       throw EnvironmentError(fmt::format(
-          "{}: the worker reported success but its output is not there", name_of(task)));
+          "{}: the worker reported success but its output is not there", to_string(task)));
     }
   }
 
@@ -222,11 +222,11 @@ class Supervision {
   static void throw_if_wrong(const Task& task, const TaskResult& result) {
     if (result.outcome != Outcome::input_error) return;
     if (!result.problems.empty()) throw InputError(result.problems);
-    throw InputError(Problem{"", name_of(task), result.message, "a job that can be run"});
+    throw InputError(Problem{"", to_string(task), result.message, "a job that can be run"});
   }
 
   static std::string text_of(const Task& task, const TaskResult& result) {
-    const std::string message = fmt::format("{}: {}", name_of(task), result.message);
+    const std::string message = fmt::format("{}: {}", to_string(task), result.message);
     return result.attempts > 1 ? fmt::format("{} (after {} attempts)", message, result.attempts)
                                : message;
   }
@@ -238,7 +238,7 @@ class Supervision {
     if (run.stage == Stage::failed) return;
     run.stage = Stage::failed;
     run.pace = {};
-    failures_.push_back({run.run, name_of(task), text_of(task, result), result.attempts});
+    failures_.push_back({run.run, to_string(task), text_of(task, result), result.attempts});
     report();
   }
 
@@ -262,7 +262,7 @@ class Supervision {
     if (task.kind == Task::Kind::simulate) {
       at(task).simulated_s = progress.done;
     } else if (task.kind == Task::Kind::render) {
-      images_[task] = std::min(images_of(task), std::llround(progress.done));
+      images_[task] = std::min(count_images(task), std::llround(progress.done));
     } else {
       return;
     }
@@ -292,7 +292,7 @@ class Supervision {
   void set_pace(const Task& task, const std::string& node) {
     RunProgress& run = at(task);
     const std::int64_t done = images_[task];
-    const std::int64_t total = images_of(task);
+    const std::int64_t total = count_images(task);
     const auto speed = [&](const Task& of, std::int64_t already) -> const Speedometer& {
       return speeds_.try_emplace(of, already).first->second;
     };
@@ -318,7 +318,7 @@ class Supervision {
     progress_.pace = total_speed_->pace(all_done, all);
   }
 
-  long long images_of(const Task& task) const {
+  long long count_images(const Task& task) const {
     const Shard shard = plan_shards(job_, task.run)[static_cast<std::size_t>(task.shard)];
     return (shard.end_frame - shard.first_frame) * static_cast<long long>(job_.drones.size());
   }
@@ -346,7 +346,7 @@ class Supervision {
 
 }  // namespace
 
-std::string_view name_of(Stage stage) {
+std::string_view to_string(Stage stage) {
   switch (stage) {
     case Stage::waiting:
       return "waiting";

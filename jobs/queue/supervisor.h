@@ -19,7 +19,7 @@ namespace throng::jobs {
 /// Progress of a run.
 enum class Stage { waiting, simulating, rendering, rendered, publishing, finished, failed };
 
-std::string_view name_of(Stage stage);
+std::string_view to_string(Stage stage);
 
 /// How fast images are made, and how long what is left takes at that rate. Nothing is known before
 /// the first image.

@@ -9,27 +9,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path seal_of(const fs::path& trace) { return trace.string() + ".sha256"; }
+fs::path seal_file(const fs::path& trace) { return trace.string() + ".sha256"; }
 
 std::string text_of_seal(const fs::path& trace) { return sha256_hex_of_file(trace) + "\n"; }
 
 }  // namespace
 
 void seal_trace(const fs::path& trace) {
-  write_file_atomically(seal_of(trace), text_of_seal(trace));
+  write_file_atomically(seal_file(trace), text_of_seal(trace));
 }
 
 std::string sealed_hash(const fs::path& trace) {
-  if (!fs::exists(seal_of(trace))) return sha256_hex_of_file(trace);
-  const std::string text = read_file(seal_of(trace));
+  if (!fs::exists(seal_file(trace))) return sha256_hex_of_file(trace);
+  const std::string text = read_file(seal_file(trace));
   return text.substr(0, text.find('\n'));
 }
 
 void remove_if_damaged(const fs::path& trace) {
-  if (!fs::exists(trace) || !fs::exists(seal_of(trace))) return;
-  if (read_file(seal_of(trace)) == text_of_seal(trace)) return;
+  if (!fs::exists(trace) || !fs::exists(seal_file(trace))) return;
+  if (read_file(seal_file(trace)) == text_of_seal(trace)) return;
   fs::remove(trace);
-  fs::remove(seal_of(trace));
+  fs::remove(seal_file(trace));
 }
 
 }  // namespace throng::jobs

@@ -130,7 +130,7 @@ void add_exposure_rows(std::vector<MetricRow>& rows) {
 }  // namespace
 
 std::string definition_link(const std::string& path, const std::string& name) {
-  const metrics::Definition* definition = metrics::definition_of(path);
+  const metrics::Definition* definition = metrics::find_definition(path);
   check(definition != nullptr, "every figure of a report has a definition");
   return fmt::format("<a href=\"#def-{}\">{}</a>", definition->anchor, escaped_markup(name));
 }
@@ -141,7 +141,7 @@ std::string definition_list() {
     html += fmt::format("<dt id=\"def-{}\">{}</dt><dd>{} <span class=\"hint\">({})</span></dd>\n",
                         definition.anchor,
                         escaped_markup(fmt::format("{}", fmt::join(definition.paths, ", "))),
-                        escaped_markup(definition.text), address_of(definition));
+                        escaped_markup(definition.text), anchor_address(definition));
   }
   return html + "</dl>\n";
 }

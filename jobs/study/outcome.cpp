@@ -18,7 +18,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-double number_of(const json& value) { return value.is_null() ? kNever : value.get<double>(); }
+double finite_or_never(const json& value) { return value.is_null() ? kNever : value.get<double>(); }
 
 json best_json(const BestFigures& best) {
   return {{"t50_s", number(best.t50_s)},   {"t75_s", number(best.t75_s)},
@@ -27,12 +27,12 @@ json best_json(const BestFigures& best) {
 }
 
 BestFigures best_from(const json& value) {
-  return {number_of(value.at("t50_s")),  number_of(value.at("t75_s")),
-          number_of(value.at("t90_s")),  number_of(value.at("t95_s")),
-          number_of(value.at("t100_s")), number_of(value.at("mean_s"))};
+  return {finite_or_never(value.at("t50_s")),  finite_or_never(value.at("t75_s")),
+          finite_or_never(value.at("t90_s")),  finite_or_never(value.at("t95_s")),
+          finite_or_never(value.at("t100_s")), finite_or_never(value.at("mean_s"))};
 }
 
-BestFigures figures_of(const std::optional<metrics::BestTimes>& best) {
+BestFigures best_figures(const std::optional<metrics::BestTimes>& best) {
   if (!best) return {};
   const auto at = [&](int percent) { return best->percentile_s(percent).value_or(kNever); };
   return {at(50), at(75), at(90), at(95), at(100), best->mean_s};
@@ -98,10 +98,10 @@ Outcome OutcomeObserver::take() const {
   outcome.followed = static_cast<int>(
       std::count_if(people.begin(), people.end(),
                     [](const metrics::PersonRecord& person) { return person.followed_s > 0; }));
-  outcome.bound = figures_of(metrics::lower_bound(
+  outcome.bound = best_figures(metrics::lower_bound(
       scenario_, people, alarm_, end_s, {model_, max_radius_m_, metrics::Knowledge::at_once}));
-  outcome.reference = figures_of(metrics::reference_time(scenario_, people, alarm_, end_s,
-                                                         metrics::Knowledge::at_once, reference_));
+  outcome.reference = best_figures(metrics::reference_time(
+      scenario_, people, alarm_, end_s, metrics::Knowledge::at_once, reference_));
   return outcome;
 }
 

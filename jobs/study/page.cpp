@@ -32,7 +32,7 @@ std::string inert(const nlohmann::json& value) {
 
 }  // namespace
 
-std::string html_of(const Page& page, const nlohmann::json& figures) {
+std::string page_html(const Page& page, const nlohmann::json& figures) {
   const std::string_view script = embedded::kReportScript;
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\" data-theme=\"light\"><head><meta charset=\"utf-8\">"

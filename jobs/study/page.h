@@ -17,7 +17,7 @@ struct Page {
 /// The page with the charts of web/report.js, drawn in the browser from `figures` wherever the body
 /// has chart_frame()s. Its policy lets it fetch nothing and run no script but its own. Without
 /// scripts, all but the charts is there.
-std::string html_of(const Page& page, const nlohmann::json& figures);
+std::string page_html(const Page& page, const nlohmann::json& figures);
 
 /// Placeholder of a chart. `data` are attributes that select it: name="value", separated by blanks.
 std::string chart_frame(const std::string& title, const std::string& data);

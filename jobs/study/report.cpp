@@ -29,7 +29,7 @@ struct Summary {
   std::vector<CaseDifference> case_differences;
 };
 
-std::string csv_of(const Study& study, const std::vector<SummaryRow>& rows) {
+std::string summary_csv(const Study& study, const std::vector<SummaryRow>& rows) {
   std::string csv = "case,policy,runs";
   for (const int percent : kSummaryPercents) {
     csv += fmt::format(",t{0}_median_s,t{0}_low_s,t{0}_high_s", percent);
@@ -67,7 +67,7 @@ std::string csv_of(const Study& study, const std::vector<SummaryRow>& rows) {
     csv += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.1f}", row.t90_to_bound, row.mean_to_bound,
                        row.t90_to_reference, row.mean_to_reference, row.followed);
     for (const int percent : kIntervalPercents) {
-      const EscapePercentile& time = percentile_of(row, percent);
+      const EscapePercentile& time = find_percentile(row, percent);
       csv +=
           fmt::format(",{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", time.mean_s, time.mean_95.low,
                       time.mean_95.high, time.high_s, time.high_95.low, time.high_95.high);
@@ -90,7 +90,7 @@ std::string markdown_table(const Table& table) {
   return text;
 }
 
-std::string markdown_of(const Study& study, const Summary& summary) {
+std::string report_markdown(const Study& study, const Summary& summary) {
   std::string text =
       fmt::format("# {}\n\n{} {}.\n", study.name, case_explanation(study), kGenerator);
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
@@ -154,7 +154,7 @@ json mean_json(const MeanAtHorizon& at) {
           {"holm_p", time_json(at.holm_p)}};
 }
 
-json json_of(const Study& study, const Summary& summary) {
+json report_json(const Study& study, const Summary& summary) {
   json list = json::array();
   for (const SummaryRow& row : summary.rows) {
     json times;
@@ -198,7 +198,7 @@ json json_of(const Study& study, const Summary& summary) {
 }
 
 // Share of people out at each second in per cent, mean over the runs.
-json curve_of(const std::string& name, const std::vector<Outcome>& runs, double until_s) {
+json curve_json(const std::string& name, const std::vector<Outcome>& runs, double until_s) {
   const auto seconds = static_cast<std::size_t>(until_s);
   std::vector<double> sum(seconds + 1, 0);
   for (const Outcome& run : runs) {
@@ -249,7 +249,7 @@ std::string html_table(const Table& table) {
 json convergence_json(const Study& study, const std::vector<std::vector<Outcome>>& policies) {
   json curves = json::array();
   for (std::size_t p = 0; p < policies.size(); ++p) {
-    const Convergence settled = convergence_of(policies[p], kConvergencePercent);
+    const Convergence settled = find_convergence(policies[p], kConvergencePercent);
     json mean_s = json::array();
     json low_s = json::array();
     json high_s = json::array();
@@ -282,7 +282,7 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
     json curves = json::array();
     const double until_s = shown_time_s(study.cases[c], outcomes[c]);
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
-      curves.push_back(curve_of(study.policies[p].title, outcomes[c][p], until_s));
+      curves.push_back(curve_json(study.policies[p].title, outcomes[c][p], until_s));
     }
     cases.push_back(
         {{"curves", std::move(curves)}, {"convergence", convergence_json(study, outcomes[c])}});
@@ -304,23 +304,23 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
     page.body += html_section(kDifferenceTitle, case_difference_explanation(study),
                               case_difference_table(study, summary.case_differences));
   }
-  return html_of(page, {{"cases", std::move(cases)}});
+  return page_html(page, {{"cases", std::move(cases)}});
 }
 
 }  // namespace
 
 json summary_json(const Study& study, const Outcomes& outcomes) {
-  return json_of(study, {summarize(study, outcomes), compare_cases(study, outcomes)});
+  return report_json(study, {summarize(study, outcomes), compare_cases(study, outcomes)});
 }
 
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
   const Summary summary{summarize(study, outcomes), compare_cases(study, outcomes)};
   write_file_atomically(folder / kReportName, html_of_study(study, outcomes, summary));
-  write_file_atomically(folder / kCsvName, csv_of(study, summary.rows));
-  write_file_atomically(folder / kMarkdownName, markdown_of(study, summary));
+  write_file_atomically(folder / kCsvName, summary_csv(study, summary.rows));
+  write_file_atomically(folder / kMarkdownName, report_markdown(study, summary));
   write_file_atomically(folder / kValuesName, values_json(study, all_runs(outcomes)).dump() + "\n");
-  write_file_atomically(folder / kSummaryName, json_of(study, summary).dump(2) + "\n");
+  write_file_atomically(folder / kSummaryName, report_json(study, summary).dump(2) + "\n");
 }
 
 }  // namespace throng::study

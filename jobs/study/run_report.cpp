@@ -71,7 +71,7 @@ std::string people_table(const std::vector<MeasuredRun>& runs) {
   }
   html += "</table>\n";
   for (const MeasuredRun& run : runs) {
-    for (const std::string& warning : metrics::warnings_of(run.metrics.counts)) {
+    for (const std::string& warning : metrics::count_warnings(run.metrics.counts)) {
       html += fmt::format("<p class=\"warning\">{}: {}.</p>\n", escaped_markup(run.name),
                           escaped_markup(warning));
     }
@@ -137,7 +137,7 @@ std::string run_section(std::size_t index, const MeasuredRun& run) {
   };
   const std::string exits =
       run.metrics.exits.empty()
-          ? "<p>This place has no exits, so that nothing was measured at any.</p>\n"
+          ? "<p>This scenario has no exits, so that nothing was measured at any.</p>\n"
           : exits_table(run) + chart("State of the exits", "timeline");
   return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits + "<h3>Ground, " +
          escaped_markup(run.name) + "</h3>\n" + map("Mean density over the run", "density") +
@@ -189,7 +189,7 @@ std::string html_report(const world::Scenario& scenario, const std::vector<Measu
         fmt::format("<section id=\"of_run{}\">\n{}</section>\n", i, run_section(i, runs[i]));
   }
   page.body += "<h2>Definitions of the figures</h2>\n" + definition_list();
-  return html_of(page, report_figures(scenario, runs));
+  return page_html(page, report_figures(scenario, runs));
 }
 
 }  // namespace throng::study

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTookName = "took_s";
 
-std::int64_t memory_mib_of(const Study& study) {
+std::int64_t estimate_memory_mib(const Study& study) {
   std::int64_t most = 0;
   for (const auto& policies : study.jobs) {
     for (const jobs::JobSpec& job : policies) {
@@ -48,14 +48,14 @@ double age_s(const fs::path& file) {
 
 // So often that it takes a twentieth of the time at most; at once while there is nothing to show.
 bool is_renewal_due(const fs::path& folder) {
-  constexpr double kMinInterval_s = 2;
+  constexpr double kMinIntervalS = 2;
   constexpr double kPart = 20;
   const fs::path file = folder / kSummarySoFarName;
   if (!fs::exists(file)) return true;
   const json summary = parse_json_or_discard(read_file(file));
   if (!summary.is_object() || summary.value("rows", json::array()).empty()) return true;
   const double took_s = summary.value(kTookName, 0.0);
-  return age_s(file) > std::max(kMinInterval_s, kPart * took_s);
+  return age_s(file) > std::max(kMinIntervalS, kPart * took_s);
 }
 
 void renew_summary(const Study& study, const fs::path& folder) {
@@ -93,7 +93,7 @@ json check_request(const json& request) {
           {"policies", std::move(policies)},
           {"simulations", size.count()},
           {"people", study.people},
-          {"memory_mib", memory_mib_of(study)}};
+          {"memory_mib", estimate_memory_mib(study)}};
 }
 
 void simulate_in(const fs::path& folder, std::size_t number) {

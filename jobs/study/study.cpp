@@ -14,9 +14,9 @@
 #include "base/version.h"
 #include "crowd/description/menge_files/write.h"
 #include "jobs/pipeline/checks/resolve.h"
-#include "places/blueprint/load_scenario.h"
 #include "world/json_reader.h"
 #include "world/scenario_crowd.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::study {
 
@@ -109,7 +109,7 @@ class StudyReader {
       one.title = item["title"].exists() ? item["title"].text() : one.id;
       if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kMaxRunS);
       one.scenario = read_scenario(item["scenario"]);
-      one.alarm = world::alarm_of(one.scenario);
+      one.alarm = world::find_alarm(one.scenario);
       if (item["alarm_s"].exists()) one.alarm.at_s = item["alarm_s"].number(0, one.duration_s);
       read_reference(item, one);
       read_horizons(item, one);
@@ -136,9 +136,9 @@ class StudyReader {
     const std::string id = value.text();
     if (id.empty()) return {};
     try {
-      world::Scenario scenario = places::find_scenario(scenarios_, id);
+      world::Scenario scenario = scenarios::find_scenario(scenarios_, id);
       if (!scenario.has_crowd()) {
-        value.reject(fmt::format("\"{}\", a place for recorded people", id),
+        value.reject(fmt::format("\"{}\", whose people are recorded", id),
                      "a scenario with a crowd to simulate");
       }
       return scenario;
@@ -209,7 +209,7 @@ class StudyReader {
       std::string inputs = fmt::format("{} outcome 2 {} {}", kGenerator,
                                        one.alarm.at_s.value_or(-1), one.reference.speed_mps);
       for (const double rate : one.reference.capacity_per_s) inputs += fmt::format(" {}", rate);
-      const crowd::CrowdDescription crowd = world::crowd_of(one.scenario);
+      const crowd::CrowdDescription crowd = world::build_crowd(one.scenario);
       inputs += crowd::to_xml(crowd.scene) + crowd::to_xml(crowd.behavior) + one.scenario.document;
       auto& jobs = study_.jobs.emplace_back();
       auto& fingerprints = study_.fingerprints.emplace_back();

@@ -14,7 +14,7 @@ namespace {
 constexpr double kConfidence = 0.95;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-Spread spread_of(const std::vector<double>& values) {
+Spread compute_spread(const std::vector<double>& values) {
   return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
@@ -49,7 +49,7 @@ EscapePercentile percentile_over(const std::vector<double>& times_s) {
   constexpr double kHigh = 0.95;
   constexpr double kRelativeHalfWidth = 0.05;
   EscapePercentile result;
-  result.spread = spread_of(times_s);
+  result.spread = compute_spread(times_s);
   result.mean_s = mean(times_s);
   result.mean_95 = student_95(times_s);
   result.high_s = quantile(times_s, kHigh);
@@ -68,7 +68,7 @@ MeanAtHorizon mean_at(double at_s, const std::vector<Outcome>& runs,
   const auto mean_s = [at_s](const Outcome& run) { return run.restricted_mean_s(at_s); };
   MeanAtHorizon result;
   result.at_s = at_s;
-  result.spread = spread_of(each(runs, mean_s));
+  result.spread = compute_spread(each(runs, mean_s));
   result.mean_s = mean(each(runs, mean_s));
   result.inside = mean(
       each(runs, [at_s](const Outcome& run) -> double { return run.escapes.inside_after(at_s); }));
@@ -195,7 +195,7 @@ std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& ou
   return all;
 }
 
-Convergence convergence_of(const std::vector<Outcome>& runs, int percent) {
+Convergence find_convergence(const std::vector<Outcome>& runs, int percent) {
   Convergence result;
   const std::vector<double> times = times_s(runs, percent);
   for (std::size_t count = 2; count <= times.size(); ++count) {
@@ -207,7 +207,7 @@ Convergence convergence_of(const std::vector<Outcome>& runs, int percent) {
   return result;
 }
 
-const EscapePercentile& percentile_of(const SummaryRow& row, int percent) {
+const EscapePercentile& find_percentile(const SummaryRow& row, int percent) {
   const auto* const found =
       std::find(std::begin(kSummaryPercents), std::end(kSummaryPercents), percent);
   check(found != std::end(kSummaryPercents), "a percentile of the summary");

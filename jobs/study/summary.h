@@ -87,9 +87,9 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
 std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& outcomes);
 
 /// Convergence of the time by which so many percent of the people are out.
-Convergence convergence_of(const std::vector<Outcome>& runs, int percent);
+Convergence find_convergence(const std::vector<Outcome>& runs, int percent);
 
 /// The row's figures of one of kSummaryPercents.
-const EscapePercentile& percentile_of(const SummaryRow& row, int percent);
+const EscapePercentile& find_percentile(const SummaryRow& row, int percent);
 
 }  // namespace throng::study

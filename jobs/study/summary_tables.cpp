@@ -115,10 +115,10 @@ Table interval_table(const Study& study, const std::vector<SummaryRow>& rows) {
     std::vector<std::string> cells = {study.cases[row.one_case].title,
                                       study.policies[row.policy].title, std::to_string(row.runs)};
     for (const int percent : kIntervalPercents) {
-      const EscapePercentile& time = percentile_of(row, percent);
+      const EscapePercentile& time = find_percentile(row, percent);
       cells.push_back(estimate_text(time.mean_s, time.mean_95));
     }
-    const EscapePercentile& last = percentile_of(row, 95);
+    const EscapePercentile& last = find_percentile(row, 95);
     cells.push_back(estimate_text(last.high_s, last.high_95));
     cells.push_back(std::isfinite(last.runs_for_5_percent)
                         ? fmt::format("{:.0f}", last.runs_for_5_percent)

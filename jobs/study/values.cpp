@@ -12,29 +12,30 @@ using nlohmann::json;
 namespace {
 
 template <typename Value>
-json list_of(const std::vector<Outcome>& runs, const Value& value) {
+json values_json(const std::vector<Outcome>& runs, const Value& value) {
   json list = json::array();
   for (const Outcome& run : runs) list.push_back(rounded(value(run)));
   return list;
 }
 
-json percentiles_of(const std::vector<Outcome>& runs, int percent) {
-  return list_of(runs, [percent](const Outcome& run) { return run.percentile_s(percent); });
+json percentiles_json(const std::vector<Outcome>& runs, int percent) {
+  return values_json(runs, [percent](const Outcome& run) { return run.percentile_s(percent); });
 }
 
 json policy_json(const Case& one, const PolicyRow& policy, const std::vector<Outcome>& runs) {
   json means = json::array();
   for (const double until_s : one.horizons_s) {
-    means.push_back(
-        list_of(runs, [until_s](const Outcome& run) { return run.restricted_mean_s(until_s); }));
+    means.push_back(values_json(
+        runs, [until_s](const Outcome& run) { return run.restricted_mean_s(until_s); }));
   }
   return {{"id", policy.id},
           {"means_s", std::move(means)},
-          {"t50_s", percentiles_of(runs, 50)},
-          {"t90_s", percentiles_of(runs, 90)},
-          {"t95_s", percentiles_of(runs, 95)},
-          {"not_escaped",
-           list_of(runs, [](const Outcome& run) -> double { return run.escapes.not_escaped(); })}};
+          {"t50_s", percentiles_json(runs, 50)},
+          {"t90_s", percentiles_json(runs, 90)},
+          {"t95_s", percentiles_json(runs, 95)},
+          {"not_escaped", values_json(runs, [](const Outcome& run) -> double {
+             return run.escapes.not_escaped();
+           })}};
 }
 
 }  // namespace

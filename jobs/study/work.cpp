@@ -33,7 +33,7 @@ std::optional<Outcome> result_in(const fs::path& file, const std::string& finger
   }
 }
 
-fs::path file_of(const Study& study, const fs::path& folder, const StudyRun& run) {
+fs::path run_file(const Study& study, const fs::path& folder, const StudyRun& run) {
   return folder / result_file(study.cases[run.one_case].id, study.policies[run.policy].id, run.run);
 }
 
@@ -46,9 +46,9 @@ Outcome simulate(const Study& study, const StudyRun& run, const std::stop_token&
   return observer.take();
 }
 
-Outcome result_of(const Study& study, const fs::path& folder, const StudyRun& run,
-                  const std::stop_token& stop) {
-  const fs::path file = file_of(study, folder, run);
+Outcome run_result(const Study& study, const fs::path& folder, const StudyRun& run,
+                   const std::stop_token& stop) {
+  const fs::path file = run_file(study, folder, run);
   const std::string& fingerprint = study.fingerprints[run.one_case][run.policy];
   if (std::optional<Outcome> known = result_in(file, fingerprint)) return std::move(*known);
   Outcome outcome = simulate(study, run, stop);
@@ -69,7 +69,7 @@ Outcomes do_runs(const Study& study, const fs::path& folder, int threads,
   std::size_t done = 0;
   run_items(size.count(), threads, stop, [&](std::size_t number) {
     const StudyRun run = size.at(number);
-    Outcome outcome = result_of(study, folder, run, stop);
+    Outcome outcome = run_result(study, folder, run, stop);
     const std::lock_guard lock(mutex);
     outcomes[run.one_case][run.policy][static_cast<std::size_t>(run.run)] = std::move(outcome);
     ++done;
@@ -80,7 +80,7 @@ Outcomes do_runs(const Study& study, const fs::path& folder, int threads,
 
 void do_run(const Study& study, const fs::path& folder, const StudyRun& run,
             const std::stop_token& stop) {
-  run_items(1, 1, stop, [&](std::size_t) { result_of(study, folder, run, stop); });
+  run_items(1, 1, stop, [&](std::size_t) { run_result(study, folder, run, stop); });
 }
 
 KnownRuns known_runs(const Study& study, const fs::path& folder) {
@@ -92,7 +92,7 @@ KnownRuns known_runs(const Study& study, const fs::path& folder) {
     for (int run = 0; run < study.runs; ++run) {
       std::vector<Outcome> of_pair;
       for (std::size_t p = 0; p < policies; ++p) {
-        std::optional<Outcome> outcome = result_in(file_of(study, folder, {c, p, run}), "");
+        std::optional<Outcome> outcome = result_in(run_file(study, folder, {c, p, run}), "");
         if (!outcome) break;
         of_pair.push_back(std::move(*outcome));
       }

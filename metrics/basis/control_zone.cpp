@@ -41,7 +41,7 @@ Polygon half_disc(const Eigen::Vector2d& middle, const Eigen::Vector2d& outward,
   return polygon;
 }
 
-Polygon polygon_of(const std::vector<Eigen::Vector2d>& corners) {
+Polygon make_polygon(const std::vector<Eigen::Vector2d>& corners) {
   Polygon polygon;
   for (const Eigen::Vector2d& corner : corners) {
     bg::append(polygon.outer(), Point(corner.x(), corner.y()));
@@ -77,7 +77,7 @@ ControlZone::ControlZone(const world::Exit& exit, std::span<const world::Buildin
   outline_.pop_back();  // the first corner again
   MultiPolygon walkable{whole};
   for (const world::Building& building : buildings) {
-    const Polygon footprint = polygon_of(building.footprint);
+    const Polygon footprint = make_polygon(building.footprint);
     if (!bg::intersects(whole, footprint)) continue;
     MultiPolygon rest;
     bg::difference(walkable, footprint, rest);

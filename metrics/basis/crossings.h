@@ -33,7 +33,7 @@ class ExitLine {
 };
 
 /// Signed crossings of one person. A crossing counts once the person, having passed the door, is
-/// kHysteresisM beyond the line, outside of the place, or gone; from then on it takes as much on
+/// kHysteresisM beyond the line, outside of the scenario, or gone; from then on it takes as much on
 /// the other side to count again, so somebody who jitters on the line counts once at most.
 class CrossingCounter {
  public:

@@ -26,7 +26,7 @@ std::vector<bool> covered_by(std::span<const world::Building> buildings, const L
     return static_cast<int>(std::clamp(std::floor(offset_m / lattice.pitch_m), -1.0, 1.0 * count));
   };
   for (const world::Building& building : buildings) {
-    auto [min, max] = geometry::bounds_of(building.footprint);
+    auto [min, max] = geometry::bounding_box(building.footprint);
     min -= lattice.first;
     max -= lattice.first;
     const int last_row = std::min(lattice.rows - 1, cell_of(max.y(), lattice.rows) + 1);

@@ -10,7 +10,7 @@ constexpr double kWatchSlackS = 1e-6;
 
 }  // namespace
 
-std::vector<Survival> survival_of(std::vector<Watched> people) {
+std::vector<Survival> estimate_survival(std::vector<Watched> people) {
   // At one time, what happened comes first: who stops being watched then was there to see it.
   std::sort(people.begin(), people.end(), [](const Watched& one, const Watched& other) {
     return one.time_s != other.time_s ? one.time_s < other.time_s : one.happened > other.happened;
@@ -32,7 +32,7 @@ std::vector<Survival> survival_of(std::vector<Watched> people) {
 
 std::optional<double> time_by_which(const std::vector<Watched>& people, int percent) {
   constexpr double kRounding = 1e-9;
-  for (const Survival& step : survival_of(people)) {
+  for (const Survival& step : estimate_survival(people)) {
     if (step.share <= 1 - 0.01 * percent + kRounding) return step.time_s;
   }
   return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<double> restricted_mean_s(const std::vector<Watched>& people, doub
   double area_s = 0;
   double from_s = 0;
   double left = 1;
-  for (const Survival& step : survival_of(people)) {
+  for (const Survival& step : estimate_survival(people)) {
     if (step.time_s >= until_s) break;
     area_s += left * (step.time_s - from_s);
     from_s = step.time_s;

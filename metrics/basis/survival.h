@@ -21,7 +21,7 @@ struct Survival {
 /// The product-limit estimate (Kaplan and Meier, J. Am. Stat. Assoc. 53, 1958): one entry per time
 /// at which it happened to somebody, in order. People censored at that time still count as observed
 /// then.
-std::vector<Survival> survival_of(std::vector<Watched> people);
+std::vector<Survival> estimate_survival(std::vector<Watched> people);
 
 /// The time by which it has happened to `percent` % of all people: the least time at which the
 /// product-limit estimate is down to the rest. Empty where the estimate does not come down to it,

@@ -22,7 +22,7 @@ class WalkingDistance {
 
   /// The straight path where that is free, else linear between the centers of cells. Empty outside
   /// of the rectangle, in buildings and where no path leads to the door (m).
-  std::optional<double> from(const Eigen::Vector2d& place) const;
+  std::optional<double> from(const Eigen::Vector2d& point) const;
 
  private:
   double& at(int column, int row) { return distance_m_[lattice_.index(column, row)]; }
@@ -37,7 +37,7 @@ class WalkingDistance {
   std::vector<double> distance_m_;
 };
 
-/// One per exit of the scenario, over the place and its doors.
+/// One per exit of the scenario, over its ground and through its doors.
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario);
 
 }  // namespace throng::metrics

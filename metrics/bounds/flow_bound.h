@@ -12,7 +12,7 @@ namespace throng::metrics {
 struct Departures {
   std::vector<std::vector<double>> access_s;  ///< per person and exit; infinite: never
   std::vector<double> capacity_per_s;         ///< per exit, people; 0: closed
-  std::vector<double> on_s;                   ///< per exit, from the door out of the place
+  std::vector<double> on_s;                   ///< per exit, from the door out of the scenario
   std::vector<double> closes_at_s = {};       ///< per exit, from when on it is closed; empty: none
   /// Per exit, people beyond `capacity_per_s` times any length of time that pass in it; empty:
   /// none. Then at most burst + capacity_per_s * t people pass in any t slots in a row: the arrival
@@ -29,7 +29,7 @@ struct Departures {
 /// time is too long.
 std::vector<double> earliest_out_s(const Departures& departures);
 
-/// From a place to beyond the nearest side of the rectangle (m); 0 outside.
-double exit_path_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
+/// From a point to beyond the nearest side of the rectangle (m); 0 outside.
+double exit_path_m(const world::Rectangle& inside, const Eigen::Vector2d& point);
 
 }  // namespace throng::metrics

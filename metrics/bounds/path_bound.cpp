@@ -43,7 +43,7 @@ bool is_deep_inside(const std::vector<Vector2d>& corners, const Vector2d& place)
 
 PathBound::PathBound(const world::Scenario& scenario, double margin_m) {
   for (const world::Building& building : scenario.buildings) {
-    Outline outline{building.footprint, geometry::bounds_of(building.footprint)};
+    Outline outline{building.footprint, geometry::bounding_box(building.footprint)};
     for (std::size_t i = 0; i < outline.corners.size(); ++i) {
       const std::size_t count = outline.corners.size();
       const Vector2d& corner = outline.corners[i];

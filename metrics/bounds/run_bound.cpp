@@ -28,7 +28,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// When and where somebody sets out, by the run's clock.
 struct SettingOut {
   double time_s = kNever;
-  Vector2d place = Vector2d::Zero();
+  Vector2d point = Vector2d::Zero();
 };
 
 SettingOut setting_out(const PersonRecord& person, const world::Alarm& alarm, Knowledge knowledge) {
@@ -61,8 +61,8 @@ double alone_s(const Traveler& traveler, const Doors& doors) {
   return best_s;
 }
 
-Departures departures_of(const std::vector<const Traveler*>& travelers, const Doors& doors,
-                         double origin_s) {
+Departures group_departures(const std::vector<const Traveler*>& travelers, const Doors& doors,
+                            double origin_s) {
   Departures departures;
   departures.capacity_per_s = doors.capacity_per_s;
   departures.burst = doors.burst;
@@ -98,7 +98,7 @@ BestTimes best_times(const std::vector<Traveler>& travelers, const Doors& doors,
   }
   if (!sharing.empty()) {
     const double watched_s = sharing.front()->end_s - origin_s;
-    for (const double out_s : earliest_out_s(departures_of(sharing, doors, origin_s))) {
+    for (const double out_s : earliest_out_s(group_departures(sharing, doors, origin_s))) {
       add(out_s, watched_s);
     }
   }
@@ -107,7 +107,7 @@ BestTimes best_times(const std::vector<Traveler>& travelers, const Doors& doors,
   return best;
 }
 
-std::vector<const PersonRecord*> evacuees_of(const std::vector<PersonRecord>& people) {
+std::vector<const PersonRecord*> select_evacuees(const std::vector<PersonRecord>& people) {
   std::vector<const PersonRecord*> evacuees;
   for (const PersonRecord& person : people) {
     if (person.is_evacuee()) evacuees.push_back(&person);
@@ -122,7 +122,7 @@ double max_speed_mps(const std::vector<const PersonRecord*>& people,
   return max_mps;
 }
 
-// How long it takes at least from anywhere in a door to beyond the place.
+// How long it takes at least from anywhere in a door to beyond the scenario.
 double beyond_s(const world::Scenario& scenario, const world::Exit& exit, double speed_mps) {
   const double from_m = exit_path_m(scenario.inside, exit.from);
   return std::min(from_m, exit_path_m(scenario.inside, exit.to)) / speed_mps;
@@ -189,13 +189,13 @@ class LowerBound {
     if (!std::isfinite(out.time_s)) return traveler;
     const double speed_mps = person.max_speed_mps;
     if (person.escaped_s && !went_by_door(person, out)) {
-      const double side_m = exit_path_m(scenario_.inside, out.place);
+      const double side_m = exit_path_m(scenario_.inside, out.point);
       const double beside_s = speed_mps > 0 ? out.time_s + side_m / speed_mps : kNever;
       traveler.beside_s = std::min(beside_s, *person.escaped_s);
       return traveler;
     }
     for (std::size_t e = 0; e < doors_.on_s.size() && speed_mps > 0; ++e) {
-      traveler.access_s[e] = out.time_s + paths_.to_door_m(e, out.place) / speed_mps;
+      traveler.access_s[e] = out.time_s + paths_.to_door_m(e, out.point) / speed_mps;
     }
     if (person.escaped_s) {
       double& used_s = traveler.access_s[person.last_out->exit];
@@ -242,15 +242,16 @@ class LowerBound {
   int raised_doors_ = 0;
 };
 
-using Distance = std::function<double(std::size_t exit, const Vector2d& place)>;
+using Distance = std::function<double(std::size_t exit, const Vector2d& point)>;
 using Speed = std::function<double(const PersonRecord&)>;
 
-std::optional<BestTimes> reference_of(const world::Scenario& scenario,
-                                      const std::vector<PersonRecord>& people,
-                                      const world::Alarm& alarm, double end_s, Knowledge knowledge,
-                                      const std::vector<double>& capacity_per_s,
-                                      const Distance& distance_m, const Speed& speed_mps) {
-  const std::vector<const PersonRecord*> evacuees = evacuees_of(people);
+std::optional<BestTimes> reference_times(const world::Scenario& scenario,
+                                         const std::vector<PersonRecord>& people,
+                                         const world::Alarm& alarm, double end_s,
+                                         Knowledge knowledge,
+                                         const std::vector<double>& capacity_per_s,
+                                         const Distance& distance_m, const Speed& speed_mps) {
+  const std::vector<const PersonRecord*> evacuees = select_evacuees(people);
   if (evacuees.empty() || scenario.exits.empty()) return std::nullopt;
   double max_mps = 0;
   for (const PersonRecord* person : evacuees) max_mps = std::max(max_mps, speed_mps(*person));
@@ -269,7 +270,7 @@ std::optional<BestTimes> reference_of(const world::Scenario& scenario,
     const SettingOut out = setting_out(*person, alarm, knowledge);
     const double mps = speed_mps(*person);
     for (std::size_t e = 0; e < doors.on_s.size() && mps > 0; ++e) {
-      traveler.access_s[e] = out.time_s + distance_m(e, out.place) / mps;
+      traveler.access_s[e] = out.time_s + distance_m(e, out.point) / mps;
     }
   }
   return best_times(travelers, doors, alarm.at_s.value_or(0));
@@ -289,7 +290,7 @@ std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
                                      const std::vector<PersonRecord>& people,
                                      const world::Alarm& alarm, double end_s,
                                      const BoundSpec& spec) {
-  std::vector<const PersonRecord*> evacuees = evacuees_of(people);
+  std::vector<const PersonRecord*> evacuees = select_evacuees(people);
   if (evacuees.empty()) return std::nullopt;
   return LowerBound(scenario, std::move(evacuees), alarm, spec).times(end_s);
 }
@@ -303,11 +304,11 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
   for (const world::Exit& exit : scenario.exits) {
     capacities.push_back(capacity_per_s(exit.width_m()));
   }
-  return reference_of(
+  return reference_times(
       scenario, people, alarm, end_s, knowledge, capacities,
-      [&](std::size_t exit, const Vector2d& place) {
+      [&](std::size_t exit, const Vector2d& point) {
         // Somebody whom rounding has put into a wall stands somewhere all the same.
-        return distances[exit].from(place).value_or((place - scenario.exits[exit].middle()).norm());
+        return distances[exit].from(point).value_or((point - scenario.exits[exit].middle()).norm());
       },
       [](const PersonRecord& person) { return person.max_desired_mps; });
 }
@@ -316,10 +317,10 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people,
                                         const world::Alarm& alarm, double end_s,
                                         Knowledge knowledge, const ReferenceSpec& spec) {
-  return reference_of(
+  return reference_times(
       scenario, people, alarm, end_s, knowledge, spec.capacity_per_s,
-      [&](std::size_t exit, const Vector2d& place) {
-        return (place - scenario.exits[exit].middle()).norm();
+      [&](std::size_t exit, const Vector2d& point) {
+        return (point - scenario.exits[exit].middle()).norm();
       },
       [&](const PersonRecord&) { return spec.speed_mps; });
 }

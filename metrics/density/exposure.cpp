@@ -35,9 +35,9 @@ class SquareMeter {
 
   /// Spreads somebody over the squares that their cell covers.
   void add(const VoronoiCell& cell) {
-    const auto [min, max] = geometry::bounds_of(cell.rings.front());
-    const Corner low = corner_of(min);
-    const Corner high = corner_of(max);
+    const auto [min, max] = geometry::bounding_box(cell.rings.front());
+    const Corner low = corner_at(min);
+    const Corner high = corner_at(max);
     if (low.column == high.column && low.row == high.row) return add_to(low, 1);
     for (int column = low.column; column <= high.column; ++column) {
       for (int row = low.row; row <= high.row; ++row) {
@@ -78,7 +78,7 @@ class SquareMeter {
   };
   using People = std::vector<std::pair<Square*, double>>;
 
-  static Corner corner_of(const Vector2d& place) {
+  static Corner corner_at(const Vector2d& place) {
     return {static_cast<int>(std::floor(place.x() / kSquareM)),
             static_cast<int>(std::floor(place.y() / kSquareM))};
   }
@@ -117,8 +117,8 @@ void add_person(double density, double packing, double pressure, double dt_s, Ex
 
 }  // namespace
 
-Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
-                     const std::vector<PersonRecord>& people) {
+Exposure measure_exposure(const world::Trace& trace, const world::Scenario& scenario,
+                          const std::vector<PersonRecord>& people) {
   Exposure exposure;
   if (people.empty()) return exposure;
   double radius_m = 0;

@@ -40,8 +40,8 @@ struct Exposure {
       0;  ///< greatest mean over a second (metrics/density/ground_pressure.h)
 };
 
-Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
-                     const std::vector<PersonRecord>& people);
+Exposure measure_exposure(const world::Trace& trace, const world::Scenario& scenario,
+                          const std::vector<PersonRecord>& people);
 
 nlohmann::json to_json(const Exposure& exposure);
 

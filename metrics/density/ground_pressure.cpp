@@ -74,7 +74,7 @@ double GroundPressure::finish_step() {
   double max_mean = 0;
   for (const std::size_t place : touched_) {
     Sums& sums = sums_[place];
-    const double pressure = pressure_of(sums.weight, Vector2d(sums.x, sums.y), sums.squares);
+    const double pressure = crowd_pressure(sums.weight, Vector2d(sums.x, sums.y), sums.squares);
     sums.weight = sums.x = sums.y = sums.squares = 0;
     if (pressure <= 0) continue;
     now.emplace_back(place, pressure);

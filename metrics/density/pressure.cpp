@@ -17,7 +17,7 @@ constexpr double kAverageS = 1.0;
 
 }  // namespace
 
-double pressure_of(double weights, const Vector2d& velocities, double squares) {
+double crowd_pressure(double weights, const Vector2d& velocities, double squares) {
   if (weights <= 0) return 0;
   const double variance = squares / weights - (velocities / weights).squaredNorm();
   constexpr double kReach = kPressureReachM / kPressureRadiusM;
@@ -38,7 +38,7 @@ double pressure_at(const Vector2d& place, const geometry::PointGrid& grid,
     velocity += weight * people[i].velocity;
     squares += weight * people[i].velocity.squaredNorm();
   });
-  return pressure_of(weights, velocity, squares);
+  return crowd_pressure(weights, velocity, squares);
 }
 
 PressureMeter::PressureMeter(const ControlZone& zone, double dt_s)

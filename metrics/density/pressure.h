@@ -19,7 +19,7 @@ inline constexpr double kPressureReachM = 2 * kPressureRadiusM;
 
 /// Pressure (1/s²) from sums over the people within reach, each times exp(-r²/R²): of 1, of the
 /// velocity and of its square. 0 where nobody is.
-double pressure_of(double weights, const Eigen::Vector2d& velocities, double squares);
+double crowd_pressure(double weights, const Eigen::Vector2d& velocities, double squares);
 
 /// Pressure at one place and instant (1/s²). `grid` holds the places of `people`, in that order.
 double pressure_at(const Eigen::Vector2d& place, const geometry::PointGrid& grid,

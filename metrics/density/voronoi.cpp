@@ -101,7 +101,7 @@ void clip_to(Ring& ring, std::span<const Vector2d> region) {
 
 // Whether the ring lies on one side of a box.
 bool beside(const Ring& ring, const geometry::Rectangle& box) {
-  const auto [low, high] = geometry::bounds_of(ring);
+  const auto [low, high] = geometry::bounding_box(ring);
   return (low.array() >= box.max.array()).any() || (high.array() <= box.min.array()).any();
 }
 
@@ -147,7 +147,7 @@ double area_in(const VoronoiCell& cell, std::span<const Vector2d> convex_region)
 
 VoronoiCutter::VoronoiCutter(std::span<const world::Building> buildings) {
   for (const world::Building& building : buildings) {
-    footprints_.push_back({building.footprint, geometry::bounds_of(building.footprint)});
+    footprints_.push_back({building.footprint, geometry::bounding_box(building.footprint)});
   }
   const double step = 2 * std::numbers::pi / kDiscCorners;
   const double radius = kCellRadiusM * std::sqrt(step / std::sin(step));

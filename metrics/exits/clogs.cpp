@@ -10,8 +10,8 @@ namespace throng::metrics {
 namespace {
 
 // The step of the last passage before the clog, or the first one with demand since.
-std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<double>& time_s,
-                     std::size_t clogged) {
+std::size_t find_clog_onset(const std::vector<ExitSample>& samples,
+                            const std::vector<double>& time_s, std::size_t clogged) {
   const double last_s = time_s[clogged] - samples[clogged].since_crossing_s;
   std::size_t onset = clogged;
   while (onset > 0 && samples[onset - 1].demand &&
@@ -22,7 +22,7 @@ std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<d
 }
 
 // The step of the next passage, or the first one without demand or with the door closed.
-std::size_t end_of(const std::vector<ExitSample>& samples, std::size_t from) {
+std::size_t find_clog_end(const std::vector<ExitSample>& samples, std::size_t from) {
   std::size_t end = from;
   while (end < samples.size() && samples[end].demand && samples[end].state != ExitState::closed &&
          samples[end].since_crossing_s > world::kTimeSlackS) {
@@ -44,7 +44,7 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
       ++step;
       continue;
     }
-    const std::size_t onset = onset_of(samples, time_s, step);
+    const std::size_t onset = find_clog_onset(samples, time_s, step);
     // A short relief without a passage does not make two clogs out of one gap.
     const bool same_gap = !series.clogs.empty() && onset < last_end;
     if (!same_gap) {
@@ -56,7 +56,7 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
     std::size_t end = step;
     while (end < samples.size() && samples[end].state == ExitState::clogged) ++end;
     // A person who stops pressing has not passed yet.
-    end = std::max(end, end_of(samples, end));
+    end = std::max(end, find_clog_end(samples, end));
     clog.until_s = end < samples.size() ? time_s[end] : time_s.back();
     clog.ended = end < samples.size();
     for (std::size_t i = onset; i < end; ++i) {

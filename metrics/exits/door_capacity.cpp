@@ -51,7 +51,7 @@ constexpr std::array kModels = {
 };
 // clang-format on
 
-const ModelRow& row_of(std::string_view model) {
+const ModelRow& model_row(std::string_view model) {
   const auto named = [](std::string_view name) {
     return std::find_if(kModels.begin(), kModels.end(),
                         [name](const ModelRow& row) { return row.model == name; });
@@ -72,7 +72,7 @@ double at(const std::array<double, kWidths>& values, double width_m) {
 }  // namespace
 
 DoorCapacity door_capacity(std::string_view model, double width_m) {
-  const ModelRow& row = row_of(model);
+  const ModelRow& row = model_row(model);
   // Through the narrowest door some models let nobody pass; a bound must not closed it.
   constexpr double kMinPerS = 0.3;
   return {at(row.burst, width_m), std::max(kMinPerS, at(row.rate_per_s, width_m))};

@@ -41,7 +41,7 @@ double open_share(const std::vector<ExitSample>& samples) {
   return samples.empty() ? 0 : static_cast<double>(open) / static_cast<double>(samples.size());
 }
 
-ExitTotals totals_of(const ExitSeries& series, double dt_s) {
+ExitTotals sum_exit(const ExitSeries& series, double dt_s) {
   ExitTotals totals;
   totals.exit_id = series.exit_id;
   totals.width_m = series.width_m;
@@ -102,7 +102,7 @@ std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double
   std::vector<ExitTotals> totals;
   double all = 0;
   for (const ExitSeries& exit : exits) {
-    totals.push_back(totals_of(exit, dt_s));
+    totals.push_back(sum_exit(exit, dt_s));
     all += std::max(0, totals.back().net_out());
   }
   for (ExitTotals& exit : totals) {
@@ -111,7 +111,7 @@ std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double
   return totals;
 }
 
-std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits) {
+std::optional<ExitBalance> balance_exits(const std::vector<ExitTotals>& exits) {
   double capacity = 0;
   double people = 0;
   for (const ExitTotals& exit : exits) {
@@ -146,7 +146,7 @@ std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits) {
 json to_json(const ExitTotals& totals) {
   json states = json::object();
   for (std::size_t i = 0; i < totals.state_s.size(); ++i) {
-    states[name_of(static_cast<ExitState>(i)) + "_s"] = totals.state_s[i];
+    states[to_string(static_cast<ExitState>(i)) + "_s"] = totals.state_s[i];
   }
   json clogs = json::array();
   for (const ClogEvent& clog : totals.clogs) clogs.push_back(clog_json(clog));

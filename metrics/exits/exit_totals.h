@@ -51,7 +51,7 @@ struct ExitBalance {
 /// One per series.
 std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double dt_s);
 
-std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits);
+std::optional<ExitBalance> balance_exits(const std::vector<ExitTotals>& exits);
 
 nlohmann::json to_json(const ExitTotals& totals);
 nlohmann::json to_json(const std::optional<ExitBalance>& balance);

@@ -32,7 +32,7 @@ constexpr double kFlowWindowS = 4.0;
 constexpr double kMemberWidths = 1.5;
 constexpr double kCellGridM = 0.8;
 
-std::vector<std::size_t> people_of(const Trace& trace) {
+std::vector<std::size_t> list_people(const Trace& trace) {
   std::vector<std::size_t> people;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] == world::AgentRole::person) people.push_back(agent);
@@ -41,7 +41,7 @@ std::vector<std::size_t> people_of(const Trace& trace) {
 }
 
 // Index of this exit in Trace::exit_intent, if the trace has it.
-std::optional<std::size_t> intent_of(const Trace& trace, const std::string& exit_id) {
+std::optional<std::size_t> find_intent(const Trace& trace, const std::string& exit_id) {
   const auto& ids = trace.header.exit_ids;
   const auto found = std::find(ids.begin(), ids.end(), exit_id);
   if (found == ids.end()) return std::nullopt;
@@ -60,7 +60,7 @@ class ExitObserver {
         zone_(zone),
         exit_(exit),
         inside_(inside),
-        intent_(intent_of(trace, exit.id)),
+        intent_(find_intent(trace, exit.id)),
         mean_radius_m_(mean_radius_m(trace.header)),
         line_(exit, mean_radius_m_),
         capacity_per_s_(capacity_per_s(exit.width_m())),
@@ -256,7 +256,7 @@ class ExitObserver {
 };
 
 // One zone per exit; throws for exits at which nothing can be measured.
-std::vector<ControlZone> zones_of(const world::Scenario& scenario) {
+std::vector<ControlZone> control_zones(const world::Scenario& scenario) {
   std::vector<ControlZone> zones;
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
@@ -278,7 +278,7 @@ std::vector<ControlZone> zones_of(const world::Scenario& scenario) {
 
 }  // namespace
 
-std::string name_of(ExitState state) {
+std::string to_string(ExitState state) {
   switch (state) {
     case ExitState::idle:
       return "idle";
@@ -296,8 +296,8 @@ std::string name_of(ExitState state) {
 }
 
 std::vector<ExitSeries> exit_series(const Trace& trace, const world::Scenario& scenario) {
-  const std::vector<ControlZone> zones = zones_of(scenario);
-  const std::vector<std::size_t> people = people_of(trace);
+  const std::vector<ControlZone> zones = control_zones(scenario);
+  const std::vector<std::size_t> people = list_people(trace);
   const VoronoiCutter cutter(scenario.buildings);
   std::vector<ExitSeries> series(scenario.exits.size());
   parallel_ranges(series.size(), 1, [&](std::size_t begin, std::size_t end) {

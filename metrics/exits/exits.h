@@ -20,7 +20,7 @@ enum class ExitState : std::uint8_t {
   closed = 4
 };
 
-std::string name_of(ExitState state);
+std::string to_string(ExitState state);
 
 /// One exit at one crowd step.
 struct ExitSample {

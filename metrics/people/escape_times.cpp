@@ -58,7 +58,7 @@ std::vector<double> EscapeTimes::curve() const {
   const double unhurt_share = evacuees() == 0 ? 0
                                               : 1 - static_cast<double>(casualties.size()) /
                                                         static_cast<double>(evacuees());
-  const std::vector<Survival> steps = survival_of(watched());
+  const std::vector<Survival> steps = estimate_survival(watched());
   auto next = steps.begin();
   double left = 1;
   const auto seconds = static_cast<long>(std::ceil(last_s - world::kTimeSlackS));

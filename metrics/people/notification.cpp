@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-json percentiles_of(const std::vector<Watched>& people) {
+json percentiles_json(const std::vector<Watched>& people) {
   json result = json::object();
   for (const int percent : kPercents) {
     const auto time_s = time_by_which(people, percent);
@@ -25,7 +25,7 @@ json percentiles_of(const std::vector<Watched>& people) {
 
 }  // namespace
 
-Notification notification_of(const std::vector<PersonRecord>& people, double end_s) {
+Notification summarize_notification(const std::vector<PersonRecord>& people, double end_s) {
   Notification notification;
   for (const PersonRecord& person : people) {
     if (!person.is_evacuee()) continue;
@@ -59,8 +59,8 @@ json to_json(const Notification& notification) {
           {"never", notification.never},
           {"first_s", std::move(first)},
           {"mean_s", std::move(mean)},
-          {"percentiles", percentiles_of(notification.notice)},
-          {"escape_after_notice", percentiles_of(notification.escape)}};
+          {"percentiles", percentiles_json(notification.notice)},
+          {"escape_after_notice", percentiles_json(notification.escape)}};
 }
 
 }  // namespace throng::metrics

@@ -23,7 +23,7 @@ struct Notification {
 };
 
 /// `end_s`: when the run ended.
-Notification notification_of(const std::vector<PersonRecord>& people, double end_s);
+Notification summarize_notification(const std::vector<PersonRecord>& people, double end_s);
 
 nlohmann::json to_json(const Notification& notification);
 

@@ -17,7 +17,7 @@ int PeopleCounts::left() const {
   return sum;
 }
 
-const char* outcome_of(const PersonRecord& person) {
+const char* outcome_name(const PersonRecord& person) {
   if (!person.was_inside) return "never_inside";
   if (person.escaped_s) return "left";
   if (person.hurt_s) return "casualty";
@@ -48,7 +48,7 @@ PeopleCounts count_people(const std::vector<PersonRecord>& people,
   return counts;
 }
 
-std::vector<std::string> warnings_of(const PeopleCounts& counts) {
+std::vector<std::string> count_warnings(const PeopleCounts& counts) {
   std::vector<std::string> warnings;
   const auto say = [&](int number, const char* text) {
     if (number > 0)

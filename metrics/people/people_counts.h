@@ -28,7 +28,7 @@ struct PeopleCounts {
 };
 
 /// How the run ended for somebody: "left", "inside", "casualty", "vanished" or "never_inside".
-const char* outcome_of(const PersonRecord& person);
+const char* outcome_name(const PersonRecord& person);
 
 /// Fails a check unless the sum is the number of all people.
 PeopleCounts count_people(const std::vector<PersonRecord>& people,
@@ -36,7 +36,7 @@ PeopleCounts count_people(const std::vector<PersonRecord>& people,
 
 /// A sentence for each count that a user hardly wants: people who left by no exit, vanished, or
 /// were never inside. Empty where there is nothing to say.
-std::vector<std::string> warnings_of(const PeopleCounts& counts);
+std::vector<std::string> count_warnings(const PeopleCounts& counts);
 
 nlohmann::json to_json(const PeopleCounts& counts);
 /// Throws nlohmann::json::exception for anything that to_json() does not write.

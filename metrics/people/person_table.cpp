@@ -33,7 +33,7 @@ json person_table(const std::vector<PersonRecord>& people, const std::vector<Jou
     table["followed_s"].push_back(person.followed_s);
     table["followed_m"].push_back(person.followed_m);
     const bool went = journey != journeys.end() && journey->agent == person.agent;
-    table["outcome"].push_back(outcome_of(person));
+    table["outcome"].push_back(outcome_name(person));
     table["exit"].push_back(person.left_by ? json(counts.left_by[*person.left_by].exit_id)
                                            : json(nullptr));
     table["walked_m"].push_back(went ? json(journey->walked_m) : json(nullptr));

@@ -25,7 +25,7 @@ struct Window {
   std::size_t last;
 };
 
-Window window_of(const world::Trace& trace) {
+Window observation_window(const world::Trace& trace) {
   const std::size_t last = trace.steps() - 1;
   const auto steps = static_cast<std::size_t>(std::lround(kWindowS / trace.header.dt_s));
   return {last - std::min(last, steps), last};
@@ -40,12 +40,12 @@ bool is_walking(const world::Trace& trace, const Window& window, const PersonRec
 
 }  // namespace
 
-Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenario,
-                       const std::vector<PersonRecord>& people,
-                       const std::vector<WalkingDistance>& distances) {
+Remaining count_remaining(const world::Trace& trace, const world::Scenario& scenario,
+                          const std::vector<PersonRecord>& people,
+                          const std::vector<WalkingDistance>& distances) {
   Remaining remaining;
   if (trace.steps() == 0) return remaining;
-  const Window window = window_of(trace);
+  const Window window = observation_window(trace);
   for (const PersonRecord& person : people) {
     if (!person.was_inside || person.escaped_s || !trace.present(window.last, person.agent))
       continue;

@@ -26,9 +26,9 @@ struct Remaining {
 };
 
 /// `distances` is walking_distances() of the scenario.
-Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenario,
-                       const std::vector<PersonRecord>& people,
-                       const std::vector<WalkingDistance>& distances);
+Remaining count_remaining(const world::Trace& trace, const world::Scenario& scenario,
+                          const std::vector<PersonRecord>& people,
+                          const std::vector<WalkingDistance>& distances);
 
 nlohmann::json to_json(const Remaining& remaining);
 

@@ -23,7 +23,7 @@ namespace {
 constexpr double kMaxGapS = 1;
 constexpr double kMaxTimeS = 1e6;
 
-char separator_of(std::string_view line) {
+char detect_separator(std::string_view line) {
   constexpr std::array kSeparators = {',', ';', '\t'};
   const char most_frequent =
       *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
@@ -40,7 +40,7 @@ std::string_view unquoted(std::string_view text) {
   return field;
 }
 
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+std::vector<std::string_view> split_fields(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   bool quoted = false;
   std::size_t start = 0;
@@ -57,7 +57,7 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
 
 // Names that others give to the columns whose default is the first one, as bare_name() has them.
 using Synonyms = std::vector<std::string_view>;
-const Synonyms& synonyms_of(const std::string& name) {
+const Synonyms& column_synonyms(const std::string& name) {
   static const std::map<std::string, Synonyms> kNames = {
       {"id",
        {"id", "person", "personid", "pid", "ped", "pedid", "pedestrian", "pedestrianid", "agent",
@@ -124,10 +124,10 @@ class TableReader {
     if (unquoted(line).empty()) return;
     if (line.front() == '#') return read_comment(line);
     if (separator_ == 0) {
-      separator_ = separator_of(line);
+      separator_ = detect_separator(line);
       if (has_names_) return read_names(line);
     }
-    const std::vector<std::string_view> fields = fields_of(line, separator_);
+    const std::vector<std::string_view> fields = split_fields(line, separator_);
     const auto last = *std::max_element(column_.begin(), column_.end());
     if (fields.size() <= last) {
       reject(fmt::format("{} fields", fields.size()), fmt::format("at least {}", last + 1));
@@ -154,7 +154,7 @@ class TableReader {
   }
 
   void read_names(std::string_view line) {
-    const std::vector<std::string_view> names = fields_of(line, separator_);
+    const std::vector<std::string_view> names = split_fields(line, separator_);
     const std::array<std::string, column_count> wanted = wanted_names();
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       auto found = column_named(names, wanted[i]);
@@ -176,7 +176,7 @@ class TableReader {
     const auto at = [&](auto found) { return static_cast<std::size_t>(found - names.begin()); };
     const auto exact = std::find(names.begin(), names.end(), wanted);
     if (exact != names.end()) return at(exact);
-    for (const std::string_view synonym : synonyms_of(wanted)) {
+    for (const std::string_view synonym : column_synonyms(wanted)) {
       const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
         return bare_name(name) == synonym;
       });

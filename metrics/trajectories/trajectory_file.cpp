@@ -35,7 +35,7 @@ constexpr double kMinRate = 0.01;
 constexpr double kMaxRate = 10'000;
 constexpr std::string_view kDatabaseStart = "SQLite format 3";
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> split_words(std::string_view line) {
   constexpr std::string_view kBetween = " \t,;\r";
   std::vector<std::string_view> words;
   for (std::size_t at = line.find_first_not_of(kBetween); at != std::string_view::npos;) {
@@ -67,7 +67,7 @@ class TextReader {
 
  private:
   void read_line(std::string_view line) {
-    const std::vector<std::string_view> words = words_of(line);
+    const std::vector<std::string_view> words = split_words(line);
     if (words.empty()) return;
     if (words.front().front() == '#') {
       if (const auto rate = frame_rate_in(line)) recorded_.frames_per_s = *rate;
@@ -162,7 +162,7 @@ void add_people(const Recorded& recorded, std::int64_t first, const WalkerDefaul
   }
 }
 
-std::string text_of(const world::Trace& trace) {
+std::string trajectory_text(const world::Trace& trace) {
   std::string text = fmt::format("# framerate: {}\n# ID\tFR\tx/m\ty/m\n", 1 / trace.header.dt_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person) continue;
@@ -218,7 +218,7 @@ void fill_database(const world::Trace& trace, SQLite::Database& database) {
 bool begins_with_names(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::vector<std::string_view> words = words_of(text.substr(at, end - at));
+    const std::vector<std::string_view> words = split_words(text.substr(at, end - at));
     at = end + 1;
     if (words.empty() || words.front().front() == '#') continue;
     const char first = words.front().front();
@@ -249,7 +249,7 @@ void count_by_steps(Recorded& recorded) {
   recorded.frames_per_s /= static_cast<double>(step);
 }
 
-TrajectoryKind kind_of(const fs::path& file, std::string_view bytes) {
+TrajectoryKind detect_kind(const fs::path& file, std::string_view bytes) {
   if (file.extension() == ".scb") return TrajectoryKind::scb;
   if (file.extension() == ".csv") return TrajectoryKind::csv;
   if (bytes.starts_with(kDatabaseStart)) return TrajectoryKind::sqlite;
@@ -259,7 +259,7 @@ TrajectoryKind kind_of(const fs::path& file, std::string_view bytes) {
 Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
   const std::string whole = read_file(file);
   const std::string_view bytes = without_byte_order_mark(whole);
-  switch (format.kind == TrajectoryKind::any ? kind_of(file, bytes) : format.kind) {
+  switch (format.kind == TrajectoryKind::any ? detect_kind(file, bytes) : format.kind) {
     case TrajectoryKind::scb: {
       Recorded recorded = read_scb(file);
       if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;
@@ -338,7 +338,7 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
 
 void write_trajectory(const world::Trace& trace, const fs::path& file) {
   if (file.extension() == ".scb") return write_scb(trace, file);
-  if (file.extension() != ".sqlite") return write_file_atomically(file, text_of(trace));
+  if (file.extension() != ".sqlite") return write_file_atomically(file, trajectory_text(trace));
   try {
     StagedFile staged(file);
     {

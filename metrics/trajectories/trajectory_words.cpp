@@ -50,13 +50,13 @@ std::optional<double> unit_in(std::string_view text) {
       {{"cm", 0.01}, {"mm", 0.001}, {"m", 1}}};
   const std::string lower = lower_case(text);
   // Heights, too, are in something.
-  bool speaks_of_places = false;
+  bool speaks_of_positions = false;
   for (const std::string_view word : {"unit", "coordinate", "position", "length", "x,", "x and"}) {
-    speaks_of_places |= lower.find(word) != std::string::npos;
+    speaks_of_positions |= lower.find(word) != std::string::npos;
   }
   for (const auto& [unit, meters] : kUnits) {
     for (const std::string_view before : {"x/", "x [", "x[", "x (", "x(", "in "}) {
-      if (before == "in " && !speaks_of_places) continue;
+      if (before == "in " && !speaks_of_positions) continue;
       const std::string words = std::string(before) + std::string(unit);
       const std::size_t at = lower.find(words);
       if (at == std::string::npos) continue;

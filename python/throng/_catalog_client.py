@@ -63,7 +63,7 @@ class CatalogClient:
     # Scenarios.
 
     def scenarios(self) -> list[Scenario]:
-        """The places that jobs can name."""
+        """The scenarios that jobs can name."""
         return self._get("/v1/scenarios")["scenarios"]
 
     def scenario(self, scenario_id: str) -> Scenario:

@@ -20,7 +20,7 @@ _MAX_MANIFEST_BYTES = 1 << 30
 Report = Callable[[int, int], None]
 
 
-def file_name_of(headers: Mapping[str, str], fallback: str) -> str:
+def file_name_from(headers: Mapping[str, str], fallback: str) -> str:
     """The name that the service proposes, without anything that could lead to another folder."""
     match = re.search(r'filename="([^"]*)"', headers.get("Content-Disposition", ""))
     name = os.path.basename(match[1].replace("\\", "/")) if match else ""
@@ -34,21 +34,21 @@ def check_output(path: Path, *, overwrite: bool) -> None:
         raise OutputFileError(f"{folder}: found no such folder, expected one for {path.name}")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise OutputFileError(f"{folder}: found a folder that cannot be written to, expected one for {path.name}")
-    part_file, note = _files_of(path)
+    part_file, note = _partial_files(path)
     others = [path] if note.exists() else [path, part_file]
     for other in others:
         if not overwrite and os.path.lexists(other):
             raise OutputFileError(f"{other}: found a file that is there already, expected a new one, or overwrite=True")
 
 
-def _files_of(path: Path) -> tuple[Path, Path]:
+def _partial_files(path: Path) -> tuple[Path, Path]:
     """The part of a download, and the note on what it is a part of."""
     return Path(f"{path}.part"), Path(f"{path}.part.json")
 
 
 def fetch(http: Http, target: str, path: Path, report: Report | None) -> None:
     """Writes the answer to GET target to path, by way of path.part, which a later call goes on with."""
-    part_file, note = _files_of(path)
+    part_file, note = _partial_files(path)
     lost_since: float | None = None
     attempts = pauses()
     while True:

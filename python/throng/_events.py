@@ -6,7 +6,7 @@ import json
 import time
 from typing import TYPE_CHECKING, Any, BinaryIO, Iterator
 
-from ._http import BROKEN, Http, pauses, query_of
+from ._http import BROKEN, Http, pauses, query_string
 from .errors import ConnectionFailedError, ServiceError
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def follow(http: Http, path: str, after: int, deadline: float | None) -> Iterato
             # A stream ends when its job has, but a proxy may end one, too.
             state = http.request("GET", path).json()["state"]
             if state in ENDED:
-                page = http.request("GET", f"{path}/events" + query_of({"after": last})).json()
+                page = http.request("GET", f"{path}/events" + query_string({"after": last})).json()
                 for event in page["events"]:
                     yield event["type"], event
                 return

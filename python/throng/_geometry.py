@@ -26,7 +26,7 @@ class Polygon:
     holes: tuple[Points, ...] = ()
 
 
-def polygon_of(value: Any, what: str) -> Polygon:
+def read_polygon(value: Any, what: str) -> Polygon:
     kind, rings = _parts(value, what, "POLYGON")
     if kind != "Polygon" or not rings:
         raise ScenarioError(f"{what}: found a {kind or 'geometry'}, expected one polygon")
@@ -35,7 +35,7 @@ def polygon_of(value: Any, what: str) -> Polygon:
     )
 
 
-def line_of(value: Any, what: str) -> Points:
+def read_line(value: Any, what: str) -> Points:
     """Two or more points."""
     kind, lines = _parts(value, what, "LINESTRING")
     if kind not in ("LineString", "Polygon") or len(lines) != 1:
@@ -47,7 +47,7 @@ def line_of(value: Any, what: str) -> Points:
     return points
 
 
-def point_of(value: Any, what: str) -> tuple[float, float]:
+def read_point(value: Any, what: str) -> tuple[float, float]:
     """One point."""
     if isinstance(value, str):
         match = re.fullmatch(r"\s*POINT\s*\(([^()]*)\)\s*", value, re.IGNORECASE)

@@ -141,7 +141,7 @@ class Http:
             body = json.dumps(json_body, allow_nan=False).encode()
         if body is not None:
             sent["Content-Type"] = content_type
-        target = path + query_of(query)
+        target = path + query_string(query)
         again = method in ("GET", "DELETE") if repeatable is None else repeatable
         deadline = time.monotonic() + self.patience_s
         is_said = False
@@ -183,7 +183,7 @@ def pauses() -> Iterator[float]:
         pause = min(5.0, 2 * pause)
 
 
-def query_of(query: Mapping[str, Any] | None) -> str:
+def query_string(query: Mapping[str, Any] | None) -> str:
     pairs: list[tuple[str, str]] = []
     for name, value in (query or {}).items():
         if value is None or value is False:

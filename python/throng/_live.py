@@ -65,7 +65,7 @@ _JSON_KINDS = {b"H": "hello", b"V": "event", b"R": "result", b"E": "failure"}
 Received = Union[LiveState, LiveImage, LiveMessage]
 
 
-def message_of(kind: bytes, data: bytes) -> Received | None:
+def read_message(kind: bytes, data: bytes) -> Received | None:
     """One message of the stream; None for a sign of life."""
     if kind == b"S":
         _, flags, drones, people, time_s, factor, sequence = _STATE.unpack_from(data)
@@ -123,7 +123,7 @@ class LiveFlight:
                     kind, length = _HEAD.unpack(head)
                     if length > _MAX_BYTES:
                         raise ServiceError(200, "Unreadable answer", f"found a message of {length} bytes")
-                    message = message_of(kind, response.read(length))
+                    message = read_message(kind, response.read(length))
                     if message is not None:
                         yield message
         except BROKEN as broken:

@@ -1,4 +1,4 @@
-"""Everybody's places at some times of a run, as the service sends them (docs/api.md)."""
+"""Positions of all people at some times of a run, as the service sends them (docs/api.md)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Trajectories:
     """Bits: 1 takes part, 2 in panic, 4 fallen, 8 follows a drone."""
 
 
-def trajectories_of(data: bytes) -> Trajectories:
+def read_trajectories(data: bytes) -> Trajectories:
     """Throws ServiceError where the bytes are none."""
     if len(data) < _HEAD.size or _HEAD.unpack_from(data)[0] != _VERSION:
         raise ServiceError(200, "Unreadable answer", "found no trajectories of version 1")
@@ -39,7 +39,7 @@ def trajectories_of(data: bytes) -> Trajectories:
         raise ServiceError(200, "Unreadable answer", f"found {len(data)} bytes")
     time_s = np.frombuffer(data, "<f8", times, _HEAD.size)
     role = np.frombuffer(data, np.uint8, agents, _HEAD.size + 8 * times)
-    places = np.frombuffer(data, _PLACE, times * agents, _HEAD.size + 8 * times + agents).reshape(times, agents)
-    position = np.stack([x + step * places["x"].astype(np.float64), y + step * places["y"].astype(np.float64)], axis=-1)
-    position[places["x"] == _ABSENT] = np.nan
-    return Trajectories(time_s, role, position, places["state"], places["flags"])
+    packed = np.frombuffer(data, _PLACE, times * agents, _HEAD.size + 8 * times + agents).reshape(times, agents)
+    position = np.stack([x + step * packed["x"].astype(np.float64), y + step * packed["y"].astype(np.float64)], axis=-1)
+    position[packed["x"] == _ABSENT] = np.nan
+    return Trajectories(time_s, role, position, packed["state"], packed["flags"])

@@ -223,7 +223,7 @@ class Camera:
         local = x @ self.R.T + self.t
         with np.errstate(all="ignore"):
             direction = np.where(local[..., 2:] > 0, local[..., :2] / local[..., 2:], np.nan)
-        return self._pixels_of(self.lens.distort(direction)) + _shift(origin)
+        return self._to_pixels(self.lens.distort(direction)) + _shift(origin)
 
     def directions(self, pixels: ArrayLike, *, origin: Origin = "center") -> FloatArray:
         """(x / z, y / z) in the camera's frame of what is seen at pixels (..., 2); NaN where the lens shows nothing."""
@@ -257,7 +257,7 @@ class Camera:
 
     def undistort_points(self, pixels: ArrayLike, *, origin: Origin = "center") -> FloatArray:
         """Pixels (..., 2) where pinhole() shows what this camera shows at the given ones."""
-        return self._pixels_of(self.directions(pixels, origin=origin)) + _shift(origin)
+        return self._to_pixels(self.directions(pixels, origin=origin)) + _shift(origin)
 
     def undistort(self, image: NDArray[Any], *, interpolate: bool = True) -> NDArray[Any]:
         """The image (height, width, ...) as pinhole() takes it, 0 where the lens shows nothing.
@@ -268,10 +268,10 @@ class Camera:
             raise ValueError(f"image: found {image.shape[:2]}, expected {(self.height, self.width)}")
         rows, columns = np.mgrid[0 : self.height, 0 : self.width].astype(np.float64)
         plain = Camera(self.width, self.height, self.K)
-        source = self._pixels_of(self.lens.distort(plain.directions(np.stack((columns, rows), axis=-1))))
+        source = self._to_pixels(self.lens.distort(plain.directions(np.stack((columns, rows), axis=-1))))
         return _sample(image, source, interpolate)
 
-    def _pixels_of(self, shown: FloatArray) -> FloatArray:
+    def _to_pixels(self, shown: FloatArray) -> FloatArray:
         x, y = shown[..., 0], shown[..., 1]
         return np.stack((self.K[0, 0] * x + self.K[0, 1] * y + self.K[0, 2], self.K[1, 1] * y + self.K[1, 2]), axis=-1)
 

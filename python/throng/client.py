@@ -14,11 +14,11 @@ from typing import Any, Callable, Iterator, Literal, Mapping, Sequence, Union
 from . import _download, _events
 from ._bundle import PathLike, bundle, json_bytes, path_of
 from ._catalog_client import CatalogClient, why
-from ._http import multipart, part, query_of
+from ._http import multipart, part, query_string
 from ._job_base import Part, plain
 from ._live import LiveFlight
 from ._progress import ProgressBar
-from ._trajectories import Trajectories, trajectories_of
+from ._trajectories import Trajectories, read_trajectories
 from ._words import counted
 from .api_types import DryRun, Event, EventList, ImageList, Job, JobList
 from .api_types import LiveFlight as LiveFlightAnswer
@@ -225,13 +225,13 @@ class Client(CatalogClient):
             "runs": runs,
             "split": split,
         }
-        target = f"/v1/jobs/{part(job_id)}/archive{query_of(query)}"
+        target = f"/v1/jobs/{part(job_id)}/archive{query_string(query)}"
         out = Path(path)
         if os.fspath(path).endswith("/"):
             out.mkdir(parents=True, exist_ok=True)
         if out.is_dir():
             head = self._http.request("HEAD", target, repeatable=True)
-            out = out / _download.file_name_of(head.headers, f"{job_id}.{format}")
+            out = out / _download.file_name_from(head.headers, f"{job_id}.{format}")
         _download.check_output(out, overwrite=overwrite)
         bar = ProgressBar(f"downloading {out.name}") if progress else None
 
@@ -282,9 +282,9 @@ class Client(CatalogClient):
     def trajectories(
         self, job_id: str, run: int, *, from_s: float = 0.0, to_s: float | None = None, every_s: float = 1.0
     ) -> Trajectories:
-        """Everybody's places in a run at some times, without the rest of the trace."""
+        """Positions of all people in a run at some times, without the rest of the trace."""
         query = {"from_s": from_s, "to_s": to_s, "every_s": every_s}
-        return trajectories_of(self._bytes(f"/v1/jobs/{part(job_id)}/runs/{run}/trajectories{query_of(query)}"))
+        return read_trajectories(self._bytes(f"/v1/jobs/{part(job_id)}/runs/{run}/trajectories{query_string(query)}"))
 
     def report(self, job_id: str, *, timeout_s: float = 300.0) -> str:
         """All runs as one HTML page; waits while it is made."""
@@ -298,7 +298,7 @@ class Client(CatalogClient):
             time.sleep(min(2.0, float(answer.headers.get("Retry-After") or 1)))
 
     def plan(self, job_id: str) -> str:
-        """The floor plan of the job's place as SVG."""
+        """The floor plan of the job's scenario as SVG."""
         return self._bytes(f"/v1/jobs/{part(job_id)}/plan").decode("utf-8")
 
     # Live flights.

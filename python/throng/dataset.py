@@ -52,7 +52,7 @@ class Dataset(Sequence[Frame]):
         ...
 
     def __getitem__(self, index: Any) -> Frame | Dataset:
-        """A frame by its place; a slice or a list of places gives a Dataset."""
+        """A frame by its index; a slice or a list of indices gives a Dataset."""
         if isinstance(index, slice):
             return self._view(self._frames[index])
         if isinstance(index, (list, np.ndarray)):
@@ -109,22 +109,22 @@ class Dataset(Sequence[Frame]):
 
     @property
     def sequences(self) -> dict[str, list[int]]:
-        """Places of the frames of each run and camera, by time."""
-        places: dict[str, list[int]] = {}
+        """Indices of the frames of each run and camera, by time."""
+        indices: dict[str, list[int]] = {}
         for i, frame in enumerate(self):
-            places.setdefault(frame.sequence, []).append(i)
-        for frames in places.values():
+            indices.setdefault(frame.sequence, []).append(i)
+        for frames in indices.values():
             frames.sort(key=lambda i: float(self[i].time_s))
-        return places
+        return indices
 
     @property
     def splits(self) -> dict[str, Dataset]:
         """The splits that the job made, as datasets."""
-        places: dict[str, list[tuple[int, int]]] = {}
-        for place, frame in zip(self._frames, self):
+        frames_by_split: dict[str, list[tuple[int, int]]] = {}
+        for index, frame in zip(self._frames, self):
             if frame.split is not None:
-                places.setdefault(frame.split, []).append(place)
-        return {name: self._view(frames) for name, frames in places.items()}
+                frames_by_split.setdefault(frame.split, []).append(index)
+        return {name: self._view(frames) for name, frames in frames_by_split.items()}
 
     def tracks(self) -> dict[int, Mapping[str, Any]]:
         """Everybody with an annotation by track_id: run, group and attributes."""
@@ -186,7 +186,7 @@ class Dataset(Sequence[Frame]):
         return self._csv(f"actions/{run}.csv", ("other",))
 
     def count_areas(self, run: str) -> Mapping[str, Any]:
-        """The "zones" and "lines" of counts(), with their places on the ground, m."""
+        """The "zones" and "lines" of counts(), with their positions on the ground, m."""
         return self._sources[0].object(f"counts/{run}.json")
 
     def trajectories(self, run: str) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
@@ -232,7 +232,7 @@ class Dataset(Sequence[Frame]):
                 and (predicate is None or predicate(frame))
             )
 
-        return self._view([place for place, frame in zip(self._frames, self) if keeps(frame)])
+        return self._view([index for index, frame in zip(self._frames, self) if keeps(frame)])
 
     def filter_annotations(
         self,
@@ -264,7 +264,7 @@ class Dataset(Sequence[Frame]):
     def split(self, *, by: str = "run", seed: int = 0, **shares: float) -> dict[str, Dataset]:
         """Random parts, for example split(train=0.8, val=0.2), that sum to at most 1.
 
-        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario),
+        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "scenario",
         or "frame". Each part gets the whole groups that come nearest to its share of the groups,
         at least one where its share is above 0.
         """
@@ -272,8 +272,8 @@ class Dataset(Sequence[Frame]):
         if not shares or min(shares.values()) < 0 or total > 1 + 1e-9:
             raise ValueError(f"shares: found {shares}, expected shares from 0 that sum to at most 1")
         groups: dict[Any, list[tuple[int, int]]] = {}
-        for place, frame in zip(self._frames, self):
-            groups.setdefault(self._group_of(by, place, frame), []).append(place)
+        for index, frame in zip(self._frames, self):
+            groups.setdefault(self._group_key(by, index, frame), []).append(index)
         keys = list(groups)
         wanted = sum(share > 0 for share in shares.values())
         if len(keys) < wanted:
@@ -283,37 +283,37 @@ class Dataset(Sequence[Frame]):
             )
         order = np.random.default_rng(seed).permutation(len(keys))
         parts: dict[str, Dataset] = {}
-        sizes = _shares_of(len(keys), shares)
+        sizes = _part_sizes(len(keys), shares)
         start = 0
         for name, size in sizes.items():
-            chosen = {place for i in order[start : start + size] for place in groups[keys[i]]}
-            parts[name] = self._view([place for place in self._frames if place in chosen])
+            chosen = {index for i in order[start : start + size] for index in groups[keys[i]]}
+            parts[name] = self._view([index for index in self._frames if index in chosen])
             start += size
         return parts
 
-    def _group_of(self, by: str, place: tuple[int, int], frame: Frame) -> Any:
+    def _group_key(self, by: str, index: tuple[int, int], frame: Frame) -> Any:
         if by == "run":
-            return place[0], frame.run
+            return index[0], frame.run
         if by == "sequence":
             return frame.sequence
-        if by == "place":
-            return frame.place
+        if by in ("scenario", "place"):  # its name in version 0.1
+            return frame.scenario
         if by == "frame":
-            return place
-        raise ValueError(f'by: found {by!r}, expected "run", "sequence", "place" or "frame"')
+            return index
+        raise ValueError(f'by: found {by!r}, expected "run", "sequence", "scenario" or "frame"')
 
     def resample(self, rate_hz: float) -> Dataset:
         """Of each sequence the frames nearest to rate_hz a second from its first on; never more than there are."""
         if not rate_hz > 0:
             raise ValueError(f"rate_hz: found {rate_hz}, expected a number above 0")
         chosen: set[int] = set()
-        for places in self.sequences.values():
-            times = np.array([self[i].time_s for i in places])
+        for indices in self.sequences.values():
+            times = np.array([self[i].time_s for i in indices])
             wanted = times[0] + np.arange(math.floor((times[-1] - times[0]) * rate_hz + 1e-6) + 1) / rate_hz
             right = np.clip(np.searchsorted(times, wanted), 1, len(times) - 1) if len(times) > 1 else np.zeros(1, int)
             left = np.maximum(right - 1, 0)
             nearest = np.where(wanted - times[left] <= times[right] - wanted, left, right)
-            chosen.update(places[i] for i in nearest)
+            chosen.update(indices[i] for i in nearest)
         return self._view([self._frames[i] for i in sorted(chosen)])
 
     def sample(
@@ -383,7 +383,7 @@ class Dataset(Sequence[Frame]):
                 raise ValueError(
                     "datasets: found different annotation filters, expected equal ones: filter after merging"
                 )
-            used = {place[0] for place in dataset._frames}
+            used = {index[0] for index in dataset._frames}
             number_of: dict[int, int] = {}
             for i, original in enumerate(dataset._sources):
                 if i not in used:
@@ -408,7 +408,7 @@ def merge(datasets: Sequence[Dataset]) -> Dataset:
     return datasets[0] if len(datasets) == 1 else datasets[0]._merged_with(datasets[1:])
 
 
-def _shares_of(count: int, shares: Mapping[str, float]) -> dict[str, int]:
+def _part_sizes(count: int, shares: Mapping[str, float]) -> dict[str, int]:
     """Largest remainders; every share above 0 gets at least one."""
     sizes = {name: max(int(share * count + 1e-9), 1 if share > 0 else 0) for name, share in shares.items()}
     limit = min(count, round(math.fsum(shares.values()) * count))

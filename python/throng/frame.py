@@ -103,12 +103,17 @@ class Frame:
         return self._object("drawn")
 
     @property
-    def place(self) -> str:
-        """Id of the scenario in which the frame's run took place."""
+    def scenario(self) -> str:
+        """Id of the scenario of the frame's run."""
         scenario = self.drawn.get("scenario") or self._source.description.get("job", {}).get("scenario")
         if isinstance(scenario, str):
             return scenario
         return json.dumps(scenario, sort_keys=True)
+
+    @property
+    def place(self) -> str:
+        """The name of `scenario` in version 0.1."""
+        return self.scenario
 
     @property
     def environment(self) -> Mapping[str, Any]:

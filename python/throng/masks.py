@@ -58,7 +58,7 @@ def decode_many(segmentations: Sequence[Any], height: int, width: int) -> BoolAr
     """(N, height, width) masks; the work grows with the number of pixels that are set, not with the image's size."""
     out = np.zeros((len(segmentations), height, width), dtype=np.bool_)
     texts: list[bytes] = []
-    places: list[int] = []
+    indices: list[int] = []
     for i, segmentation in enumerate(segmentations):
         if isinstance(segmentation, dict):
             if segmentation.get("size") != [height, width] or "counts" not in segmentation:
@@ -69,7 +69,7 @@ def decode_many(segmentations: Sequence[Any], height: int, width: int) -> BoolAr
             counts = segmentation["counts"]
             if isinstance(counts, str) and counts and counts.isascii():
                 texts.append(counts.encode())
-                places.append(i)
+                indices.append(i)
             else:
                 runs = run_lengths(counts)
                 _fill(out, np.array([i]), runs, np.zeros(runs.size, dtype=np.int64), np.arange(runs.size))
@@ -79,12 +79,12 @@ def decode_many(segmentations: Sequence[Any], height: int, width: int) -> BoolAr
         else:
             raise DatasetError(f"segmentation: found {type(segmentation).__name__}, expected run lengths or polygons")
     if texts:
-        _fill(out, np.array(places), *_parse(texts))
+        _fill(out, np.array(indices), *_parse(texts))
     return out
 
 
 def _parse(texts: Sequence[bytes]) -> tuple[IntArray, IntArray, IntArray]:
-    """Run lengths of several texts, one after the other; of each the number of its text and its place in it."""
+    """Run lengths of several texts, one after the other; of each the number of its text and its index in it."""
     groups = np.frombuffer(b"".join(texts), dtype=np.uint8).astype(np.int64) - 48
     is_last = (groups & 32) == 0
     text_ends = np.cumsum([len(text) for text in texts]) - 1
@@ -98,12 +98,12 @@ def _parse(texts: Sequence[bytes]) -> tuple[IntArray, IntArray, IntArray]:
     values = np.add.reduceat((groups & 31) << (5 * digit), starts)
     values -= np.where((groups[ends] & 16) != 0, np.int64(1) << (5 * (digit[ends] + 1)), 0)
     text = np.searchsorted(text_ends, ends)
-    place = np.arange(values.size) - np.searchsorted(text, np.arange(len(texts)))[text]
-    # From the fourth run on, values are differences to the run two before: sums over odd and over even places from 2.
-    chain = text * 3 + np.where(place == 0, 0, 2 - place % 2)
+    index = np.arange(values.size) - np.searchsorted(text, np.arange(len(texts)))[text]
+    # From the fourth run on, values are differences to the run two before: sums over odd and over even indices from 2.
+    chain = text * 3 + np.where(index == 0, 0, 2 - index % 2)
     order = np.argsort(chain, kind="stable")
     values[order] = _chained_sums(values[order], chain[order])
-    return values, text, place
+    return values, text, index
 
 
 def _chained_sums(values: IntArray, chain: IntArray) -> IntArray:
@@ -114,7 +114,7 @@ def _chained_sums(values: IntArray, chain: IntArray) -> IntArray:
     return result
 
 
-def _fill(out: BoolArray, masks: IntArray, runs: IntArray, text: IntArray, place: IntArray) -> None:
+def _fill(out: BoolArray, masks: IntArray, runs: IntArray, text: IntArray, index: IntArray) -> None:
     """Sets the pixels of the odd runs in out[masks[text]]."""
     _, height, width = out.shape
     total = height * width
@@ -131,7 +131,7 @@ def _fill(out: BoolArray, masks: IntArray, runs: IntArray, text: IntArray, place
             f"segmentation: found run lengths that sum to {int(sums[sums != total][0])}, expected {total}"
         )
     begins = _chained_sums(runs, text) - runs
-    keep = (place % 2 == 1) & (runs > 0)
+    keep = (index % 2 == 1) & (runs > 0)
     lengths = runs[keep]
     before = np.cumsum(lengths) - lengths
     pixel = np.arange(int(lengths.sum())) + np.repeat(begins[keep] - before, lengths)

@@ -37,7 +37,7 @@ SKELETON = (
 )
 
 
-def color_of(track_id: int) -> tuple[float, float, float]:
+def track_color(track_id: int) -> tuple[float, float, float]:
     """A color that stays the same for a person in all frames."""
     hue = (track_id * 0.61803398875) % 1.0
     channel = np.clip(np.abs(((hue + np.array([0.0, 2 / 3, 1 / 3])) % 1.0) * 6 - 3) - 1, 0, 1)
@@ -51,7 +51,7 @@ def overlay(frame: Frame, *, opacity: float = 0.5) -> NDArray[np.uint8]:
     annotations = frame.annotations
     for i, track in enumerate(annotations.track_ids):
         mask = annotations.mask(i)
-        picture[mask] = (1 - opacity) * picture[mask] + opacity * 255 * np.array(color_of(int(track)), dtype=np.float32)
+        picture[mask] = (1 - opacity) * picture[mask] + opacity * 255 * np.array(track_color(int(track)), dtype=np.float32)
     return np.rint(picture).astype(np.uint8)
 
 
@@ -78,7 +78,7 @@ def show(
     if boxes:
         for (x, y, width, height), track in zip(annotations.boxes_amodal if amodal else annotations.boxes, tracks):
             ax.add_patch(
-                patches.Rectangle((x, y), width, height, fill=False, edgecolor=color_of(int(track)), linewidth=1)
+                patches.Rectangle((x, y), width, height, fill=False, edgecolor=track_color(int(track)), linewidth=1)
             )
     if keypoints:
         _draw_keypoints(ax, frame)
@@ -89,7 +89,7 @@ def show(
                 + [(i + 4, (i + 1) % 4 + 4) for i in range(4)]
                 + [(i, i + 4) for i in range(4)]
             ):
-                ax.plot(*corners[[a, b]].T, color=color_of(int(track)), linewidth=0.8)
+                ax.plot(*corners[[a, b]].T, color=track_color(int(track)), linewidth=0.8)
     if exits:
         for way_out in frame.exits:
             if len(way_out.get("zone", [])) > 2:
@@ -140,7 +140,7 @@ def show_labels(frame: Frame, *, columns: int = 3, width_in: float = 15.0) -> An
         ax.imshow(picture, extent=(0, frame.width, frame.height, 0))
         ax.text(0.015, 0.975, title, transform=ax.transAxes, va="top", fontsize=11, color="white", bbox=_LABEL_BOX)
     for (x, y, width, height), track in zip(frame.people.boxes, frame.people.track_ids):
-        color = color_of(int(track))
+        color = track_color(int(track))
         axes.flat[1].add_patch(patches.Rectangle((x, y), width, height, fill=False, edgecolor=color, linewidth=0.9))
     return figure
 
@@ -162,7 +162,7 @@ def _depth_colors(frame: Frame, plt: Any) -> NDArray[np.uint8]:
 
 
 def _density_colors(frame: Frame, plt: Any) -> NDArray[np.uint8]:
-    """(height, width, 3): the density map over the darkened gray image; the most crowded place is brightest."""
+    """(height, width, 3): the density map over the darkened gray image; the most crowded point is brightest."""
     density = frame.density()
     share = np.sqrt(density / max(float(density.max()), 1e-12))
     gray = 0.45 * frame.image().mean(axis=2, keepdims=True)
@@ -178,12 +178,12 @@ def _draw_keypoints(ax: Any, frame: Frame) -> None:
         seen = points[:, 2] > 0
         for a, b in SKELETON:
             if seen[a] and seen[b]:
-                ax.plot(points[[a, b], 0], points[[a, b], 1], color=color_of(int(track)), linewidth=1)
-        ax.scatter(points[seen, 0], points[seen, 1], s=4, color=[color_of(int(track))])
+                ax.plot(points[[a, b], 0], points[[a, b], 1], color=track_color(int(track)), linewidth=1)
+        ax.scatter(points[seen, 0], points[seen, 1], s=4, color=[track_color(int(track))])
 
 
 def animate(trace: Trace, *, every_s: float = 0.2, speed: float = 1.0, obstacles: Any = (), ax: Any = None) -> Any:
-    """A matplotlib FuncAnimation of everybody's place; in a notebook show it with HTML(animation.to_jshtml()).
+    """A matplotlib FuncAnimation of the positions of all people; in a notebook show it with HTML(animation.to_jshtml()).
 
     every_s is simulated time from image to image, speed how much faster than real time it plays. obstacles are
     polygons, lists of (x, y).

@@ -1,9 +1,9 @@
 """Places built in code: walls, areas, exits, groups; simulated by the throng program.
 
-    place = throng.Scenario("hall", "POLYGON ((0 0, 20 0, 20 10, 0 10))")
-    place.exit("door", (20, 4), (20, 6))
-    place.group([(1, 1), (8, 1), (8, 9), (1, 9)], count=60)
-    trace = place.simulate(to_s=60)
+    hall = throng.Scenario("hall", "POLYGON ((0 0, 20 0, 20 10, 0 10))")
+    hall.exit("door", (20, 4), (20, 6))
+    hall.group([(1, 1), (8, 1), (8, 9), (1, 9)], count=60)
+    trace = hall.simulate(to_s=60)
 
 What is built is a blueprint (docs/blueprint.md), from which the program makes a scenario. Meters; x to the east, y to
 the north. Polygons and lines are lists of (x, y), NumPy arrays, WKT, shapely's or GeoJSON's.
@@ -24,7 +24,7 @@ from typing import Any, Iterator, Literal, Mapping, Sequence, Union
 import numpy as np
 
 from . import program as _program
-from ._geometry import Points, along, contains, line_of, offset, point_of, polygon_of, right_normals, signed_area
+from ._geometry import Points, along, contains, read_line, offset, read_point, read_polygon, right_normals, signed_area
 from ._job_base import plain
 from ._words import counted
 from .dataset import Dataset
@@ -41,7 +41,7 @@ Sampled = Union[float, Mapping[str, Any]]
 
 
 class Scenario:
-    """A place and who is in it.
+    """A scenario: ground, walls, exits, and the people in it.
 
     walkable is the floor: walls stand around it but for the exits, its holes are obstacles. People escape when they
     leave its bounding box. Methods return the scenario, so that calls can be chained.
@@ -69,7 +69,7 @@ class Scenario:
         if not 0.05 <= wall_thickness_m <= 5:
             raise ScenarioError(f"wall_thickness_m: found {wall_thickness_m}, expected 0.05 to 5")
         self.name = name
-        self.walkable = polygon_of(walkable, "walkable")
+        self.walkable = read_polygon(walkable, "walkable")
         self._walls = walls
         self._thickness = wall_thickness_m
         self._height = wall_height_m
@@ -96,14 +96,14 @@ class Scenario:
     def exit(self, exit_id: str, start: Any, end: Any = None, *, open: bool = True) -> Scenario:
         """A door from one point to another on the edge of the walkable area; also a line: exit("a", "LINESTRING
         (...)")."""
-        points = line_of(
-            start if end is None else [point_of(start, "start"), point_of(end, "end")], f"exit {exit_id!r}"
+        points = read_line(
+            start if end is None else [read_point(start, "start"), read_point(end, "end")], f"exit {exit_id!r}"
         )
         if len(points) != 2:
             raise ScenarioError(f"exit {exit_id!r}: found {len(points)} points, expected two")
         if any(entry["id"] == exit_id for entry in self._exits):
             raise ScenarioError(f"exit {exit_id!r}: found twice, expected once")
-        outward = self._outward_of(points, exit_id)
+        outward = self._outward_normal(points, exit_id)
         entry: dict[str, Any] = {"id": exit_id, "from": points[0].tolist(), "to": points[1].tolist()}
         if outward is not None:
             entry["outward"] = outward.tolist()
@@ -112,7 +112,7 @@ class Scenario:
         self._exits.append(entry)
         return self
 
-    def _outward_of(self, points: Points, exit_id: str) -> Points | None:
+    def _outward_normal(self, points: Points, exit_id: str) -> Points | None:
         ring = self.walkable.outer
         for corner, after, normal in zip(ring, np.roll(ring, -1, axis=0), right_normals(ring, closed=True)):
             if all(along(corner, after, point, _ON_WALL_M) is not None for point in points):
@@ -134,7 +134,7 @@ class Scenario:
 
     def obstacle(self, polygon: Any, *, height_m: float | None = None) -> Scenario:
         """Something that nobody walks through; above 2.6 m it is drawn as a building."""
-        shape = polygon_of(polygon, f"obstacle {len(self._blocks) + 1}")
+        shape = read_polygon(polygon, f"obstacle {len(self._blocks) + 1}")
         if shape.holes:
             raise ScenarioError("obstacle: found a polygon with holes, expected one without")
         return self._block(
@@ -144,7 +144,7 @@ class Scenario:
     def wall(self, line: Any, *, thickness_m: float | None = None, height_m: float | None = None) -> Scenario:
         """A wall along a line of points, half its thickness to each side."""
         number = len(self._blocks) + 1
-        points = line_of(line, f"wall {number}")
+        points = read_line(line, f"wall {number}")
         half = (self._thickness if thickness_m is None else thickness_m) / 2
         left, right = offset(points, -half, closed=False), offset(points, half, closed=False)
         for i in range(len(points) - 1):
@@ -174,7 +174,7 @@ class Scenario:
         """
         if count < 1:
             raise ScenarioError(f"count: found {count}, expected 1 or more")
-        shape = self.walkable if area is None else polygon_of(area, f"group {len(self._lists['groups']) + 1}")
+        shape = self.walkable if area is None else read_polygon(area, f"group {len(self._lists['groups']) + 1}")
         for corner in shape.outer:
             if self._walls and not contains(self.walkable, corner):
                 raise ScenarioError(
@@ -208,14 +208,14 @@ class Scenario:
             "speed_mps": plain(speed_mps),
         }
         if line is not None:
-            points = line_of(line, "source")
+            points = read_line(line, "source")
             entry.update({"from": points[0].tolist(), "to": points[-1].tolist()})
         self._lists["sources"].append({key: value for key, value in entry.items() if value is not None})
         return self
 
     def queue(self, line: Any, *, count: int, **more: Any) -> Scenario:
         """People who stand in line; its head is the line's first point. more is as docs/blueprint.md has it."""
-        points = line_of(line, "queue")
+        points = read_line(line, "queue")
         self._lists["lines"].append(
             {"from": points[0].tolist(), "to": points[-1].tolist(), "count": int(count), **plain(more)}
         )
@@ -231,7 +231,7 @@ class Scenario:
     ) -> Scenario:
         """Something that people flee from; more is as docs/blueprint.md has it, for example radius_m=3."""
         self._disasters.append(
-            {"kind": kind, "position": list(point_of(position, kind)), "start_s": start_s, **plain(more)}
+            {"kind": kind, "position": list(read_point(position, kind)), "start_s": start_s, **plain(more)}
         )
         return self
 
@@ -279,11 +279,11 @@ class Scenario:
                 yield min(first, second), max(first, second)
 
     def blueprint(self) -> dict[str, Any]:
-        """The place as docs/blueprint.md describes it."""
+        """The scenario as docs/blueprint.md describes it."""
         if not self._exits:
             raise ScenarioError("exits: found none, expected at least one")
         low, high = self.walkable.outer.min(axis=0), self.walkable.outer.max(axis=0)
-        place: dict[str, Any] = {
+        blueprint: dict[str, Any] = {
             "name": self.name,
             "ground": {"min": (low - _MARGIN_M).tolist(), "max": (high + _MARGIN_M).tolist(), "material": self._ground},
             "inside": {"min": low.tolist(), "max": high.tolist()},
@@ -295,21 +295,21 @@ class Scenario:
             "people": {**self._people, **{key: entries for key, entries in self._lists.items() if entries}},
         }
         if self._disasters:
-            place["disasters"] = self._disasters
+            blueprint["disasters"] = self._disasters
         if self._drones:
-            place["drones"] = self._drones
-        return place
+            blueprint["drones"] = self._drones
+        return blueprint
 
     def write(self, folder: PathLike, *, program: PathLike | None = None) -> Path:
-        """Writes NAME.place.json, and with the program the scenario's files, into a folder; returns NAME.json there.
+        """Writes NAME.blueprint.json, and with the program the scenario's files, into a folder; returns NAME.json there.
 
         ProgramError says what of it the program refuses.
         """
         out = Path(folder)
         out.mkdir(parents=True, exist_ok=True)
-        place = out / f"{self.name}.place.json"
-        place.write_text(json.dumps(self.blueprint(), indent=1))
-        _program.call(["scenario", "make", place, "-o", out], program=program)
+        file = out / f"{self.name}.blueprint.json"
+        file.write_text(json.dumps(self.blueprint(), indent=1))
+        _program.call(["scenario", "make", file, "-o", out], program=program)
         return out / f"{self.name}.json"
 
     def check(self, *, program: PathLike | None = None) -> str:
@@ -364,7 +364,7 @@ class Scenario:
         program: PathLike | None = None,
         quiet: bool = False,
     ) -> Dataset:
-        """Makes a dataset of this place: job holds the fields of docs/job.md but for the scenario."""
+        """Makes a dataset of this scenario: job holds the fields of docs/job.md but for the scenario."""
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder, program=program)
             return _program.run(
@@ -372,7 +372,7 @@ class Scenario:
             )
 
     def metrics(self, trace: Trace, *, program: PathLike | None = None) -> Any:
-        """Exits, clogs and evacuation of a trace of this place (docs/metrics.md)."""
+        """Exits, clogs and evacuation of a trace of this scenario (docs/metrics.md)."""
         with tempfile.TemporaryDirectory() as folder:
             return _program.metrics(
                 trace, scenario=self.write(folder, program=program), program=program, scenarios=folder

@@ -150,6 +150,6 @@ def _precision(hits: NDArray[np.int8], people: int) -> tuple[float, float]:
     precision = found / np.arange(1, len(scored) + 1)
     # The best precision at this recall or a higher one.
     precision = np.maximum.accumulate(precision[::-1])[::-1]
-    places = np.searchsorted(recall, _RECALLS, side="left")
-    reached = places < len(precision)
-    return float(precision[places[reached]].sum() / len(_RECALLS)), float(recall[-1])
+    ranks = np.searchsorted(recall, _RECALLS, side="left")
+    reached = ranks < len(precision)
+    return float(precision[ranks[reached]].sum() / len(_RECALLS)), float(recall[-1])

@@ -1,4 +1,4 @@
-"""A run's trace (docs/trace.md): everybody's place at every step, drones and events. Needs h5py."""
+"""A run's trace (docs/trace.md): positions of all people at every step, drones and events. Needs h5py."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PRESENT, _PANIC, _LYING, _FOLLOWING = 1, 2, 4, 8
 ROLES = ("person", "disaster", "absent", "attacker")
 
 
-def _crowd_of(attributes: dict[str, Any]) -> dict[str, Any]:
+def _read_crowd(attributes: dict[str, Any]) -> dict[str, Any]:
     """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `compliance`,
     `physical`, `fall_impulse_ns`; empty in traces of earlier versions."""
     if "crowd_model" not in attributes:
@@ -56,7 +56,7 @@ class Trace:
         seed = _number(attributes.get("seed"))
         self.seed = int(seed) if np.isfinite(seed) else 0
         self.dt_s = _number(attributes.get("dt_s"))
-        self.crowd = _crowd_of(attributes)
+        self.crowd = _read_crowd(attributes)
 
     def __repr__(self) -> str:
         return f"Trace({self.scenario}: {len(self.time_s)} steps of {len(self.roles)} agents)"

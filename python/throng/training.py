@@ -138,17 +138,17 @@ class TrackingDataset(Sequence[dict[str, Any]]):
         self.images = images
         self.tensors = available("torch") is not None if tensors is None else tensors
         self._clips = [
-            (name, places[i : i + length])
-            for name, places in dataset.sequences.items()
-            for i in range(0, len(places) - length + 1, stride or length)
+            (name, indices[i : i + length])
+            for name, indices in dataset.sequences.items()
+            for i in range(0, len(indices) - length + 1, stride or length)
         ]
 
     def __len__(self) -> int:
         return len(self._clips)
 
     def __getitem__(self, index: Any) -> Any:
-        name, places = self._clips[int(index)]
-        frames: list[Frame] = [self.dataset[i] for i in places]
+        name, indices = self._clips[int(index)]
+        frames: list[Frame] = [self.dataset[i] for i in indices]
         targets: list[dict[str, Any]] = []
         for frame in frames:
             people = frame.people

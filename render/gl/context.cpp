@@ -62,7 +62,7 @@ void require_libraries() {
   }
 }
 
-std::vector<EGLDeviceEXT> devices_of(Kind kind, const char* client_extensions) {
+std::vector<EGLDeviceEXT> list_devices(Kind kind, const char* client_extensions) {
   if (!lists(client_extensions, "EGL_EXT_platform_device") ||
       !(lists(client_extensions, "EGL_EXT_device_base") ||
         lists(client_extensions, "EGL_EXT_device_enumeration"))) {
@@ -82,7 +82,7 @@ std::vector<EGLDeviceEXT> devices_of(Kind kind, const char* client_extensions) {
   return devices;
 }
 
-std::vector<Candidate> candidates_of(Kind kind) {
+std::vector<Candidate> list_candidates(Kind kind) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> candidates;
   if (kind == Kind::software && lists(extensions, "EGL_MESA_platform_surfaceless")) {
@@ -90,7 +90,7 @@ std::vector<Candidate> candidates_of(Kind kind) {
         {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
          "Mesa without a surface"});
   }
-  for (EGLDeviceEXT device : devices_of(kind, extensions)) {
+  for (EGLDeviceEXT device : list_devices(kind, extensions)) {
     candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
                           fmt::format("EGL device {}", candidates.size())});
   }
@@ -158,7 +158,7 @@ Opened open(const Candidate& candidate, Kind kind, std::string& reasons) {
 
 /// The first that works, or that of this number alone.
 Opened open_first(Kind kind, std::optional<std::size_t> number, std::string& reasons) {
-  const std::vector<Candidate> candidates = candidates_of(kind);
+  const std::vector<Candidate> candidates = list_candidates(kind);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (number && i != *number) continue;
     const Opened opened = open(candidates[i], kind, reasons);

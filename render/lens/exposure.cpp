@@ -36,12 +36,12 @@ double moved_px(const camera::Camera& before, const Vector3d& point_before,
 
 /// Ground point seen by a pixel, or, above the horizon, a far point.
 std::optional<Vector3d> far_point(const camera::Camera& camera, const Vector2d& pixel) {
-  constexpr double kFar_m = 300;
+  constexpr double kFarM = 300;
   const Vector3d center = camera.pose.center();
   const Vector3d ray = camera.unproject(pixel, 1) - center;
   if (ray.hasNaN()) return std::nullopt;
   const double to_ground = -center.z() / ray.z();
-  return center + ray * (to_ground > 0 ? std::min(to_ground, kFar_m) : kFar_m);
+  return center + ray * (to_ground > 0 ? std::min(to_ground, kFarM) : kFarM);
 }
 
 double camera_motion_px(const camera::Camera& before, const camera::Camera& after) {
@@ -77,7 +77,7 @@ double motion_during(const MomentAt& moment_at, double time_s, double duration_s
 }
 
 /// Positions of people, by agent.
-std::unordered_map<std::uint32_t, Vector3d> places_of(const Scene& scene) {
+std::unordered_map<std::uint32_t, Vector3d> person_positions(const Scene& scene) {
   std::unordered_map<std::uint32_t, Vector3d> places;
   for (const PersonInstance& person : scene.people) {
     places[person.agent] = person.position.cast<double>();
@@ -87,8 +87,8 @@ std::unordered_map<std::uint32_t, Vector3d> places_of(const Scene& scene) {
 
 /// Sets how far everybody's middle, at half of the standing height, moves in the image meanwhile.
 void set_blur(const ShutterMoment& open, const ShutterMoment& closed, Frame& frame) {
-  const auto before = places_of(*open.scene);
-  const auto after = places_of(*closed.scene);
+  const auto before = person_positions(*open.scene);
+  const auto after = person_positions(*closed.scene);
   for (PersonInView& person : frame.people) {
     const auto first = before.find(person.agent);
     const auto last = after.find(person.agent);
@@ -129,7 +129,7 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
         {.truth = middle, .previous = previous ? &*previous : nullptr, .exposure_gain = gain});
     if (samples == 1) return frame;
     light.resize(frame.rgb.size());
-    for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_of_srgb(frame.rgb[j]);
+    for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_from_srgb(frame.rgb[j]);
     if (middle) {
       strip = std::move(frame);
     } else {
@@ -137,7 +137,7 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
     }
   }
   for (std::size_t j = 0; j < light.size(); ++j) {
-    strip.rgb[j] = srgb_of_linear(light[j] / static_cast<float>(samples));
+    strip.rgb[j] = srgb_from_linear(light[j] / static_cast<float>(samples));
   }
   return strip;
 }
@@ -162,7 +162,7 @@ class PeopleInStrips {
       known.area_px += area_px;
       known.box.extend(person.amodal_box);
       if (person.whole_mask != nullptr) {
-        known.whole = union_of(known.whole, *person.whole_mask);
+        known.whole = unite_masks(known.whole, *person.whole_mask);
       }
       see_head(strip.camera, person, rows, known);
       see_keypoints(strip.camera, person, rows, known);
@@ -249,7 +249,7 @@ class ObjectsInStrips {
       sum.amodal_area_px = known.object.amodal_area_px + object.amodal_area_px;
       sum.amodal_box = known.object.amodal_box.merged(object.amodal_box);
       sum.whole_mask =
-          std::make_shared<PixelMask>(union_of(*known.object.whole_mask, *object.whole_mask));
+          std::make_shared<PixelMask>(unite_masks(*known.object.whole_mask, *object.whole_mask));
       known.object = std::move(sum);
     }
   }

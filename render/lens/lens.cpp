@@ -297,7 +297,7 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     const PersonInstance& instance = *instances.at(person.agent);
     const skinning::Character& character = population_->characters[instance.appearance.character];
     const skinning::Mesh& mesh = character.levels[person.level];
-    const std::vector<skinning::Part> parts = parts_of(character, mesh, Share::body);
+    const std::vector<skinning::Part> parts = select_parts(character, mesh, Share::body);
     const skinning::Palette palette = blended_palette(*population_, instance);
     bool is_cut = false;
     const Eigen::AlignedBox2d box =

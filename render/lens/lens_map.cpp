@@ -62,8 +62,8 @@ void fill_row(const camera::Intrinsics& lens, const Eigen::Vector2i& first,
 }
 
 /// Directions of an area's pixels, row by row: NaN beyond the model.
-std::vector<Vector2d> directions_of(const camera::Intrinsics& lens,
-                                    const Eigen::AlignedBox2i& area) {
+std::vector<Vector2d> ray_directions(const camera::Intrinsics& lens,
+                                     const Eigen::AlignedBox2i& area) {
   const Eigen::Vector2i size = area.sizes();
   const auto width = static_cast<std::size_t>(size.x());
   std::vector<Vector2d> directions(cells(size.x(), size.y()));
@@ -121,8 +121,8 @@ Eigen::Vector2f wide_position(const camera::Intrinsics& wide, const Vector2d& di
 }
 
 /// Counts the nearest wide pixel of every pixel of the image and of what is around these rows.
-PixelWeights weights_of(const camera::Intrinsics& lens, const Rows& rows,
-                        const camera::Intrinsics& wide) {
+PixelWeights pixel_weights(const camera::Intrinsics& lens, const Rows& rows,
+                           const camera::Intrinsics& wide) {
   const int beside = lens.width / 4;
   const int above = rows.first == 0 ? lens.height / 4 : 0;
   const int below = rows.end == lens.height ? lens.height / 4 : 0;
@@ -133,7 +133,7 @@ PixelWeights weights_of(const camera::Intrinsics& lens, const Rows& rows,
   weights.domain = Eigen::AlignedBox2i(-size / 2, size + size / 2);
   const Eigen::Vector2i span = weights.domain.sizes();
   weights.count.resize(cells(span.x(), span.y()));
-  for (const Vector2d& direction : directions_of(lens, area)) {
+  for (const Vector2d& direction : ray_directions(lens, area)) {
     const Eigen::Vector2f at = wide_position(wide, direction);
     // Written so that NaN leaves, too.
     if (!(at.cwiseAbs().maxCoeff() < kMaxPosition)) continue;
@@ -188,7 +188,7 @@ std::vector<std::uint8_t> shown_pixels(const camera::Intrinsics& lens) {
   std::vector<std::uint8_t> shown(cells(lens.width, lens.height), 255);
   if (!lens.distortion) return shown;
   const std::vector<Vector2d> directions =
-      directions_of(lens, {Eigen::Vector2i::Zero(), Eigen::Vector2i(lens.width, lens.height)});
+      ray_directions(lens, {Eigen::Vector2i::Zero(), Eigen::Vector2i(lens.width, lens.height)});
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (directions[i].hasNaN()) shown[i] = 0;
   }
@@ -198,7 +198,7 @@ std::vector<std::uint8_t> shown_pixels(const camera::Intrinsics& lens) {
 LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows) {
   check(lens.distortion.has_value(), "only a lens that distorts has a map");
   const std::vector<Vector2d> directions =
-      directions_of(lens, {Eigen::Vector2i(0, rows.first), Eigen::Vector2i(lens.width, rows.end)});
+      ray_directions(lens, {Eigen::Vector2i(0, rows.first), Eigen::Vector2i(lens.width, rows.end)});
   LensMap map;
   map.wide = wide_pinhole(lens, directions);
   map.position.reserve(directions.size() * 2);
@@ -207,7 +207,7 @@ LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows) {
     map.position.push_back(at.x());
     map.position.push_back(at.y());
   }
-  map.weights = weights_of(lens, rows, map.wide);
+  map.weights = pixel_weights(lens, rows, map.wide);
   return map;
 }
 

@@ -44,8 +44,8 @@ std::array<double, 256> radiances() {
 }
 
 /// L of the film's image of a radiance.
-double lightness_of(double radiance) {
-  const double luminance = linear_of_encoded(film(radiance));
+double film_lightness(double radiance) {
+  const double luminance = linear_from_encoded(film(radiance));
   return luminance > 0.008856 ? 116 * std::cbrt(luminance) - 16 : 903.3 * luminance;
 }
 
@@ -69,7 +69,7 @@ class Histogram {
     for (std::size_t i = 0; i < bins_.size(); ++i) {
       if (bins_[i] == 0) continue;
       const double octave = (static_cast<double>(i) + 0.5) / kPerOctave;
-      sum += bins_[i] * lightness_of(gain * kDarkest * std::exp2(octave));
+      sum += bins_[i] * film_lightness(gain * kDarkest * std::exp2(octave));
     }
     return sum / pixels_;
   }

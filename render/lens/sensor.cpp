@@ -139,12 +139,12 @@ void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame
       std::uint8_t* bytes = &frame.rgb[row * width * kChannels];
       for (std::size_t i = 0; i < width * kChannels; ++i) {
         const auto channel = static_cast<Eigen::Index>(i % kChannels);
-        float value = linear_of_srgb(bytes[i]) * gains[channel] * light[i / kChannels];
+        float value = linear_from_srgb(bytes[i]) * gains[channel] * light[i / kChannels];
         if (iso > 0) {
           const float counted = value * electrons;
           value += noise.next() * std::sqrt(counted + read_variance) / electrons;
         }
-        bytes[i] = srgb_of_linear(value);
+        bytes[i] = srgb_from_linear(value);
       }
     }
   });

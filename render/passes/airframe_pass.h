@@ -14,11 +14,11 @@ namespace throng::render {
 
 class AirframePass {
  public:
-  /// `words` are the environment's of render/place/lighting.h. Needs the current context from then
-  /// on.
+  /// `words` are the environment's of render/scenery/lighting.h. Needs the current context from
+  /// then on.
   AirframePass(std::string_view words, const QualitySettings& quality);
 
-  /// Expects what PlacePass::draw() expects. Drones cast no shadows: at the heights they fly at,
+  /// Expects what SceneryPass::draw() expects. Drones cast no shadows: at the heights they fly at,
   /// the sun's width blurs theirs away.
   void draw(const std::vector<DroneInstance>& drones, const camera::Camera& camera);
 

@@ -19,7 +19,7 @@ constexpr double kPersonReachM = 0.5;
 constexpr double kTypicalStatureM = 1.7;
 
 /// A prop's part that touches the ground or nearly does: what it hides the sky from.
-double reach_of(world::PropKind kind) { return kind == world::PropKind::car ? 0.7 : 0.35; }
+double contact_reach_m(world::PropKind kind) { return kind == world::PropKind::car ? 0.7 : 0.35; }
 
 /// Whether a prop's foot is a disc rather than a rectangle.
 bool is_round(world::PropKind kind) {
@@ -50,7 +50,7 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
     const Vector2d half =
         prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
     still_.push_back(
-        rim(prop.position, 0.9 * half, prop.yaw_rad, reach_of(prop.kind), 1.1 * strength_));
+        rim(prop.position, 0.9 * half, prop.yaw_rad, contact_reach_m(prop.kind), 1.1 * strength_));
     if (is_round(prop.kind)) still_.back().rounding_m = still_.back().footprint[2];
   }
   constexpr double kWallReachM = 0.9;

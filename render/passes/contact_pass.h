@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/place/daylight.h"
 #include "render/scene.h"
+#include "render/scenery/daylight.h"
 #include "render/view.h"
 #include "world/scenario.h"
 

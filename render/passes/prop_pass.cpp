@@ -5,9 +5,9 @@
 
 #include "render/frame.h"
 #include "render/gl/shaders.h"
-#include "render/place/rubble.h"
-#include "render/place/surface_classes.h"
 #include "render/props/mesh_file.h"
+#include "render/scenery/rubble.h"
+#include "render/scenery/surface_classes.h"
 
 namespace throng::render {
 
@@ -72,7 +72,7 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
     return semantic ? id_with_class(id, value) : id;
   };
   for (const world::Prop& prop : scenario.props) {
-    add(prop_shape(prop, id_of(world::class_of(prop.kind))), true, vertices, indices);
+    add(prop_shape(prop, id_of(world::semantic_class(prop.kind))), true, vertices, indices);
     ++id;
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
@@ -81,7 +81,7 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   }
   for (const world::Disaster& disaster : scenario.disasters) {
     const std::vector<RubblePiece> pieces =
-        rubble_of(disaster, id_of(world::SemanticClass::rubble));
+        make_rubble(disaster, id_of(world::SemanticClass::rubble));
     for (const RubblePiece& piece : pieces) {
       add(piece.mesh, true, vertices, indices).from_s = piece.from_s;
     }
@@ -98,7 +98,7 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   };
   solid_ = camera_program("");
   leaves_ = camera_program(kLeaves);
-  shadow_ = make_program({shader_light, embedded::shader_place_shadow_vert}, {});
+  shadow_ = make_program({shader_light, embedded::shader_scenery_shadow_vert}, {});
   check_gl("loading props");
 }
 

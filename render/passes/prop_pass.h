@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/place/place.h"
 #include "render/props/prop_shapes.h"
+#include "render/scenery/scenery.h"
 #include "render/view.h"
 #include "spec/render/quality.h"
 #include "world/scenario.h"
@@ -20,12 +20,12 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices);
 
 class PropPass {
  public:
-  /// `words` are the environment's of render/place/lighting.h. Throws InputError for a mesh file
+  /// `words` are the environment's of render/scenery/lighting.h. Throws InputError for a mesh file
   /// that cannot be read.
   PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality,
            bool semantic);
 
-  /// The props that the camera may see at a time of the run. Expects what PlacePass::draw()
+  /// The props that the camera may see at a time of the run. Expects what SceneryPass::draw()
   /// expects.
   void draw(const ClipPlanes& planes, double time_s) const;
 

@@ -7,14 +7,14 @@
 #include "base/compute/random.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
-#include "render/place/lighting.h"
+#include "render/scenery/lighting.h"
 #include "render/view.h"
 
 namespace throng::render {
 
 namespace {
 
-/// Whether the plain around the place ends in view.
+/// Whether the plain around the scenario ends in view.
 bool sees_sky(const camera::Camera& camera) {
   constexpr double kPlainM = 2000;
   const camera::Intrinsics& k = camera.intrinsics;

@@ -8,7 +8,7 @@
 #include "base/compute/random.h"
 #include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
-#include "render/place/lighting.h"
+#include "render/scenery/lighting.h"
 #include "render/view.h"
 
 namespace throng::render {
@@ -44,7 +44,7 @@ SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster
                      {2, 1, GL_FLOAT, false, offsetof(Puff, kind)}});
 }
 
-SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double time_s) {
+SmokePass::Source SmokePass::smoke_source(const world::Disaster& disaster, double time_s) {
   Source source{
       disaster.position, time_s - disaster.start_s, disaster.reach_m(time_s), 1, kUsualDust, kSoot,
       kDustAlbedo};
@@ -147,7 +147,7 @@ void SmokePass::upload(const Scene& scene, const camera::Camera& camera) {
   if (environment_.smoke <= 0) return;
   for (std::size_t i = 0; i < disasters_.size(); ++i) {
     if (disasters_[i].kind == world::DisasterKind::attacker) continue;
-    add_puffs(source_of(disasters_[i], scene.time_s), i, scene.time_s, camera);
+    add_puffs(smoke_source(disasters_[i], scene.time_s), i, scene.time_s, camera);
     add_flames(disasters_[i], i, scene.time_s, camera);
   }
   for (std::size_t i = 0; disasters_.empty() && i < scene.dangers.size(); ++i) {

@@ -48,7 +48,7 @@ class SmokePass {
   /// Flames at the foot of a fire, and of an explosion for as long as its fireball lasts.
   void add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
                   const camera::Camera& camera);
-  static Source source_of(const world::Disaster& disaster, double time_s);
+  static Source smoke_source(const world::Disaster& disaster, double time_s);
   void add_puffs(const Source& source, std::size_t number, double time_s,
                  const camera::Camera& camera);
 

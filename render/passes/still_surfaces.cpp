@@ -106,7 +106,7 @@ void fill_still_flow(const camera::Camera& other, const Frame& frame, std::vecto
   }
 }
 
-std::vector<float> scene_flow_of(const Frame& frame, const camera::Camera& next) {
+std::vector<float> compute_scene_flow(const Frame& frame, const camera::Camera& next) {
   std::vector<float> motion_m(frame.id.size() * 3, kUnknown);
   std::size_t pixel = 0;
   for (int y = 0; y < frame.height(); ++y) {

@@ -19,6 +19,6 @@ void fill_still_flow(const camera::Camera& other, const Frame& frame, std::vecto
 
 /// Frame::scene_flow_m from a frame's depth, flow and flow_depth_m, of a pinhole camera that
 /// becomes `next`.
-std::vector<float> scene_flow_of(const Frame& frame, const camera::Camera& next);
+std::vector<float> compute_scene_flow(const Frame& frame, const camera::Camera& next);
 
 }  // namespace throng::render

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kOne = 32767;
 
-std::uint32_t word_of(float low, float high) {
+std::uint32_t pack_half_floats(float low, float high) {
   const auto bits = [](float value) {
     return static_cast<std::uint32_t>(
         static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(kOne * value))));
@@ -33,8 +33,8 @@ DeviceBone device_bone(const skinning::BoneMatrix& matrix) {
   const Eigen::Matrix3f turn = matrix.leftCols<3>();
   const Eigen::Vector4f q = Eigen::Quaternionf(turn).normalized().coeffs();
   const Eigen::Vector3f shift = matrix.col(3) / kMaxShiftM;
-  return {word_of(q[0], q[1]), word_of(q[2], q[3]), word_of(shift[0], shift[1]),
-          word_of(shift[2], 0)};
+  return {pack_half_floats(q[0], q[1]), pack_half_floats(q[2], q[3]),
+          pack_half_floats(shift[0], shift[1]), pack_half_floats(shift[2], 0)};
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ PeopleFinder::PeopleFinder(const skinning::Population& population, const Quality
     std::vector<BodyShape>& bodies = bodies_.emplace_back();
     std::vector<BodyShape>& umbrellas = umbrellas_.emplace_back();
     for (const skinning::Mesh& mesh : character.levels) {
-      bodies.emplace_back(mesh, parts_of(character, mesh, Share::body));
-      umbrellas.emplace_back(mesh, parts_of(character, mesh, Share::umbrella));
+      bodies.emplace_back(mesh, select_parts(character, mesh, Share::body));
+      umbrellas.emplace_back(mesh, select_parts(character, mesh, Share::umbrella));
     }
-    landmarks_.push_back(skinning::landmarks_of(character));
+    landmarks_.push_back(skinning::find_landmarks(character));
   }
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     boxes_.emplace_back(population, i, bodies_[i]);
@@ -83,7 +83,7 @@ void PeopleFinder::texture_the_nearest(std::vector<Seen>& seen) const {
   for (Seen& person : seen) {
     if (person.draw.shading == Shading::by_corners) others.push_back(&person);
   }
-  const auto room = static_cast<std::size_t>(quality_.people_places);
+  const auto room = static_cast<std::size_t>(quality_.people_positions);
   const auto count =
       static_cast<std::ptrdiff_t>(std::min(others.size(), room - std::min(room, seen.size())));
   const auto key = [](const Seen* person) {

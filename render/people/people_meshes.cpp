@@ -25,7 +25,7 @@ Rgba linear_shades(const Rgba& shades) {
   return light;
 }
 
-std::uint32_t word_of(const std::array<std::uint8_t, 4>& bytes) {
+std::uint32_t pack_bytes(const std::array<std::uint8_t, 4>& bytes) {
   return bytes[0] | (static_cast<std::uint32_t>(bytes[1]) << 8U) |
          (static_cast<std::uint32_t>(bytes[2]) << 16U) |
          (static_cast<std::uint32_t>(bytes[3]) << 24U);
@@ -62,12 +62,12 @@ void pack_skin(const skinning::Vertex& vertex, DeviceVertex& packed) {
     weights[k] = vertex.weights[order[k]];
     if (weights[k] > 0) bones[k] = vertex.bones[order[k]];
   }
-  packed.bones = word_of(bones);
-  packed.weights = word_of(weights);
+  packed.bones = pack_bytes(bones);
+  packed.weights = pack_bytes(weights);
 }
 
 /// Shader data of a part; `white` is the layer of those without a texture.
-std::uint32_t info_of(const skinning::Part& part, bool apart, std::uint32_t white) {
+std::uint32_t pack_info(const skinning::Part& part, bool apart, std::uint32_t white) {
   const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
   const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
   const std::uint32_t shades = part.shades < 0 ? 0 : layer(part.shades);
@@ -116,11 +116,11 @@ class Packer {
     DeviceVertex packed{};
     packed.position = vertex.position;
     pack_skin(vertex, packed);
-    packed.part = info_of(part, skinning::is_apart(*character_, part),
-                          static_cast<std::uint32_t>(population_.textures.size()));
+    packed.part = pack_info(part, skinning::is_apart(*character_, part),
+                            static_cast<std::uint32_t>(population_.textures.size()));
     packed.normal = octahedral(vertex.normal);
     packed.uv = vertex.uv;
-    packed.base = word_of(kWhite);
+    packed.base = pack_bytes(kWhite);
     return packed;
   }
 
@@ -162,12 +162,12 @@ class Packer {
     };
     if (part.texture >= 0) {
       const std::vector<Rgba> base = fit(part.texture);
-      for (std::size_t i = 0; i < count; ++i) vertices_[first + i].base = word_of(base[i]);
+      for (std::size_t i = 0; i < count; ++i) vertices_[first + i].base = pack_bytes(base[i]);
     }
     if (part.shades >= 0) {
       const std::vector<Rgba> shades = fit(part.shades);
       for (std::size_t i = 0; i < count; ++i) {
-        vertices_[first + i].shades = word_of(linear_shades(shades[i]));
+        vertices_[first + i].shades = pack_bytes(linear_shades(shades[i]));
       }
     }
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/place/place.h"
+#include "render/scenery/scenery.h"
 #include "skinning/population.h"
 
 namespace throng::render {

@@ -97,10 +97,10 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
 }
 
 /// Without textured people no level has textures; shadows take the last level by its corners.
-Packing packing_of(const QualitySettings& quality) {
+Packing choose_packing(const QualitySettings& quality) {
   constexpr std::size_t kAll = 99;
   const auto always = static_cast<std::size_t>(quality.textured_levels);
-  return {quality.people_places > 0 ? kAll : always, always};
+  return {quality.people_positions > 0 ? kAll : always, always};
 }
 
 /// How many bytes of palettes shaders can read: four words to a texel.
@@ -123,7 +123,7 @@ Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
 PeoplePass::PeoplePass(const skinning::Population& population, const QualitySettings& quality,
                        std::string_view words)
     : palettes_per_character_(population.palettes_per_character),
-      meshes_(people_meshes(population, packing_of(quality))),
+      meshes_(people_meshes(population, choose_packing(quality))),
       palettes_(make_buffer(device_palettes(population, largest_palettes()))),
       palette_texels_(make_buffer_texture(GL_RGBA32UI, palettes_)),
       instances_(make_buffer()),
@@ -275,14 +275,14 @@ void PeoplePass::sort(std::span<const PersonInstance> people,
 void PeoplePass::upload_next(std::span<const PersonInstance> people,
                              const std::vector<PersonDraw>& draws,
                              std::span<const PersonInstance> next) {
-  std::unordered_map<std::uint32_t, const PersonInstance*> next_of;
-  for (const PersonInstance& person : next) next_of[person.agent] = &person;
+  std::unordered_map<std::uint32_t, const PersonInstance*> next_by_agent;
+  for (const PersonInstance& person : next) next_by_agent[person.agent] = &person;
   std::vector<NextInstance> instances;
   instances.reserve(draws.size());
   for (const PersonDraw& draw : draws) {
     NextInstance& instance = instances.emplace_back();
-    const auto found = next_of.find(people[draw.person].agent);
-    if (found == next_of.end()) continue;
+    const auto found = next_by_agent.find(people[draw.person].agent);
+    if (found == next_by_agent.end()) continue;
     const PersonInstance& person = *found->second;
     check(person.appearance.character == people[draw.person].appearance.character &&
               std::max(person.pose.a, person.pose.b) < palettes_per_character_,

@@ -40,7 +40,7 @@ struct PersonDraw {
 /// blocks, the shadow map and the target to be bound.
 class PeoplePass {
  public:
-  /// `words` are the environment's of render/place/lighting.h.
+  /// `words` are the environment's of render/scenery/lighting.h.
   PeoplePass(const skinning::Population& population, const QualitySettings& quality,
              std::string_view words);
 

@@ -125,8 +125,8 @@ Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstan
   return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
 }
 
-std::vector<skinning::Part> parts_of(const skinning::Character& character,
-                                     const skinning::Mesh& mesh, Share share) {
+std::vector<skinning::Part> select_parts(const skinning::Character& character,
+                                         const skinning::Mesh& mesh, Share share) {
   std::vector<skinning::Part> parts;
   std::copy_if(mesh.parts.begin(), mesh.parts.end(), std::back_inserter(parts),
                [&](const skinning::Part& part) {
@@ -221,7 +221,7 @@ Eigen::Vector2d last_shown(const camera::Intrinsics& k, Eigen::Vector4f from, Ei
 }
 
 /// A camera without lens, whose "pixels" are directions.
-camera::Camera directions_of(const camera::Camera& camera) {
+camera::Camera viewing_camera(const camera::Camera& camera) {
   return {{1, 1, 1, 1, -0.5, -0.5}, camera.pose};
 }
 
@@ -235,7 +235,7 @@ Eigen::AlignedBox2d limited(const Eigen::AlignedBox2d& box, const camera::Intrin
 
 Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
                              const PersonInstance& person, const camera::Camera& camera) {
-  const Projector project(palette, image_from_model(person, directions_of(camera)));
+  const Projector project(palette, image_from_model(person, viewing_camera(camera)));
   Eigen::AlignedBox2d box;
   for (const SkinPoint& point : head) {
     if (const auto place = shown_place(camera.intrinsics, project(point))) box.extend(*place);
@@ -250,8 +250,8 @@ Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skin
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const double top = rows.first == 0 ? -kEverywhere : rows.first;
   const double bottom = rows.end == k.height ? kEverywhere : rows.end;
-  const std::vector<Eigen::Vector4f> places =
-      projected_vertices(mesh, Projector(palette, image_from_model(person, directions_of(camera))));
+  const std::vector<Eigen::Vector4f> places = projected_vertices(
+      mesh, Projector(palette, image_from_model(person, viewing_camera(camera))));
   std::vector<std::optional<Eigen::Vector2d>> shown;
   shown.reserve(places.size());
   for (const Eigen::Vector4f& place : places) shown.push_back(shown_place(k, place));

@@ -44,8 +44,8 @@ struct SkinPoint {
 
 /// Split of a person's mesh into the body and the umbrella.
 enum class Share : std::uint8_t { body, umbrella };
-std::vector<skinning::Part> parts_of(const skinning::Character& character,
-                                     const skinning::Mesh& mesh, Share share);
+std::vector<skinning::Part> select_parts(const skinning::Character& character,
+                                         const skinning::Mesh& mesh, Share share);
 
 /// A share of a mesh and where its vertices are, each place once however many normals or texture
 /// coordinates it has. The mesh must outlive it.

@@ -23,7 +23,7 @@ Eigen::AlignedBox2d rectangle(double half_x, double half_y) {
   return {Vector2d(-half_x, -half_y), Vector2d(half_x, half_y)};
 }
 
-Vector3d one_of(Random& random, const std::array<std::array<double, 3>, 4>& paints) {
+Vector3d choose_paint(Random& random, const std::array<std::array<double, 3>, 4>& paints) {
   return Vector3d(paints[random.below(static_cast<std::uint32_t>(paints.size()))].data());
 }
 
@@ -71,7 +71,7 @@ void make_fence(PropBuilder& builder) {
 }
 
 void make_kiosk(PropBuilder& builder) {
-  const Vector3d paint = one_of(builder.random(), kBrightCloths);
+  const Vector3d paint = choose_paint(builder.random(), kBrightCloths);
   builder.box({-1.4, -1.1, 0}, {1.4, 1.1, 1.0}, 0.75 * paint);
   builder.block(rectangle(1.38, 1.08), 1.0, rectangle(1.38, 1.08), 2.2, kGlass, Finish::glossy);
   for (const double x : {-1.4, 1.32}) {
@@ -83,7 +83,7 @@ void make_kiosk(PropBuilder& builder) {
 
 // A pavilion of 6 m by 6 m, open to all sides.
 void make_tent(PropBuilder& builder) {
-  const Vector3d paint = one_of(builder.random(), kBrightCloths);
+  const Vector3d paint = choose_paint(builder.random(), kBrightCloths);
   constexpr double kEavesM = 2.3;
   constexpr double kPeakM = 4.2;
   for (const double x : {-2.9, 2.9}) {
@@ -144,9 +144,9 @@ void make_stage(PropBuilder& builder) {
 
 // A carriage of 20 m with windows and doors on both sides.
 void make_train(PropBuilder& builder) {
-  const Vector3d paint =
-      one_of(builder.random(),
-             {{{0.55, 0.56, 0.57}, {0.50, 0.05, 0.05}, {0.08, 0.16, 0.32}, {0.62, 0.62, 0.60}}});
+  const Vector3d paint = choose_paint(
+      builder.random(),
+      {{{0.55, 0.56, 0.57}, {0.50, 0.05, 0.05}, {0.08, 0.16, 0.32}, {0.62, 0.62, 0.60}}});
   builder.block(rectangle(9.6, 1.2), 0.3, rectangle(9.6, 1.2), 0.9, kDarkSteel);
   builder.block(rectangle(9.95, 1.42), 0.9, rectangle(9.95, 1.42), 1.75, paint, Finish::glossy);
   builder.block(rectangle(9.93, 1.40), 1.75, rectangle(9.93, 1.38), 2.75, kGlass, Finish::glossy);

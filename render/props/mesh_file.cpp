@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A material's color, linear; light gray when it has none.
-std::array<std::uint8_t, 4> paint_of(const aiMaterial& material) {
+std::array<std::uint8_t, 4> material_color(const aiMaterial& material) {
   aiColor4D color(0.6F, 0.6F, 0.6F, 1.0F);
   if (material.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) {
     material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
@@ -85,7 +85,7 @@ PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
     if (!part.HasNormals()) continue;  // points and lines
-    append(part, paint_of(*scene->mMaterials[part.mMaterialIndex]), place, id, mesh);
+    append(part, material_color(*scene->mMaterials[part.mMaterialIndex]), place, id, mesh);
   }
   if (mesh.indices.empty()) {
     throw InputError(Problem{placed.file.string(), "", "no triangles", "a mesh with triangles"});

@@ -1,4 +1,4 @@
-// A user's mesh (glTF, OBJ: whatever assimp reads) as a part of the place.
+// A user's mesh (glTF, OBJ: whatever assimp reads) as a part of the scenario.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ bool is_vehicle(world::SemanticClass value) {
 }
 
 /// The middle of the foot of the upright box around a mesh, turned as it heads.
-Eigen::Vector3d foot_of(const PropMesh& mesh, double yaw_rad) {
+Eigen::Vector3d foot_offset(const PropMesh& mesh, double yaw_rad) {
   const Eigen::AngleAxisd turn(yaw_rad, Eigen::Vector3d::UnitZ());
   Eigen::AlignedBox3d box;
   for (const PropVertex& vertex : mesh.vertices) {
@@ -30,20 +30,20 @@ Eigen::Vector3d foot_of(const PropMesh& mesh, double yaw_rad) {
 }  // namespace
 
 std::size_t vehicle_count(const world::Scenario& scenario) {
-  const auto props =
-      std::count_if(scenario.props.begin(), scenario.props.end(),
-                    [](const world::Prop& prop) { return is_vehicle(world::class_of(prop.kind)); });
+  const auto props = std::count_if(
+      scenario.props.begin(), scenario.props.end(),
+      [](const world::Prop& prop) { return is_vehicle(world::semantic_class(prop.kind)); });
   const auto meshes =
       std::count_if(scenario.meshes.begin(), scenario.meshes.end(),
                     [](const world::PlacedMesh& mesh) { return is_vehicle(mesh.semantic_class); });
   return static_cast<std::size_t>(props + meshes);
 }
 
-std::vector<Vehicle> vehicles_of(const world::Scenario& scenario) {
+std::vector<Vehicle> list_vehicles(const world::Scenario& scenario) {
   std::vector<Vehicle> vehicles;
   std::uint32_t id = kIdProp;
   for (const world::Prop& prop : scenario.props) {
-    const world::SemanticClass surface = world::class_of(prop.kind);
+    const world::SemanticClass surface = world::semantic_class(prop.kind);
     if (is_vehicle(surface)) {
       vehicles.push_back({id, surface, Eigen::Vector3d(prop.position.x(), prop.position.y(), 0),
                           prop.yaw_rad, prop_shape(prop, id)});
@@ -53,7 +53,7 @@ std::vector<Vehicle> vehicles_of(const world::Scenario& scenario) {
   for (const world::PlacedMesh& mesh : scenario.meshes) {
     if (is_vehicle(mesh.semantic_class)) {
       PropMesh shape = mesh_from_file(mesh, id);
-      const Eigen::Vector3d foot = foot_of(shape, mesh.yaw_rad);
+      const Eigen::Vector3d foot = foot_offset(shape, mesh.yaw_rad);
       vehicles.push_back({id, mesh.semantic_class, foot, mesh.yaw_rad, std::move(shape)});
     }
     ++id;

@@ -19,11 +19,11 @@ struct Vehicle {
   PropMesh mesh;  ///< in the world
 };
 
-/// How many vehicles_of() a scenario there are.
+/// How many list_vehicles() a scenario there are.
 std::size_t vehicle_count(const world::Scenario& scenario);
 
 /// Props and meshes whose class is car or train, by id. Throws InputError for a mesh file that
 /// cannot be read.
-std::vector<Vehicle> vehicles_of(const world::Scenario& scenario);
+std::vector<Vehicle> list_vehicles(const world::Scenario& scenario);
 
 }  // namespace throng::render

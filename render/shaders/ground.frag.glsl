@@ -1,4 +1,4 @@
-// Ground of one material: with TEXTURED from its texture (render/place/ground_texture.h), else
+// Ground of one material: with TEXTURED from its texture (render/scenery/ground_texture.h), else
 // ground_albedo comes from a ground_*.glsl.
 in vec3 world;
 in float openness;

@@ -1,4 +1,4 @@
-// Sun, sky, shadows and the film that they fall on; filled by render/place/lighting.cpp.
+// Sun, sky, shadows and the film that they fall on; filled by render/scenery/lighting.cpp.
 layout(std140, binding = 1) uniform Light {
   vec4 sun_direction;  // toward the sun
   vec4 sun;            // radiance of a white surface that faces it

@@ -19,7 +19,7 @@ const float kAboveGround = 0.002;  // m; also in render/people/person_geometry.c
 uint first_byte(uint word) { return word & 0xFFu; }
 
 // The rows of a bone's matrix.
-mat3x4 rows_of(uvec4 bone) {
+mat3x4 read_rows(uvec4 bone) {
   vec4 q = vec4(unpackSnorm2x16(bone.x), unpackSnorm2x16(bone.y));
   vec3 shift = kMaxShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
   vec3 d = q.xyz * (2.0 / dot(q, q));
@@ -41,8 +41,8 @@ mat3x4 blended_rows_of(uvec3 pose) {
   int count = int(dot(vec4(greaterThan(weight, vec4(0.0))), vec4(1.0)));
   for (int k = 0; k < count; ++k) {
     int bone = int(first_byte(bones));
-    mat3x4 rows_a = rows_of(texelFetch(posed_bones, int(pose.x) * kBones + bone));
-    mat3x4 rows_b = rows_of(texelFetch(posed_bones, int(pose.y) * kBones + bone));
+    mat3x4 rows_a = read_rows(texelFetch(posed_bones, int(pose.x) * kBones + bone));
+    mat3x4 rows_b = read_rows(texelFetch(posed_bones, int(pose.y) * kBones + bone));
     rows += (weight.x * (1.0 - b)) * rows_a + (weight.x * b) * rows_b;
     bones >>= 8;
     weight = weight.yzwx;

@@ -137,7 +137,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
   s.glow *= 1.0 - surround;
 }
 
-// The doorway of an exit (render/place/place_details.h): a stone frame, a lit sign above, and either a dark
+// The doorway of an exit (render/scenery/scenery_details.h): a stone frame, a lit sign above, and either a dark
 // passage between opened leaves or closed ones, each about 1 m wide.
 Surface exit_door(vec2 p, vec2 size, bool open) {
   vec2 width = fwidth(p);
@@ -210,7 +210,7 @@ Surface hedge(vec2 p, vec2 size) {
 }
 
 Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStory = 2.6;  // kMinStoryM of render/place/lamps.cpp
+  const float kLowestStory = 2.6;  // kMinStoryM of render/scenery/lamps.cpp
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
@@ -253,7 +253,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   s.albedo *= 1.0 - 0.35 * under_cornice;
   s.shine *= (1.0 - plinth) * (1.0 - max(course, cornice));
 #ifdef LAMPS
-  // The lamps of wall_lamps() in render/place/lamps.cpp.
+  // The lamps of wall_lamps() in render/scenery/lamps.cpp.
   float apart = size.x / max(1.0, floor(size.x / 12.0));
   vec2 from_lamp = vec2((fract(p.x / apart) - 0.5) * apart, p.y - min(4.2, 0.8 * size.y));
   float bulb = size.x < 4.0 ? 0.0 : smoothstep(0.16 + width.y, 0.10, length(from_lamp));

@@ -27,7 +27,7 @@ int last_about(float place_px, int size_px) {
   return std::min(static_cast<int>(std::floor(place_px + kAboutPx)), size_px - 1);
 }
 
-FlowTarget target_of(const Frame& next, float u, float v, float depth_m) {
+FlowTarget flow_target(const Frame& next, float u, float v, float depth_m) {
   const int width = next.width();
   const int height = next.height();
   // The image covers [-0.5, width - 0.5) in coordinates of pixels' centers.
@@ -63,7 +63,7 @@ std::vector<std::uint8_t> flow_targets(const Frame& now, const Frame& next) {
       const float v = static_cast<float>(row) + now.flow[2 * i + 1];
       const FlowTarget target = std::isnan(u) || std::isnan(v)
                                     ? FlowTarget::unknown
-                                    : target_of(next, u, v, now.flow_depth_m[i]);
+                                    : flow_target(next, u, v, now.flow_depth_m[i]);
       targets[i] = static_cast<std::uint8_t>(target);
     }
   });

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docs/places/generated.jpg: places from seeds, a row for each kind, ten seconds into a run.
+"""Draws docs/scenarios/generated.jpg: scenarios from seeds, a row for each kind, ten seconds into a run.
 
 usage: scripts/sheets/generated_sheet.py [SEEDS]    THRONG names another program than build/release/cli/throng.
 """
@@ -54,8 +54,8 @@ def main():
         for column in range(seeds):
             with tempfile.TemporaryDirectory() as folder:
                 sheet.paste(picture(kind, column + 1, Path(folder)), (column * WIDTH, row * HEIGHT))
-    sheet.save(ROOT / "docs/places/generated.jpg", quality=85)
-    print("docs/places/generated.jpg")
+    sheet.save(ROOT / "docs/scenarios/generated.jpg", quality=85)
+    print("docs/scenarios/generated.jpg")
 
 
 if __name__ == "__main__":

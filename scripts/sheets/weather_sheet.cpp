@@ -14,11 +14,11 @@
 #include "annotate/rasters/preview.h"
 #include "base/files/files.h"
 #include "base/geometry/angle.h"
-#include "places/blueprint/load_scenario.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng {
@@ -76,7 +76,7 @@ void place(const render::Frame& frame, std::size_t panel, std::vector<std::uint8
 
 void run(const std::string& trace_file, const std::string& out, const char* chosen) {
   const world::Scenario scenario =
-      places::find_scenario(world::scenarios_folder(), "city_square/nearest_exit");
+      scenarios::find_scenario(world::scenarios_folder(), "city_square/nearest_exit");
   const world::Trace trace = world::read_trace(trace_file);
   const skinning::Population people = skinning::load_population(skinning::population_folder());
   const std::vector<Environment> all = panels();

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "metrics/bounds/run_bound.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/run.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace {
 
@@ -84,7 +84,7 @@ void check_run(const world::Scenario& scenario, int number, std::uint64_t seed, 
       scenario.id.find("navigated") == std::string::npos) {
     spec.crowd.compat = crowd::Compat::huang2016;
   }
-  const world::Alarm alarm = world::alarm_of(scenario);
+  const world::Alarm alarm = world::find_alarm(scenario);
   Observer observer(scenario, alarm);
   sim::simulate(scenario, spec, observer);
   const auto people = observer.tracker().records();
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   const auto folder = world::scenarios_folder();
   const std::vector<std::string> ids = world::list_scenarios(folder);
   std::vector<world::Scenario> scenarios;
-  for (const std::string& id : ids) scenarios.push_back(places::find_scenario(folder, id));
+  for (const std::string& id : ids) scenarios.push_back(scenarios::find_scenario(folder, id));
   std::vector<Row> rows(ids.size());
   const auto print = [&] {
     int done = 0;

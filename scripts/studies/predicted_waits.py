@@ -12,7 +12,7 @@ import sys
 import numpy
 
 
-def waits_of(path):
+def read_waits(path):
     """Per exit: queue, predicted wait and the wait that followed (NaN where the run ends before), per step."""
     exits = {}
     with open(path, newline="") as file:
@@ -28,7 +28,7 @@ def waits_of(path):
 
 def main(*paths):
     for path in paths:
-        for name, queue, predicted, followed in waits_of(path):
+        for name, queue, predicted, followed in read_waits(path):
             long = (queue >= 5) & numpy.isfinite(followed)
             if not long.any():
                 continue

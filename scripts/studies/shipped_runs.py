@@ -26,11 +26,11 @@ def shipped():
     folder = ROOT / "scenarios"
     for file in sorted(folder.rglob("*.json")):
         if not file.name.endswith(".job.json") and file.name != "study.json":
-            yield re.sub(r"(\.place)?\.json$", "", str(file.relative_to(folder)))
+            yield re.sub(r"(\.scenario)?\.json$", "", str(file.relative_to(folder)))
 
 
-def crowd_of(scenario, agents):
-    """The job's crowd: large places with fewer people, the paper's own files in the paper's mode."""
+def crowd_options(scenario, agents):
+    """The job's crowd: large scenarios with fewer people, the paper's own files in the paper's mode."""
     crowd = {}
     limit = agents or LARGE.get(scenario.split("/")[0])
     if limit:
@@ -40,12 +40,12 @@ def crowd_of(scenario, agents):
     return crowd
 
 
-def remaining_of(scenario, seed, options, folder):
+def count_remaining(scenario, seed, options, folder):
     """metrics.json of one run."""
     job = {
         "scenario": scenario,
         "seed": seed,
-        "crowd": crowd_of(scenario, options.agents),
+        "crowd": crowd_options(scenario, options.agents),
         "capture": {"rate_hz": 1, "from_s": 0, "to_s": options.duration},
     }
     job_file, trace = folder / "job.json", folder / "run.h5"
@@ -69,7 +69,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for scenario in options.scenario or shipped():
             for seed in map(int, options.seeds.split(",")):
-                metrics = remaining_of(scenario, seed, options, pathlib.Path(folder))
+                metrics = count_remaining(scenario, seed, options, pathlib.Path(folder))
                 remaining = metrics["remaining"]
                 row = [scenario, seed, metrics["people"], remaining["people"]] + [remaining[r] for r in REASONS]
                 print("| " + " | ".join(map(str, row)) + " |", flush=True)

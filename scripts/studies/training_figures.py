@@ -4,7 +4,7 @@
 usage: scripts/studies/training_figures.py [--presets]    THRONG, or build/release/cli/throng; --presets: only the estimates
 
 Makes the datasets of the page's commands, trains and scores with one thread and seed 1, and writes the numbers into the
-page's tables, at the places that comments mark. Ten minutes on two cores. Needs torch.
+page's tables, at the scenarios that comments mark. Ten minutes on two cores. Needs torch.
 """
 import json
 import os
@@ -46,12 +46,12 @@ def write_presets():
     PAGE.write_text(text)
 
 
-def make_dataset(place, folder):
-    demo = ROOT / f"scenarios/{place}/demo.job.json"
-    job = folder / f"{place}.job.json"
+def make_dataset(scenario, folder):
+    demo = ROOT / f"scenarios/{scenario}/demo.job.json"
+    job = folder / f"{scenario}.job.json"
     job.write_text(run("jq", "-f", "examples/training_set.jq", demo))
-    run(THRONG, "run", job, "-o", folder / place)
-    return folder / place / "dataset"
+    run(THRONG, "run", job, "-o", folder / scenario)
+    return folder / scenario / "dataset"
 
 
 def train(kind, dataset, folder, *more):
@@ -66,11 +66,11 @@ def score(model, dataset, split):
     return json.loads(run("/usr/bin/python3", "examples/evaluate.py", model, dataset, *options))
 
 
-def ap_of(scores):
+def format_ap(scores):
     return f"{scores['ap50']:.3f}, {scores['ap']:.3f}"
 
 
-def errors_of(scores):
+def format_errors(scores):
     return f"{scores['mae']:.1f}, {scores['rmse']:.1f}"
 
 
@@ -87,24 +87,24 @@ def write_scores(folder):
     ):
         model, cpu_s = train("detector", seen, folder, *more)
         scores = both(model)
-        detectors.append(f"| {name} | {ap_of(scores[0])} | {ap_of(scores[1])} |")
+        detectors.append(f"| {name} | {format_ap(scores[0])} | {format_ap(scores[1])} |")
         if more[:1] == ["--steps"]:
             continue
         model, counter_s = train("counter", seen, folder, *more)
         counted = both(model)
-        means = [errors_of(one["always_the_mean"]) for one in counted]
+        means = [format_errors(one["always_the_mean"]) for one in counted]
         name = name.split(" (")[0]
-        counters.append(f"| {name} | {errors_of(counted[0])} | {errors_of(counted[1])} | {means[0]} | {means[1]} |")
+        counters.append(f"| {name} | {format_errors(counted[0])} | {format_errors(counted[1])} | {means[0]} | {means[1]} |")
         seconds += [cpu_s, counter_s]
     facts = (
         f"The held-out run of `bridge` has {scores[0]['images']} images with {scores[0]['people']} people to be "
         f"detected; `campus` {scores[1]['images']} with {scores[1]['people']}. 200 steps took "
         f"{min(seconds):.0f} to {max(seconds):.0f} s of CPU time."
     )
-    head = ["| detector | AP50, AP: held-out run | AP50, AP: unseen place |", "|---|---|---|"]
+    head = ["| detector | AP50, AP: held-out run | AP50, AP: unseen scenario |", "|---|---|---|"]
     counter_head = [
-        "| counter | MAE, RMSE: held-out run | MAE, RMSE: unseen place | the mean of the images trained on: held-out run"
-        " | unseen place |",
+        "| counter | MAE, RMSE: held-out run | MAE, RMSE: unseen scenario | the mean of the images trained on: held-out run"
+        " | unseen scenario |",
         "|---|---|---|---|---|",
     ]
     text = replaced(PAGE.read_text(), "facts", [facts])

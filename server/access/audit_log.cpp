@@ -27,7 +27,7 @@ void AuditLog::record(const AuditEntry& entry) {
                {"status", entry.status},
                {"address", entry.address}};
   if (!entry.forwarded_for.empty()) line["forwarded_for"] = entry.forwarded_for;
-  write(text_of(line) + "\n");
+  write(dump_text(line) + "\n");
 }
 
 void AuditLog::write(const std::string& line) {

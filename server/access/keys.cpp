@@ -43,7 +43,7 @@ bool is_made_here(std::string_view token) {
 }
 
 /// The id is a part of the keys that are made here; that of others comes from their hash.
-std::string id_of(std::string_view token, const std::string& hash) {
+std::string key_id(std::string_view token, const std::string& hash) {
   return is_made_here(token) ? std::string(token.substr(kPrefix.size(), kIdLength))
                              : hash.substr(0, kIdLength);
 }
@@ -53,7 +53,7 @@ bool equals_in_constant_time(const std::string& a, const std::string& b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
-Scope scope_of(const std::string& name) {
+Scope parse_scope(const std::string& name) {
   const auto scope = scope_named(name);
   check(scope.has_value(), "the table holds known scopes only");
   return *scope;
@@ -89,10 +89,10 @@ struct Keys::File : PrivateDatabase {
       SQLite::Statement insert(database,
                                "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
                                "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-      insert.bind(1, id_of(token, hash));
+      insert.bind(1, key_id(token, hash));
       insert.bind(2, row.name);
       insert.bind(3, hash);
-      insert.bind(4, std::string(name_of(row.scope)));
+      insert.bind(4, std::string(to_string(row.scope)));
       insert.bind(5, row.max_active);
       insert.bind(6, unix_ms_now());
       insert.bind(7, row.max_bytes);
@@ -102,14 +102,14 @@ struct Keys::File : PrivateDatabase {
   }
 };
 
-std::string_view name_of(Scope scope) {
+std::string_view to_string(Scope scope) {
   constexpr std::array<std::string_view, 4> kNames = {"anybody", "read", "submit", "admin"};
   return kNames[static_cast<std::size_t>(scope)];
 }
 
 std::optional<Scope> scope_named(std::string_view name) {
   for (const Scope scope : {Scope::read, Scope::submit, Scope::admin}) {
-    if (name_of(scope) == name) return scope;
+    if (to_string(scope) == name) return scope;
   }
   return std::nullopt;
 }
@@ -156,7 +156,7 @@ std::vector<KeyRow> Keys::list() const {
     std::vector<KeyRow> rows;
     while (query.executeStep()) {
       rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
-                      scope_of(query.getColumn(2).getString()), query.getColumn(3).getInt(),
+                      parse_scope(query.getColumn(2).getString()), query.getColumn(3).getInt(),
                       query.getColumn(4).getInt64(), query.getColumn(5).getInt(),
                       query.getColumn(6).getInt64(), query.getColumn(7).getInt64()});
     }
@@ -189,11 +189,11 @@ std::optional<Caller> Keys::caller_of(std::string_view token) const {
         database,
         "SELECT id, hash, scope, max_active, max_bytes, max_priority FROM key WHERE id = ? AND "
         "revoked_ms = 0");
-    query.bind(1, id_of(token, hash));
+    query.bind(1, key_id(token, hash));
     if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
       return std::nullopt;
     }
-    const Scope scope = scope_of(query.getColumn(2).getString());
+    const Scope scope = parse_scope(query.getColumn(2).getString());
     const int max_priority = scope >= Scope::admin ? kMaxPriority : query.getColumn(5).getInt();
     return Caller{query.getColumn(0).getString(), scope, query.getColumn(3).getInt(),
                   query.getColumn(4).getInt64(), max_priority};

@@ -23,7 +23,7 @@ enum class Scope : std::uint8_t {
   admin     ///< change everybody's
 };
 
-std::string_view name_of(Scope scope);
+std::string_view to_string(Scope scope);
 /// read, submit or admin; nothing for any other word.
 std::optional<Scope> scope_named(std::string_view name);
 

@@ -40,7 +40,7 @@ namespace {
 void write_problem(Response& response, const HttpError& error) {
   response.status = error.status;
   if (error.status == 401) response.set_header("WWW-Authenticate", "Bearer");
-  response.set_content(text_of(problem_document(error.status, error.detail, error.problems)),
+  response.set_content(dump_text(problem_document(error.status, error.detail, error.problems)),
                        "application/problem+json");
 }
 
@@ -219,16 +219,16 @@ Caller admitted(const Keys& keys, Sessions& sessions, const Request& request, Sc
                              : "this service needs a key: Authorization: Bearer KEY"};
   }
   if (caller->scope < needed) {
-    throw HttpError{403, fmt::format("the key's scope is {}, this needs {}", name_of(caller->scope),
-                                     name_of(needed))};
+    throw HttpError{403, fmt::format("the key's scope is {}, this needs {}",
+                                     to_string(caller->scope), to_string(needed))};
   }
   return *caller;
 }
 
-const Route* route_of(const Request& request) {
+const Route* find_route(const Request& request) {
   const auto all = routes();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Route& route) {
-    return name_of(route.method) == request.method && fits(route.path, request.path);
+    return to_string(route.method) == request.method && fits(route.path, request.path);
   });
   return found == all.end() ? nullptr : &*found;
 }
@@ -246,7 +246,7 @@ Caller checked_caller(const Keys& keys, Sessions& sessions, const Request& reque
 // Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
 std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& request,
                            bool loopback) {
-  const Route* route = route_of(request);
+  const Route* route = find_route(request);
   if (route == nullptr) throw HttpError{404, ""};
   static_cast<void>(checked_caller(keys, sessions, request, *route, loopback));
   if (route->method != Method::post) return kMaxTextBytes;
@@ -283,7 +283,7 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& se
 
 // Answers may hold what strangers have sent: no script in them runs as a part of the
 // service's page, nor is it shown within another site's. A report has scripts of its own.
-const char* content_policy_of(const Route& route) {
+const char* content_policy(const Route& route) {
   const bool is_report = route.handler == &send_report || route.handler == &send_study_report;
   return is_report ? "sandbox allow-scripts allow-downloads; default-src 'none'; "
                      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
@@ -316,7 +316,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         record(audit_, key, request, response.status);
       }
       if (!response.has_header("Content-Security-Policy")) {
-        response.set_header("Content-Security-Policy", content_policy_of(entry));
+        response.set_header("Content-Security-Policy", content_policy(entry));
       }
       if (!response.has_header("Cache-Control")) {
         response.set_header("Cache-Control", "private, no-cache");
@@ -325,7 +325,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
   };
   httplib::Server& server = server_.routes();
   const auto add = [&](const Route& entry) {
-    const std::string pattern = pattern_of(entry.path);
+    const std::string pattern = route_pattern(entry.path);
     switch (entry.method) {
       case Method::get:
         server.Get(pattern, route(entry));

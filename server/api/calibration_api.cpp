@@ -56,7 +56,7 @@ Sent sent_as_form(const Request& request) {
 }
 
 Sent sent_as_json(const Request& request) {
-  json value = json_body_of(request);
+  json value = parse_json_body(request);
   Sent sent;
   const json files = value.value("files", json::object());
   for (const auto& [name, text] : files.items()) {
@@ -88,12 +88,12 @@ void submit_calibration(const RequestContext& context, const Request& request, R
 
 void list_calibrations(const RequestContext& context, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
-  const int limit = limit_of(request);
+  const int limit = requested_limit(request);
   const std::vector<jobs::JobRow> rows =
       context.queue.list({.kind = jobs::JobKind::calibration,
-                          .after = after_of(request),
+                          .after = cursor_from_request(request),
                           .limit = limit,
-                          .visible_to = viewer_of(context.caller)});
+                          .visible_to = viewer_key(context.caller)});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
     list.push_back(calibration_json(row, context.housekeeping.retention()));
@@ -137,7 +137,7 @@ void send_calibration_result(const RequestContext& context, const Request& reque
   const bool is_early = name == "points" && std::filesystem::exists(file);
   if (row.state != jobs::JobState::succeeded && !is_early) {
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
-                                     name_of(row.state))};
+                                     to_string(row.state))};
   }
   if (!std::filesystem::exists(file)) {
     throw HttpError{404, "this calibration was made by a version that did not keep this"};

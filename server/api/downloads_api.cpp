@@ -38,10 +38,11 @@ namespace {
 jobs::JobRow find_succeeded(const RequestContext& context, const Request& request) {
   jobs::JobRow row = find_job(context, request);
   // One that could only not be published has its dataset, too.
-  const bool is_complete = !is_active(row.state) && fs::exists(context.folders.dataset_of(row.id));
+  const bool is_complete =
+      !is_active(row.state) && fs::exists(context.folders.dataset_folder(row.id));
   if (!has_dataset(row.state) && !is_complete) {
-    throw HttpError{
-        409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
+    throw HttpError{409, fmt::format("the job is {}; this is there once it has succeeded",
+                                     to_string(row.state))};
   }
   return row;
 }
@@ -53,20 +54,20 @@ void send_run_file(const RequestContext& context, const Request& request, Respon
                    const char* folder, const char* suffix, const char* type) {
   const jobs::JobRow row = find_job(context, request);
   const bool complete = row.state == jobs::JobState::succeeded;
-  const int run = run_of(request, row);
-  const fs::path root = complete ? context.folders.dataset_of(row.id)
+  const int run = requested_run(request, row);
+  const fs::path root = complete ? context.folders.dataset_folder(row.id)
                                  : jobs::JobFolder(context.folders.job_folder(row.id))
                                        .output_of({jobs::Task::Kind::measure, run});
   const fs::path file = root / folder / (jobs::run_name(run) + suffix);
   if (fs::exists(file)) return response.set_content(read_file(file), type);
   if (!complete && !fs::exists(root)) {
     throw HttpError{409, fmt::format("the job is {}; this is there once run {} was measured",
-                                     name_of(row.state), run)};
+                                     to_string(row.state), run)};
   }
   throw HttpError{404, fmt::format("there is no {} of run {}", folder, run)};
 }
 
-jobs::ArchiveFormat format_of(const Request& request) {
+jobs::ArchiveFormat requested_format(const Request& request) {
   const std::string format =
       request.has_param("format") ? request.get_param_value("format") : "tar";
   if (format == "tar") return jobs::ArchiveFormat::tar;
@@ -97,7 +98,8 @@ std::vector<int> runs_of_split(const fs::path& dataset, const std::string& split
 }
 
 /// Selection by ?include=, ?runs= and ?split=. Throws HttpError and InputError.
-jobs::Selection selection_of(const Request& request, const fs::path& dataset, const json& job) {
+jobs::Selection requested_selection(const Request& request, const fs::path& dataset,
+                                    const json& job) {
   jobs::Selection selection;
   std::istringstream names(request.get_param_value("include"));
   for (std::string name; std::getline(names, name, ',');) selection.include.push_back(name);
@@ -150,7 +152,7 @@ struct Preview {
 };
 
 /// By their names.
-std::vector<Preview> previews_of(const fs::path& job) {
+std::vector<Preview> list_previews(const fs::path& job) {
   std::vector<Preview> previews;
   for (const fs::path& place : places_of_images(job)) {
     for (const fs::path& file : files_below(place / "previews")) {
@@ -165,7 +167,7 @@ std::vector<Preview> previews_of(const fs::path& job) {
 
 }  // namespace
 
-int run_of(const Request& request, const jobs::JobRow& row) {
+int requested_run(const Request& request, const jobs::JobRow& row) {
   const std::string number = request.matches[2];
   constexpr std::size_t kMaxDigits = 6;
   const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
@@ -177,12 +179,12 @@ int run_of(const Request& request, const jobs::JobRow& row) {
 
 void send_archive(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_succeeded(context, request);
-  const fs::path dataset = context.folders.dataset_of(row.id);
+  const fs::path dataset = context.folders.dataset_folder(row.id);
   const std::string name = jobs::slug(row.name);
-  const jobs::ArchiveFormat format = format_of(request);
+  const jobs::ArchiveFormat format = requested_format(request);
   const auto archive = context.datasets.archive_of(
       dataset, name, format,
-      selection_of(request, dataset, parse_own_json(row.spec_json, "the job")));
+      requested_selection(request, dataset, parse_own_json(row.spec_json, "the job")));
   if (archive->is_empty()) {
     throw HttpError{404, "the dataset has no file of those that were asked for"};
   }
@@ -214,13 +216,13 @@ void send_archive(const RequestContext& context, const Request& request, Respons
 }
 
 void send_manifest(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
+  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
   answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
                    fmt::format("\"{}\"", context.datasets.manifest_of(dataset)->itself.sha256));
 }
 
 void send_file(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
+  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
   const std::string wanted = request.matches[2];
   const auto manifest = context.datasets.manifest_of(dataset);
   const std::vector<jobs::FileEntry>& files = manifest->files;
@@ -231,7 +233,7 @@ void send_file(const RequestContext& context, const Request& request, Response& 
   if (file == files.end() || file->path != wanted) {
     throw HttpError{404, "the dataset has no such file"};
   }
-  answer_with_file(request, response, dataset / wanted, media_type_of(wanted),
+  answer_with_file(request, response, dataset / wanted, media_type(wanted),
                    fmt::format("\"{}\"", file->sha256));
 }
 
@@ -239,10 +241,10 @@ void list_images_of_job(const RequestContext& context, const Request& request, R
   constexpr std::int64_t kMaxPage = 1000;
   constexpr std::int64_t kUsualPage = 100;
   constexpr std::int64_t kMaxOffset = 1'000'000'000;
-  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
+  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
   const ImageQuery query{request.get_param_value("run"), request.get_param_value("camera"),
-                         number_of(request, "offset", 0, kMaxOffset, 0),
-                         number_of(request, "limit", 1, kMaxPage, kUsualPage)};
+                         requested_number(request, "offset", 0, kMaxOffset, 0),
+                         requested_number(request, "limit", 1, kMaxPage, kUsualPage)};
   const auto manifest = context.datasets.manifest_of(dataset);
   const ImageList list = list_images(manifest->files, query);
   json images = json::array();
@@ -269,7 +271,7 @@ void list_images_of_job(const RequestContext& context, const Request& request, R
 }
 
 void send_metrics(const RequestContext& context, const Request& request, Response& response) {
-  const fs::path dataset = context.folders.dataset_of(find_succeeded(context, request).id);
+  const fs::path dataset = context.folders.dataset_folder(find_succeeded(context, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
 }
 
@@ -277,18 +279,18 @@ void send_run_metrics(const RequestContext& context, const Request& request, Res
   send_run_file(context, request, response, "metrics", ".json", "application/json");
 }
 
-fs::path trace_of(const RequestContext& context, const jobs::JobRow& row, int run) {
+fs::path trace_file(const RequestContext& context, const jobs::JobRow& row, int run) {
   fs::path trace = jobs::JobFolder(context.folders.job_folder(row.id))
                        .output_of({jobs::Task::Kind::simulate, run});
   if (fs::exists(trace)) return trace;
   throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
-                                   name_of(row.state), run)};
+                                   to_string(row.state), run)};
 }
 
 void send_run_trace(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(context, request);
-  const int run = run_of(request, row);
-  const fs::path trace = trace_of(context, row, run);
+  const int run = requested_run(request, row);
+  const fs::path trace = trace_file(context, row, run);
   response.set_header(
       "Content-Disposition",
       fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));
@@ -350,7 +352,7 @@ void send_log(const RequestContext& context, const Request& request, Response& r
 std::string newest_preview(const fs::path& job_folder) {
   std::string newest;
   fs::file_time_type written;
-  for (const Preview& preview : previews_of(job_folder)) {
+  for (const Preview& preview : list_previews(job_folder)) {
     std::error_code error;
     const auto time = fs::last_write_time(preview.drawn, error);
     if (error || (!newest.empty() && time <= written)) continue;
@@ -363,7 +365,7 @@ std::string newest_preview(const fs::path& job_folder) {
 void list_previews(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(context, request);
   json previews = json::array();
-  for (const Preview& preview : previews_of(context.folders.job_folder(row.id))) {
+  for (const Preview& preview : list_previews(context.folders.job_folder(row.id))) {
     const std::string href = fmt::format("/v1/jobs/{}/previews/{}", row.id, preview.name);
     previews.push_back({{"name", preview.name}, {"href", href}, {"clean", href + "?clean"}});
   }
@@ -374,10 +376,10 @@ void send_preview(const RequestContext& context, const Request& request, Respons
   const jobs::JobRow row = find_job(context, request);
   const std::string wanted = request.matches[2];
   const bool clean = is_asked(request, "clean");
-  for (const Preview& preview : previews_of(context.folders.job_folder(row.id))) {
+  for (const Preview& preview : list_previews(context.folders.job_folder(row.id))) {
     if (preview.name != wanted) continue;
     const fs::path& file = clean ? preview.clean : preview.drawn;
-    return answer_with_growing_file(request, response, file, media_type_of(file));
+    return answer_with_growing_file(request, response, file, media_type(file));
   }
   throw HttpError{404, "there is no such preview (yet)"};
 }

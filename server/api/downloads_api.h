@@ -31,9 +31,9 @@ void send_run_trace(const RequestContext& context, const httplib::Request& reque
                     httplib::Response& response);
 
 /// The run of a job that the path names. Throws HttpError 404.
-int run_of(const httplib::Request& request, const jobs::JobRow& row);
+int requested_run(const httplib::Request& request, const jobs::JobRow& row);
 /// The trace of a run. Throws HttpError 409 until it was simulated.
-std::filesystem::path trace_of(const RequestContext& context, const jobs::JobRow& row, int run);
+std::filesystem::path trace_file(const RequestContext& context, const jobs::JobRow& row, int run);
 
 /// The report of all runs as one HTML page; 202 as long as it is being made.
 void send_report(const RequestContext& context, const httplib::Request& request,

@@ -76,7 +76,7 @@ class EventStream {
     std::string text;
     for (const jobs::EventRow& event : visible(events, queue_, caller_)) {
       text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
-                          text_of(event_json(event)));
+                          dump_text(event_json(event)));
     }
     const bool is_past_complete = static_cast<int>(events.size()) < kPage;
     if (is_past_complete && row && row->state == jobs::JobState::running) text += news_of(*row);
@@ -119,7 +119,7 @@ class EventStream {
   std::string preview_event(const std::string& name) const {
     return fmt::format(
         "event: preview\ndata: {}\n\n",
-        text_of({{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", job_, name)}}));
+        dump_text({{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", job_, name)}}));
   }
 
   std::shared_ptr<void> watch_;
@@ -136,7 +136,7 @@ class EventStream {
 
 std::int64_t last_event_id(const Request& request) {
   const std::string text = request.get_header_value("Last-Event-ID");
-  if (text.empty()) return number_of(request, "after", 0, kLastNumber, 0);
+  if (text.empty()) return requested_number(request, "after", 0, kLastNumber, 0);
   std::int64_t number = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < 0) {
@@ -149,9 +149,9 @@ std::int64_t last_event_id(const Request& request) {
 void send_page(const RequestContext& context, const Request& request, Response& response,
                const std::string& job) {
   constexpr std::int64_t kMaxWaitS = 60;
-  const std::int64_t after = number_of(request, "after", 0, kLastNumber, 0);
-  const auto limit = static_cast<int>(number_of(request, "limit", 1, kPage, kPage));
-  const std::chrono::seconds timeout(number_of(request, "wait_s", 0, kMaxWaitS, 0));
+  const std::int64_t after = requested_number(request, "after", 0, kLastNumber, 0);
+  const auto limit = static_cast<int>(requested_number(request, "limit", 1, kPage, kPage));
+  const std::chrono::seconds timeout(requested_number(request, "wait_s", 0, kMaxWaitS, 0));
   json list = json::array();
   const std::vector<jobs::EventRow> events = context.queue.events(job, after, limit, timeout);
   const std::int64_t next = events.empty() ? after : events.back().seq;
@@ -162,8 +162,8 @@ void send_page(const RequestContext& context, const Request& request, Response& 
 }
 
 /// Sends the events of the job or study with this id; "" for all.
-void send_events_of(const RequestContext& context, const Request& request, Response& response,
-                    const std::string& job, const std::filesystem::path& folder) {
+void send_job_events(const RequestContext& context, const Request& request, Response& response,
+                     const std::string& job, const std::filesystem::path& folder) {
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(context, request, response, job);
   }
@@ -179,14 +179,14 @@ void send_events_of(const RequestContext& context, const Request& request, Respo
 }  // namespace
 
 void send_events(const RequestContext& context, const Request& request, Response& response) {
-  if (request.matches.size() < 2) return send_events_of(context, request, response, "", {});
+  if (request.matches.size() < 2) return send_job_events(context, request, response, "", {});
   const std::string id = find_job(context, request).id;
-  send_events_of(context, request, response, id, context.folders.job_folder(id));
+  send_job_events(context, request, response, id, context.folders.job_folder(id));
 }
 
 void send_study_events(const RequestContext& context, const Request& request, Response& response) {
-  send_events_of(context, request, response, find_row(context, request, jobs::JobKind::study).id,
-                 {});
+  send_job_events(context, request, response, find_row(context, request, jobs::JobKind::study).id,
+                  {});
 }
 
 }  // namespace throng::server

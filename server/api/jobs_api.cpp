@@ -33,7 +33,7 @@ jobs::JobRow find_own(const RequestContext& context, const Request& request) {
 }
 
 /// The value of every ?name= in the query.
-std::vector<std::string> all_of(const Request& request, const char* name) {
+std::vector<std::string> query_values(const Request& request, const char* name) {
   std::vector<std::string> values;
   for (std::size_t i = 0; i < request.get_param_value_count(name); ++i) {
     values.push_back(request.get_param_value(name, i));
@@ -41,7 +41,7 @@ std::vector<std::string> all_of(const Request& request, const char* name) {
   return values;
 }
 
-std::string key_of(const Request& request) {
+std::string idempotency_key(const Request& request) {
   std::string key = request.get_header_value("Idempotency-Key");
   if (key.size() > kMaxKeyLength) {
     throw HttpError{400,
@@ -56,7 +56,7 @@ struct Form {
   const std::string* bundle = nullptr;
 };
 
-std::optional<Form> form_of(const Request& request) {
+std::optional<Form> requested_form(const Request& request) {
   if (!request.is_multipart_form_data()) return std::nullopt;
   Form form;
   for (const auto& [name, part] : request.files) {
@@ -92,9 +92,9 @@ void queue(const RequestContext& context, Submission submission, Response& respo
              job_json(added.row, context.housekeeping.retention()));
 }
 
-std::vector<jobs::JobState> states_of(const Request& request) {
+std::vector<jobs::JobState> requested_states(const Request& request) {
   std::vector<jobs::JobState> states;
-  for (const std::string& name : all_of(request, "state")) {
+  for (const std::string& name : query_values(request, "state")) {
     const auto state = jobs::job_state_named(name);
     if (!state) {
       throw HttpError{
@@ -110,14 +110,14 @@ std::vector<jobs::JobState> states_of(const Request& request) {
 }  // namespace
 
 void submit_job(const RequestContext& context, const Request& request, Response& response) {
-  const std::optional<Form> form = form_of(request);
+  const std::optional<Form> form = requested_form(request);
   if (!form) require_json(request);
   const std::string& job = form ? form->job : request.body;
   Submission submission{job};
   submission.priority =
-      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
+      static_cast<int>(requested_number(request, "priority", -kMaxPriority, kMaxPriority, 0));
   require_priority(context, submission.priority, "?priority");
-  submission.labels = all_of(request, "label");
+  submission.labels = query_values(request, "label");
   check_labels(submission.labels, "?label");
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
@@ -126,13 +126,13 @@ void submit_job(const RequestContext& context, const Request& request, Response&
     answer["valid"] = true;
     return write_json(response, 200, answer);
   }
-  submission.key = key_of(request);
+  submission.key = idempotency_key(request);
   queue(context, std::move(submission), response, form ? form->bundle : nullptr);
 }
 
 void list_jobs(const RequestContext& context, const Request& request, Response& response) {
   jobs::JobFilter filter;
-  filter.states = states_of(request);
+  filter.states = requested_states(request);
   filter.label = request.get_param_value("label");
   filter.name_part = request.get_param_value("name");
   const std::string sort = request.has_param("sort") ? request.get_param_value("sort") : "newest";
@@ -140,9 +140,9 @@ void list_jobs(const RequestContext& context, const Request& request, Response& 
     throw HttpError{400, "sort is wrong", {{"", "?sort", sort, "newest or oldest"}}};
   }
   filter.oldest_first = sort == "oldest";
-  filter.after = after_of(request);
-  filter.limit = limit_of(request);
-  filter.visible_to = viewer_of(context.caller);
+  filter.after = cursor_from_request(request);
+  filter.limit = requested_limit(request);
+  filter.visible_to = viewer_key(context.caller);
   const std::vector<jobs::JobRow> rows = context.queue.list(filter);
   json jobs = json::array();
   for (const jobs::JobRow& row : rows)
@@ -159,7 +159,7 @@ void send_job(const RequestContext& context, const Request& request, Response& r
                         ? context.queue.text_of_job(
                               id,
                               [&](const jobs::JobRow& row) {
-                                return text_of(job_json(row, context.housekeeping.retention()));
+                                return dump_text(job_json(row, context.housekeeping.retention()));
                               })
                         : nullptr;
   if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
@@ -168,7 +168,7 @@ void send_job(const RequestContext& context, const Request& request, Response& r
 
 void change_job(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_own(context, request);
-  const jobs::JobChange wanted = change_of(context, request, row);
+  const jobs::JobChange wanted = describe_change(context, request, row);
   const auto changed = context.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*changed, context.housekeeping.retention()));
@@ -196,11 +196,11 @@ void clone_job(const RequestContext& context, const Request& request, Response& 
   json job = parse_own_json(row.spec_json, "the job");
   if (!request.body.empty()) {
     require_json(request);
-    job.merge_patch(json_body_of(request));
+    job.merge_patch(parse_json_body(request));
   }
-  const std::string text = text_of(job);
+  const std::string text = dump_text(job);
   const int priority = std::min(row.priority, context.caller.max_priority);
-  queue(context, {text, priority, row.labels, key_of(request)}, response);
+  queue(context, {text, priority, row.labels, idempotency_key(request)}, response);
 }
 
 void remove_job(const RequestContext& context, const Request& request, Response& response) {

@@ -27,7 +27,7 @@ json limit_json(std::int64_t limit) { return limit == 0 ? json(nullptr) : json(l
 json key_json(const KeyRow& key) {
   return {{"id", key.id},
           {"name", key.name},
-          {"scope", name_of(key.scope)},
+          {"scope", to_string(key.scope)},
           {"max_jobs", limit_json(key.max_active)},
           {"max_bytes", limit_json(key.max_bytes)},
           {"max_priority", key.scope >= Scope::admin ? kMaxPriority : key.max_priority},
@@ -80,7 +80,7 @@ void create_key(const RequestContext& context, const Request& request, Response&
                     "--scope admin --data DIR"};
   }
   const json body =
-      fields_of(request, kKeyNoun, {"name", "scope", "max_jobs", "max_bytes", "max_priority"});
+      json_fields(request, kKeyNoun, {"name", "scope", "max_jobs", "max_bytes", "max_priority"});
   const std::string name = name_in(body);
   const auto max_jobs = integer_in(body, "max_jobs", 0, std::numeric_limits<int>::max());
   const auto max_bytes = integer_in(body, "max_bytes", 0, std::numeric_limits<std::int64_t>::max());

@@ -45,7 +45,7 @@ json flight_json(const LiveFlight& flight) {
   const std::string self = "/v1/live/" + flight.id();
   json value = {{"id", flight.id()},
                 {"name", flight.name()},
-                {"state", name_of(state)},
+                {"state", to_string(state)},
                 {"time_s", flight.time_s()},
                 {"viewers", flight.viewers()},
                 {"drones", flight.drones()},
@@ -75,7 +75,7 @@ jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
                       "a job");
   }
   try {
-    jobs::ResolvedJob resolved = context.queue.resolve(text_of(*job));
+    jobs::ResolvedJob resolved = context.queue.resolve(dump_text(*job));
     // A flight takes place in one scenario: that of the job's first run.
     if (!resolved.spec().drones.empty()) {
       return jobs::ResolvedJob(jobs::in_scenario_of_run(resolved.spec(), 0), resolved.people());
@@ -90,7 +90,7 @@ jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
 }  // namespace
 
 void begin_live(const RequestContext& context, const Request& request, Response& response) {
-  const json body = fields_of(request, "request", {"job"});
+  const json body = json_fields(request, "request", {"job"});
   const jobs::ResolvedJob job = job_in(context, body);
   try {
     const auto flight = context.live.begin(job, context.caller.key_id);
@@ -143,7 +143,7 @@ void stream_live(const RequestContext& context, const Request& request, Response
 void command_live(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
   const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
-  const json body = json_body_of(request);
+  const json body = parse_json_body(request);
   live::Commands commands;
   try {
     commands = live::commands_from_json(body, flight->drones());

@@ -19,11 +19,11 @@ using nlohmann::json;
 
 void write_json(httplib::Response& response, int status, const json& value) {
   response.status = status;
-  response.set_content(text_of(value), "application/json");
+  response.set_content(dump_text(value), "application/json");
 }
 
-std::int64_t number_of(const Request& request, const char* name, std::int64_t min_number,
-                       std::int64_t max_number, std::int64_t usual) {
+std::int64_t requested_number(const Request& request, const char* name, std::int64_t min_number,
+                              std::int64_t max_number, std::int64_t usual) {
   if (!request.has_param(name)) return usual;
   const std::string text = request.get_param_value(name);
   std::int64_t number = 0;
@@ -48,10 +48,10 @@ bool is_asked(const Request& request, const char* name) {
                   {{"", fmt::format("?{}", name), value, "true or false"}}};
 }
 
-int limit_of(const Request& request) {
+int requested_limit(const Request& request) {
   constexpr int kUsual = 50;
   constexpr int kMaxPageSize = 500;
-  return static_cast<int>(number_of(request, "limit", 1, kMaxPageSize, kUsual));
+  return static_cast<int>(requested_number(request, "limit", 1, kMaxPageSize, kUsual));
 }
 
 void require_json(const Request& request) {
@@ -61,7 +61,7 @@ void require_json(const Request& request) {
   }
 }
 
-json json_body_of(const Request& request) {
+json parse_json_body(const Request& request) {
   json body;
   try {
     body = parse_json(request.body, "", kRequestJsonLimits);
@@ -77,10 +77,10 @@ HttpError wrong_field(std::string_view what, const std::string& pointer, const s
   return {400, fmt::format("the {} is wrong", what), {{"", pointer, found, expected}}};
 }
 
-json fields_of(const Request& request, std::string_view what,
-               std::initializer_list<std::string_view> known) {
+json json_fields(const Request& request, std::string_view what,
+                 std::initializer_list<std::string_view> known) {
   require_json(request);
-  json body = json_body_of(request);
+  json body = parse_json_body(request);
   for (const auto& [name, value] : body.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw wrong_field(what, "/" + name, fmt::format("unknown field \"{}\"", name),
@@ -90,7 +90,7 @@ json fields_of(const Request& request, std::string_view what,
   return body;
 }
 
-std::string after_of(const Request& request) {
+std::string cursor_from_request(const Request& request) {
   std::string after = request.get_param_value("after");
   if (!after.empty() && !jobs::is_job_id(after)) {
     throw HttpError{400, "after is wrong", {{"", "?after", after, "the id of a job"}}};
@@ -105,14 +105,14 @@ bool is_visible(const Caller& caller, const jobs::JobRow& row) {
          std::find(row.labels.begin(), row.labels.end(), jobs::kSharedLabel) != row.labels.end();
 }
 
-std::optional<std::string> viewer_of(const Caller& caller) {
+std::optional<std::string> viewer_key(const Caller& caller) {
   return sees_all(caller) ? std::nullopt : std::optional(caller.key_id);
 }
 
 namespace {
 
-std::string_view word_of(jobs::JobKind kind) {
-  return kind == jobs::JobKind::dataset ? "job" : name_of(kind);
+std::string_view kind_word(jobs::JobKind kind) {
+  return kind == jobs::JobKind::dataset ? "job" : to_string(kind);
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ void require_own(const RequestContext& context, const jobs::JobRow& row) {
   if (context.caller.scope >= Scope::admin || row.owner == context.caller.key_id) return;
   throw HttpError{
       403, fmt::format("the {} is another's: only its owner and administrators may change it",
-                       word_of(row.kind))};
+                       kind_word(row.kind))};
 }
 
 jobs::JobRow find_row(const RequestContext& context, const Request& request, jobs::JobKind kind) {
@@ -133,7 +133,7 @@ jobs::JobRow find_row(const RequestContext& context, const Request& request, job
   std::optional<jobs::JobRow> row;
   if (jobs::is_job_id(id)) row = context.queue.get(id);
   if (!row || row->kind != kind || !is_visible(context.caller, *row)) {
-    throw HttpError{404, fmt::format("there is no {} {}", word_of(kind), id)};
+    throw HttpError{404, fmt::format("there is no {} {}", kind_word(kind), id)};
   }
   return std::move(*row);
 }

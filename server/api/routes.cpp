@@ -35,7 +35,7 @@ const Parameter& parameter_at(std::string_view path, std::size_t brace) {
 
 }  // namespace
 
-std::string_view name_of(Method method) {
+std::string_view to_string(Method method) {
   switch (method) {
     case Method::get:
       return "GET";
@@ -49,7 +49,7 @@ std::string_view name_of(Method method) {
   return "DELETE";
 }
 
-std::string pattern_of(std::string_view path) {
+std::string route_pattern(std::string_view path) {
   std::string pattern;
   for (std::size_t i = 0; i < path.size();) {
     if (path[i] != '{') {
@@ -88,7 +88,7 @@ std::string allowed_methods(std::span<const Route> routes, std::string_view requ
   for (const Route& route : routes) {
     if (!fits(route.path, requested)) continue;
     if (!methods.empty()) methods += ", ";
-    methods += route.method == Method::get ? "GET, HEAD" : name_of(route.method);
+    methods += route.method == Method::get ? "GET, HEAD" : to_string(route.method);
   }
   return methods;
 }

@@ -16,7 +16,7 @@ struct RequestContext;
 enum class Method { get, post, patch, remove };
 
 /// "GET", "DELETE"
-std::string_view name_of(Method method);
+std::string_view to_string(Method method);
 
 /// One operation of the API. A parameter's name determines its syntax: {id} small letters and
 /// digits, {n} digits, {name} letters, digits and ". _ -", {path} the rest of the path.
@@ -28,7 +28,7 @@ struct Route {
 };
 
 /// The path as the library's pattern: Request::matches holds the parameters from 1 on.
-std::string pattern_of(std::string_view path);
+std::string route_pattern(std::string_view path);
 
 /// Whether a request's path is one of these.
 bool fits(std::string_view path, std::string_view requested);

@@ -51,10 +51,10 @@ void require_priority(const RequestContext& context, int priority, const std::st
                     fmt::format("at most {}", context.caller.max_priority)}}};
 }
 
-jobs::JobChange change_of(const RequestContext& context, const Request& request,
-                          const jobs::JobRow& row) {
+jobs::JobChange describe_change(const RequestContext& context, const Request& request,
+                                const jobs::JobRow& row) {
   require_json(request);
-  const json change = json_body_of(request);
+  const json change = parse_json_body(request);
   if (!change.is_object())
     throw wrong_change("", "no JSON object", "priority, labels, keep or some of them");
   jobs::JobChange wanted{row.priority, row.labels, row.keep};

@@ -19,7 +19,7 @@ void require_priority(const RequestContext& context, int priority, const std::st
 
 /// The row's values with those in the body of a PATCH: {"priority", "labels", "keep"} or some of
 /// them. Throws HttpError 400, 403 and 415.
-jobs::JobChange change_of(const RequestContext& context, const httplib::Request& request,
-                          const jobs::JobRow& row);
+jobs::JobChange describe_change(const RequestContext& context, const httplib::Request& request,
+                                const jobs::JobRow& row);
 
 }  // namespace throng::server

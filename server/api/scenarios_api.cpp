@@ -56,7 +56,7 @@ json scenarios_json(const RequestContext& context, const std::vector<std::string
   std::vector<std::optional<ScenarioUpload>> uploads;
   std::vector<std::string> shipped;
   for (const std::string& id : ids) {
-    uploads.push_back(context.uploads.scenarios().find(upload_of(id)));
+    uploads.push_back(context.uploads.scenarios().find(upload_name(id)));
     if (!uploads.back()) shipped.push_back(id);
   }
   const auto summaries = context.confined.summaries(shipped, context.folders.scenarios());
@@ -104,8 +104,9 @@ void upload_scenarios(const RequestContext& context, const Request& request, Res
   }
   try {
     ScenarioStore::Staged staged =
-        from_blueprint ? uploads.stage_blueprint(name, json_body_of(request), context.caller.key_id)
-                       : uploads.stage(name, request.body, context.caller.key_id);
+        from_blueprint
+            ? uploads.stage_blueprint(name, parse_json_body(request), context.caller.key_id)
+            : uploads.stage(name, request.body, context.caller.key_id);
     const bool dry = is_asked(request, "dry_run");
     const ScenarioUpload upload = dry ? staged.upload : uploads.publish(staged);
     json value = upload_json(upload);
@@ -124,7 +125,7 @@ void upload_scenarios(const RequestContext& context, const Request& request, Res
 void list_scenarios(const RequestContext& context, const Request&, Response& response) {
   std::vector<std::string> ids = world::list_scenarios(context.folders.scenarios());
   // Those of one job's bundle are of no use to others.
-  std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_of(id)); });
+  std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_name(id)); });
   write_json(response, 200, {{"scenarios", scenarios_json(context, ids)}});
 }
 

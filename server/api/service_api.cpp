@@ -61,7 +61,7 @@ std::string figures_of_nodes(const std::vector<jobs::NodeWork>& nodes) {
 }
 
 std::int64_t free_bytes(const RequestContext& context) {
-  return disk_of(context.folders.data()).free_bytes;
+  return measure_disk(context.folders.data()).free_bytes;
 }
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
@@ -91,7 +91,7 @@ void send_figures(const RequestContext& context, const Request&, Response& respo
   std::string text =
       "# HELP throng_jobs Jobs, calibrations and studies by state.\n# TYPE throng_jobs gauge\n";
   for (const auto& [state, count] : context.queue.count()) {
-    text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", name_of(state), count);
+    text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", to_string(state), count);
   }
   const auto add = [&](const char* name, const char* type, const char* help, auto value) {
     text += fmt::format("# HELP {0} {1}\n# TYPE {0} {2}\n{0} {3}\n", name, help, type, value);

@@ -66,7 +66,7 @@ void write_session(const RequestContext& context, const std::optional<Caller>& c
   response.set_header("Cache-Control", "no-store");
   write_json(response, 200,
              {{"needs_key", context.keys.are_needed()},
-              {"scope", caller ? json(name_of(caller->scope)) : json(nullptr)}});
+              {"scope", caller ? json(to_string(caller->scope)) : json(nullptr)}});
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ void confirm_access(const RequestContext&, const Request&, Response& response) {
 
 void open_session(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
-  const json body = json_body_of(request);
+  const json body = parse_json_body(request);
   if (!body.contains("key") || !body["key"].is_string()) {
     throw HttpError{400, "a session needs a key", {{"", "/key", "nothing", "a key as text"}}};
   }

@@ -52,8 +52,8 @@ jobs::JobRow find_own_study(const RequestContext& context, const Request& reques
 }
 
 HttpError not_there_yet(const jobs::JobRow& row) {
-  return {409,
-          fmt::format("the study is {}; this is there once it has succeeded", name_of(row.state))};
+  return {409, fmt::format("the study is {}; this is there once it has succeeded",
+                           to_string(row.state))};
 }
 
 /// The result of a run that the path names, made again from the plan's ids: none leads elsewhere.
@@ -82,7 +82,7 @@ void answer_with(const Request& request, Response& response, const fs::path& fil
 
 void submit_study(const RequestContext& context, const Request& request, Response& response) {
   require_json(request);
-  const json document = json_body_of(request);
+  const json document = parse_json_body(request);
   try {
     if (is_asked(request, "dry_run")) {
       json plan = context.studies.checked(document);
@@ -100,12 +100,12 @@ void submit_study(const RequestContext& context, const Request& request, Respons
 }
 
 void list_studies(const RequestContext& context, const Request& request, Response& response) {
-  const int limit = limit_of(request);
+  const int limit = requested_limit(request);
   const std::vector<jobs::JobRow> rows =
       context.queue.list({.kind = jobs::JobKind::study,
-                          .after = after_of(request),
+                          .after = cursor_from_request(request),
                           .limit = limit,
-                          .visible_to = viewer_of(context.caller)});
+                          .visible_to = viewer_key(context.caller)});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
     list.push_back(study_json(row, context.housekeeping.retention()));
@@ -118,13 +118,13 @@ void send_study(const RequestContext& context, const Request& request, Response&
   const jobs::JobRow row = find_study(context, request);
   json value = study_json(row, context.housekeeping.retention());
   value["plan"] = context.studies.plan_of(row);
-  value["summary"] = context.studies.summary_of(row);
+  value["summary"] = context.studies.summarize(row);
   write_json(response, 200, value);
 }
 
 void change_study(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow own = find_own_study(context, request);
-  const auto row = context.queue.change(own.id, change_of(context, request, own));
+  const auto row = context.queue.change(own.id, describe_change(context, request, own));
   if (!row) throw HttpError{404, "the study has been removed"};
   write_json(response, 200, study_json(*row, context.housekeeping.retention()));
 }
@@ -155,13 +155,13 @@ void remove_study(const RequestContext& context, const Request& request, Respons
 void send_study_report(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_study(context, request);
   if (row.state != jobs::JobState::succeeded) throw not_there_yet(row);
-  answer_with(request, response, context.folders.folder_of(row) / study::kReportName,
+  answer_with(request, response, context.folders.ground_truth_folder(row) / study::kReportName,
               "text/html; charset=utf-8");
 }
 
 void send_study_file(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_study(context, request);
-  const fs::path folder = context.folders.folder_of(row);
+  const fs::path folder = context.folders.ground_truth_folder(row);
   const std::string wanted = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return wanted == entry.name; });
@@ -176,7 +176,8 @@ void send_study_file(const RequestContext& context, const Request& request, Resp
   const bool is_early = !is_result || result->is_early;
   if (!is_early && row.state != jobs::JobState::succeeded) throw not_there_yet(row);
   if (!fs::exists(file)) {
-    throw HttpError{409, fmt::format("the study is {}; this is not there yet", name_of(row.state))};
+    throw HttpError{409,
+                    fmt::format("the study is {}; this is not there yet", to_string(row.state))};
   }
   answer_with(request, response, file, is_result ? result->type : "application/json");
 }

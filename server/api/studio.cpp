@@ -69,6 +69,7 @@ std::span<const Route> studio_routes() {
       Route{Method::get, "/calibrations/{path}", Scope::anybody, &send_studio},
       Route{Method::get, "/studies", Scope::anybody, &send_studio},
       Route{Method::get, "/studies/{path}", Scope::anybody, &send_studio},
+      Route{Method::get, "/blueprint", Scope::anybody, &send_studio},
       Route{Method::get, "/place", Scope::anybody, &send_studio},
       Route{Method::get, "/keys", Scope::anybody, &send_studio},
       Route{Method::get, "/api", Scope::anybody, &send_studio},

@@ -34,7 +34,7 @@ constexpr std::uint16_t kAbsent = std::numeric_limits<std::uint16_t>::max();
 constexpr float kSteps = 65'000;  // of a coordinate
 constexpr float kMinStepM = 0.001F;
 
-double seconds_of(const Request& request, const char* name, double least, double usual) {
+double requested_seconds(const Request& request, const char* name, double least, double usual) {
   if (!request.has_param(name)) return usual;
   const std::string text = request.get_param_value(name);
   double value = 0;
@@ -63,7 +63,7 @@ struct Grid {
   float step_m = kMinStepM;
 };
 
-Grid grid_of(const world::Trajectories& places) {
+Grid fit_grid(const world::Trajectories& places) {
   Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
   Eigen::Vector2f high = -low;
   for (std::size_t i = 0; i < places.position.size(); ++i) {
@@ -75,8 +75,8 @@ Grid grid_of(const world::Trajectories& places) {
   return {low, std::max(kMinStepM, (high - low).maxCoeff() / kSteps)};
 }
 
-std::string bytes_of(const world::Trajectories& places) {
-  const Grid grid = grid_of(places);
+std::string encode_trajectories(const world::Trajectories& places) {
+  const Grid grid = fit_grid(places);
   std::string bytes;
   append(bytes, kVersion);
   append(bytes, static_cast<std::uint32_t>(places.time_s.size()));
@@ -98,10 +98,11 @@ std::string bytes_of(const world::Trajectories& places) {
   return bytes;
 }
 
-std::vector<double> times_of(const Request& request, const world::TrajectoryReader& reader) {
-  const double from_s = seconds_of(request, "from_s", 0, 0);
-  const double to_s = std::min(seconds_of(request, "to_s", 0, reader.end_s()), reader.end_s());
-  const double every_s = seconds_of(request, "every_s", kMinEveryS, 1);
+std::vector<double> requested_times(const Request& request, const world::TrajectoryReader& reader) {
+  const double from_s = requested_seconds(request, "from_s", 0, 0);
+  const double to_s =
+      std::min(requested_seconds(request, "to_s", 0, reader.end_s()), reader.end_s());
+  const double every_s = requested_seconds(request, "every_s", kMinEveryS, 1);
   const double count =
       std::max(0.0, std::floor((to_s - from_s) / every_s + world::kTimeSlackS) + 1);
   const double people = std::max(1.0, static_cast<double>(reader.agents()));
@@ -125,11 +126,11 @@ void send_trajectories(const RequestContext& context, const Request& request, Re
   // The library may not be called by several threads.
   static std::mutex mutex;
   const jobs::JobRow row = find_job(context, request);
-  const fs::path trace = trace_of(context, row, run_of(request, row));
+  const fs::path trace = trace_file(context, row, requested_run(request, row));
   const std::lock_guard lock(mutex);
   try {
     const world::TrajectoryReader reader(trace);
-    response.set_content(bytes_of(reader.at(times_of(request, reader))),
+    response.set_content(encode_trajectories(reader.at(requested_times(request, reader))),
                          "application/octet-stream");
   } catch (const InputError&) {  // of the file that lies here, not of the request
     throw HttpError{500, "the trace of this run is damaged; retry the job to simulate it again"};

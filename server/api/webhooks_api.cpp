@@ -84,7 +84,7 @@ std::string text_at(const json& body, const char* name, const std::string& other
   return body[name];
 }
 
-std::vector<std::string> events_of(const json& body) {
+std::vector<std::string> read_event_names(const json& body) {
   if (!body.contains("events")) return {"succeeded", "partial", "failed", "cancelled"};
   const json& list = body["events"];
   const bool is_list =
@@ -99,7 +99,7 @@ std::vector<std::string> events_of(const json& body) {
 }  // namespace
 
 void create_webhook(const RequestContext& context, const Request& request, Response& response) {
-  const json body = fields_of(request, kWebhookNoun, {"url", "events", "secret"});
+  const json body = json_fields(request, kWebhookNoun, {"url", "events", "secret"});
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
     throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
@@ -117,7 +117,8 @@ void create_webhook(const RequestContext& context, const Request& request, Respo
   if (webhooks.list().size() >= kMaxWebhooks) {
     throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMaxWebhooks)};
   }
-  const Webhook webhook = webhooks.create(url, events_of(body), secret, context.queue.last_event());
+  const Webhook webhook =
+      webhooks.create(url, read_event_names(body), secret, context.queue.last_event());
   context.hooks.refresh();
   json answer = webhook_json(webhook);
   answer["secret"] = webhook.secret;  // this once
@@ -138,7 +139,7 @@ void send_webhook(const RequestContext& context, const Request& request, Respons
 
 void change_webhook(const RequestContext& context, const Request& request, Response& response) {
   const std::string id = find_webhook(context, request).id;
-  const json body = fields_of(request, kWebhookNoun, {"enabled"});
+  const json body = json_fields(request, kWebhookNoun, {"enabled"});
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
     throw invalid_field("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }
@@ -155,8 +156,8 @@ void remove_webhook(const RequestContext& context, const Request& request, Respo
 
 void list_deliveries(const RequestContext& context, const Request& request, Response& response) {
   json list = json::array();
-  for (const Delivery& delivery :
-       context.hooks.webhooks().deliveries(find_webhook(context, request).id, limit_of(request))) {
+  for (const Delivery& delivery : context.hooks.webhooks().deliveries(
+           find_webhook(context, request).id, requested_limit(request))) {
     list.push_back(delivery_json(delivery));
   }
   write_json(response, 200, {{"deliveries", std::move(list)}});

@@ -34,7 +34,7 @@ json parsed_or(const std::string& text, json otherwise) {
 
 // Stage of a job: that of its least advanced run, but simulating once any run is. Runs that have
 // failed hold nothing up.
-jobs::Stage stage_of(const jobs::JobProgress& progress) {
+jobs::Stage current_stage(const jobs::JobProgress& progress) {
   jobs::Stage earliest = jobs::Stage::failed;
   for (const jobs::RunProgress& run : progress.runs) {
     if (run.stage == jobs::Stage::simulating) return run.stage;
@@ -53,7 +53,7 @@ json with_pace(json value, const jobs::Pace& pace) {
 json row_json(const jobs::JobRow& row, const Retention& retention) {
   return {{"id", row.id},
           {"name", row.name},
-          {"state", name_of(row.state)},
+          {"state", to_string(row.state)},
           {"attempt", row.attempt},
           {"priority", row.priority},
           {"labels", row.labels},
@@ -78,7 +78,7 @@ json progress_json(const jobs::JobProgress& progress) {
   for (const jobs::RunProgress& run : progress.runs) {
     runs.push_back(with_pace({{"run", jobs::run_name(run.run)},
                               {"seed", run.seed},
-                              {"stage", name_of(run.stage)},
+                              {"stage", to_string(run.stage)},
                               {"simulated_s", run.simulated_s},
                               {"duration_s", run.duration_s},
                               {"frames_done", run.images_done},
@@ -89,7 +89,7 @@ json progress_json(const jobs::JobProgress& progress) {
   }
   json shards = json::array();
   for (const jobs::ShardProgress& shard : progress.shards) {
-    shards.push_back(with_pace({{"shard", name_of(shard.task)},
+    shards.push_back(with_pace({{"shard", to_string(shard.task)},
                                 {"frames_done", shard.images_done},
                                 {"frames_total", shard.images_total}},
                                shard.pace));
@@ -103,7 +103,7 @@ json progress_json(const jobs::JobProgress& progress) {
                      {"failed", work.failed},
                      {"busy_s", work.busy_s}});
   }
-  json value = with_pace({{"stage", name_of(stage_of(progress))},
+  json value = with_pace({{"stage", to_string(current_stage(progress))},
                           {"frames_done", done},
                           {"frames_total", total},
                           {"runs", std::move(runs)},
@@ -123,9 +123,9 @@ json progress_json(const jobs::JobProgress& progress) {
 json stages_json(const jobs::JobProgress& progress) {
   json runs = json::object();
   for (const jobs::RunProgress& run : progress.runs) {
-    runs[jobs::run_name(run.run)] = name_of(run.stage);
+    runs[jobs::run_name(run.run)] = to_string(run.stage);
   }
-  return {{"stage", name_of(stage_of(progress))}, {"runs", std::move(runs)}};
+  return {{"stage", to_string(current_stage(progress))}, {"runs", std::move(runs)}};
 }
 
 json event_json(const jobs::EventRow& event) {
@@ -212,7 +212,7 @@ json problem_document(int status, const std::string& detail, const std::vector<P
   return document;
 }
 
-std::string text_of(const json& value) {
+std::string dump_text(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

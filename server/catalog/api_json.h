@@ -49,6 +49,6 @@ nlohmann::json problem_document(int status, const std::string& detail,
                                 const std::vector<Problem>& problems = {});
 
 /// JSON text that is valid UTF-8 whatever the strings hold.
-std::string text_of(const nlohmann::json& value);
+std::string dump_text(const nlohmann::json& value);
 
 }  // namespace throng::server

@@ -46,19 +46,19 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
   }
   const std::int64_t memory_mib = confined_.calibration(request, staging.path() / "files");
   write_file_atomically(staging.path() / kMemoryName, std::to_string(memory_mib));
-  write_file_atomically(staging.path() / "request.json", text_of(request));
+  write_file_atomically(staging.path() / "request.json", dump_text(request));
   JobRow row;
   {
     // Under the lock, so that it is not begun before its files are in their place.
     const auto lock = state_.hold();
     const jobs::Added added = store_.add({.name = request.value("name", ""),
-                                          .spec_json = text_of(request),
+                                          .spec_json = dump_text(request),
                                           .kind = jobs::JobKind::calibration,
                                           .owner = quota.owner,
                                           .limits = {quota.max_active, quota.max_bytes}});
     if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
     row = added.row;
-    fs::rename(staging.path(), folders_.folder_of(row));
+    fs::rename(staging.path(), folders_.ground_truth_folder(row));
   }
   spdlog::info("calibration {} queued", row.id);
   state_.notify_queued();
@@ -66,7 +66,7 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
   return row;
 }
 
-std::int64_t Calibrations::memory_mib_of(const fs::path& folder) {
+std::int64_t Calibrations::estimate_memory_mib(const fs::path& folder) {
   try {
     return std::stoll(read_file(folder / kMemoryName));
   } catch (const std::exception&) {  // of an earlier version
@@ -74,15 +74,15 @@ std::int64_t Calibrations::memory_mib_of(const fs::path& folder) {
   }
 }
 
-json Calibrations::camera_of(const std::string& id) const {
+json Calibrations::image_camera(const std::string& id) const {
   const std::optional<JobRow> row = jobs::is_job_id(id) ? store_.get(id) : std::nullopt;
   if (!row || row->kind != jobs::JobKind::calibration) {
     throw EnvironmentError("there is no calibration of this id");
   }
   if (row->state != JobState::succeeded) {
-    throw EnvironmentError(fmt::format("the calibration is {}", name_of(row->state)));
+    throw EnvironmentError(fmt::format("the calibration is {}", to_string(row->state)));
   }
-  return parse_own_json(read_file(folders_.folder_of(*row) / calibrate::kCameraName),
+  return parse_own_json(read_file(folders_.ground_truth_folder(*row) / calibrate::kCameraName),
                         calibrate::kCameraName);
 }
 

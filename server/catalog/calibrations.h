@@ -41,10 +41,10 @@ class Calibrations {
                       const Quota& quota = {});
 
   /// The memory that the calibration in a folder needs, in MiB.
-  static std::int64_t memory_mib_of(const std::filesystem::path& folder);
+  static std::int64_t estimate_memory_mib(const std::filesystem::path& folder);
 
   /// The camera of one that has succeeded. Throws EnvironmentError saying why there is none.
-  nlohmann::json camera_of(const std::string& id) const;
+  nlohmann::json image_camera(const std::string& id) const;
 
  private:
   const ServiceFolders& folders_;

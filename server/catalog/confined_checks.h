@@ -37,7 +37,7 @@ class ConfinedChecks {
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
-  /// Scenarios as clients see them (spec/places/scenario_summary.h), in the order of the ids; of
+  /// Scenarios as clients see them (spec/scenarios/scenario_summary.h), in the order of the ids; of
   /// one that cannot be loaded an object with an "error".
   std::vector<nlohmann::json> summaries(const std::vector<std::string>& ids,
                                         const std::filesystem::path& scenarios) const;

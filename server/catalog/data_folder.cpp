@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto kQuarantine = std::chrono::hours(24 * 30);
 
-std::vector<fs::path> entries_of(const fs::path& folder) {
+std::vector<fs::path> list_entries(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) entries.push_back(entry.path());
@@ -26,7 +26,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 }
 
 void quarantine_strangers(const fs::path& data, const char* kind, const jobs::Store& store) {
-  for (const fs::path& folder : entries_of(data / kind)) {
+  for (const fs::path& folder : list_entries(data / kind)) {
     if (store.get(folder.filename().string())) continue;
     const fs::path place = data / "quarantine" / kind / folder.filename();
     fs::create_directories(place.parent_path());
@@ -43,8 +43,8 @@ void quarantine_strangers(const fs::path& data, const char* kind, const jobs::St
 }
 
 void remove_old(const fs::path& quarantine) {
-  for (const fs::path& kind : entries_of(quarantine)) {
-    for (const fs::path& folder : entries_of(kind)) {
+  for (const fs::path& kind : list_entries(quarantine)) {
+    for (const fs::path& folder : list_entries(kind)) {
       std::error_code error;
       const auto since = fs::last_write_time(folder, error);
       if (error || fs::file_time_type::clock::now() - since < kQuarantine) continue;
@@ -67,7 +67,7 @@ void tidy_data_folder(const fs::path& data, const jobs::Store& store) {
   remove_old(data / "quarantine");
 }
 
-std::int64_t disk_bytes_of(const fs::path& folder) {
+std::int64_t measure_disk_bytes(const fs::path& folder) {
   constexpr std::int64_t kBlock = 512;  // the unit of st_blocks, whatever the file system's
   std::set<std::pair<dev_t, ino_t>> counted;
   std::int64_t bytes = 0;

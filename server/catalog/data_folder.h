@@ -15,6 +15,6 @@ void tidy_data_folder(const std::filesystem::path& data, const jobs::Store& stor
 
 /// Disk that everything in a folder takes; files with several names count once. 0 when there is
 /// none.
-std::int64_t disk_bytes_of(const std::filesystem::path& folder);
+std::int64_t measure_disk_bytes(const std::filesystem::path& folder);
 
 }  // namespace throng::server

@@ -25,7 +25,7 @@ constexpr auto kMaxEnd = 20s;
 
 std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
                                         const std::string& error_json) {
-  const std::string place = fmt::format("server/{}/", name_of(event));
+  const std::string place = fmt::format("server/{}/", to_string(event));
   jobs::inject_faults(place + "before", 1);
   std::optional<JobRow> changed = store_.apply(row, event, error_json);
   jobs::inject_faults(place + "after", 1);
@@ -34,7 +34,7 @@ std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
 }
 
 jobs::Retried QueueState::retry(const JobRow& row, const jobs::OwnerLimits& limits) {
-  const std::string place = fmt::format("server/{}/", name_of(JobEvent::retry));
+  const std::string place = fmt::format("server/{}/", to_string(JobEvent::retry));
   jobs::inject_faults(place + "before", 1);
   jobs::Retried retried = store_.retry(row, limits);
   jobs::inject_faults(place + "after", 1);
@@ -173,7 +173,7 @@ void QueueState::pause(const std::string& reason) {
   } else {
     spdlog::warn("queue: paused, {}", reason);
   }
-  for (const JobRow& row : stopped) record_event(row, "paused", text_of({{"reason", reason}}));
+  for (const JobRow& row : stopped) record_event(row, "paused", dump_text({{"reason", reason}}));
   changed_.notify_all();
   notify_event();
 }

@@ -34,13 +34,13 @@ bool is_upload_name(std::string_view name) {
          });
 }
 
-std::string note_of(const ScenarioUpload& upload) {
-  return text_of({{"owner", upload.owner},
-                  {"created_ms", upload.created_ms},
-                  {"bytes", upload.bytes},
-                  {"files", upload.files},
-                  {"ids", upload.ids},
-                  {"summaries", upload.summaries}});
+std::string upload_note(const ScenarioUpload& upload) {
+  return dump_text({{"owner", upload.owner},
+                    {"created_ms", upload.created_ms},
+                    {"bytes", upload.bytes},
+                    {"files", upload.files},
+                    {"ids", upload.ids},
+                    {"summaries", upload.summaries}});
 }
 
 ScenarioUpload read_note(const fs::path& folder) {
@@ -55,7 +55,7 @@ ScenarioUpload read_note(const fs::path& folder) {
 }
 
 /// Root of the bundle's files: below a single folder that holds everything.
-fs::path root_of(const fs::path& unpacked) {
+fs::path find_root(const fs::path& unpacked) {
   std::vector<fs::directory_entry> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(unpacked)) {
     entries.push_back(entry);
@@ -71,11 +71,11 @@ bool is_bundle_name(std::string_view name) {
          std::all_of(name.begin() + 1, name.end(), is_digit);
 }
 
-std::string bundle_name_of(std::string_view bytes) {
+std::string bundle_name(std::string_view bytes) {
   return fmt::format("b{}", sha256_hex(bytes).substr(0, kBundleDigits));
 }
 
-std::string upload_of(const std::string& scenario_id) {
+std::string upload_name(const std::string& scenario_id) {
   return scenario_id.substr(0, scenario_id.find('/'));
 }
 
@@ -116,7 +116,7 @@ void ScenarioStore::describe(ScenarioUpload& upload) const {
     jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
     if (checked.ids.size() != upload.ids.size()) return;
     upload.summaries = std::move(checked.summaries);
-    write_file_atomically(folder / kNoteName, note_of(upload));
+    write_file_atomically(folder / kNoteName, upload_note(upload));
   } catch (const InputError& error) {
     spdlog::warn("upload {}: cannot be used any more: {}", upload.name, error.what());
   }
@@ -159,7 +159,7 @@ void ScenarioStore::finish_staging(Staged& staged) const {
   for (const std::string& id : checked.ids) upload.ids.push_back(upload.name + "/" + id);
   upload.summaries = std::move(checked.summaries);
   staged.findings = std::move(checked.findings);
-  write_file_atomically(folder / kNoteName, note_of(upload));
+  write_file_atomically(folder / kNoteName, upload_note(upload));
 }
 
 ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_view bytes,
@@ -171,7 +171,7 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   const Unpacked found = unpack_archive(bytes, unpacked, limits_.each);
   staged.upload.bytes = found.bytes;
   staged.upload.files = found.files;
-  fs::rename(root_of(unpacked), folder / kFilesName);
+  fs::rename(find_root(unpacked), folder / kFilesName);
   fs::remove_all(unpacked);
   finish_staging(staged);
   return staged;

@@ -38,7 +38,7 @@ struct ScenarioUpload {
   std::int64_t bytes = 0;  ///< unpacked
   std::size_t files = 0;
   std::vector<std::string> ids;  ///< of its scenarios, with its name: "NAME/plaza"
-  /// Summaries from the check (spec/places/scenario_summary.h), in the order of the ids.
+  /// Summaries from the check (spec/scenarios/scenario_summary.h), in the order of the ids.
   std::vector<nlohmann::json> summaries;
 };
 
@@ -56,9 +56,9 @@ class UploadsFull : public std::runtime_error {
 
 /// A bundle that came with one job is named by its content: "b" and 16 hexadecimal digits.
 bool is_bundle_name(std::string_view name);
-std::string bundle_name_of(std::string_view bytes);
+std::string bundle_name(std::string_view bytes);
 /// The first part of a scenario's id: the name of the upload that it may belong to.
-std::string upload_of(const std::string& scenario_id);
+std::string upload_name(const std::string& scenario_id);
 
 /// Safe to use from many threads.
 class ScenarioStore {

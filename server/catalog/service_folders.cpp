@@ -15,11 +15,11 @@ ServiceFolders::ServiceFolders(fs::path data, fs::path shipped)
       shipped_(std::move(shipped)),
       scenarios_(ScenarioStore::folder_in(data_)) {}
 
-fs::path ServiceFolders::dataset_of(const std::string& id) const {
+fs::path ServiceFolders::dataset_folder(const std::string& id) const {
   return jobs::JobFolder(job_folder(id)).dataset();
 }
 
-fs::path ServiceFolders::folder_of(const jobs::JobRow& row) const {
+fs::path ServiceFolders::ground_truth_folder(const jobs::JobRow& row) const {
   switch (row.kind) {
     case jobs::JobKind::calibration:
       return calibration_folder(row.id);

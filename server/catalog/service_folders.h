@@ -23,7 +23,7 @@ class ServiceFolders {
   /// Folder of a job (jobs/queue/dataset/folder.h).
   std::filesystem::path job_folder(const std::string& id) const { return data_ / "jobs" / id; }
   /// Folder of a job's dataset once it has succeeded.
-  std::filesystem::path dataset_of(const std::string& id) const;
+  std::filesystem::path dataset_folder(const std::string& id) const;
   std::filesystem::path calibrations() const { return data_ / "calibrations"; }
   /// Folder of a calibration's results once it has succeeded.
   std::filesystem::path calibration_folder(const std::string& id) const {
@@ -33,7 +33,7 @@ class ServiceFolders {
   /// Folder of a study (spec/study/study_files.h).
   std::filesystem::path study_folder(const std::string& id) const { return studies() / id; }
   /// The folder of a job, a calibration or a study.
-  std::filesystem::path folder_of(const jobs::JobRow& row) const;
+  std::filesystem::path ground_truth_folder(const jobs::JobRow& row) const;
 
   /// A message without the places of this machine's folders.
   std::string without_paths(std::string message) const;

@@ -50,8 +50,8 @@ json Studies::checked(const json& document) const {
 JobRow Studies::submit(const json& document, const Quota& quota) {
   const json plan = checked(document);
   StagingFolder staging(folders_.studies() / "next");
-  write_file_atomically(staging.path() / study::kDocumentName, text_of(document));
-  write_file_atomically(staging.path() / study::kPlanName, text_of(plan));
+  write_file_atomically(staging.path() / study::kDocumentName, dump_text(document));
+  write_file_atomically(staging.path() / study::kPlanName, dump_text(plan));
   JobRow row;
   {
     const auto uploads = uploads_.hold();
@@ -59,13 +59,13 @@ JobRow Studies::submit(const json& document, const Quota& quota) {
     // Under the lock, so that it is not begun before its files are in their place.
     const auto lock = state_.hold();
     const jobs::Added added = store_.add({.name = plan.at("name"),
-                                          .spec_json = text_of(document),
+                                          .spec_json = dump_text(document),
                                           .kind = jobs::JobKind::study,
                                           .owner = quota.owner,
                                           .limits = {quota.max_active, quota.max_bytes}});
     if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
     row = added.row;
-    fs::rename(staging.path(), folders_.folder_of(row));
+    fs::rename(staging.path(), folders_.ground_truth_folder(row));
   }
   spdlog::info("study {} queued", row.id);
   state_.notify_queued();
@@ -74,11 +74,12 @@ JobRow Studies::submit(const json& document, const Quota& quota) {
 }
 
 json Studies::plan_of(const JobRow& row) const {
-  return parse_own_json(read_file(folders_.folder_of(row) / study::kPlanName), study::kPlanName);
+  return parse_own_json(read_file(folders_.ground_truth_folder(row) / study::kPlanName),
+                        study::kPlanName);
 }
 
-json Studies::summary_of(const JobRow& row) const {
-  const fs::path folder = folders_.folder_of(row);
+json Studies::summarize(const JobRow& row) const {
+  const fs::path folder = folders_.ground_truth_folder(row);
   const bool is_complete = row.state == jobs::JobState::succeeded;
   const fs::path file = folder / (is_complete ? study::kSummaryName : study::kSummarySoFarName);
   if (!fs::exists(file)) return nullptr;

@@ -31,7 +31,7 @@ class Studies {
   /// The plan that a study was queued with, and its summary: of the runs that every policy of a
   /// case has so far, with "took_s"; null while there are none.
   nlohmann::json plan_of(const jobs::JobRow& row) const;
-  nlohmann::json summary_of(const jobs::JobRow& row) const;
+  nlohmann::json summarize(const jobs::JobRow& row) const;
 
  private:
   const ServiceFolders& folders_;

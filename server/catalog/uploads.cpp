@@ -38,11 +38,11 @@ std::vector<json*> ids_in(json& scenario) {
 void add_uploads(const json& spec, std::set<std::string>& uploads) {
   if (!spec.is_object() || !spec.contains("scenario")) return;
   json scenario = spec["scenario"];
-  for (const json* id : ids_in(scenario)) uploads.insert(upload_of(id->get<std::string>()));
+  for (const json* id : ids_in(scenario)) uploads.insert(upload_name(id->get<std::string>()));
 }
 
 /// Uploads that scenarios of a job or study may belong to; none of a calibration's.
-std::set<std::string> uploads_of(const JobRow& row) {
+std::set<std::string> job_uploads(const JobRow& row) {
   const json spec = parse_json_or_discard(row.spec_json);
   std::set<std::string> uploads;
   if (row.kind != jobs::JobKind::study) {
@@ -64,7 +64,7 @@ std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
   for (json* id : ids_in(scenario)) {
     const auto name = id->get<std::string>();
     if (!name.starts_with(kOwnBundle)) continue;
-    *id = bundle_name_of(bundle) + "/" + name.substr(kOwnBundle.size());
+    *id = bundle_name(bundle) + "/" + name.substr(kOwnBundle.size());
     uses_bundle = true;
   }
   if (!uses_bundle) {
@@ -72,7 +72,7 @@ std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
                              "\"bundle/NAME\", a scenario of the bundle that came with the job"});
   }
   job["scenario"] = std::move(scenario);
-  return text_of(job);
+  return dump_text(job);
 }
 
 Uploads::Uploads(const ServiceFolders& folders, jobs::Store& jobs, const ConfinedChecks& confined,
@@ -97,7 +97,7 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
       std::vector<JobRow> rows = jobs_.list(filter);
       for (const JobRow& row : rows) {
         if (row.spec_json.find(beginning) == std::string::npos) continue;
-        if (uploads_of(row).contains(upload)) found.push_back(row);
+        if (job_uploads(row).contains(upload)) found.push_back(row);
       }
       if (static_cast<int>(rows.size()) < kJobsAtOnce) break;
       filter.after = rows.back().id;
@@ -107,7 +107,7 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
 }
 
 Uploads::Pinned::Pinned(Uploads& uploads, std::string_view bundle, const std::string& owner)
-    : uploads_(uploads), name_(bundle_name_of(bundle)) {
+    : uploads_(uploads), name_(bundle_name(bundle)) {
   ScenarioStore& scenarios = uploads.scenarios_;
   // Unpacked and checked before others have to wait.
   std::optional<ScenarioStore::Staged> staged;
@@ -148,7 +148,7 @@ void Uploads::drop_if_unused(const std::string& bundle) {
 }
 
 void Uploads::drop_bundle_of(const JobRow& removed) {
-  for (const std::string& name : uploads_of(removed)) {
+  for (const std::string& name : job_uploads(removed)) {
     if (!is_bundle_name(name)) continue;
     const std::unique_lock lock(mutex_);
     drop_if_unused(name);

@@ -31,10 +31,10 @@ bool waits_for(socket_t socket, short event, milliseconds timeout) {
 
 using NameOf = int (*)(int, sockaddr*, socklen_t*);
 
-void read_name(socket_t socket, NameOf name_of, std::string& ip, int& port) {
+void read_name(socket_t socket, NameOf to_string, std::string& ip, int& port) {
   sockaddr_storage address{};
   socklen_t length = sizeof(address);
-  if (name_of(socket, reinterpret_cast<sockaddr*>(&address), &length) != 0) return;
+  if (to_string(socket, reinterpret_cast<sockaddr*>(&address), &length) != 0) return;
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> service{};
   if (::getnameinfo(reinterpret_cast<const sockaddr*>(&address), length, host.data(), host.size(),
@@ -95,7 +95,7 @@ std::variant<RequestHead, HeadError, Connection::Ended> Connection::read_head() 
 }
 
 void Connection::begin_request(const RequestHead& head) {
-  head_ = library_text_of(head);
+  head_ = library_text(head);
   head_next_ = 0;
   body_left_ = head.content_length;
   body_bytes_ = 0;

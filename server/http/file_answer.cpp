@@ -49,14 +49,14 @@ void answer_with(const Request& request, Response& response,
       });
 }
 
-httplib::Ranges& ranges_of(const Request& request) {
+httplib::Ranges& requested_ranges(const Request& request) {
   // The library owns the request and made it non-const.
   return const_cast<Request&>(request).ranges;  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 
 }  // namespace
 
-void forget_ranges(const Request& request) { ranges_of(request).clear(); }
+void forget_ranges(const Request& request) { requested_ranges(request).clear(); }
 
 void settle_range(const Request& request, Response& response, const std::string& etag,
                   std::int64_t size) {
@@ -68,7 +68,7 @@ void settle_range(const Request& request, Response& response, const std::string&
     throw HttpError{416, fmt::format("there are {} bytes", size)};
   }
   if (answer.kind == RangeAnswer::Kind::part) {
-    ranges_of(request).emplace_back(answer.part.first, answer.part.last);
+    requested_ranges(request).emplace_back(answer.part.first, answer.part.last);
   }
   response.set_header("ETag", etag);
   response.set_header("Accept-Ranges", "bytes");
@@ -86,7 +86,7 @@ void answer_with_growing_file(const Request& request, Response& response, const 
   answer_with(request, response, std::move(open), type, etag);
 }
 
-std::string media_type_of(const fs::path& file) {
+std::string media_type(const fs::path& file) {
   struct Type {
     std::string_view extension;
     std::string_view type;

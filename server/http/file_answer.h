@@ -30,6 +30,6 @@ void answer_with_growing_file(const httplib::Request& request, httplib::Response
                               const std::filesystem::path& file, const std::string& type);
 
 /// The media type of a file of a dataset, by its name.
-std::string media_type_of(const std::filesystem::path& file);
+std::string media_type(const std::filesystem::path& file);
 
 }  // namespace throng::server

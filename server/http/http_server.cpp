@@ -32,7 +32,7 @@ constexpr int kIdleStepMs = 100;  // bounds how long stop() takes
 constexpr std::chrono::milliseconds kPauseWithoutFiles(100);
 constexpr std::size_t kSmallBody = 1 << 20;  // not worth to be counted
 
-httplib::Request request_of(const RequestHead& head) {
+httplib::Request to_library_request(const RequestHead& head) {
   httplib::Request request;
   request.method = head.method;
   request.target = head.target;
@@ -133,7 +133,7 @@ class HttpServer::BoundedServer : public httplib::Server {
   /// False when the connection has to end.
   bool serve(Connection& connection, const RequestHead& head, bool is_last) {
     if (head.content_length > 0) {
-      const httplib::Request request = request_of(head);
+      const httplib::Request request = to_library_request(head);
       try {
         admit_body(request, head.content_length);
       } catch (const HttpError& error) {

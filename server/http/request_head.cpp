@@ -51,7 +51,7 @@ bool are_equal(std::string_view a, std::string_view b) {
 std::string_view without_blanks(std::string_view text) { return trimmed(text, " \t"); }
 
 /// The elements of a comma-separated list, without empty ones.
-std::vector<std::string_view> elements_of(std::string_view list) {
+std::vector<std::string_view> split_list(std::string_view list) {
   std::vector<std::string_view> elements;
   while (!list.empty()) {
     const auto comma = std::min(list.find(','), list.size());
@@ -72,7 +72,7 @@ bool is_refused(std::string_view parameters) {
 }
 
 bool names_gzip(std::string_view codings) {
-  const auto elements = elements_of(codings);
+  const auto elements = split_list(codings);
   return std::any_of(elements.begin(), elements.end(), [](std::string_view element) {
     const auto end = std::min(element.find(';'), element.size());
     const std::string_view coding = without_blanks(element.substr(0, end));
@@ -176,8 +176,8 @@ std::vector<HeaderField> fields_in(std::string_view lines) {
   return fields;
 }
 
-std::vector<std::string_view> values_of(const std::vector<HeaderField>& fields,
-                                        std::string_view name) {
+std::vector<std::string_view> header_values(const std::vector<HeaderField>& fields,
+                                            std::string_view name) {
   std::vector<std::string_view> values;
   for (const HeaderField& field : fields) {
     if (are_equal(field.name, name)) values.push_back(field.value);
@@ -199,12 +199,12 @@ void check_single_fields(const std::vector<HeaderField>& fields) {
                                   "Idempotency-Key",
                                   "Last-Event-ID"};
   for (const char* name : kSingle) {
-    if (values_of(fields, name).size() > 1) refuse(400, fmt::format("{} twice", name));
+    if (header_values(fields, name).size() > 1) refuse(400, fmt::format("{} twice", name));
   }
 }
 
 void check_host(const RequestHead& head, const std::vector<HeaderField>& fields) {
-  const auto hosts = values_of(fields, "Host");
+  const auto hosts = header_values(fields, "Host");
   if (hosts.empty() && !head.is_http_1_0) refuse(400, "HTTP/1.1 needs a Host");
   constexpr std::string_view kMarks = "-._~%:[]!$&'()*+;=";  // no comma: it would be a list
   const auto is_allowed = [&](unsigned char c) {
@@ -228,8 +228,8 @@ std::size_t length_in(std::string_view text) {
 }
 
 void read_framing(const std::vector<HeaderField>& fields, RequestHead& head) {
-  const auto lengths = values_of(fields, "Content-Length");
-  if (const auto codings = values_of(fields, "Transfer-Encoding"); !codings.empty()) {
+  const auto lengths = header_values(fields, "Content-Length");
+  if (const auto codings = header_values(fields, "Transfer-Encoding"); !codings.empty()) {
     if (!lengths.empty()) refuse(400, "both Transfer-Encoding and Content-Length");
     if (head.is_http_1_0) refuse(400, "HTTP/1.0 has no Transfer-Encoding");
     if (!head.takes_body()) refuse(400, fmt::format("a {} has no body", head.method));
@@ -240,15 +240,15 @@ void read_framing(const std::vector<HeaderField>& fields, RequestHead& head) {
   if (head.content_length > 0 && !head.takes_body()) {
     refuse(400, fmt::format("a {} has no body", head.method));
   }
-  for (const std::string_view value : values_of(fields, "Content-Encoding")) {
-    for (const std::string_view coding : elements_of(value)) {
+  for (const std::string_view value : header_values(fields, "Content-Encoding")) {
+    for (const std::string_view coding : split_list(value)) {
       if (!are_equal(coding, "identity")) refuse(415, "bodies are sent without a Content-Encoding");
     }
   }
 }
 
 void read_expectation(const std::vector<HeaderField>& fields, RequestHead& head) {
-  const auto expectations = values_of(fields, "Expect");
+  const auto expectations = header_values(fields, "Expect");
   if (expectations.empty() || head.is_http_1_0) return;
   if (!are_equal(expectations[0], "100-continue")) refuse(417, "only 100-continue can be expected");
   head.expects_continue = head.content_length > 0;
@@ -257,8 +257,8 @@ void read_expectation(const std::vector<HeaderField>& fields, RequestHead& head)
 void read_persistence(const std::vector<HeaderField>& fields, RequestHead& head) {
   bool is_close = false;
   bool is_keep_alive = false;
-  for (const std::string_view value : values_of(fields, "Connection")) {
-    for (const std::string_view option : elements_of(value)) {
+  for (const std::string_view value : header_values(fields, "Connection")) {
+    for (const std::string_view option : split_list(value)) {
       is_close = is_close || are_equal(option, "close");
       is_keep_alive = is_keep_alive || are_equal(option, "keep-alive");
     }
@@ -348,7 +348,7 @@ bool RequestHead::accepts_gzip() const {
   });
 }
 
-std::string library_text_of(const RequestHead& head) {
+std::string library_text(const RequestHead& head) {
   std::string text = head.method + " " + head.target;
   text += head.is_http_1_0 ? " HTTP/1.0\r\n" : " HTTP/1.1\r\n";
   for (const HeaderField& field : head.fields) {

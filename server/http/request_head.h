@@ -57,6 +57,6 @@ HeadError check_head_start(std::string_view bytes);
 
 /// The head in the form in which cpp-httplib 0.11 reads exactly the members' values. Of
 /// Accept-Encoding only "gzip" is left, if it is accepted.
-std::string library_text_of(const RequestHead& head);
+std::string library_text(const RequestHead& head);
 
 }  // namespace throng::server

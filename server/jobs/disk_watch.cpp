@@ -64,7 +64,7 @@ void DiskWatch::watch(const std::stop_token& stop) {
   } while (!ended.wait_for(lock, stop, kPause, [&] { return stop.stop_requested(); }));
 }
 
-DiskState disk_of(const std::filesystem::path& folder) {
+DiskState measure_disk(const std::filesystem::path& folder) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) throw_environment_error("cannot ask the disk", errno);
   return {static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize),

@@ -41,6 +41,6 @@ class DiskWatch {
 };
 
 /// The state of the disk that holds a folder. Throws EnvironmentError.
-DiskState disk_of(const std::filesystem::path& folder);
+DiskState measure_disk(const std::filesystem::path& folder);
 
 }  // namespace throng::server

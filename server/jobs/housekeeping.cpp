@@ -32,7 +32,7 @@ Housekeeping::Housekeeping(const ServiceFolders& folders, jobs::Store& store, Qu
       uploads_(uploads),
       options_(std::move(options)),
       disk_(
-          options_.disk ? options_.disk : [data = folders.data()] { return disk_of(data); },
+          options_.disk ? options_.disk : [data = folders.data()] { return measure_disk(data); },
           options_.min_free_bytes, [this](const std::string& reason) { state_.pause(reason); }) {
   tidy_data_folder(folders_.data(), store_);
   sweeper_ = std::jthread([this](const std::stop_token& stop) { sweep(stop); });
@@ -52,7 +52,7 @@ bool Housekeeping::remove(const std::string& id) {
   const fs::path trash = folders_.data() / "trash";
   std::error_code error;
   fs::create_directories(trash, error);
-  fs::rename(folders_.folder_of(*row), trash / id, error);
+  fs::rename(folders_.ground_truth_folder(*row), trash / id, error);
   fs::remove_all(trash / id, error);
   if (error) spdlog::warn("job {}: some files could not be removed: {}", id, error.message());
   spdlog::info("job {} removed", id);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kImageFolder = "images/";
 
-std::optional<ImageFile> image_file_of(const jobs::FileEntry& file) {
+std::optional<ImageFile> parse_image_file(const jobs::FileEntry& file) {
   std::string_view rest = std::string_view(file.path).substr(kImageFolder.size());
   const auto next_part = [&rest] {
     const std::string_view part = rest.substr(0, rest.find('/'));
@@ -45,7 +45,7 @@ ImageList list_images(std::span<const jobs::FileEntry> files, const ImageQuery& 
       files.begin(), files.end(), kImageFolder,
       [](const jobs::FileEntry& file, std::string_view path) { return file.path < path; });
   for (auto file = first; file != files.end() && file->path.starts_with(kImageFolder); ++file) {
-    const std::optional<ImageFile> image = image_file_of(*file);
+    const std::optional<ImageFile> image = parse_image_file(*file);
     if (!image) continue;
     note(list.runs[image->run][image->camera], image->frame);
     const bool fits = (query.run.empty() || query.run == image->run) &&

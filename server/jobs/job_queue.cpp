@@ -34,7 +34,7 @@ JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState
 
 std::string JobQueue::with_cameras(std::string_view job_json) const {
   return jobs::with_calibrations(
-      job_json, [this](const std::string& id) { return calibrations_.camera_of(id); });
+      job_json, [this](const std::string& id) { return calibrations_.image_camera(id); });
 }
 
 jobs::ResolvedJob JobQueue::resolve(std::string_view job_json) const {
@@ -56,12 +56,12 @@ jobs::Added JobQueue::submit(const Submission& submission) {
   require_scenario(job);
   const json sent = {submission.job_json, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
-                                        .spec_json = text_of(to_json(job)),
+                                        .spec_json = dump_text(to_json(job)),
                                         .priority = submission.priority,
                                         .labels = submission.labels,
                                         .owner = submission.owner,
                                         .key = submission.key,
-                                        .hash = sha256_hex(text_of(sent)),
+                                        .hash = sha256_hex(dump_text(sent)),
                                         .limits = {submission.max_active, submission.max_bytes},
                                         .people = resolved.people()});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
@@ -155,7 +155,7 @@ std::optional<JobRow> JobQueue::cancel(const std::string& id) {
   for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
     if (!is_active(row->state)) {
       throw ConflictError(
-          fmt::format("the job is {}: there is nothing to cancel", name_of(row->state)));
+          fmt::format("the job is {}: there is nothing to cancel", to_string(row->state)));
     }
     if (!state_.apply(*row, JobEvent::cancel)) continue;
     state_.end_work_on(id);
@@ -174,12 +174,12 @@ std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLi
       throw ConflictError(
           fmt::format("the job is {}: only one that failed or was cancelled can be "
                       "tried again",
-                      name_of(row->state)));
+                      to_string(row->state)));
     }
     const jobs::Retried retried = state_.retry(*row, limits);
     if (!retried.over_quota.empty()) throw QuotaError(retried.over_quota);
     if (!retried.row) continue;
-    ReportMaker::forget(folders_.folder_of(*row));
+    ReportMaker::forget(folders_.ground_truth_folder(*row));
     spdlog::info("job {} queued again", id);
     state_.notify_queued();
     return retried.row;

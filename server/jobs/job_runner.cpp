@@ -158,26 +158,26 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     event = failures.empty() ? JobEvent::succeed : JobEvent::succeed_partly;
     for (jobs::RunFailure& failure : failures)
       failure.message = folders_.without_paths(failure.message);
-    if (!failures.empty()) error = text_of(partial_error_json(failures));
+    if (!failures.empty()) error = dump_text(partial_error_json(failures));
   } catch (const Cancelled&) {
     // By cancel() or remove(), which have noted it; or because the service ends or rests, and then
     // the job stays "running" to be resumed.
     spdlog::info("job {} stopped", row.id);
     return save_bytes(row);
   } catch (const InputError& failure) {
-    error = text_of(error_json("input", folders_.without_paths(failure.what()),
-                               folders_.without_paths(failure.problems())));
+    error = dump_text(error_json("input", folders_.without_paths(failure.what()),
+                                 folders_.without_paths(failure.problems())));
   } catch (const std::exception& failure) {
     if (is_resource_exhaustion(failure)) throw;  // it is still "running", and taken up again
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
       return;  // still "running": it is resumed when there is free space
     }
-    error = text_of(error_json("environment", folders_.without_paths(failure.what()), {}));
+    error = dump_text(error_json("environment", folders_.without_paths(failure.what()), {}));
   }
-  store_.set_bytes(row.id, disk_bytes_of(folders_.folder_of(row)));
+  store_.set_bytes(row.id, measure_disk_bytes(folders_.ground_truth_folder(row)));
   const std::optional<JobRow> ended = state_.apply(row, event, error);
-  spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
+  spdlog::info("job {} {}", row.id, ended ? to_string(ended->state) : "was cancelled meanwhile");
 }
 
 jobs::Share JobRunner::share_of(const JobRow& row) const {
@@ -210,8 +210,8 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
   Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
   std::string stages;
   const auto on_progress = [&](const jobs::JobProgress& progress) {
-    state_.set_progress(row, text_of(progress_json(progress)));
-    if (const std::string now = text_of(stages_json(progress)); now != stages) {
+    state_.set_progress(row, dump_text(progress_json(progress)));
+    if (const std::string now = dump_text(stages_json(progress)); now != stages) {
       stages = now;
       state_.record_event(row, "stage", stages);
     }
@@ -235,7 +235,7 @@ void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop)
   const jobs::JobFolder folder(folders_.calibration_folder(row.id));
   constexpr jobs::Task kTask{jobs::Task::Kind::calibrate};
   const auto set_progress = [&](double share, const std::string& what) {
-    state_.set_progress(row, text_of({{"share", share}, {"stage", what}}));
+    state_.set_progress(row, dump_text({{"share", share}, {"stage", what}}));
   };
   if (!folder.is_done(kTask)) {
     const std::array tasks = {kTask};
@@ -243,7 +243,7 @@ void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop)
       set_progress(progress.total > 0 ? progress.done / progress.total : 0, progress.what);
     };
     jobs::Share share = share_of(row);
-    share.memory_mib = [mib = Calibrations::memory_mib_of(folder.path())](const jobs::Task&) {
+    share.memory_mib = [mib = Calibrations::estimate_memory_mib(folder.path())](const jobs::Task&) {
       return mib;
     };
     const jobs::TaskResult result = executor_.run(folder, tasks, on_progress, stop, share).at(0);
@@ -261,7 +261,7 @@ void JobRunner::make_study(const JobRow& row, const std::stop_token& stop) {
   Clock::time_point last_save;
   Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
   const auto on_progress = [&](const json& progress) {
-    state_.set_progress(row, text_of(progress));
+    state_.set_progress(row, dump_text(progress));
     const auto now = Clock::now();
     if (now - last_save < kProgressInterval) return;
     last_save = now;
@@ -289,7 +289,7 @@ void JobRunner::save_progress(const JobRow& row) {
 // cancelled.
 void JobRunner::save_bytes(const JobRow& row) {
   try {
-    store_.set_bytes(row.id, disk_bytes_of(folders_.folder_of(row)));
+    store_.set_bytes(row.id, measure_disk_bytes(folders_.ground_truth_folder(row)));
   } catch (const std::exception& error) {
     spdlog::warn("job {}: its files were not counted: {}", row.id, error.what());
   }

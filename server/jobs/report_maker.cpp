@@ -28,7 +28,7 @@ ReportMaker::ReportMaker(jobs::Executor& executor, ReportMakerOptions options)
   }
 }
 
-std::deque<ReportMaker::Order>::iterator ReportMaker::order_of(const fs::path& job) {
+std::deque<ReportMaker::Order>::iterator ReportMaker::find_order(const fs::path& job) {
   return std::find_if(orders_.begin(), orders_.end(),
                       [&](const Order& order) { return order.job == job; });
 }
@@ -42,7 +42,7 @@ std::optional<fs::path> ReportMaker::report_of(const fs::path& job, const jobs::
                                                std::chrono::milliseconds timeout) {
   const fs::path file = report_file(job);
   std::unique_lock lock(mutex_);
-  const auto is_ordered = [&] { return order_of(job) != orders_.end(); };
+  const auto is_ordered = [&] { return find_order(job) != orders_.end(); };
   if (!is_ordered() && failures_.count(job) == 0) {
     if (fs::exists(file)) return file;
     if (orders_.size() >= options_.max_waiting) {
@@ -71,7 +71,7 @@ void ReportMaker::work(const std::stop_token& stop) {
     lock.unlock();
     const std::string failure = failure_of(order, stop);
     lock.lock();
-    orders_.erase(order_of(order.job));
+    orders_.erase(find_order(order.job));
     if (!failure.empty()) failures_[order.job] = failure;
     changed_.notify_all();
   }

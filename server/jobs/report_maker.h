@@ -48,7 +48,7 @@ class ReportMaker {
 
   void work(const std::stop_token& stop);
   std::string failure_of(const Order& order, const std::stop_token& stop) const;
-  std::deque<Order>::iterator order_of(const std::filesystem::path& job);
+  std::deque<Order>::iterator find_order(const std::filesystem::path& job);
   std::deque<Order>::iterator next_order();
 
   jobs::Executor& executor_;

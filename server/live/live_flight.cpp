@@ -36,7 +36,7 @@ constexpr std::size_t kMaxKeptEvents = 200;  // that are kept for viewers who co
 
 }  // namespace
 
-const char* name_of(LiveState state) {
+const char* to_string(LiveState state) {
   constexpr std::array kNames = {"starting", "flying", "ended", "failed"};
   return kNames[static_cast<std::size_t>(state)];
 }
@@ -130,7 +130,7 @@ void LiveFlight::run() {
 
 void LiveFlight::fail(const std::string& kind, const std::string& message) {
   take({MessageType::failure,
-        text_of({{"kind", kind}, {"message", message}, {"problems", json::array()}})});
+        dump_text({{"kind", kind}, {"message", message}, {"problems", json::array()}})});
 }
 
 void LiveFlight::take(const Message& message) {
@@ -171,7 +171,7 @@ void LiveFlight::take(const Message& message) {
 }
 
 void LiveFlight::send(const json& line) {
-  const std::string text = text_of(line) + "\n";
+  const std::string text = dump_text(line) + "\n";
   // Shorter than a pipe's atomic writes, or else a part of a line could be left behind.
   if (::write(input_, text.data(), text.size()) < 0 && errno != EAGAIN && errno != EPIPE) {
     spdlog::warn("live flight {}: {}", spec_.id, std::strerror(errno));

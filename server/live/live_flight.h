@@ -21,7 +21,7 @@
 namespace throng::server {
 
 enum class LiveState { starting, flying, ended, failed };
-const char* name_of(LiveState state);
+const char* to_string(LiveState state);
 
 struct LiveFlightSpec {
   std::string id;

@@ -84,7 +84,7 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   spec.owner = owner;
   spec.name = job.spec().name;
   for (const jobs::DroneSpec& drone : job.spec().drones) spec.drones.push_back(drone.mission.id);
-  spec.job_json = text_of(to_json(job.spec()));
+  spec.job_json = dump_text(to_json(job.spec()));
   spec.memory_mib = flight_memory_mib(job);
   spec.folder = folder_;
   spec.command = limits_.command;

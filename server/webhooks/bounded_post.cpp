@@ -41,7 +41,7 @@ bool has_host(std::string_view url) {
   return end != std::string_view::npos && url.substr(end, 4) != ":///";
 }
 
-std::string part_of(CURLU* url, CURLUPart part) {
+std::string url_part(CURLU* url, CURLUPart part) {
   char* text = nullptr;
   ::curl_url_get(url, part, &text, 0);
   const std::unique_ptr<char, FreedBy<&curl_free>> owner(text);
@@ -53,10 +53,10 @@ Url parse_url(const std::string& text) {
   Url url(::curl_url());
   if (!has_host(text) ||
       ::curl_url_set(url.get(), CURLUPART_URL, text.c_str(), CURLU_DISALLOW_USER) != CURLUE_OK ||
-      part_of(url.get(), CURLUPART_PORT) == "0") {
+      url_part(url.get(), CURLUPART_PORT) == "0") {
     return nullptr;
   }
-  const std::string scheme = part_of(url.get(), CURLUPART_SCHEME);
+  const std::string scheme = url_part(url.get(), CURLUPART_SCHEME);
   return scheme == "http" || scheme == "https" ? std::move(url) : nullptr;
 }
 
@@ -111,7 +111,7 @@ std::size_t note_head(char*, std::size_t size, std::size_t count, void* data) {
 
 std::size_t refuse_body(char*, std::size_t, std::size_t, void*) { return 0; }
 
-Headers list_of(const PostHeaders& headers) {
+Headers curl_headers(const PostHeaders& headers) {
   curl_slist* list = nullptr;
   for (const auto& [name, value] : headers) {
     list = ::curl_slist_append(list, (name + ": " + value).c_str());
@@ -165,7 +165,8 @@ std::optional<CURLcode> perform(CURL* handle, const std::stop_token& stop) {
   return result;
 }
 
-std::string error_of(const Exchange& exchange, std::optional<CURLcode> result, const char* detail) {
+std::string describe_error(const Exchange& exchange, std::optional<CURLcode> result,
+                           const char* detail) {
   if (!result) return "the service ends";
   if (exchange.is_head_long) return "the answer begins with too long a head";
   if (exchange.has_refused && *result == CURLE_COULDNT_CONNECT) {
@@ -183,7 +184,7 @@ bool is_callable_url(const std::string& url) { return parse_url(url) != nullptr;
 bool names_private_address(const std::string& url) {
   const Url parsed = parse_url(url);
   const auto address =
-      parsed ? numeric_address(part_of(parsed.get(), CURLUPART_HOST)) : std::nullopt;
+      parsed ? numeric_address(url_part(parsed.get(), CURLUPART_HOST)) : std::nullopt;
   return address && !is_public(reinterpret_cast<const sockaddr&>(*address));
 }
 
@@ -192,7 +193,7 @@ PostResult bounded_post(const std::string& url, const PostHeaders& headers, cons
   static const CURLcode kReady = ::curl_global_init(CURL_GLOBAL_DEFAULT);
   const Url parsed = parse_url(url);
   if (!parsed || kReady != CURLE_OK) return {0, "the URL cannot be called"};
-  const Headers list = list_of(headers);
+  const Headers list = curl_headers(headers);
   std::array<char, CURL_ERROR_SIZE> detail{};
   const Handle handle(::curl_easy_init());
   Exchange exchange{.allow_private = options.allow_private, .handle = handle.get()};
@@ -202,7 +203,7 @@ PostResult bounded_post(const std::string& url, const PostHeaders& headers, cons
   ::curl_easy_setopt(handle.get(), CURLOPT_ERRORBUFFER, detail.data());
   const std::optional<CURLcode> result = perform(handle.get(), stop);
   if (exchange.status != 0) return {static_cast<int>(exchange.status), ""};
-  return {0, error_of(exchange, result, detail.data())};
+  return {0, describe_error(exchange, result, detail.data())};
 }
 
 }  // namespace throng::server

@@ -88,7 +88,7 @@ bool is_public_6(const Bytes6& address) {
                       [&](const Block6& block) { return is_in(address, block); });
 }
 
-Bytes6 bytes_of(const sockaddr& address) {
+Bytes6 ipv6_bytes(const sockaddr& address) {
   sockaddr_in6 value{};
   std::memcpy(&value, &address, sizeof(value));
   Bytes6 bytes{};
@@ -96,7 +96,7 @@ Bytes6 bytes_of(const sockaddr& address) {
   return bytes;
 }
 
-std::uint32_t four_of(const sockaddr& address) {
+std::uint32_t ipv4_address(const sockaddr& address) {
   sockaddr_in value{};
   std::memcpy(&value, &address, sizeof(value));
   return ntohl(value.sin_addr.s_addr);
@@ -104,7 +104,8 @@ std::uint32_t four_of(const sockaddr& address) {
 
 bool is_equal(const sockaddr& a, const sockaddr& b) {
   if (a.sa_family != b.sa_family) return false;
-  return a.sa_family == AF_INET ? four_of(a) == four_of(b) : bytes_of(a) == bytes_of(b);
+  return a.sa_family == AF_INET ? ipv4_address(a) == ipv4_address(b)
+                                : ipv6_bytes(a) == ipv6_bytes(b);
 }
 
 bool is_of_this_machine(const sockaddr& address) {
@@ -124,10 +125,10 @@ bool is_of_this_machine(const sockaddr& address) {
 
 bool is_public(const sockaddr& address) {
   if (address.sa_family == AF_INET) {
-    return is_public_4(four_of(address)) && !is_of_this_machine(address);
+    return is_public_4(ipv4_address(address)) && !is_of_this_machine(address);
   }
   if (address.sa_family == AF_INET6) {
-    return is_public_6(bytes_of(address)) && !is_of_this_machine(address);
+    return is_public_6(ipv6_bytes(address)) && !is_of_this_machine(address);
   }
   return false;
 }

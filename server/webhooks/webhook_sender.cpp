@@ -27,10 +27,10 @@ bool is_wanted(const Webhook& webhook, const std::string& type) {
                      [&](const std::string& event) { return event == "*" || event == type; });
 }
 
-std::string body_of(const jobs::EventRow& event) {
+std::string event_body(const jobs::EventRow& event) {
   nlohmann::json body = event_json(event);
   body["links"] = {{"job", "/v1/jobs/" + event.job}};
-  return text_of(body);
+  return dump_text(body);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Delivery WebhookSender::post(const Webhook& webhook, std::int64_t event, const s
       {"Content-Type", "application/json"},
       {"Throng-Event", type},
       {"Throng-Delivery", fmt::format("{}-{}", webhook.id, event)},
-      {"Throng-Signature", signature_of(webhook.secret, delivery.at_ms / kMsPerS, body)}};
+      {"Throng-Signature", sign_body(webhook.secret, delivery.at_ms / kMsPerS, body)}};
   PostResult result = bounded_post(webhook.url, headers, body, options_.post, stop);
   delivery.status = result.status;
   delivery.error = std::move(result.error);
@@ -141,7 +141,7 @@ bool WebhookSender::deliver_next(Webhook& webhook, const std::stop_token& stop) 
       continue;
     }
     const Delivery delivery =
-        post(webhook, event.seq, event.type, webhook.failures + 1, body_of(event), stop);
+        post(webhook, event.seq, event.type, webhook.failures + 1, event_body(event), stop);
     // Broken off because the service ends: it did not fail.
     if (delivery.status == 0 && stop.stop_requested()) return true;
     if (delivery.succeeded()) {

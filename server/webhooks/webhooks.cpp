@@ -57,7 +57,7 @@ std::string random_hex(int words) {
   return text;
 }
 
-Webhook webhook_of(SQLite::Statement& query) {
+Webhook read_webhook(SQLite::Statement& query) {
   Webhook webhook;
   webhook.id = query.getColumn(0).getString();
   webhook.url = query.getColumn(1).getString();
@@ -149,7 +149,7 @@ std::vector<Webhook> Webhooks::list() const {
                             "SELECT id, url, events, secret, created_ms, after, failing_since_ms, "
                             "failures, enabled FROM webhook ORDER BY created_ms, id");
     std::vector<Webhook> webhooks;
-    while (query.executeStep()) webhooks.push_back(webhook_of(query));
+    while (query.executeStep()) webhooks.push_back(read_webhook(query));
     return webhooks;
   });
 }
@@ -221,7 +221,7 @@ std::vector<Delivery> Webhooks::deliveries(const std::string& id, int limit) con
   });
 }
 
-std::string signature_of(const std::string& secret, std::int64_t unix_s, const std::string& body) {
+std::string sign_body(const std::string& secret, std::int64_t unix_s, const std::string& body) {
   const std::string text = fmt::format("{}.{}", unix_s, body);
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
   unsigned int length = 0;

@@ -68,6 +68,6 @@ class Webhooks {
 };
 
 /// "t=SECONDS,v1=HEX": HMAC-SHA256 with the secret, of the time, a dot and the body.
-std::string signature_of(const std::string& secret, std::int64_t unix_s, const std::string& body);
+std::string sign_body(const std::string& secret, std::int64_t unix_s, const std::string& body);
 
 }  // namespace throng::server

@@ -21,7 +21,7 @@ world::TraceHeader named(world::TraceHeader header, const std::string& name) {
   return header;
 }
 
-world::CrowdOrigin origin_of(const crowd::LoadOptions& options) {
+world::CrowdOrigin crowd_origin(const crowd::LoadOptions& options) {
   return {options.model,
           std::string(crowd::kCompatWords.at(static_cast<std::size_t>(options.compat))),
           options.hard_separation,
@@ -47,7 +47,7 @@ world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t se
   header.generator = kGenerator;
   header.seed = seed;
   header.dt_s = crowd.dt_s();
-  header.crowd = origin_of(crowd.options());
+  header.crowd = crowd_origin(crowd.options());
   header.state_names = crowd.state_names();
   header.state_lying = lying_states(crowd);
   header.role.assign(crowd.agent_count(), world::AgentRole::person);

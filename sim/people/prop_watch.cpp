@@ -11,7 +11,7 @@ namespace throng::sim {
 namespace {
 
 /// The inner part of what a prop covers, along each side: who brushes past its edge is not in it.
-world::Prop core_of(world::Prop prop) {
+world::Prop shrink_to_core(world::Prop prop) {
   constexpr double kCore = 0.6;
   prop.scale *= kCore;
   return prop;
@@ -47,7 +47,7 @@ void PropWatch::look(std::span<const Eigen::Vector2f> positions,
     if (cell == props_in_.end()) continue;
     for (const std::size_t i : cell->second) {
       const world::Prop& prop = scenario_->props[i];
-      if (!noted_.contains(i) && world::distance_to(core_of(prop), at) <= 0) {
+      if (!noted_.contains(i) && world::distance_to(shrink_to_core(prop), at) <= 0) {
         record(i, agent, at, time_s);
       }
     }

@@ -8,8 +8,9 @@ namespace throng::sim {
 namespace {
 
 // In a recording everybody is a person: the scenario's dangers are agents of its own crowd.
-std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const RunSpec& spec,
-                                       const CrowdSource& crowd, std::vector<Problem>& problems) {
+std::vector<world::AgentRole> roles_at_start(const world::Scenario& scenario, const RunSpec& spec,
+                                             const CrowdSource& crowd,
+                                             std::vector<Problem>& problems) {
   const std::size_t agents = crowd.positions().size();
   const std::vector<int> none;
   std::vector<world::AgentRole> roles =
@@ -42,7 +43,7 @@ StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& s
   StartingPeople people;
   people.crowd = spec.recorded ? replayed(spec.recorded, spec.seed)
                                : simulated(load_crowd(scenario, spec.seed, spec.crowd));
-  people.roles = roles_of(scenario, spec, *people.crowd, problems);
+  people.roles = roles_at_start(scenario, spec, *people.crowd, problems);
   for (std::size_t i = 0; i < people.roles.size(); ++i) {
     people.crowd->set_present(i, people.roles[i] != world::AgentRole::absent);
   }

@@ -30,7 +30,7 @@ struct View {
   double yaw_rad = 0;  ///< heading
 };
 
-Airframe airframe_of(const DroneMission& mission) {
+Airframe find_airframe(const DroneMission& mission) {
   if (mission.own_airframe) return *mission.own_airframe;
   for (const Airframe& frame : shipped_airframes()) {
     if (frame.name == mission.airframe) return frame;
@@ -61,7 +61,7 @@ class Aim {
         people_(people),
         taken_(taken),
         mission_(mission),
-        frame_(airframe_of(mission)) {}
+        frame_(find_airframe(mission)) {}
 
   /// The first view with nothing in between, else the first from a free start.
   std::optional<View> view(Random random) const {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kClearanceM = kFlightClearanceM;
 
-std::string text_of(const Vector3d& p) {
+std::string format_position(const Vector3d& p) {
   return fmt::format("[{:g}, {:g}, {:g}]", p.x(), p.y(), p.z());
 }
 
@@ -125,12 +125,12 @@ class MissionCheck {
     }
     const double lowest_m = lowest_height_m(frame);
     if (point.z() < lowest_m) {
-      add(where, text_of(point),
+      add(where, format_position(point),
           fmt::format("a point at least {:.2g} m above the ground", lowest_m));
       return false;
     }
     if (const world::Building* building = building_near(scenario_, point, frame)) {
-      add(where, text_of(point), away_from(*building, frame));
+      add(where, format_position(point), away_from(*building, frame));
       return false;
     }
     return true;
@@ -170,7 +170,7 @@ class MissionCheck {
         drone.start.z() >= tallest->height_m + kClearanceM) {
       return;
     }
-    add("/start", text_of(drone.start),
+    add("/start", format_position(drone.start),
         fmt::format("a height of at least {:g} m, above building \"{}\", the tallest with "
                     "{:g} m, since the policy \"{}\" keeps the height and flies everywhere",
                     tallest->height_m + kClearanceM, tallest->id, tallest->height_m,
@@ -181,7 +181,7 @@ class MissionCheck {
                  const Airframe& frame) {
     const world::Building* building = building_between(scenario_, from, to, frame);
     if (building == nullptr) return true;
-    add(where, fmt::format("a path from {} to {}", text_of(from), text_of(to)),
+    add(where, fmt::format("a path from {} to {}", format_position(from), format_position(to)),
         fmt::format("a path at least {:.2g} m away from building \"{}\", which is {:g} m high",
                     frame.radius_m() + kClearanceM, building->id, building->height_m));
     return false;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPathStepS = 0.05;
 
-world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
+world::DronePath plan_path(const PlannedDrone& drone, double duration_s) {
   world::DronePath path{drone.mission.id, {drone.start}};
   if (goes_by_people(*drone.policy)) return path;
   PlannedMotion motion(drone);
@@ -19,7 +19,7 @@ world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
   return path;
 }
 
-std::vector<PlannedPose> poses_of(const PlannedDrone& drone, std::span<const double> times_s) {
+std::vector<PlannedPose> plan_poses(const PlannedDrone& drone, std::span<const double> times_s) {
   std::vector<PlannedPose> poses;
   if (goes_by_people(*drone.policy)) return poses;
   PlannedMotion motion(drone);
@@ -47,7 +47,7 @@ std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, con
   const std::vector<PlannedDrone> drones = checked_drones(scenario, run);
   std::vector<world::DronePath> paths;
   paths.reserve(drones.size());
-  for (const PlannedDrone& drone : drones) paths.push_back(path_of(drone, run.duration_s));
+  for (const PlannedDrone& drone : drones) paths.push_back(plan_path(drone, run.duration_s));
   return paths;
 }
 
@@ -56,7 +56,7 @@ std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scena
                                                     std::span<const double> times_s) {
   std::vector<std::vector<PlannedPose>> poses;
   for (const PlannedDrone& drone : checked_drones(scenario, run)) {
-    poses.push_back(poses_of(drone, times_s));
+    poses.push_back(plan_poses(drone, times_s));
   }
   return poses;
 }

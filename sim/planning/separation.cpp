@@ -30,7 +30,7 @@ struct Box {
 };
 
 // All places that a drone can be asked to go to.
-Box reach_of(const PlannedDrone& drone) {
+Box reach_box(const PlannedDrone& drone) {
   const GuidanceSpec& guidance = drone.mission.guidance;
   Box box;
   box.add(drone.start);
@@ -64,9 +64,9 @@ std::optional<Meeting> first_meeting(const PlannedDrone& one, const PlannedDrone
                                      double duration_s) {
   VehicleInAir a = inflated(one, one.start);
   VehicleInAir b = inflated(two, two.start);
-  if (approach_of(a, b).gap_m < 0) return Meeting{0, two.start};
+  if (nearest_approach(a, b).gap_m < 0) return Meeting{0, two.start};
   if (goes_by_people(*one.policy) || goes_by_people(*two.policy)) return std::nullopt;
-  if (!reach_of(one).overlaps(reach_of(two), 2 + a.radius_m + b.radius_m)) return std::nullopt;
+  if (!reach_box(one).overlaps(reach_box(two), 2 + a.radius_m + b.radius_m)) return std::nullopt;
   constexpr double kStepS = 0.1;
   PlannedMotion first(one);
   PlannedMotion second(two);
@@ -78,7 +78,7 @@ std::optional<Meeting> first_meeting(const PlannedDrone& one, const PlannedDrone
     const Vector3d to_b = second.advance(kStepS);
     a.velocity = (to_a - from_a) / kStepS;
     b.velocity = (to_b - from_b) / kStepS;
-    const double in_s = approach_of(a, b).contact_in_s;
+    const double in_s = nearest_approach(a, b).contact_in_s;
     if (in_s <= kStepS) return Meeting{i * kStepS + in_s, from_b + in_s * b.velocity};
     a.position = to_a;
     b.position = to_b;
@@ -119,8 +119,8 @@ std::vector<Problem> possible_meetings(const std::vector<PlannedDrone>& drones) 
       if (!goes_by_people(*one.policy) && !goes_by_people(*two.policy)) continue;
       const double room_m =
           0.5 * (one.airframe.height_m + two.airframe.height_m) + kFlightClearanceM;
-      const Box a = reach_of(one);
-      const Box b = reach_of(two);
+      const Box a = reach_box(one);
+      const Box b = reach_box(two);
       if (a.min.z() - b.max.z() >= room_m || b.min.z() - a.max.z() >= room_m) continue;
       warnings.push_back(
           {"", fmt::format("/drones/{}", i),

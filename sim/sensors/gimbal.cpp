@@ -24,7 +24,7 @@ Vector3d normal3(Random& random) {
   return v;
 }
 
-ViewAngles angles_of(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+ViewAngles view_angles(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 ViewAngles mixed(const ViewAngles& a, const ViewAngles& b, double share) {
   return {a.yaw + share * (b.yaw - a.yaw), a.pitch + share * (b.pitch - a.pitch),
@@ -56,13 +56,14 @@ class SecondOrder {
 
 }  // namespace
 
-double heading_of(const Eigen::Quaterniond& orientation) {
+double heading_from_orientation(const Eigen::Quaterniond& orientation) {
   const Vector3d nose = orientation * Vector3d::UnitX();
   return std::atan2(nose.y(), nose.x());
 }
 
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
-  return {heading_of(orientation) + camera.yaw_deg * kDegree, camera.pitch_deg * kDegree, 0};
+  return {heading_from_orientation(orientation) + camera.yaw_deg * kDegree,
+          camera.pitch_deg * kDegree, 0};
 }
 
 GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
@@ -75,7 +76,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
   Vector3d bias;
   for (double& value : bias) value = random.uniform(-spec.bias_rad, spec.bias_rad);
   Vector3d jitter = normal3(random);
-  double heading = heading_of(truth.front().orientation);
+  double heading = heading_from_orientation(truth.front().orientation);
   Vector3d target(heading + yaw_rad, pitch_rad, 0);
   SecondOrder response(spec, target);
   double last_s = truth.front().time_s;
@@ -83,10 +84,10 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
     const double dt_s = sample.time_s - last_s;
     last_s = sample.time_s;
     // Heading without jumps at half a turn.
-    heading += std::remainder(heading_of(sample.orientation) - heading, 2 * EIGEN_PI);
+    heading += std::remainder(heading_from_orientation(sample.orientation) - heading, 2 * EIGEN_PI);
     const Vector3d next(heading + yaw_rad, pitch_rad, 0);
     if (spec.ideal) {
-      points_.push_back({sample.time_s, angles_of(next), angles_of(next)});
+      points_.push_back({sample.time_s, view_angles(next), view_angles(next)});
       continue;
     }
     const Vector3d angle = response.advance(target, next, dt_s);
@@ -95,8 +96,8 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
     const double kept = std::exp(-dt_s * spec.natural_rad_s);
     jitter = kept * jitter + std::sqrt(1 - kept * kept) * normal3(random);
     const Vector3d held = angle + spec.jitter_rad * jitter;
-    points_.push_back({sample.time_s, angles_of(held + bias),
-                       angles_of(held + spec.reading_rad * normal3(random))});
+    points_.push_back({sample.time_s, view_angles(held + bias),
+                       view_angles(held + spec.reading_rad * normal3(random))});
   }
 }
 

@@ -18,7 +18,7 @@ struct ViewAngles {
 };
 
 /// Heading of a drone: where its nose points, whatever it leans.
-double heading_of(const Eigen::Quaterniond& orientation);
+double heading_from_orientation(const Eigen::Quaterniond& orientation);
 
 /// Viewing direction of an ideal gimbal below a drone: that of the drone's heading and the camera's
 /// mounting, level.

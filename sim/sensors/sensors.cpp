@@ -19,7 +19,7 @@ constexpr std::uint64_t kSensorsPerDrone = 8;
 
 enum class Sensor : std::uint64_t { gyro, accelerometer, magnetometer, barometer, gps };
 
-Random random_of(std::uint64_t seed, std::uint64_t drone, Sensor sensor) {
+Random sensor_random(std::uint64_t seed, std::uint64_t drone, Sensor sensor) {
   return {seed, Stream::sensors, drone * kSensorsPerDrone + static_cast<std::uint64_t>(sensor)};
 }
 
@@ -49,7 +49,9 @@ class Wander {
 };
 
 /// The walk that gives a process of this standard deviation.
-double walk_of(double sd, double correlation_s) { return sd * std::sqrt(2 / correlation_s); }
+double random_walk_step(double sd, double correlation_s) {
+  return sd * std::sqrt(2 / correlation_s);
+}
 
 class InertialTriad {
  public:
@@ -118,7 +120,7 @@ class Barometer {
   Barometer(const SensorNoise& noise, Random random)
       : noise_(noise),
         random_(random),
-        weather_(walk_of(noise.weather_share, noise.weather_s), noise.weather_s) {}
+        weather_(random_walk_step(noise.weather_share, noise.weather_s), noise.weather_s) {}
 
   double read(double height_m, double dt_s) {
     const double share = 1 + weather_.advance(dt_s, random_).x();
@@ -150,11 +152,12 @@ SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t
                      std::uint64_t drone, double latitude_rad, const SensorNoise& noise) {
   check(!truth.empty(), "a drone with sensors has flown");
   const Vector3d field = magnetic_field(latitude_rad);
-  InertialTriad gyro(noise.gyro, random_of(seed, drone, Sensor::gyro));
-  InertialTriad accelerometer(noise.accelerometer, random_of(seed, drone, Sensor::accelerometer));
-  Random magnetic = random_of(seed, drone, Sensor::magnetometer);
-  Barometer barometer(noise, random_of(seed, drone, Sensor::barometer));
-  Gps gps(noise, random_of(seed, drone, Sensor::gps));
+  InertialTriad gyro(noise.gyro, sensor_random(seed, drone, Sensor::gyro));
+  InertialTriad accelerometer(noise.accelerometer,
+                              sensor_random(seed, drone, Sensor::accelerometer));
+  Random magnetic = sensor_random(seed, drone, Sensor::magnetometer);
+  Barometer barometer(noise, sensor_random(seed, drone, Sensor::barometer));
+  Gps gps(noise, sensor_random(seed, drone, Sensor::gps));
   constexpr double kUsualStepS = 1.0 / 60;
   double last_s = truth.front().time_s - kUsualStepS;
   for (const world::DroneSample& sample : truth) {

@@ -8,7 +8,7 @@
 
 namespace throng::sim {
 
-/// Somebody who is still in the place.
+/// Somebody who is still in the scenario.
 struct PersonSeen {
   Eigen::Vector2d position;  ///< m
   Eigen::Vector2d velocity;  ///< m/s

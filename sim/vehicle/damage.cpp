@@ -31,7 +31,7 @@ bool Damage::any_propeller() const {
   return std::any_of(propeller.begin(), propeller.end(), [](bool broken) { return broken; });
 }
 
-Damage damage_of(const Impact& impact, const Airframe& airframe) {
+Damage impact_damage(const Impact& impact, const Airframe& airframe) {
   constexpr double kSharePerPropeller = 0.2;
   Damage damage;
   const double speed_mps = wall_speed_mps(impact.impulse_ns, airframe);

@@ -32,6 +32,6 @@ struct Damage {
 
 /// Damage by an impact: its speed against a wall is compared with the airframe's limits. Of the
 /// propellers those break through which at least a fifth of the impulse came.
-Damage damage_of(const Impact& impact, const Airframe& airframe);
+Damage impact_damage(const Impact& impact, const Airframe& airframe);
 
 }  // namespace throng::sim

@@ -185,7 +185,7 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
 // Breaks what does not withstand the impact, and is not broken already.
 void Flight::damage(const Impact& impact) {
   const Airframe& airframe = world_.airframe(impact.vehicle);
-  Damage damage = damage_of(impact, airframe);
+  Damage damage = impact_damage(impact, airframe);
   Damage& before = damages_[impact.vehicle];
   if (before.structure) return;
   for (std::size_t rotor = 0; rotor < damage.propeller.size(); ++rotor) {

@@ -24,7 +24,7 @@ void label(btCollisionObject& body, Obstacle obstacle, int index) {
   body.setUserIndex(static_cast<int>(obstacle));
   body.setUserIndex2(index);
 }
-Obstacle obstacle_of(const btCollisionObject& body) {
+Obstacle obstacle_from_body(const btCollisionObject& body) {
   return static_cast<Obstacle>(body.getUserIndex());
 }
 
@@ -185,10 +185,10 @@ struct FlightWorld::Bodies {
   void note_contact(const btPersistentManifold& manifold, bool first) {
     const btCollisionObject& vehicle = first ? *manifold.getBody0() : *manifold.getBody1();
     const btCollisionObject& other = first ? *manifold.getBody1() : *manifold.getBody0();
-    if (obstacle_of(vehicle) != Obstacle::drone) return;
+    if (obstacle_from_body(vehicle) != Obstacle::drone) return;
     Touch touch;
     touch.vehicle = static_cast<std::size_t>(vehicle.getUserIndex2());
-    touch.obstacle = obstacle_of(other);
+    touch.obstacle = obstacle_from_body(other);
     touch.index = other.getUserIndex2();
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
       const btManifoldPoint& point = manifold.getContactPoint(i);
@@ -211,7 +211,7 @@ struct FlightWorld::Bodies {
 
   Vector3d velocity_before(const btCollisionObject& body) const {
     const auto index = static_cast<std::size_t>(body.getUserIndex2());
-    switch (obstacle_of(body)) {
+    switch (obstacle_from_body(body)) {
       case Obstacle::drone:
         return vehicles[index]->velocity_before;
       case Obstacle::person:

@@ -32,7 +32,7 @@ struct Describe {
                        event.people_near);
   }
   std::string operator()(const world::Collision& event) const {
-    return fmt::format("a drone that hit a {} at {:.1f} m/s", world::name_of(event.partner),
+    return fmt::format("a drone that hit a {} at {:.1f} m/s", world::to_string(event.partner),
                        event.speed_mps);
   }
   std::string operator()(const auto&) const { return ""; }
@@ -43,11 +43,11 @@ struct Describe {
 void HoldWarnings::record(const world::TraceEvent& event) {
   const std::string found = std::visit(Describe{}, event.kind);
   if (found.empty()) return;
-  const std::int32_t drone = world::drone_of(event.kind).value_or(-1);
+  const std::int32_t drone = world::drone_of_event(event.kind).value_or(-1);
   if (!noted_.insert({drone, event.kind.index()}).second) return;
   warnings_.push_back(
       {"", fmt::format("/drones/{}", drone),
-       fmt::format("{} ({} after {:.1f} s)", found, world::name_of(event.kind), event.time_s),
+       fmt::format("{} ({} after {:.1f} s)", found, world::to_string(event.kind), event.time_s),
        "a flight as it was asked for"});
 }
 

@@ -20,7 +20,7 @@ constexpr double kSoonS = 1.5;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // From the gaps aside and above: both below 0 where bodies overlap.
-double gap_of(double aside_m, double above_m) {
+double combine_gaps(double aside_m, double above_m) {
   if (aside_m <= 0) return above_m;
   if (above_m <= 0) return aside_m;
   return std::hypot(aside_m, above_m);
@@ -52,7 +52,7 @@ Interval spans_overlap(double d, double v, double half_m) {
   return {std::min(one, two), std::max(one, two)};
 }
 
-VehicleInAir body_of(const NearPerson& person) {
+VehicleInAir person_as_vehicle(const NearPerson& person) {
   VehicleInAir body;
   body.position = {person.position.x(), person.position.y(), 0.5 * kPersonHeightM};
   body.velocity = {person.velocity.x(), person.velocity.y(), 0};
@@ -63,7 +63,7 @@ VehicleInAir body_of(const NearPerson& person) {
 
 }  // namespace
 
-Approach approach_of(const VehicleInAir& a, const VehicleInAir& b) {
+Approach nearest_approach(const VehicleInAir& a, const VehicleInAir& b) {
   const Vector3d d = b.position - a.position;
   const Vector3d v = b.velocity - a.velocity;
   const double radii_m = a.radius_m + b.radius_m;
@@ -72,13 +72,14 @@ Approach approach_of(const VehicleInAir& a, const VehicleInAir& b) {
   const Interval above = spans_overlap(d.z(), v.z(), half_m);
   const double from = std::max({0.0, aside.from, above.from});
   const bool meets = from <= std::min(aside.to, above.to);
-  return {gap_of(d.head<2>().norm() - radii_m, std::abs(d.z()) - half_m), meets ? from : kNever};
+  return {combine_gaps(d.head<2>().norm() - radii_m, std::abs(d.z()) - half_m),
+          meets ? from : kNever};
 }
 
-Approach approach_of(const VehicleInAir& vehicle, const world::Building& building) {
+Approach nearest_approach(const VehicleInAir& vehicle, const world::Building& building) {
   const auto gap_at = [&](const Vector3d& p) {
-    return gap_of(geometry::distance_to(building.footprint, p.head<2>()) - vehicle.radius_m,
-                  p.z() - 0.5 * vehicle.height_m - building.height_m);
+    return combine_gaps(geometry::distance_to(building.footprint, p.head<2>()) - vehicle.radius_m,
+                        p.z() - 0.5 * vehicle.height_m - building.height_m);
   };
   Approach approach{gap_at(vehicle.position), kNever};
   if (approach.gap_m > vehicle.velocity.norm() * kSoonS) return approach;
@@ -94,7 +95,7 @@ Approach approach_of(const VehicleInAir& vehicle, const world::Building& buildin
 NearMisses::NearMisses(std::vector<world::Building> buildings, Log log)
     : buildings_(std::move(buildings)), log_(std::move(log)) {
   for (const world::Building& building : buildings_) {
-    bounds_.push_back(geometry::bounds_of(building.footprint));
+    bounds_.push_back(geometry::bounding_box(building.footprint));
   }
 }
 
@@ -113,12 +114,14 @@ void NearMisses::update(double time_s, std::span<const VehicleInAir> vehicles,
     const VehicleInAir& vehicle = vehicles[i];
     for (std::size_t j = i + 1; j < vehicles.size(); ++j) {
       if (!vehicle.moves && !vehicles[j].moves) continue;
-      look(time_s, {i, Obstacle::drone, static_cast<int>(j)}, approach_of(vehicle, vehicles[j]));
+      look(time_s, {i, Obstacle::drone, static_cast<int>(j)},
+           nearest_approach(vehicle, vehicles[j]));
     }
     if (!vehicle.moves) continue;
     if (reach_m(vehicle) > 0) {
       for (const NearPerson& person : people) {
-        look(time_s, {i, Obstacle::person, person.agent}, approach_of(vehicle, body_of(person)));
+        look(time_s, {i, Obstacle::person, person.agent},
+             nearest_approach(vehicle, person_as_vehicle(person)));
       }
     }
     const double reach = vehicle.radius_m + kClearM + vehicle.velocity.norm() * kSoonS;
@@ -129,7 +132,7 @@ void NearMisses::update(double time_s, std::span<const VehicleInAir> vehicles,
         continue;
       }
       look(time_s, {i, Obstacle::building, static_cast<int>(j)},
-           approach_of(vehicle, buildings_[j]));
+           nearest_approach(vehicle, buildings_[j]));
     }
   }
   for (auto entry = cases_.begin(); entry != cases_.end();) {

@@ -30,8 +30,8 @@ struct Approach {
   double gap_m = 0;
   double contact_in_s = 0;
 };
-Approach approach_of(const VehicleInAir& a, const VehicleInAir& b);
-Approach approach_of(const VehicleInAir& vehicle, const world::Building& building);
+Approach nearest_approach(const VehicleInAir& a, const VehicleInAir& b);
+Approach nearest_approach(const VehicleInAir& vehicle, const world::Building& building);
 
 /// A near miss is an approach to less than 1 m, or a course that leads to contact within 1.5 s,
 /// that does not end in a collision. It is one until 2 m are between both and nothing threatens.

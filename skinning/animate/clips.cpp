@@ -27,19 +27,19 @@ float natural_speed(double stride) {
   return static_cast<float>(low);
 }
 
-Gait gait_of(const std::string& name, double stride) {
+Gait estimate_gait(const std::string& name, double stride) {
   return {name == "run" || name == "panic", stride, name == "panic", name == "walk_look_up"};
 }
 
-float middle_of(const std::string& name, double stride) {
-  return stride > 0 ? static_cast<float>(middle(gait_of(name, stride))) : 0.0F;
+float stride_center(const std::string& name, double stride) {
+  return stride > 0 ? static_cast<float>(middle(estimate_gait(name, stride))) : 0.0F;
 }
 
 class Catalog {
  public:
   void add(const std::string& name, std::uint32_t frames, bool cyclic = true, double stride = 0) {
     clips_.push_back({name, stride > 0 ? natural_speed(stride) : 0.0F, next_, frames,
-                      static_cast<float>(stride), middle_of(name, stride), cyclic});
+                      static_cast<float>(stride), stride_center(name, stride), cyclic});
     next_ += frames;
   }
   std::vector<Clip> clips() && { return std::move(clips_); }
@@ -50,7 +50,7 @@ class Catalog {
 };
 
 // Frame `frame` of a clip as a share of it: of a cycle, or from the first frame to the last.
-double share_of(const Clip& clip, std::uint32_t frame) {
+double cycle_share(const Clip& clip, std::uint32_t frame) {
   const std::uint32_t intervals = clip.cyclic ? clip.frames : clip.frames - 1;
   return static_cast<double>(frame) / std::max(intervals, 1U);
 }
@@ -116,14 +116,14 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const Own
     // Nobody lies on a backpack.
     const bool forwards = clip.name == "fall_forwards" || walker.manner.carries == Carry::backpack;
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-      const Pose pose = fall(walker, forwards, share_of(clip, frame));
+      const Pose pose = fall(walker, forwards, cycle_share(clip, frame));
       palettes.push_back(grounded(walker, pose, walker.body));
     }
     return palettes;
   }
   if (clip.stride <= 0) {
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-      const double share = share_of(clip, frame);
+      const double share = cycle_share(clip, frame);
       const bool stands_as = clip.name == "idle" && !own.idle.empty();
       const Figure figure =
           stands_as ? stand_as(walker, own.idle, share) : standing_figure(walker, clip, share);
@@ -131,10 +131,10 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const Own
     }
     return palettes;
   }
-  const Stride stride(walker, gait_of(clip.name, clip.stride), own_cycle(own, clip));
+  const Stride stride(walker, estimate_gait(clip.name, clip.stride), own_cycle(own, clip));
   const Side side = clip.name.ends_with("right") ? Side::right : Side::left;
   for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-    const double share = share_of(clip, frame);
+    const double share = cycle_share(clip, frame);
     Figure figure;
     bool touches = true;
     if (starts_with(clip.name, "start")) {

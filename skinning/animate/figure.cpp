@@ -19,24 +19,26 @@ struct Sole {
   Eigen::Vector3f tip;   // foremost point on the ground
 };
 
-Sole sole_of(const Walker& walker, Side side) {
+Sole place_sole(const Walker& walker, Side side) {
   const Bone foot = on(side, Bone::left_foot);
   Sole sole;
-  sole.ankle = walker.joints[index_of(foot)];
-  sole.toe = walker.joints[index_of(on(side, Bone::left_toe))];
+  sole.ankle = walker.joints[index_from(foot)];
+  sole.toe = walker.joints[index_from(on(side, Bone::left_toe))];
   sole.heel = {sole.ankle.x() - 0.03F, sole.ankle.y(), 0};
   sole.tip = {sole.toe.x() + 0.04F, sole.toe.y(), 0};
-  constexpr float kTouching_m = 0.015F;
+  constexpr float kTouchingM = 0.015F;
   for (const Vertex& vertex : walker.soles) {
-    const bool here = vertex.position[1] * sign_of(side) > 0;
-    if (!here || vertex.position[2] > kTouching_m) continue;
+    const bool here = vertex.position[1] * side_sign(side) > 0;
+    if (!here || vertex.position[2] > kTouchingM) continue;
     sole.heel.x() = std::min(sole.heel.x(), vertex.position[0]);
     sole.tip.x() = std::max(sole.tip.x(), vertex.position[0]);
   }
   return sole;
 }
 
-Eigen::Matrix3f turn_of(const Foot& foot) { return turn_z(foot.yaw_rad) * turn_y(-foot.pitch_rad); }
+Eigen::Matrix3f foot_rotation(const Foot& foot) {
+  return turn_z(foot.yaw_rad) * turn_y(-foot.pitch_rad);
+}
 
 Eigen::Matrix3f between(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b, double share) {
   return Eigen::Quaternionf(a)
@@ -57,7 +59,7 @@ bool on_foot(const Vertex& vertex) {
 
 }  // namespace
 
-Manner manner_of(const Character& character) {
+Manner choose_manner(const Character& character) {
   // FNV-1a (Fowler, Noll, Vo 1991).
   std::uint64_t key = 14695981039346656037ULL;
   for (const char letter : character.name) {
@@ -76,7 +78,7 @@ Manner manner_of(const Character& character) {
   return manner;
 }
 
-Walker walker_of(const Joints& joints, float stature_m, const Mesh& level) {
+Walker make_walker(const Joints& joints, float stature_m, const Mesh& level) {
   Walker walker{joints, stature_m, {}, {}, {}};
   std::vector<char> worn(level.vertices.size(), 0);
   for (const Part& part : level.parts) {
@@ -95,19 +97,19 @@ Walker walker_of(const Joints& joints, float stature_m, const Mesh& level) {
 }
 
 Foot standing_foot(const Walker& walker, Side side, double toe_x_m, double pitch_rad) {
-  const Sole sole = sole_of(walker, side);
+  const Sole sole = place_sole(walker, side);
   const Eigen::Vector3f moved(static_cast<float>(toe_x_m) - sole.toe.x(), 0, 0);
   const Eigen::Vector3f& pivot = pitch_rad > 0 ? sole.heel : sole.toe;
   Foot foot;
   foot.pitch_rad = pitch_rad;
   foot.toes_rad = std::max(pitch_rad, 0.0);
-  foot.ankle = moved + pivot + turn_of(foot) * (sole.ankle - pivot);
+  foot.ankle = moved + pivot + foot_rotation(foot) * (sole.ankle - pivot);
   return foot;
 }
 
 double clearance_m(const Walker& walker, Side side, const Foot& foot) {
-  const Sole sole = sole_of(walker, side);
-  const Eigen::Matrix3f turn = turn_of(foot);
+  const Sole sole = place_sole(walker, side);
+  const Eigen::Matrix3f turn = foot_rotation(foot);
   const Eigen::Vector3f heel = foot.ankle + turn * (sole.heel - sole.ankle);
   const Eigen::Vector3f toe = foot.ankle + turn * (sole.toe - sole.ankle);
   const Eigen::Matrix3f toes = turn_z(foot.yaw_rad) * turn_y(-foot.toes_rad);
@@ -116,16 +118,16 @@ double clearance_m(const Walker& walker, Side side, const Foot& foot) {
   return std::min({heel.z(), tip.z(), ball.z()});
 }
 
-Limb leg_of(const Walker& walker, Side side) {
-  const auto joint = [&](Bone left) { return walker.joints[index_of(on(side, left))]; };
+Limb find_leg(const Walker& walker, Side side) {
+  const auto joint = [&](Bone left) { return walker.joints[index_from(on(side, left))]; };
   return {joint(Bone::left_shin) - joint(Bone::left_thigh),
           joint(Bone::left_foot) - joint(Bone::left_shin), Eigen::Vector3f::UnitX()};
 }
 
-Eigen::Vector3f hip_of(const Walker& walker, const Pose& pose, Side side) {
-  const Eigen::Vector3f& hips = walker.joints[index_of(Bone::hips)];
-  const Eigen::Vector3f& thigh = walker.joints[index_of(on(side, Bone::left_thigh))];
-  return hips + pose.shift + pose.rotation[index_of(Bone::hips)] * (thigh - hips);
+Eigen::Vector3f hip_position(const Walker& walker, const Pose& pose, Side side) {
+  const Eigen::Vector3f& hips = walker.joints[index_from(Bone::hips)];
+  const Eigen::Vector3f& thigh = walker.joints[index_from(on(side, Bone::left_thigh))];
+  return hips + pose.shift + pose.rotation[index_from(Bone::hips)] * (thigh - hips);
 }
 
 Pose mix(const Pose& a, const Pose& b, double share_of_b) {
@@ -162,10 +164,10 @@ Pose solve(const Walker& walker, const Figure& figure) {
     const Eigen::Vector3f knee_to =
         turn_z(0.5 * (hips_yaw + foot.yaw_rad)) * Eigen::Vector3f::UnitX();
     const LimbTurn leg =
-        reach(leg_of(walker, side), foot.ankle - hip_of(walker, pose, side), knee_to);
+        reach(find_leg(walker, side), foot.ankle - hip_position(walker, pose, side), knee_to);
     pose.of(on(side, Bone::left_thigh)) = leg.upper;
     pose.of(on(side, Bone::left_shin)) = leg.lower;
-    pose.of(on(side, Bone::left_foot)) = turn_of(foot);
+    pose.of(on(side, Bone::left_foot)) = foot_rotation(foot);
     pose.of(on(side, Bone::left_toe)) = turn_z(foot.yaw_rad) * turn_y(-foot.toes_rad);
   }
   return pose;

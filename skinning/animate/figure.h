@@ -24,7 +24,7 @@ struct Manner {
 };
 
 /// The manner of one person; names distinguish people.
-Manner manner_of(const Character& character);
+Manner choose_manner(const Character& character);
 
 /// Properties of a character that its motion depends on.
 struct Walker {
@@ -37,13 +37,13 @@ struct Walker {
 
 /// The walker of a character: soles are the vertices of its most detailed level that mostly hang on
 /// feet and toes.
-Walker walker_of(const Joints& joints, float stature_m, const Mesh& level);
+Walker make_walker(const Joints& joints, float stature_m, const Mesh& level);
 
 enum class Side : std::uint8_t { left, right };
 inline constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
 /// +1 on the left, where y is positive, and -1 on the right.
-inline constexpr float sign_of(Side side) { return side == Side::left ? 1.0F : -1.0F; }
+inline constexpr float side_sign(Side side) { return side == Side::left ? 1.0F : -1.0F; }
 /// The bone of that side, given the left one.
 inline constexpr Bone on(Side side, Bone left) {
   return side == Side::left ? left : static_cast<Bone>(static_cast<int>(left) + 4);
@@ -73,10 +73,10 @@ Foot standing_foot(const Walker& walker, Side side, double toe_x_m, double pitch
 /// How high the sole's lowest point is above the ground.
 double clearance_m(const Walker& walker, Side side, const Foot& foot);
 
-Limb leg_of(const Walker& walker, Side side);
+Limb find_leg(const Walker& walker, Side side);
 
 /// Hip joint of a leg in a figure, in model space.
-Eigen::Vector3f hip_of(const Walker& walker, const Pose& pose, Side side);
+Eigen::Vector3f hip_position(const Walker& walker, const Pose& pose, Side side);
 
 /// From a to b: turned along the shortest arcs, feet in straight lines.
 Figure mix(const Figure& a, const Figure& b, double share_of_b);

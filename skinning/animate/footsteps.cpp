@@ -146,14 +146,15 @@ class Planner {
   double add(std::string_view name, double length_m, double skipped, double at_m, bool at_rest,
              Walk& walk) {
     const Clip* before = walk.steps.empty() || at_rest ? nullptr : walk.steps.back().clip;
-    const Clip& clip = clip_of(name, length_m, before, at_rest);
+    const Clip& clip = choose_clip(name, length_m, before, at_rest);
     const double step_m = 0.5 * static_cast<double>(clip.stride) * pedestrian_.stature_m;
     walk.steps.push_back({&clip, side_, at_m - skipped * step_m, step_m});
     side_ = other(side_);
     return (1 - skipped) * step_m;
   }
 
-  const Clip& clip_of(std::string_view name, double length_m, const Clip* before, bool at_rest) {
+  const Clip& choose_clip(std::string_view name, double length_m, const Clip* before,
+                          bool at_rest) {
     const double stride = 2 * length_m / pedestrian_.stature_m;
     // First and last steps have clips of their own, for fewer lengths.
     const Clip* rest = at_rest ? clips_.find("start_left", stride) : nullptr;

@@ -34,7 +34,7 @@ double sample(const std::array<float, GaitTable::kSamples>& table, double phase)
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-const GaitTable& table_of(const Gait& gait) { return gait.runs ? kRunTable : kWalkTable; }
+const GaitTable& gait_table(const Gait& gait) { return gait.runs ? kRunTable : kWalkTable; }
 
 double own_phase(Side side, double phase) {
   return wrapped(side == Side::left ? phase : phase + 0.5);
@@ -142,7 +142,7 @@ bool Stride::supported(double phase) const {
 
 double Stride::measured_pitch_deg(Side side, double own) const {
   if (own_ != nullptr) return own_->gait.pitch_rad(side, own) / kDegree;
-  const GaitTable& table = table_of(gait_);
+  const GaitTable& table = gait_table(gait_);
   return swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg) +
          bend_ * (sample(table.ankle, own) - sample(table.knee, own));
 }
@@ -160,7 +160,7 @@ double Stride::pitch_rad(Side side, double own) const {
 }
 
 Foot Stride::stance_foot(Side side, double own) const {
-  const double standing_x = walker_->joints[index_of(on(side, Bone::left_toe))].x();
+  const double standing_x = walker_->joints[index_from(on(side, Bone::left_toe))].x();
   const double passed_m = (own - middle(gait_)) * length_m();
   return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(side, own));
 }
@@ -171,16 +171,16 @@ Foot Stride::swung_foot(Side side, double own, const Pose& pose) const {
     Eigen::Vector3f leg = own_->gait.leg(side, own);
     leg.x() *= static_cast<float>(gait_.stride / own_->stride);
     Foot foot;
-    foot.ankle = hip_of(*walker_, pose, side) + leg;
+    foot.ankle = hip_position(*walker_, pose, side) + leg;
     foot.pitch_rad = own_->gait.pitch_rad(side, own);
     return foot;
   }
-  const GaitTable& table = table_of(gait_);
+  const GaitTable& table = gait_table(gait_);
   const double hip = swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg);
   const double knee = bend_ * sample(table.knee, own);
-  const Limb leg = leg_of(*walker_, side);
+  const Limb leg = find_leg(*walker_, side);
   Foot foot;
-  foot.ankle = hip_of(*walker_, pose, side) + turn_y(-hip * kDegree) * leg.upper +
+  foot.ankle = hip_position(*walker_, pose, side) + turn_y(-hip * kDegree) * leg.upper +
                turn_y(-(hip - knee) * kDegree) * leg.lower;
   foot.pitch_rad = (hip - knee + bend_ * sample(table.ankle, own)) * kDegree;
   return foot;
@@ -205,7 +205,7 @@ Foot Stride::foot_at(Side side, double own, const Pose& pose) const {
   const double bent = 1 - geometry::smoothstep(0, 0.3, t);
   foot.toes_rad = foot.pitch_rad < 0 ? (1 - bent) * foot.pitch_rad : foot.pitch_rad;
   const double arch = std::sin(kPi * t);
-  foot.ankle.y() += static_cast<float>(0.008 * arch) * sign_of(side);
+  foot.ankle.y() += static_cast<float>(0.008 * arch) * side_sign(side);
   const double wanted_m =
       (gait_.runs ? 0.04 : 0.012 + 0.01 * walker_->manner.liveliness * gait_.stride) * arch;
   const double missing_m = wanted_m - clearance_m(*walker_, side, foot);
@@ -217,9 +217,9 @@ Foot Stride::foot_at(Side side, double own, const Pose& pose) const {
 double Stride::hip_height_m(double phase, Side side, double own, double knee_rad) const {
   Pose pose = trunk_at(phase);
   pose.shift.z() = 0;
-  const Eigen::Vector3f hip = hip_of(*walker_, pose, side);
+  const Eigen::Vector3f hip = hip_position(*walker_, pose, side);
   const Foot foot = stance_foot(side, own);
-  const double chord = chord_m(leg_of(*walker_, side), knee_rad);
+  const double chord = chord_m(find_leg(*walker_, side), knee_rad);
   const double across = (hip - foot.ankle).head<2>().norm();
   return foot.ankle.z() - hip.z() + std::sqrt(std::max(chord * chord - across * across, 0.01));
 }

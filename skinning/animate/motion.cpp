@@ -30,7 +30,7 @@ double stride_length_m(double speed_mps, double stature_m, double age_years) {
   return stature_m * young * age * shuffle;
 }
 
-PoseBlend frame_of(const Clip& clip, double frame) {
+PoseBlend blend_frame(const Clip& clip, double frame) {
   const auto frames = static_cast<double>(clip.frames);
   if (clip.cyclic) {
     const double at = frame - frames * std::floor(frame / frames);
@@ -47,15 +47,15 @@ PoseBlend frame_of(const Clip& clip, double frame) {
 PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s) {
   check(!population.clips.empty(), "a population has clips");
   const ClipSet clips(population);
-  constexpr double kStature_m = 1.75;
+  constexpr double kStatureM = 1.75;
   if (speed_mps < kStandingSpeed) {
     const Clip& idle = clips.nearest("idle");
-    return frame_of(idle, (phase + time_s / kIdlePeriod) * idle.frames);
+    return blend_frame(idle, (phase + time_s / kIdlePeriod) * idle.frames);
   }
-  const bool runs = speed_mps > running_speed_mps(kStature_m);
+  const bool runs = speed_mps > running_speed_mps(kStatureM);
   const Clip& clip =
-      clips.nearest(runs ? "run" : "walk", stride_length_m(speed_mps, kStature_m) / kStature_m);
-  return frame_of(clip, phase * clip.frames);
+      clips.nearest(runs ? "run" : "walk", stride_length_m(speed_mps, kStatureM) / kStatureM);
+  return blend_frame(clip, phase * clip.frames);
 }
 
 const Clip* ClipSet::find(std::string_view name, double stride) const {

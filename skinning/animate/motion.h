@@ -32,7 +32,7 @@ struct PoseBlend {
 };
 
 /// The frame of a clip at a position in frames; cyclic clips repeat in both directions.
-PoseBlend frame_of(const Clip& clip, double frame);
+PoseBlend blend_frame(const Clip& clip, double frame);
 
 /// Somebody who moves on steadily: `phase` in strides (any value), `speed_mps` >= 0, `time_s`
 /// drives the idle motion. Motion along a trace is MotionPlan's.

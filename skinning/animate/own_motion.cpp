@@ -38,8 +38,8 @@ std::vector<Pose> on_the_spot(std::vector<Pose> poses) {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < poses.size(); ++i) {
     // Swaying is not travel.
-    constexpr float kMinTravel_m = 0.3F;
-    if (on > kMinTravel_m) poses[i].shift -= travel * (static_cast<float>(i) / count);
+    constexpr float kMinTravelM = 0.3F;
+    if (on > kMinTravelM) poses[i].shift -= travel * (static_cast<float>(i) / count);
     mean += poses[i].shift / count;
   }
   for (Pose& pose : poses) pose.shift.head<2>() -= mean.head<2>();
@@ -57,10 +57,10 @@ OwnGait::OwnGait(const Walker& walker, const std::vector<Pose>& poses, double du
     Moment moment{pose, {}, {}};
     for (const Side side : kSides) {
       const std::size_t i = index_of_side(side);
-      moment.leg[i] =
-          posed[index_of(on(side, Bone::left_foot))] - posed[index_of(on(side, Bone::left_thigh))];
+      moment.leg[i] = posed[index_from(on(side, Bone::left_foot))] -
+                      posed[index_from(on(side, Bone::left_thigh))];
       const Eigen::Vector3f ahead =
-          pose.rotation[index_of(on(side, Bone::left_foot))] * Eigen::Vector3f::UnitX();
+          pose.rotation[index_from(on(side, Bone::left_foot))] * Eigen::Vector3f::UnitX();
       moment.pitch_rad[i] = std::atan2(ahead.z(), ahead.head<2>().norm());
     }
     mean_height_m_ += pose.shift.z() / static_cast<double>(poses.size());
@@ -73,7 +73,7 @@ OwnGait::OwnGait(const Walker& walker, const std::vector<Pose>& poses, double du
 // it while the foot is low: in swing it moves forward.
 void OwnGait::find_stride(const Walker& walker, const std::vector<Joints>& joints, double middle) {
   const std::size_t count = joints.size();
-  const std::size_t toe = index_of(Bone::left_toe);
+  const std::size_t toe = index_from(Bone::left_toe);
   const float standing_x = walker.joints[toe].x();
   const auto x = [&](std::size_t i) { return joints[i % count][toe].x() - standing_x; };
   std::vector<double> passes;

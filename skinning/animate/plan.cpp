@@ -116,7 +116,7 @@ class WalkLayer {
   }
 
   static std::uint32_t palette(const Clip& clip, double frame) {
-    return frame_of(clip, std::round(frame)).a;
+    return blend_frame(clip, std::round(frame)).a;
   }
 
   void change(const Footstep& step) {
@@ -193,7 +193,7 @@ Actions fall_actions(const Piece& piece) {
   return piece.to_frame < piece.frame ? Actions(Action::get_up) : Actions(Action::lie);
 }
 
-Actions actions_of(const Piece& piece) {
+Actions actions_during(const Piece& piece) {
   // The blend at the end of a walk goes to standing.
   if (piece.clip == nullptr) return Actions(Action::walk);
   if (piece.clip->name.starts_with("fall_")) return fall_actions(piece);
@@ -247,7 +247,7 @@ std::vector<Piece>::const_iterator MotionPlan::piece_at(double step) const {
 Actions MotionPlan::actions_at(double step) const {
   auto piece = piece_at(step);
   while (piece->clip == nullptr && piece + 1 != pieces_.end()) ++piece;
-  return actions_of(*piece);
+  return actions_during(*piece);
 }
 
 PoseBlend MotionPlan::at(double step) const {
@@ -259,7 +259,7 @@ PoseBlend MotionPlan::at(double step) const {
     return {static_cast<std::uint32_t>(piece.frame), static_cast<std::uint32_t>(piece.to_frame),
             static_cast<float>(share)};
   }
-  return frame_of(*piece.clip, piece.frame + share * (piece.to_frame - piece.frame));
+  return blend_frame(*piece.clip, piece.frame + share * (piece.to_frame - piece.frame));
 }
 
 }  // namespace throng::skinning

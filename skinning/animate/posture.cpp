@@ -11,7 +11,7 @@ namespace throng::skinning {
 namespace {
 
 void pose_arm(const Arm& arm, Side side, Pose& pose) {
-  const double sign = sign_of(side);
+  const double sign = side_sign(side);
   const Eigen::Vector3f ahead = pose.of(Bone::chest).col(0);
   const Eigen::Matrix3f base = turn_z(std::atan2(ahead.y(), ahead.x())) *
                                turn_x(sign * arm.out_deg * kDegree) *
@@ -67,24 +67,24 @@ void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose)
     const Eigen::Vector3f ahead = pose.of(Bone::chest).col(0);
     pose.of(Bone::right_hand) = turn_z(std::atan2(ahead.y(), ahead.x()));
   }
-  const auto grip = grip_of(carries, walker.joints);
+  const auto grip = find_grip(carries, walker.joints);
   if (!grip) return;
-  const Eigen::Vector3f& joint = walker.joints[index_of(grip->bone)];
-  const Eigen::Vector3f posed = pose_joints(walker.joints, pose)[index_of(grip->bone)];
+  const Eigen::Vector3f& joint = walker.joints[index_from(grip->bone)];
+  const Eigen::Vector3f posed = pose_joints(walker.joints, pose)[index_from(grip->bone)];
   hold(walker, grip->hand == Bone::left_hand ? Side::left : Side::right,
        posed + pose.of(grip->bone) * (grip->point - joint), pose);
 }
 
 void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose) {
-  const auto joint = [&](Bone left) { return walker.joints[index_of(on(side, left))]; };
+  const auto joint = [&](Bone left) { return walker.joints[index_from(on(side, left))]; };
   const Eigen::Vector3f forearm = joint(Bone::left_hand) - joint(Bone::left_forearm);
   // From the wrist to the middle of the palm.
   constexpr float kPalmOfForearm = 0.3F;
   const Limb arm{joint(Bone::left_forearm) - joint(Bone::left_upper_arm),
                  (1 + kPalmOfForearm) * forearm, -Eigen::Vector3f::UnitX()};
   const Eigen::Vector3f shoulder =
-      pose_joints(walker.joints, pose)[index_of(on(side, Bone::left_upper_arm))];
-  const Eigen::Vector3f elbow_to(-0.35F, 0.35F * sign_of(side), -1);
+      pose_joints(walker.joints, pose)[index_from(on(side, Bone::left_upper_arm))];
+  const Eigen::Vector3f elbow_to(-0.35F, 0.35F * side_sign(side), -1);
   const LimbTurn turn = reach(arm, point - shoulder, elbow_to);
   pose.of(on(side, Bone::left_upper_arm)) = turn.upper;
   pose.of(on(side, Bone::left_forearm)) = pose.of(on(side, Bone::left_hand)) = turn.lower;

@@ -27,7 +27,7 @@ struct Turning {
 };
 
 // Combination of turns that comes nearest to an angle.
-Turning turning_of(const ClipSet& clips, double angle_rad) {
+Turning choose_turning(const ClipSet& clips, double angle_rad) {
   Turning best;
   double best_error = 1e9;
   for (const auto& [name, degrees] :
@@ -98,7 +98,7 @@ void RestLayer::turn(std::size_t begin, std::size_t end) {
   for (std::size_t step = begin; step < end; ++step) {
     whole += turned(moments[step], moments[step + 1]);
   }
-  const Turning turning = turning_of(clips_, std::abs(whole));
+  const Turning turning = choose_turning(clips_, std::abs(whole));
   if (turning.clip == nullptr) {
     idle(static_cast<double>(begin), static_cast<double>(end));
     return;
@@ -139,15 +139,15 @@ void RestLayer::idle(double begin, double end) {
 }
 
 double RestLayer::idle_once(double begin, double end) {
-  constexpr double kShortLook_s = 2.4;
+  constexpr double kShortLookS = 2.4;
   const Gaze gaze = trajectory_.moments()[static_cast<std::size_t>(begin)].gaze;
-  if (gaze != Gaze::none && end - begin >= steps(kShortLook_s)) {
+  if (gaze != Gaze::none && end - begin >= steps(kShortLookS)) {
     const char* name = gaze == Gaze::left    ? "look_up_left"
                        : gaze == Gaze::right ? "look_up_right"
                                              : "look_up";
     const Clip* clip = clips_.find(name);
     if (clip != nullptr) {
-      const double until = std::clamp(gaze_ends(begin, end), begin + steps(kShortLook_s), end);
+      const double until = std::clamp(gaze_ends(begin, end), begin + steps(kShortLookS), end);
       hold(*clip, begin, until, 0.7);
       return until;
     }
@@ -186,11 +186,11 @@ double RestLayer::idle_once(double begin, double end) {
 
 // Raised in the first half of the clip, held for as long as there is time, and lowered.
 void RestLayer::hold(const Clip& clip, double begin, double end, double raising_s) {
-  constexpr double kHeld_s = 4;
+  constexpr double kHeldS = 4;
   const double raised = (clip.frames - 1) / 2;  // NOLINT(bugprone-integer-division): a frame
   const double raising = std::min(steps(raising_s), 0.4 * (end - begin));
   const double held = end - begin - 2 * raising;
-  const int times = std::max(static_cast<int>(std::lround(held / steps(kHeld_s))), 1);
+  const int times = std::max(static_cast<int>(std::lround(held / steps(kHeldS))), 1);
   add(clip, begin, begin + raising, 0, raised);
   for (int i = 0; i < times; ++i) {
     add(clip, begin + raising + held * i / times, begin + raising + held * (i + 1) / times, raised,

@@ -22,9 +22,9 @@ void put_feet(const Walker& walker, Figure& figure) {
   figure.pose.shift.z() = 0;
   for (const Side side : kSides) {
     Foot& foot = figure.of(side);
-    foot = standing_foot(walker, side, walker.joints[index_of(on(side, Bone::left_toe))].x(), 0);
-    const Eigen::Vector3f hip = hip_of(walker, figure.pose, side);
-    const double chord = chord_m(leg_of(walker, side), kKnee);
+    foot = standing_foot(walker, side, walker.joints[index_from(on(side, Bone::left_toe))].x(), 0);
+    const Eigen::Vector3f hip = hip_position(walker, figure.pose, side);
+    const double chord = chord_m(find_leg(walker, side), kKnee);
     const double across = (hip - foot.ankle).head<2>().norm();
     height = std::min(height, foot.ankle.z() - hip.z() +
                                   std::sqrt(std::max(chord * chord - across * across, 0.01)));
@@ -94,7 +94,7 @@ Pose sunk(const Limbs& limbs, double stature_m) {
 
 void put_arms(double shoulder_deg, double elbow_deg, double out_deg, Pose& pose) {
   for (const Side side : kSides) {
-    const Eigen::Matrix3f base = turn_x(sign_of(side) * out_deg * kDegree);
+    const Eigen::Matrix3f base = turn_x(side_sign(side) * out_deg * kDegree);
     pose.of(on(side, Bone::left_upper_arm)) = base * turn_y(-shoulder_deg * kDegree);
     pose.of(on(side, Bone::left_forearm)) = base * turn_y(-(shoulder_deg + elbow_deg) * kDegree);
     pose.of(on(side, Bone::left_hand)) = pose.of(on(side, Bone::left_forearm));
@@ -109,7 +109,7 @@ std::vector<Key> fall_on_the_face(const Walker& walker) {
   put_arms(70, 25, 15, kneeling);
   Pose lying = sunk({89, 86, 92, 150, 0.25}, stature);
   for (const Side side : kSides) {
-    const double sign = sign_of(side);
+    const double sign = side_sign(side);
     // Upper arms out to the sides, forearms ahead, flat on the ground.
     lying.of(on(side, Bone::left_upper_arm)) =
         turn_z(sign * -25 * kDegree) * turn_x(sign * 84 * kDegree);
@@ -132,7 +132,7 @@ std::vector<Key> fall_on_the_back(const Walker& walker) {
   put_arms(-35, 10, 20, sitting);
   Pose lying = sunk({-88, -88, -91, -58, -0.5}, stature);
   for (const Side side : kSides) {
-    const double sign = sign_of(side);
+    const double sign = side_sign(side);
     lying.of(on(side, Bone::left_upper_arm)) = turn_z(sign * 32 * kDegree) * turn_y(-88 * kDegree);
     lying.of(on(side, Bone::left_forearm)) = turn_z(sign * 8 * kDegree) * turn_y(-91 * kDegree);
     lying.of(on(side, Bone::left_hand)) = lying.of(on(side, Bone::left_forearm));
@@ -192,10 +192,10 @@ Figure look_at_phone(const Walker& walker, double raised, double phase) {
   Figure figure = standing(walker, trunk, 0, 0.006 * sine(phase));
   const Side side = phone_hand(walker.manner);
   const Bone upper_arm = on(side, Bone::left_upper_arm);
-  const Eigen::Vector3f shoulder = pose_joints(walker.joints, figure.pose)[index_of(upper_arm)];
+  const Eigen::Vector3f shoulder = pose_joints(walker.joints, figure.pose)[index_from(upper_arm)];
   const float stature = walker.stature_m;
   hold(walker, side,
-       shoulder + Eigen::Vector3f(0.165F * stature, -0.075F * sign_of(side) * stature,
+       shoulder + Eigen::Vector3f(0.165F * stature, -0.075F * side_sign(side) * stature,
                                   (-0.09F + 0.003F * static_cast<float>(sine(phase))) * stature),
        figure.pose);
   return mix(ready(walker), figure, geometry::smoothstep(raised));

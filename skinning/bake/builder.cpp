@@ -164,10 +164,10 @@ class Bakery {
     baked.character.age_years = static_cast<float>(person.age_years);
     baked.character.male = person.male;
     baked.character.carries = carries;
-    baked.character.wears = description_of(person.outfit);
+    baked.character.wears = describe_outfit(person.outfit);
     baked.character.tints = person.outfit.tints;
-    Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
-    walker.manner = manner_of(baked.character);
+    Walker walker = make_walker(dressed.joints, dressed.stature_m, asset.levels.front());
+    walker.manner = choose_manner(baked.character);
     for (const Clip& clip : clips_) baked.motion += pack(dressed.joints, bake_clip(walker, clip));
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));

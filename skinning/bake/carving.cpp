@@ -16,7 +16,7 @@ constexpr float kJustM = 1e-4F;  // inside or outside
 constexpr int kMarginCells = 4;  // cells around everything
 
 // Silhouettes from opposite sides are the same, so half a turn is enough for level views.
-std::vector<Outline> outlines_of(std::span<const PosedSurface> surfaces) {
+std::vector<Outline> extract_outlines(std::span<const PosedSurface> surfaces) {
   struct Round {
     double elevation_deg;
     double turn_deg;
@@ -51,7 +51,7 @@ Carving::Carving(std::span<const PosedSurface> all) {
     const float extent = bounds.sizes()[static_cast<Eigen::Index>(axis)];
     size_[axis] = static_cast<int>(std::ceil(extent / kCellM)) + 2 * kMarginCells;
   }
-  const std::vector<Outline> outlines = outlines_of(surfaces);
+  const std::vector<Outline> outlines = extract_outlines(surfaces);
   distance_m_.resize(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2]);
   Cell cell{};
   for (cell[2] = 0; cell[2] < size_[2]; ++cell[2]) {
@@ -199,7 +199,7 @@ struct Crossing {
   Eigen::Vector3f at = Eigen::Vector3f::Zero();
 };
 
-Crossing crossing_of(const std::array<float, 8>& value) {
+Crossing edge_crossing(const std::array<float, 8>& value) {
   Crossing crossing;
   float count = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -237,7 +237,7 @@ ClosedSurface Carving::surface() const {
           value[corner] = distance_m_[place(cell) + (corner & 1) * step[0] +
                                       (corner >> 1 & 1) * step[1] + (corner >> 2 & 1) * step[2]];
         }
-        const Crossing crossing = crossing_of(value);
+        const Crossing crossing = edge_crossing(value);
         if (!crossing.any) continue;
         vertex_of[place(cell)] = static_cast<std::uint32_t>(result.points.size());
         const Eigen::Vector3f corner(static_cast<float>(cell[0]), static_cast<float>(cell[1]),

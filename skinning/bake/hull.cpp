@@ -16,7 +16,7 @@ namespace {
 
 // Legs that touch would grow together; the arms are apart in the A-pose.
 Palette legs_apart(const DressedPerson& person) {
-  constexpr double kApart_rad = 8 * kDegree;
+  constexpr double kApartRad = 8 * kDegree;
   Joints a_pose;
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
     const BoneMatrix& matrix = person.to_neutral[bone];
@@ -24,11 +24,13 @@ Palette legs_apart(const DressedPerson& person) {
         matrix.leftCols<3>().transpose() * (person.joints[bone] - matrix.col(3));  // it is rigid
   }
   Pose pose;
-  for (std::size_t bone = index_of(Bone::left_thigh); bone <= index_of(Bone::left_toe); ++bone) {
-    pose.rotation[bone] = turn_x(kApart_rad);
+  for (std::size_t bone = index_from(Bone::left_thigh); bone <= index_from(Bone::left_toe);
+       ++bone) {
+    pose.rotation[bone] = turn_x(kApartRad);
   }
-  for (std::size_t bone = index_of(Bone::right_thigh); bone <= index_of(Bone::right_toe); ++bone) {
-    pose.rotation[bone] = turn_x(-kApart_rad);
+  for (std::size_t bone = index_from(Bone::right_thigh); bone <= index_from(Bone::right_toe);
+       ++bone) {
+    pose.rotation[bone] = turn_x(-kApartRad);
   }
   return pose_palette(a_pose, pose);
 }
@@ -59,8 +61,8 @@ Eigen::Vector3f moved_back(const Eigen::Vector3f& point, const BoneMatrix& matri
 }
 
 // Weighted by the triangles' areas.
-std::vector<Eigen::Vector3f> normals_of(const std::vector<Eigen::Vector3f>& points,
-                                        const std::vector<std::uint32_t>& indices) {
+std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& points,
+                                            const std::vector<std::uint32_t>& indices) {
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   for (std::size_t at = 0; at < indices.size(); at += 3) {
     const Eigen::Vector3f& a = points[indices[at]];
@@ -122,11 +124,11 @@ BoneWeights Hull::weights_at(const Eigen::Vector3f& point) const {
                 [](const Near& a, const Near& b) { return a.squared_m2 < b.squared_m2; });
     }
   }
-  constexpr float kBlur_m2 = 1e-4F;
+  constexpr float kBlurM2 = 1e-4F;
   BoneWeights mean{};
   float sum = 0;
   for (const Near& near : nearest) {
-    const float share = 1 / (near.squared_m2 + kBlur_m2);
+    const float share = 1 / (near.squared_m2 + kBlurM2);
     sum += share;
     for (std::size_t bone = 0; bone < kBoneCount; ++bone)
       mean[bone] += share * (*near.weights)[bone];
@@ -142,7 +144,7 @@ void Hull::fit(ClosedSurface& coarse) const {
   constexpr int kParts =
       4;  // points per edge of a triangle, enough to separate inside from outside
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<Eigen::Vector3f> normals = normals_of(coarse.points, coarse.indices);
+    const std::vector<Eigen::Vector3f> normals = vertex_normals(coarse.points, coarse.indices);
     std::vector<float> outside(coarse.points.size(), 0);
     std::vector<float> total(coarse.points.size(), 0);
     for (std::size_t at = 0; at < coarse.indices.size(); at += 3) {
@@ -181,7 +183,7 @@ Mesh Hull::level(std::size_t triangles, int image) const {
     standing.push_back(move_point(fitted, weights.back(), person_->to_neutral));
     standing.back().z() = std::max(standing.back().z(), 0.0F);
   }
-  const std::vector<Eigen::Vector3f> normals = normals_of(standing, coarse.indices);
+  const std::vector<Eigen::Vector3f> normals = vertex_normals(standing, coarse.indices);
   Mesh mesh;
   std::map<std::pair<std::uint32_t, bool>, std::uint32_t> place;
   for (std::size_t at = 0; at < coarse.indices.size(); at += 3) {

@@ -16,7 +16,7 @@ namespace throng::skinning {
 
 namespace {
 
-Eigen::Vector3f point_of(const Vertex& vertex) {
+Eigen::Vector3f vertex_position(const Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
 }
 
@@ -67,7 +67,7 @@ class Simplifier {
                                                      static_cast<std::uint32_t>(copies_.size()));
       if (is_new) {
         copies_.emplace_back();
-        points_.push_back(point_of(mesh_->vertices[i]));
+        points_.push_back(vertex_position(mesh_->vertices[i]));
       }
       copies_[entry->second].push_back(i);
       point_.push_back(entry->second);
@@ -83,7 +83,7 @@ class Simplifier {
     }
   }
 
-  std::uint32_t root_of(std::uint32_t vertex) {
+  std::uint32_t find_root(std::uint32_t vertex) {
     while (chart_[vertex] != vertex) vertex = chart_[vertex] = chart_[chart_[vertex]];
     return vertex;
   }
@@ -98,12 +98,12 @@ class Simplifier {
       for (std::uint32_t at = run.first_index; at < run.first_index + run.index_count; at += 3) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
           part_of_[mesh_->indices[at + corner]] = part;
-          chart_[root_of(mesh_->indices[at + corner])] = root_of(mesh_->indices[at]);
+          chart_[find_root(mesh_->indices[at + corner])] = find_root(mesh_->indices[at]);
         }
       }
     }
     for (std::uint32_t i = 0; i < chart_.size(); ++i) {
-      chart_[i] = root_of(i);
+      chart_[i] = find_root(i);
       members_[chart_[i]].push_back(i);
     }
   }
@@ -153,7 +153,8 @@ class Simplifier {
     std::uint32_t nearest = chart;
     float min_distance = std::numeric_limits<float>::max();
     for (const std::uint32_t vertex : members_.at(chart)) {
-      const float distance = (point_of(mesh_->vertices[vertex]) - points_[point]).squaredNorm();
+      const float distance =
+          (vertex_position(mesh_->vertices[vertex]) - points_[point]).squaredNorm();
       if (distance >= min_distance) continue;
       min_distance = distance;
       nearest = vertex;
@@ -171,17 +172,17 @@ class Simplifier {
   std::vector<std::size_t> part_of_;
 };
 
-Eigen::AlignedBox3f bounds_of(const Mesh& mesh) {
+Eigen::AlignedBox3f bounding_box(const Mesh& mesh) {
   Eigen::AlignedBox3f bounds;
-  for (const Vertex& vertex : mesh.vertices) bounds.extend(point_of(vertex));
+  for (const Vertex& vertex : mesh.vertices) bounds.extend(vertex_position(vertex));
   return bounds;
 }
 
 /// Whether a part that stood out, such as a leg, has been simplified away.
 bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
   constexpr float kMaxShrink = 0.05F;  // of the largest extent
-  const Eigen::AlignedBox3f now = bounds_of(simple);
-  const Eigen::AlignedBox3f then = bounds_of(mesh);
+  const Eigen::AlignedBox3f now = bounding_box(simple);
+  const Eigen::AlignedBox3f then = bounding_box(mesh);
   const float max_shrink_m = kMaxShrink * then.sizes().maxCoeff();
   return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_shrink_m ||
          (now.max() - then.max()).cwiseAbs().maxCoeff() > max_shrink_m;

@@ -20,10 +20,11 @@ std::set<std::string> worn_by(const std::vector<PersonSpec>& people) {
   return worn;
 }
 
-std::string list_of(const std::set<std::string>& worn, const Wardrobe& wardrobe, License license) {
+std::string list_worn(const std::set<std::string>& worn, const Wardrobe& wardrobe,
+                      License license) {
   std::string text;
   for (const std::string& name : worn) {
-    if (license_of(name) != license) continue;
+    if (find_license(name) != license) continue;
     const std::string& author = wardrobe.author_of(name);
     text += fmt::format("  - {}: {}\n", name, author.empty() ? "the MakeHuman team" : author);
   }
@@ -34,7 +35,7 @@ std::string list_of(const std::set<std::string>& worn, const Wardrobe& wardrobe,
 
 std::string license_expression(const std::vector<PersonSpec>& people) {
   std::set<std::string_view> names = {spdx_name(License::cc0)};
-  for (const std::string& name : worn_by(people)) names.insert(spdx_name(license_of(name)));
+  for (const std::string& name : worn_by(people)) names.insert(spdx_name(find_license(name)));
   std::string text;
   for (auto name = names.rbegin(); name != names.rend(); ++name) {
     if (!text.empty()) text += " AND ";
@@ -58,13 +59,13 @@ std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& w
       "Base mesh hm08, morph targets and rig: Manuel Bastioni, the MakeHuman team.\n\n"
       "Worn, CC0 1.0:\n";
   const std::set<std::string> worn = worn_by(people);
-  text += list_of(worn, wardrobe, License::cc0);
+  text += list_worn(worn, wardrobe, License::cc0);
   text += "\nSkins, CC0 1.0 (the MakeHuman team):\n";
   std::set<std::string> skins;
   for (const PersonSpec& person : people) skins.insert(person.skin);
   for (const std::string& name : skins) text += fmt::format("  - {}\n", name);
   const auto add_attribution = [&](License license, const char* terms) {
-    const std::string list = list_of(worn, wardrobe, license);
+    const std::string list = list_worn(worn, wardrobe, license);
     if (!list.empty()) text += fmt::format("\nWorn, {}:\n{}", terms, list);
   };
   add_attribution(License::cc_by_3,

@@ -17,7 +17,7 @@ constexpr float kMarginPx = 2;               // pixels
 constexpr float kUnseen = -1e9F;             // depth where nobody is seen
 
 // Right and up in the camera's image, and toward the camera.
-Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
+Eigen::Vector3f view_point(const Eigen::Vector3f& point, bool front) {
   const auto c = static_cast<float>(std::cos(kElevation));
   const auto s = static_cast<float>(std::sin(kElevation));
   const float forward = front ? point.x() : -point.x();
@@ -32,7 +32,7 @@ Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
   for (const PosedSurface& posed : surfaces) {
     for (const std::uint32_t index : posed.surface->indices) {
       for (const bool front : {true, false}) {
-        bounds.extend(Eigen::Vector2f(view_of(posed.points[index], front).head<2>()));
+        bounds.extend(Eigen::Vector2f(view_point(posed.points[index], front).head<2>()));
       }
     }
   }
@@ -56,7 +56,7 @@ void Portrait::draw(const PosedSurface& posed, bool front) {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3f& point = posed.points[surface.indices[at + i]];
       corner[i] = texels * uv_of(point, front);
-      depth[i] = view_of(point, front).z();
+      depth[i] = view_point(point, front).z();
     }
     for_each_pixel(corner[0], corner[1], corner[2], size_, size_,
                    [&](int x, int y, const Eigen::Vector3f& barycentric) {
@@ -73,7 +73,7 @@ void Portrait::draw(const PosedSurface& posed, bool front) {
 }
 
 Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const {
-  const Eigen::Vector3f view = view_of(point, front);
+  const Eigen::Vector3f view = view_point(point, front);
   const float margin = kMarginPx / static_cast<float>(size_);
   const float across = (view.x() - low_.x()) / extent_.x();
   const float down = 1 - (view.y() - low_.y()) / extent_.y();
@@ -98,11 +98,11 @@ Image Portrait::shades() const {
     const auto tint = static_cast<Tint>(from[3]);
     if (tint == Tint::none) continue;
     const float shade =
-        (linear_of_srgb(from[0]) + linear_of_srgb(from[1]) + linear_of_srgb(from[2])) / 3;
+        (linear_from_srgb(from[0]) + linear_from_srgb(from[1]) + linear_from_srgb(from[2])) / 3;
     const std::size_t channel = static_cast<std::size_t>(tint) - 1;
     const bool is_alpha = channel == 3;
     shades.rgba[at + channel] =
-        is_alpha ? static_cast<std::uint8_t>(std::lround(255 * shade)) : srgb_of_linear(shade);
+        is_alpha ? static_cast<std::uint8_t>(std::lround(255 * shade)) : srgb_from_linear(shade);
   }
   return shades;
 }

@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/geometry/angle.h"
 #include "base/text/words.h"
 #include "skinning/body/makehuman_json.h"
 
@@ -277,8 +277,8 @@ Eigen::Vector3f MakeHuman::joint(const std::string& name,
 }
 
 void MakeHuman::curl_fingers(std::vector<Eigen::Vector3f>& positions) const {
-  constexpr std::array<double, 3> kFingerBend_deg = {22, 34, 22};
-  constexpr std::array<double, 3> kThumbBend_deg = {6, 14, 14};
+  constexpr std::array<double, 3> kFingerBendDeg = {22, 34, 22};
+  constexpr std::array<double, 3> kThumbBendDeg = {6, 14, 14};
   const std::vector<Eigen::Vector3f> rest = positions;
   for (const std::string side : {".L", ".R"}) {
     for (int finger = 1; finger <= 5; ++finger) {
@@ -294,8 +294,8 @@ void MakeHuman::curl_fingers(std::vector<Eigen::Vector3f>& positions) const {
           (knuckle[1] - knuckle[0]).cross(knuckle[3] - knuckle[2]).normalized();
       Eigen::Affine3f motion = Eigen::Affine3f::Identity();
       for (int segment = 0; segment < 3; ++segment) {
-        const double bend_deg = (finger == 1 ? kThumbBend_deg : kFingerBend_deg)[segment];
-        const auto bend_rad = static_cast<float>(bend_deg * std::numbers::pi / 180);
+        const double bend_deg = (finger == 1 ? kThumbBendDeg : kFingerBendDeg)[segment];
+        const auto bend_rad = static_cast<float>(radians_from_degrees(bend_deg));
         motion = motion * Eigen::Translation3f(knuckle[segment]) *
                  Eigen::AngleAxisf(bend_rad, axis) * Eigen::Translation3f(-knuckle[segment]);
         const auto influences = finger_influences_.find(bone[segment]);

@@ -9,7 +9,7 @@ namespace throng::skinning {
 namespace {
 
 void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose) {
-  const std::size_t first = index_of(thigh);
+  const std::size_t first = index_from(thigh);
   const Eigen::Vector3f& hip = joints[first];
   const Eigen::Vector3f& knee = joints[first + 1];
   const Eigen::Vector3f& ankle = joints[first + 2];
@@ -26,7 +26,7 @@ void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose)
 }
 
 void lower_arm(const Joints& joints, Bone upper_arm, double out_deg, Pose& pose) {
-  const std::size_t first = index_of(upper_arm);
+  const std::size_t first = index_from(upper_arm);
   const Eigen::Vector3f& shoulder = joints[first];
   const Eigen::Vector3f& elbow = joints[first + 1];
   const Eigen::Vector3f& wrist = joints[first + 2];

@@ -42,7 +42,7 @@ Joints find_joints(const MakeHuman& makehuman, std::span<const Eigen::Vector3f> 
   for (std::size_t bone = 1; bone < kBoneCount; ++bone) {
     joints[bone] = makehuman.joint(kJointNames[bone], body);
   }
-  joints[0] = 0.5F * (joints[index_of(Bone::left_thigh)] + joints[index_of(Bone::right_thigh)]);
+  joints[0] = 0.5F * (joints[index_from(Bone::left_thigh)] + joints[index_from(Bone::right_thigh)]);
   return joints;
 }
 

@@ -29,7 +29,7 @@ void compute_normals(Surface& surface, std::size_t source_count) {
   }
 }
 
-std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+std::array<float, 3> to_array(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 // A new vertex between two.
 std::uint32_t add_between(Surface& surface, std::uint32_t a, std::uint32_t b, float share_of_b) {
@@ -173,8 +173,8 @@ Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int
       if (place[index] == kUnused) {
         place[index] = static_cast<std::uint32_t>(mesh.vertices.size());
         Vertex vertex{};
-        vertex.position = array_of(surface.positions[index]);
-        vertex.normal = array_of(surface.normals[index]);
+        vertex.position = to_array(surface.positions[index]);
+        vertex.normal = to_array(surface.normals[index]);
         vertex.uv = {surface.uvs[index].x(), surface.uvs[index].y()};
         set_weights(vertex, surface.weights[index]);
         mesh.vertices.push_back(vertex);

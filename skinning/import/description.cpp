@@ -26,10 +26,10 @@ namespace {
 constexpr const char* kClipExample = R"(an object such as {"name": "Walk", "speed_mps": 1.4})";
 
 using fields::at;
-using fields::FieldPlace;
+using fields::FieldLocation;
 
 /// A path in a description counts from its folder.
-fs::path path_in(const FieldPlace& place, const json& value) {
+fs::path path_in(const FieldLocation& place, const json& value) {
   const auto given = value.get<std::string>();
   return given.empty() ? fs::path() : fs::path(place.source).parent_path() / given;
 }
@@ -52,7 +52,7 @@ fields::FieldTable<ClipDescription> clip_fields(std::optional<fields::Values> sp
   fields::FieldTable<ClipDescription> table;
   table.add("name", "", "", any_text(), at(&ClipDescription::name), "");
   table.add_read("file", any_text(),
-                 [](ClipDescription& clip, const json& value, const FieldPlace& place) {
+                 [](ClipDescription& clip, const json& value, const FieldLocation& place) {
                    clip.file = path_in(place, value);
                  });
   if (speed_mps) {
@@ -60,7 +60,7 @@ fields::FieldTable<ClipDescription> clip_fields(std::optional<fields::Values> sp
         .required();
   } else {
     table.add_read("speed_mps", fields::numbers(0, 12),
-                   [](ClipDescription&, const json&, const FieldPlace&) {});
+                   [](ClipDescription&, const json&, const FieldLocation&) {});
   }
   return table;
 }
@@ -69,14 +69,15 @@ using ClipMember = std::optional<ClipDescription> CharacterDescription::*;
 
 void add_clip(fields::FieldTable<CharacterDescription>& table, const char* path, ClipMember clip,
               std::optional<fields::Values> speed_mps) {
-  table.add_read(path, fields::raw({{"type", "object"}}, kClipExample),
-                 [clip, clips = clip_fields(std::move(speed_mps))](
-                     CharacterDescription& character, const json& value, const FieldPlace& place) {
-                   clips.read_checked(value, (character.*clip).emplace(), place);
-                 });
+  table.add_read(
+      path, fields::raw({{"type", "object"}}, kClipExample),
+      [clip, clips = clip_fields(std::move(speed_mps))](
+          CharacterDescription& character, const json& value, const FieldLocation& place) {
+        clips.read_checked(value, (character.*clip).emplace(), place);
+      });
 }
 
-void set_name(CharacterDescription& character, const json& value, const FieldPlace& place) {
+void set_name(CharacterDescription& character, const json& value, const FieldLocation& place) {
   constexpr std::size_t kMaxNameLength = 40;
   value.get_to(character.name);
   const bool sound = std::all_of(character.name.begin(), character.name.end(), [](unsigned char c) {
@@ -87,7 +88,7 @@ void set_name(CharacterDescription& character, const json& value, const FieldPla
                             "at most 40 letters, digits, - and _"});
 }
 
-void set_bones(CharacterDescription& character, const json& value, const FieldPlace& place) {
+void set_bones(CharacterDescription& character, const json& value, const FieldLocation& place) {
   for (const auto& [ours, theirs] : value.items()) {
     if (theirs.is_string()) {
       character.bones[ours] = theirs.get<std::string>();
@@ -105,7 +106,7 @@ fields::FieldTable<CharacterDescription> make_description_fields() {
   table.add_read("name", needed_text(), set_name).required();
   table
       .add_read("model", needed_text(),
-                [](Character& character, const json& value, const FieldPlace& place) {
+                [](Character& character, const json& value, const FieldLocation& place) {
                   character.model = path_in(place, value);
                 })
       .required();
@@ -121,10 +122,10 @@ fields::FieldTable<CharacterDescription> make_description_fields() {
       .renamed_from("licence");
   table.add("author", "", "", any_text(), at(&Character::author), "");
   table.add("wears", "", "", any_text(), at(&Character::wears), "");
-  fields::Values sexes = fields::one_of(std::array{"male", "female"});
+  fields::Values sexes = fields::one_of_words(std::array{"male", "female"});
   sexes.expected = "\"male\" or \"female\"";
   table.add_read("sex", std::move(sexes),
-                 [](Character& character, const json& value, const FieldPlace& /*place*/) {
+                 [](Character& character, const json& value, const FieldLocation& /*place*/) {
                    character.male = value == "male";
                  });
   table.add("age_years", "", "years", quantity(1, 110, "years"), at(&Character::age_years), "");

@@ -33,7 +33,7 @@ bool same_clips(const std::vector<Clip>& a, const std::vector<Clip>& b) {
   });
 }
 
-Base base_of(const ImportOptions& options) {
+Base load_base(const ImportOptions& options) {
   Base base;
   if (options.with.empty()) {
     base.index.texture_size = options.texture_size;
@@ -65,7 +65,7 @@ std::vector<CharacterDescription> read_descriptions(const std::vector<fs::path>&
   return described;
 }
 
-std::string notice_of(const std::vector<CharacterDescription>& described) {
+std::string collect_notices(const std::vector<CharacterDescription>& described) {
   std::string text = "Characters that were imported into these people:\n";
   for (const CharacterDescription& entry : described) {
     text += fmt::format("  - {}: {}, {}, from {}\n", entry.name, entry.license,
@@ -105,7 +105,7 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   }
   check_texture_size(options.texture_size);
   check_replaceable(output_folder);
-  Base base = base_of(options);
+  Base base = load_base(options);
   const auto described = read_descriptions(descriptions, base.index);
   StagingFolder staging(output_folder);
   StagedFile palettes(staging.path() / kPalettesFile);
@@ -130,7 +130,7 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   base.index.content_hash = sha256_hex(content);
   base.index.license = joined_license(base.index.license, described);
   if (!base.notice.empty()) base.notice += "\n";
-  write_file_atomically(staging.path() / kNoticeFile, base.notice + notice_of(described));
+  write_file_atomically(staging.path() / kNoticeFile, base.notice + collect_notices(described));
   write_file_atomically(staging.path() / kIndexFile, encode_index(base.index));
   staging.commit_replacing();
   if (progress) progress(count, count);

@@ -56,9 +56,9 @@ class Import {
     character.age_years = static_cast<float>(description_->age_years);
     character.male = description_->male;
     character.wears = description_->wears;
-    Walker walker = walker_of(asset.joints, character.stature_m, asset.levels.front());
+    Walker walker = make_walker(asset.joints, character.stature_m, asset.levels.front());
     check_soles(walker);
-    walker.manner = manner_of(character);
+    walker.manner = choose_manner(character);
     const OwnMotion own = own_motion(walker);
     for (const Clip& clip : standard_clips()) {
       baked.motion += pack(asset.joints, bake_clip(walker, clip, own));
@@ -72,13 +72,13 @@ class Import {
     throw InputError({model_.file, "", found, expected});
   }
 
-  BoneWeights weights_of(const std::vector<NodeWeight>& from) const {
+  BoneWeights bone_weights(const std::vector<NodeWeight>& from) const {
     BoneWeights weights{};
     float sum = 0;
     for (const NodeWeight& weight : from) sum += weight.weight;
     for (const NodeWeight& weight : from) {
       const Bone bone = rig_.bone_of_node[static_cast<std::size_t>(weight.node)];
-      weights[index_of(bone)] += weight.weight / sum;
+      weights[index_from(bone)] += weight.weight / sum;
     }
     return weights;
   }
@@ -125,7 +125,7 @@ class Import {
 
   Vertex vertex_of(const ModelPart& part, std::uint32_t index, const Eigen::Vector2f& tile,
                    const Palette& to_neutral) const {
-    const BoneWeights weights = weights_of(part.weights[index]);
+    const BoneWeights weights = bone_weights(part.weights[index]);
     const Eigen::Vector3f position =
         move_point(rig_.to_ours * part.positions[index], weights, to_neutral);
     Palette turns = to_neutral;
@@ -162,8 +162,8 @@ class Import {
 
   void check_extent(const Extent& body, const Joints& joints) const {
     const float ankle =
-        std::min(joints[index_of(Bone::left_foot)].z(), joints[index_of(Bone::right_foot)].z());
-    const float bones = joints[index_of(Bone::head)].z() - ankle;
+        std::min(joints[index_from(Bone::left_foot)].z(), joints[index_from(Bone::right_foot)].z());
+    const float bones = joints[index_from(Bone::head)].z() - ankle;
     const float ratio = body.height() / bones;
     constexpr float kMinRatio = 0.95F;
     constexpr float kMaxRatio = 3;
@@ -171,16 +171,16 @@ class Import {
     if (std::isfinite(ratio) && ratio > kMinRatio && ratio < kMaxRatio && around) return;
     fail(fmt::format("a mesh from {:.4g} to {:.4g} on a skeleton from {:.4g} (ankles) to {:.4g} "
                      "(head), in the file's unit",
-                     body.low, body.high, ankle, joints[index_of(Bone::head)].z()),
+                     body.low, body.high, ankle, joints[index_from(Bone::head)].z()),
          "a mesh that encloses its skeleton: both in one unit and place (in Blender: apply "
          "location, rotation and scale of mesh and armature, then export)");
   }
 
   void check_soles(const Walker& walker) const {
     for (const Side side : kSides) {
-      const bool any =
-          std::any_of(walker.soles.begin(), walker.soles.end(),
-                      [&](const Vertex& vertex) { return vertex.position[1] * sign_of(side) > 0; });
+      const bool any = std::any_of(
+          walker.soles.begin(), walker.soles.end(),
+          [&](const Vertex& vertex) { return vertex.position[1] * side_sign(side) > 0; });
       if (!any) {
         fail(fmt::format("no vertices that hang on the {} foot",
                          side == Side::left ? "left" : "right"),
@@ -205,7 +205,7 @@ class Import {
     }
   }
 
-  static std::vector<std::string> names_of(const RiggedModel& model) {
+  static std::vector<std::string> material_names(const RiggedModel& model) {
     std::vector<std::string> names;
     for (const ModelAnimation& animation : model.animations) names.push_back(animation.name);
     return names;
@@ -230,7 +230,7 @@ class Import {
   };
 
   Sampled sample(const ClipDescription& clip, const char* key, const Walker& walker) const {
-    if (clip.file.empty()) return sample_of(model_, rig_, scale_, clip, key);
+    if (clip.file.empty()) return webdataset_sample(model_, rig_, scale_, clip, key);
     const RiggedModel other = read_rigged_model(clip.file, ModelUse::motion);
     // Bone names that the user gives are those of the model; the same names in the clip mean the
     // same bones.
@@ -243,16 +243,16 @@ class Import {
     }
     const Rig rig = fit_rig(other, map_bones(other, overrides, description_->file.string()));
     const auto leg = [](const Joints& joints) {
-      return (joints[index_of(Bone::left_shin)] - joints[index_of(Bone::left_thigh)]).norm() +
-             (joints[index_of(Bone::left_foot)] - joints[index_of(Bone::left_shin)]).norm();
+      return (joints[index_from(Bone::left_shin)] - joints[index_from(Bone::left_thigh)]).norm() +
+             (joints[index_from(Bone::left_foot)] - joints[index_from(Bone::left_shin)]).norm();
     };
-    return sample_of(other, rig, leg(walker.joints) / leg(rig.rest), clip, key);
+    return webdataset_sample(other, rig, leg(walker.joints) / leg(rig.rest), clip, key);
   }
 
-  Sampled sample_of(const RiggedModel& model, const Rig& rig, float scale,
-                    const ClipDescription& clip, const char* key) const {
+  Sampled webdataset_sample(const RiggedModel& model, const Rig& rig, float scale,
+                            const ClipDescription& clip, const char* key) const {
     const ModelAnimation* animation = find(model, clip.name);
-    const std::vector<std::string> names = names_of(model);
+    const std::vector<std::string> names = material_names(model);
     const std::string where = fmt::format("/clips/{}/name", key);
     if (animation == nullptr) {
       throw InputError(
@@ -262,14 +262,14 @@ class Import {
                ? fmt::format("a clip, but {} has none: export it with its animations", model.file)
                : fmt::format("one of the clips of {}: {}", model.file, fmt::join(names, ", "))});
     }
-    constexpr double kMinDuration_s = 0.1;
-    if (animation->duration_s < kMinDuration_s) {
+    constexpr double kMinDurationS = 0.1;
+    if (animation->duration_s < kMinDurationS) {
       throw InputError(
           {description_->file.string(), where,
            fmt::format("\"{}\", which lasts {:.3g} s", animation->name, animation->duration_s),
            "a clip of at least 0.1 s"});
     }
-    return {poses_of(model, rig, *animation, kPoses, scale), animation->duration_s};
+    return {sample_poses(model, rig, *animation, kPoses, scale), animation->duration_s};
   }
 
   std::optional<OwnMotion::Cycle> cycle(const std::optional<ClipDescription>& clip, const char* key,

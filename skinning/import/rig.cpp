@@ -12,11 +12,11 @@ namespace throng::skinning {
 
 namespace {
 
-Eigen::Vector3f place_of(const std::vector<Eigen::Matrix4f>& nodes, int node) {
+Eigen::Vector3f node_position(const std::vector<Eigen::Matrix4f>& nodes, int node) {
   return nodes[static_cast<std::size_t>(node)].topRightCorner<3, 1>();
 }
 
-Eigen::Matrix3f turn_of(const Eigen::Matrix4f& matrix) {
+Eigen::Matrix3f rotation_part(const Eigen::Matrix4f& matrix) {
   return Eigen::Affine3f(matrix).rotation();
 }
 
@@ -52,8 +52,10 @@ class Fitter {
     throw InputError({model_->file, "", found, expected});
   }
 
-  bool has(Bone bone) const { return rig_.nodes[index_of(bone)] >= 0; }
-  Eigen::Vector3f raw(Bone bone) const { return place_of(rest_, rig_.nodes[index_of(bone)]); }
+  bool has(Bone bone) const { return rig_.nodes[index_from(bone)] >= 0; }
+  Eigen::Vector3f raw(Bone bone) const {
+    return node_position(rest_, rig_.nodes[index_from(bone)]);
+  }
 
   void own_the_nodes() {
     rig_.bone_of_node.assign(model_->nodes.size(), Bone::hips);
@@ -83,7 +85,7 @@ class Fitter {
 
   enum class Side : std::uint8_t { left, right };
   static Bone on(Side side, Bone left) {
-    return side == Side::left ? left : static_cast<Bone>(index_of(left) + 4);
+    return side == Side::left ? left : static_cast<Bone>(index_from(left) + 4);
   }
 
   void check_leg(Side side) const {
@@ -92,7 +94,7 @@ class Fitter {
     constexpr float kMaxSplayed = 0.75F;  // cosine
     if (-leg.z() < kMaxSplayed * leg.norm()) {
       fail(fmt::format("a pose at rest in which the bone \"{}\" does not point down",
-                       model_->nodes[static_cast<std::size_t>(rig_.nodes[index_of(thigh)])].name),
+                       model_->nodes[static_cast<std::size_t>(rig_.nodes[index_from(thigh)])].name),
            "a standing pose at rest (T or A), upright, the left bones on the person's left");
     }
     const Bone toe = on(side, Bone::left_toe);
@@ -107,9 +109,10 @@ class Fitter {
   void place_joints() {
     Joints& joints = rig_.rest;
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-      if (rig_.nodes[bone] >= 0) joints[bone] = rig_.to_ours * place_of(rest_, rig_.nodes[bone]);
+      if (rig_.nodes[bone] >= 0)
+        joints[bone] = rig_.to_ours * node_position(rest_, rig_.nodes[bone]);
     }
-    const auto at = [&](Bone bone) -> Eigen::Vector3f& { return joints[index_of(bone)]; };
+    const auto at = [&](Bone bone) -> Eigen::Vector3f& { return joints[index_from(bone)]; };
     const auto between = [&](Bone a, Bone b, float share) {
       return Eigen::Vector3f((1 - share) * at(a) + share * at(b));
     };
@@ -142,13 +145,13 @@ class Fitter {
 
 Rig fit_rig(const RiggedModel& model, const BoneNodes& nodes) { return Fitter(model, nodes).fit(); }
 
-std::vector<Pose> poses_of(const RiggedModel& model, const Rig& rig,
-                           const ModelAnimation& animation, int count, float scale) {
+std::vector<Pose> sample_poses(const RiggedModel& model, const Rig& rig,
+                               const ModelAnimation& animation, int count, float scale) {
   const std::vector<Eigen::Matrix4f> rest = model.rest();
   const auto hips_in = [&](const std::vector<Eigen::Matrix4f>& nodes) {
     return Eigen::Vector3f(rig.to_ours * 0.5F *
-                           (place_of(nodes, rig.nodes[index_of(Bone::left_thigh)]) +
-                            place_of(nodes, rig.nodes[index_of(Bone::right_thigh)])));
+                           (node_position(nodes, rig.nodes[index_from(Bone::left_thigh)]) +
+                            node_position(nodes, rig.nodes[index_from(Bone::right_thigh)])));
   };
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
@@ -159,11 +162,12 @@ std::vector<Pose> poses_of(const RiggedModel& model, const Rig& rig,
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       if (rig.nodes[bone] < 0) {
         // A joint of our own making moves with what carries it.
-        pose.rotation[bone] = pose.rotation[index_of(kParent[bone])];
+        pose.rotation[bone] = pose.rotation[index_from(kParent[bone])];
         continue;
       }
       const auto node = static_cast<std::size_t>(rig.nodes[bone]);
-      const Eigen::Matrix3f turn = turn_of(moved[node]) * turn_of(rest[node]).transpose();
+      const Eigen::Matrix3f turn =
+          rotation_part(moved[node]) * rotation_part(rest[node]).transpose();
       pose.rotation[bone] =
           rig.to_ours * turn * rig.to_ours.transpose() * rig.neutral.rotation[bone].transpose();
     }

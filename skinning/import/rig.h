@@ -28,7 +28,7 @@ Rig fit_rig(const RiggedModel& model, const BoneNodes& nodes);
 
 /// `count` poses of an animation, evenly spaced from its beginning to just before its end, against
 /// the neutral stance; hips are shifted as they are against rest, times `scale`.
-std::vector<Pose> poses_of(const RiggedModel& model, const Rig& rig,
-                           const ModelAnimation& animation, int count, float scale);
+std::vector<Pose> sample_poses(const RiggedModel& model, const Rig& rig,
+                               const ModelAnimation& animation, int count, float scale);
 
 }  // namespace throng::skinning

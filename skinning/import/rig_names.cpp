@@ -37,7 +37,7 @@ bool is(char c, int (*kind)(int)) { return kind(static_cast<unsigned char>(c)) !
 
 // "mixamorig:LeftUpLeg" to left, up, leg: words end at other signs, digits and small letters that
 // a capital follows.
-std::vector<std::string> words_of(const std::string& name) {
+std::vector<std::string> split_words(const std::string& name) {
   const std::size_t space = name.find_last_of(":|");
   std::vector<std::string> words;
   bool begins = true;
@@ -57,30 +57,30 @@ std::vector<std::string> words_of(const std::string& name) {
   return words;
 }
 
-bool one_of(const std::string& word, std::initializer_list<const char*> words) {
+bool is_among(const std::string& word, std::initializer_list<const char*> words) {
   return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
 }
 
 // Handles of animators, ends of chains and helpers are no bones of the body.
 bool is_helper(const std::string& word) {
-  return one_of(word, {"ik", "fk", "pole", "ctrl", "control", "target", "twist", "roll", "end",
-                       "nub", "helper", "mch", "org", "tweak", "goal", "site", "effector"});
+  return is_among(word, {"ik", "fk", "pole", "ctrl", "control", "target", "twist", "roll", "end",
+                         "nub", "helper", "mch", "org", "tweak", "goal", "site", "effector"});
 }
 
 bool is_filler(const std::string& word) {
   return is(word.front(), std::isdigit) || word.rfind("mixamorig", 0) == 0 ||
-         one_of(word,
-                {"bip", "def", "j", "c", "cc", "base", "b", "bn", "bone", "jnt", "joint", "jt",
-                 "rig", "sk", "valvebiped", "character", "human", "skeleton", "armature"});
+         is_among(word,
+                  {"bip", "def", "j", "c", "cc", "base", "b", "bn", "bone", "jnt", "joint", "jt",
+                   "rig", "sk", "valvebiped", "character", "human", "skeleton", "armature"});
 }
 
-std::optional<Meaning> meaning_of(const std::string& name) {
+std::optional<Meaning> parse_bone_name(const std::string& name) {
   Meaning meaning;
-  for (std::string word : words_of(name)) {
+  for (std::string word : split_words(name)) {
     if (is_helper(word)) return {};
-    if (one_of(word, {"l", "left"})) {
+    if (is_among(word, {"l", "left"})) {
       meaning.side = 'l';
-    } else if (one_of(word, {"r", "right"})) {
+    } else if (is_among(word, {"r", "right"})) {
       meaning.side = 'r';
     } else if (!is_filler(word)) {
       if (meaning.side == 'm' && word.rfind("left", 0) == 0) {
@@ -98,36 +98,37 @@ std::optional<Meaning> meaning_of(const std::string& name) {
 
 std::optional<BodyPart> sided_part(const std::string& part, bool thigh_is_named,
                                    bool collar_is_named) {
-  if (one_of(part, {"clavicle", "collar", "collarbone", "shouldergirdle"}))
+  if (is_among(part, {"clavicle", "collar", "collarbone", "shouldergirdle"}))
     return BodyPart::clavicle;
-  if (one_of(part, {"shoulder", "shldr"})) {
+  if (is_among(part, {"shoulder", "shldr"})) {
     return collar_is_named ? BodyPart::upper_arm : BodyPart::clavicle;
   }
-  if (one_of(part, {"arm", "upperarm", "uparm", "shoulderbend", "shldrbend", "humerus"})) {
+  if (is_among(part, {"arm", "upperarm", "uparm", "shoulderbend", "shldrbend", "humerus"})) {
     return BodyPart::upper_arm;
   }
-  if (one_of(part, {"forearm", "lowerarm", "lowarm", "elbow", "forearmbend", "armlower"})) {
+  if (is_among(part, {"forearm", "lowerarm", "lowarm", "elbow", "forearmbend", "armlower"})) {
     return BodyPart::forearm;
   }
-  if (one_of(part, {"hand", "wrist", "palm"})) return BodyPart::hand;
-  if (one_of(part, {"upleg", "thigh", "upperleg", "hip", "thighbend", "femur", "legupper"})) {
+  if (is_among(part, {"hand", "wrist", "palm"})) return BodyPart::hand;
+  if (is_among(part, {"upleg", "thigh", "upperleg", "hip", "thighbend", "femur", "legupper"})) {
     return BodyPart::thigh;
   }
   if (part == "leg") return thigh_is_named ? BodyPart::shin : BodyPart::thigh;
-  if (one_of(part, {"shin", "calf", "lowerleg", "lowleg", "knee", "shank", "tibia", "leglower"})) {
+  if (is_among(part,
+               {"shin", "calf", "lowerleg", "lowleg", "knee", "shank", "tibia", "leglower"})) {
     return BodyPart::shin;
   }
-  if (one_of(part, {"foot", "ankle"})) return BodyPart::foot;
-  if (one_of(part, {"toe", "toes", "toebase", "ball", "football", "metatarsals"}))
+  if (is_among(part, {"foot", "ankle"})) return BodyPart::foot;
+  if (is_among(part, {"toe", "toes", "toebase", "ball", "football", "metatarsals"}))
     return BodyPart::toe;
   return {};
 }
 
 std::optional<BodyPart> middle_part(const std::string& part) {
-  if (one_of(part, {"hips", "hip", "pelvis"})) return BodyPart::hips;
+  if (is_among(part, {"hips", "hip", "pelvis"})) return BodyPart::hips;
   if (part.rfind("spine", 0) == 0 ||
-      one_of(part, {"chest", "upperchest", "torso", "abdomen", "waist", "ribcage", "lowerback",
-                    "thorax", "back"})) {
+      is_among(part, {"chest", "upperchest", "torso", "abdomen", "waist", "ribcage", "lowerback",
+                      "thorax", "back"})) {
     return BodyPart::spine;
   }
   if (part.rfind("neck", 0) == 0) return BodyPart::neck;
@@ -138,7 +139,7 @@ std::optional<BodyPart> middle_part(const std::string& part) {
 bool names_a(const std::vector<std::optional<Meaning>>& meanings,
              std::initializer_list<const char*> parts) {
   return std::any_of(meanings.begin(), meanings.end(), [&](const auto& meaning) {
-    return meaning && meaning->side != 'm' && one_of(meaning->part, parts);
+    return meaning && meaning->side != 'm' && is_among(meaning->part, parts);
   });
 }
 
@@ -183,7 +184,7 @@ class Mapper {
   }
 
   void take(Bone bone, int node) {
-    nodes_[index_of(bone)] = node;
+    nodes_[index_from(bone)] = node;
     taken_[static_cast<std::size_t>(node)] = true;
   }
 
@@ -224,7 +225,7 @@ class Mapper {
 
   void guess() {
     std::vector<std::optional<Meaning>> meanings;
-    for (const ModelNode& node : model_->nodes) meanings.push_back(meaning_of(node.name));
+    for (const ModelNode& node : model_->nodes) meanings.push_back(parse_bone_name(node.name));
     const bool thigh = names_a(meanings, {"upleg", "thigh", "upperleg", "hip", "legupper"});
     const bool collar = names_a(meanings, {"clavicle", "collar", "collarbone"});
     BoneNodes best;
@@ -257,7 +258,7 @@ class Mapper {
   }
 
   void consider(Bone bone, std::size_t node, BoneNodes& best) const {
-    int& held = best[index_of(bone)];
+    int& held = best[index_from(bone)];
     if (better(node, held)) held = static_cast<int>(node);
   }
 
@@ -272,8 +273,8 @@ class Mapper {
   // The spine's lowest bone is ours, and its highest one is the chest; what lies between moves
   // with what is below it. Only those that carry the head count.
   void place_spine() {
-    const int head = nodes_[index_of(Bone::neck)] >= 0 ? nodes_[index_of(Bone::neck)]
-                                                       : nodes_[index_of(Bone::head)];
+    const int head = nodes_[index_from(Bone::neck)] >= 0 ? nodes_[index_from(Bone::neck)]
+                                                         : nodes_[index_from(Bone::head)];
     std::vector<std::size_t> chain;
     for (const std::size_t node : spine_) {
       if (!taken_[node] && head >= 0 && is_above(static_cast<std::size_t>(head), node)) {
@@ -282,11 +283,11 @@ class Mapper {
     }
     std::sort(chain.begin(), chain.end(),
               [&](std::size_t a, std::size_t b) { return depth_[a] < depth_[b]; });
-    if (nodes_[index_of(Bone::chest)] < 0 && !chain.empty()) {
+    if (nodes_[index_from(Bone::chest)] < 0 && !chain.empty()) {
       take(Bone::chest, static_cast<int>(chain.back()));
       chain.pop_back();
     }
-    if (nodes_[index_of(Bone::spine)] < 0 && !chain.empty()) {
+    if (nodes_[index_from(Bone::spine)] < 0 && !chain.empty()) {
       take(Bone::spine, static_cast<int>(chain.front()));
     }
   }
@@ -326,8 +327,8 @@ class Mapper {
 std::size_t distance(const std::string& a, const std::string& b) {
   std::string one;
   std::string other;
-  for (const std::string& word : words_of(a)) one += word;
-  for (const std::string& word : words_of(b)) other += word;
+  for (const std::string& word : split_words(a)) one += word;
+  for (const std::string& word : split_words(b)) other += word;
   return edit_distance(one, other);
 }
 

@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Eigen::Matrix4f matrix_of(const aiMatrix4x4& from) {
+Eigen::Matrix4f to_matrix(const aiMatrix4x4& from) {
   Eigen::Matrix4f matrix;
   matrix << from.a1, from.a2, from.a3, from.a4, from.b1, from.b2, from.b3, from.b4, from.c1,
       from.c2, from.c3, from.c4, from.d1, from.d2, from.d3, from.d4;
   return matrix;
 }
 
-Eigen::Vector3f vector_of(const aiVector3D& from) { return {from.x, from.y, from.z}; }
+Eigen::Vector3f to_vector(const aiVector3D& from) { return {from.x, from.y, from.z}; }
 
 class ModelReader {
  public:
@@ -62,7 +62,7 @@ class ModelReader {
     const auto number = static_cast<int>(model_.nodes.size());
     numbers_[&node] = number;
     by_name_.emplace(node.mName.C_Str(), number);
-    model_.nodes.push_back({node.mName.C_Str(), parent, matrix_of(node.mTransformation), false});
+    model_.nodes.push_back({node.mName.C_Str(), parent, to_matrix(node.mTransformation), false});
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], number);
   }
 
@@ -78,7 +78,7 @@ class ModelReader {
         ModelChannel channel{node->second, {}, {}, {}};
         for (unsigned key = 0; key < from.mNumPositionKeys; ++key) {
           const aiVectorKey& value = from.mPositionKeys[key];
-          channel.shifts.push_back({value.mTime / rate, vector_of(value.mValue)});
+          channel.shifts.push_back({value.mTime / rate, to_vector(value.mValue)});
         }
         for (unsigned key = 0; key < from.mNumRotationKeys; ++key) {
           const aiQuatKey& value = from.mRotationKeys[key];
@@ -88,7 +88,7 @@ class ModelReader {
         }
         for (unsigned key = 0; key < from.mNumScalingKeys; ++key) {
           const aiVectorKey& value = from.mScalingKeys[key];
-          channel.scales.push_back({value.mTime / rate, vector_of(value.mValue)});
+          channel.scales.push_back({value.mTime / rate, to_vector(value.mValue)});
         }
         animation.channels.push_back(std::move(channel));
       }
@@ -126,8 +126,8 @@ class ModelReader {
         source.GetTexture(aiTextureType_DIFFUSE, 0, &name) == aiReturn_SUCCESS) {
       material.image = image_of(name.C_Str());
     } else {
-      material.image =
-          colored({srgb_of_linear(color.r), srgb_of_linear(color.g), srgb_of_linear(color.b)});
+      material.image = colored(
+          {srgb_from_linear(color.r), srgb_from_linear(color.g), srgb_from_linear(color.b)});
     }
     int two_sided = 0;
     source.Get(AI_MATKEY_TWOSIDED, two_sided);
@@ -156,7 +156,7 @@ class ModelReader {
 
   Image image_of(std::string name) const {
     const aiTexture* embedded = scene_->GetEmbeddedTexture(name.c_str());
-    if (embedded == nullptr) return images::read_image(file_of(std::move(name)));
+    if (embedded == nullptr) return images::read_image(ground_truth_file(std::move(name)));
     if (embedded->mHeight == 0) {
       return images::decode_image(
           {reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
@@ -174,7 +174,7 @@ class ModelReader {
   }
 
   // Texture paths in files are often those of another machine.
-  fs::path file_of(std::string name) const {
+  fs::path ground_truth_file(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
     const fs::path stated(name);
     const fs::path folder = path_.parent_path();
@@ -205,7 +205,7 @@ class ModelReader {
       const auto found = by_name_.find(bone.mName.C_Str());
       if (found == by_name_.end()) continue;
       const Eigen::Matrix4f matrix =
-          rest_[static_cast<std::size_t>(found->second)] * matrix_of(bone.mOffsetMatrix);
+          rest_[static_cast<std::size_t>(found->second)] * to_matrix(bone.mOffsetMatrix);
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {
         const aiVertexWeight& weight = bone.mWeights[w];
         if (weight.mVertexId >= mesh.mNumVertices || !(weight.mWeight > 0)) continue;
@@ -232,10 +232,10 @@ class ModelReader {
 
   void add_vertex(const aiMesh& mesh, unsigned i, const Eigen::Matrix4f& matrix,
                   ModelPart& part) const {
-    const Eigen::Vector4f position = matrix * vector_of(mesh.mVertices[i]).homogeneous();
+    const Eigen::Vector4f position = matrix * to_vector(mesh.mVertices[i]).homogeneous();
     if (!position.allFinite()) fail("vertices that are not numbers", "finite positions");
     part.positions.emplace_back(position.head<3>());
-    const Eigen::Vector3f normal = matrix.topLeftCorner<3, 3>() * vector_of(mesh.mNormals[i]);
+    const Eigen::Vector3f normal = matrix.topLeftCorner<3, 3>() * to_vector(mesh.mNormals[i]);
     const bool sound = normal.allFinite() && normal.norm() > 1e-12F;
     part.normals.push_back(sound ? Eigen::Vector3f(normal.normalized()) : Eigen::Vector3f::UnitZ());
     Eigen::Vector2f uv(0.5F, 0.5F);

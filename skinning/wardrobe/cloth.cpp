@@ -64,10 +64,10 @@ double pattern_at(Cloth cloth, const Eigen::Vector3f& point) {
     case Cloth::stripes:
       return 1 - 0.45 * wave(point.z(), 0.055, 0.42);
     case Cloth::band: {
-      constexpr float kBreast_m = 0.39F;  // above the middle of the body
-      constexpr float kHalfWidth_m = 0.05F;
+      constexpr float kBreastM = 0.39F;  // above the middle of the body
+      constexpr float kHalfWidthM = 0.05F;
       const bool on_band =
-          std::abs(point.z() - kBreast_m) < kHalfWidth_m && std::abs(point.y()) < 0.2F;
+          std::abs(point.z() - kBreastM) < kHalfWidthM && std::abs(point.y()) < 0.2F;
       return on_band ? 0.5 : 1;
     }
     case Cloth::checks:

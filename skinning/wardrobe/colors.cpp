@@ -65,7 +65,7 @@ constexpr Swatch kGraying[] = {
     {{120, 114, 108}, 4}, {{74, 66, 60}, 4}, {{158, 154, 150}, 3}, {{92, 72, 56}, 3}};
 constexpr Swatch kGray[] = {{{190, 188, 184}, 4}, {{222, 220, 216}, 4}, {{150, 148, 146}, 3}};
 
-std::span<const Swatch> swatches_of(Dye dye) {
+std::span<const Swatch> list_swatches(Dye dye) {
   switch (dye) {
     case Dye::dress:
       return kDress;
@@ -93,7 +93,7 @@ std::span<const Swatch> swatches_of(Dye dye) {
   return kShirt;
 }
 
-std::span<const Swatch> swatches_of(HairRange range) {
+std::span<const Swatch> list_swatches(HairRange range) {
   switch (range) {
     case HairRange::dark:
       return kDarkHair;
@@ -124,11 +124,11 @@ std::vector<Rgb> draw(std::span<const Swatch> swatches, std::size_t count, Rando
 }  // namespace
 
 std::vector<Rgb> draw_colors(Dye dye, std::size_t count, Random& random) {
-  return draw(swatches_of(dye), count, random);
+  return draw(list_swatches(dye), count, random);
 }
 
 std::vector<Rgb> draw_hair(HairRange range, std::size_t count, Random& random) {
-  return draw(swatches_of(range), count, random);
+  return draw(list_swatches(range), count, random);
 }
 
 }  // namespace throng::skinning

@@ -27,8 +27,8 @@ std::vector<Eigen::Vector3f> fit(const Proxy& proxy, std::span<const Eigen::Vect
 }
 
 float below_waist(const BoneWeights& weights) {
-  float sum = weights[index_of(Bone::hips)];
-  for (std::size_t bone = index_of(Bone::left_thigh); bone < kBoneCount; ++bone) {
+  float sum = weights[index_from(Bone::hips)];
+  for (std::size_t bone = index_from(Bone::left_thigh); bone < kBoneCount; ++bone) {
     sum += weights[bone];
   }
   return sum;
@@ -36,8 +36,8 @@ float below_waist(const BoneWeights& weights) {
 
 // Height at which a bottom ends in the A-pose, in which legs hang nearly straight down; far below
 // the feet when it is as long as it comes.
-float hem_of(const Outfit& outfit, const Joints& a_pose, float height_m) {
-  const float knee = a_pose[index_of(Bone::left_shin)].z();
+float hem_height(const Outfit& outfit, const Joints& a_pose, float height_m) {
+  const float knee = a_pose[index_from(Bone::left_shin)].z();
   const bool skirt = outfit.bottom == kSkirt;
   if (outfit.hem == Hem::knee) return knee + (skirt ? -0.015F : 0.03F) * height_m;
   if (outfit.hem == Hem::calf) return knee - 0.12F * height_m;
@@ -61,7 +61,7 @@ CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   const Proxy* shoes = wardrobe.shoes(person.outfit).proxy;
   const Proxy* hair = wardrobe.hair(person.outfit).proxy;
   const Proxy* hat = wardrobe.hat(person.outfit).proxy;
-  constexpr float kInside_m = 0.1F;  // a look up from below the hem must find skin
+  constexpr float kInsideM = 0.1F;  // a look up from below the hem must find skin
   CoveredSkin covered;
   covered.hidden.resize(makehuman.weights().size());
   covered.tucked.resize(makehuman.weights().size());
@@ -70,7 +70,7 @@ CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
     const bool by_bottom = lower_half && bottom != nullptr;
     const Proxy* over = by_bottom ? bottom : top;
     const bool above_hem = !by_bottom || body[vertex].z() > hem;
-    const bool inside = !by_bottom || body[vertex].z() > hem + kInside_m;
+    const bool inside = !by_bottom || body[vertex].z() > hem + kInsideM;
     covered.hidden[vertex] = shoes->hides[vertex] || (over->hides[vertex] && inside);
     covered.tucked[vertex] = shoes->tucks[vertex] || (over->tucks[vertex] && above_hem) ||
                              (hair != nullptr && hair->tucks[vertex]) ||
@@ -101,16 +101,17 @@ float lowest_on_shins(std::span<const Surface> bottoms) {
   for (const Surface& surface : bottoms) {
     for (const std::uint32_t index : surface.indices) {
       const BoneWeights& weights = surface.weights[index];
-      const float shin = weights[index_of(Bone::left_shin)] + weights[index_of(Bone::right_shin)];
+      const float shin =
+          weights[index_from(Bone::left_shin)] + weights[index_from(Bone::right_shin)];
       if (shin > 0.5F) hem = std::min(hem, surface.positions[index].z());
     }
   }
   return hem;
 }
 
-float trunk_of(const BoneWeights& weights) {
-  return weights[index_of(Bone::hips)] + weights[index_of(Bone::spine)] +
-         weights[index_of(Bone::chest)];
+float trunk_weight(const BoneWeights& weights) {
+  return weights[index_from(Bone::hips)] + weights[index_from(Bone::spine)] +
+         weights[index_from(Bone::chest)];
 }
 
 // Heights at which surfaces end on the trunk, in sectors all around it.
@@ -127,7 +128,7 @@ class Rim {
     for (const Surface& surface : surfaces) {
       for (const std::uint32_t index : surface.indices) {
         const BoneWeights& weights = surface.weights[index];
-        if (trunk_of(weights) < (end == End::lower ? 0.6F : 0.1F)) continue;
+        if (trunk_weight(weights) < (end == End::lower ? 0.6F : 0.1F)) continue;
         const Eigen::Vector3f& p = surface.positions[index];
         float& here = height_m_[sector_of(p - hips)];
         here = end == End::lower ? std::min(here, p.z()) : std::max(here, p.z());
@@ -156,13 +157,13 @@ class Rim {
 void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
                 std::span<const Surface> tops, std::span<const Surface> bottoms,
                 CoveredSkin& covered) {
-  constexpr float kInside_m = 0.04F;
-  constexpr float kNowhere_m = 10;
+  constexpr float kInsideM = 0.04F;
+  constexpr float kNowhereM = 10;
   const Rim hem(tops, dressed.joints, Rim::End::lower);
   const Rim waistband(bottoms, dressed.joints, Rim::End::upper);
   std::array<bool, Rim::kSectors> bare{};
   for (std::size_t sector = 0; sector < Rim::kSectors; ++sector) {
-    const bool both = hem[sector] < kNowhere_m && waistband[sector] > -kNowhere_m;
+    const bool both = hem[sector] < kNowhereM && waistband[sector] > -kNowhereM;
     if (!both || waistband[sector] > hem[sector]) continue;
     for (const std::size_t beside : {Rim::kSectors - 1, std::size_t{0}, std::size_t{1}}) {
       bare[(sector + beside) % Rim::kSectors] = true;
@@ -170,11 +171,11 @@ void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
   }
   for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
     const BoneWeights& weights = makehuman.weights()[vertex];
-    if (trunk_of(weights) < 0.5F) continue;
+    if (trunk_weight(weights) < 0.5F) continue;
     const Eigen::Vector3f point = move_point(dressed.body[vertex], weights, dressed.to_neutral);
     const std::size_t sector = Rim::sector_of(point - dressed.joints[0]);
-    if (bare[sector] && point.z() > waistband[sector] - kInside_m &&
-        point.z() < hem[sector] + kInside_m) {
+    if (bare[sector] && point.z() > waistband[sector] - kInsideM &&
+        point.z() < hem[sector] + kInsideM) {
       covered.hidden[vertex] = false;
     }
   }
@@ -209,9 +210,9 @@ void cut_below(std::vector<Surface>& surfaces, float height_m) {
 // A waistband must not show through a shirt worn over it: what the shirt covers is rendered further
 // in, and what it covers well not at all. Hems are uneven, so that depends on the direction.
 void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed) {
-  constexpr float kOverlap_m = 0.03F;
-  constexpr float kSoft_m = 0.01F;
-  constexpr float kTuck_m = 0.01F;
+  constexpr float kOverlapM = 0.03F;
+  constexpr float kSoftM = 0.01F;
+  constexpr float kTuckM = 0.01F;
   const Eigen::Vector3f& hips = dressed.joints[0];
   const auto above_hem = [&](const Eigen::Vector3f& point) {
     return point.z() - hem.highest(point - hips);
@@ -219,12 +220,12 @@ void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPers
   for (Surface& surface : bottoms) {
     keep_triangles(surface, [&](std::size_t at) {
       return !all_corners(surface, at, [&](std::uint32_t vertex) {
-        return above_hem(surface.positions[vertex]) > kOverlap_m;
+        return above_hem(surface.positions[vertex]) > kOverlapM;
       });
     });
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-      const float share = std::clamp(above_hem(surface.positions[i]) / kSoft_m, 0.0F, 1.0F);
-      if (share > 0) tuck_in(surface, i, share * kTuck_m, dressed.to_neutral);
+      const float share = std::clamp(above_hem(surface.positions[i]) / kSoftM, 0.0F, 1.0F);
+      if (share > 0) tuck_in(surface, i, share * kTuckM, dressed.to_neutral);
     }
   }
 }
@@ -239,7 +240,7 @@ void hide_above(std::vector<Surface>& surfaces, float height_m) {
   }
 }
 
-float lowest_of(std::span<const Surface> surfaces) {
+float lowest_point(std::span<const Surface> surfaces) {
   float lowest = std::numeric_limits<float>::max();
   for (const Surface& surface : surfaces) {
     for (const std::uint32_t index : surface.indices) {
@@ -259,7 +260,7 @@ float highest_fitted(std::span<const Surface> surfaces) {
   return highest;
 }
 
-float highest_of(std::span<const Surface> surfaces) {
+float highest_point(std::span<const Surface> surfaces) {
   float highest = std::numeric_limits<float>::lowest();
   for (const Surface& surface : surfaces) {
     for (const std::uint32_t index : surface.indices) {
@@ -269,13 +270,13 @@ float highest_of(std::span<const Surface> surfaces) {
   return highest;
 }
 
-Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person, const DressedPerson& dressed,
-                const CoveredSkin& covered) {
+Surface skin_surface(const MakeHuman& makehuman, const PersonSpec& person,
+                     const DressedPerson& dressed, const CoveredSkin& covered) {
   Surface skin = make_surface(makehuman.skin(), makehuman.uvs(), dressed.body, makehuman.weights(),
                               dressed.to_neutral);
-  constexpr float kTuck_m = 0.007F;
+  constexpr float kTuckM = 0.007F;
   for (std::size_t i = 0; i < skin.source.size(); ++i) {
-    if (covered.tucked[skin.source[i]]) tuck_in(skin, i, kTuck_m, dressed.to_neutral);
+    if (covered.tucked[skin.source[i]]) tuck_in(skin, i, kTuckM, dressed.to_neutral);
   }
   keep_triangles(skin, [&](std::size_t at) {
     return !all_corners(skin, at, [&](std::uint32_t vertex) -> bool {
@@ -361,7 +362,7 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   dressed.body = std::move(stance.body);
   dressed.joints = stance.joints;
   dressed.to_neutral = stance.to_neutral;
-  const float hem = hem_of(outfit, stance.a_pose, static_cast<float>(person.height_m));
+  const float hem = hem_height(outfit, stance.a_pose, static_cast<float>(person.height_m));
   CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
 
   std::vector<Surface> tops = wear_all(wardrobe.top(outfit), dressed);
@@ -369,24 +370,24 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   std::vector<Surface> shoes = wear_all(wardrobe.shoes(outfit), dressed);
   std::vector<Surface> hat = wear_all(wardrobe.hat(outfit), dressed);
   std::vector<Surface> hair = wear_all(wardrobe.hair(outfit), dressed);
-  constexpr float kWaistOverlap_m = 0.03F;
-  constexpr float kHemOverlap_m = 0.015F;
+  constexpr float kWaistOverlapM = 0.03F;
+  constexpr float kHemOverlapM = 0.015F;
   if (outfit.hem != Hem::foot) cut_below(bottoms, hem);
   if (outfit.one_piece && outfit.bottom == kSkirt) {
     std::erase_if(tops, [](const Surface& surface) { return surface.tint == Tint::none; });
-    cut_below(tops, highest_fitted(bottoms) - kWaistOverlap_m);
+    cut_below(tops, highest_fitted(bottoms) - kWaistOverlapM);
   } else if (!bottoms.empty()) {
     tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower), dressed);
     bare_waist(makehuman, dressed, tops, bottoms, covered);
   }
-  hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlap_m);
-  const float waist = stance.a_pose[index_of(Bone::spine)].z();
-  const float shoulders = stance.a_pose[index_of(Bone::left_upper_arm)].z();
+  hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlapM);
+  const float waist = stance.a_pose[index_from(Bone::spine)].z();
+  const float shoulders = stance.a_pose[index_from(Bone::left_upper_arm)].z();
   cut_below(hair, waist + static_cast<float>(outfit.hair_cut) * (shoulders - waist));
   if (!hat.empty()) {
     constexpr float kBrimShare = 0.3F;
-    const float low = lowest_of(hat);
-    hide_above(hair, low + kBrimShare * (highest_of(hat) - low));
+    const float low = lowest_point(hat);
+    hide_above(hair, low + kBrimShare * (highest_point(hat) - low));
   }
 
   std::vector<Surface> face = wear_all(wardrobe.eyebrows(person.eyebrows), dressed);
@@ -396,7 +397,7 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
 
   // Triangles at full detail, below 8 000 in all: most where people look.
   auto& all = dressed.surfaces;
-  add_simplified({skin_of(makehuman, person, dressed, covered)}, 2200, all);
+  add_simplified({skin_surface(makehuman, person, dressed, covered)}, 2200, all);
   add_simplified(std::move(tops), bottoms.empty() ? 2000 : 1300, all, Lined::yes);
   add_simplified(std::move(bottoms), 800, all, Lined::yes);
   add_simplified(std::move(shoes), 550, all);

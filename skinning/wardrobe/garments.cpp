@@ -105,7 +105,7 @@ const GarmentInfo& garment(std::string_view name, Slot slot) {
   return *found;
 }
 
-License license_of(std::string_view name) {
+License find_license(std::string_view name) {
   if (is_face(name)) return cc0;
   const auto* const found =
       std::find_if(kGarments.begin(), kGarments.end(),

@@ -47,6 +47,6 @@ std::span<const GarmentInfo> all_garments();
 const GarmentInfo& garment(std::string_view name, Slot slot);
 
 /// The terms of a proxy (clothes, hair, eyes or eyebrows). Throws when it is not in the list.
-License license_of(std::string_view name);
+License find_license(std::string_view name);
 
 }  // namespace throng::skinning

@@ -27,7 +27,7 @@ const Vector2f kDark(0.75F, 0.75F);
 
 BoneWeights all_on(Bone bone) {
   BoneWeights weights{};
-  weights[index_of(bone)] = 1;
+  weights[index_from(bone)] = 1;
   return weights;
 }
 
@@ -136,7 +136,7 @@ struct Site {
   float scale;  // 1 for a person of 1.7 m
   int shape;    // 0 is the finest
 
-  const Vector3f& joint(Bone bone) const { return person->joints[index_of(bone)]; }
+  const Vector3f& joint(Bone bone) const { return person->joints[index_from(bone)]; }
   int of_shape(const std::array<int, kItemShapes>& numbers) const {
     return numbers[static_cast<std::size_t>(shape)];
   }
@@ -275,7 +275,7 @@ void add_stick(Shape& shape, const Vector3f& from, const Vector3f& to, float rad
 
 void add_umbrella(Shape& shape, const Site& site) {
   const float s = std::clamp(site.scale, 0.7F, 1.1F);
-  const Vector3f grip = grip_of(Carry::umbrella, site.person->joints)->point;
+  const Vector3f grip = find_grip(Carry::umbrella, site.person->joints)->point;
   const float crown = site.person->stature_m;
   const Vector3f apex(0.3F * grip.x(), 0.55F * grip.y(), crown + 0.24F * s);
   const Vector3f axis = (apex - grip).normalized();
@@ -365,8 +365,8 @@ Image item_image(int size) {
 }
 
 std::optional<Surface> make_item(Carry carry, const DressedPerson& person, int level) {
-  constexpr float kUsualStature_m = 1.7F;
-  const Site site{&person, person.stature_m / kUsualStature_m, shape_of_level(level)};
+  constexpr float kUsualStatureM = 1.7F;
+  const Site site{&person, person.stature_m / kUsualStatureM, shape_of_level(level)};
   Shape shape;
   switch (carry) {
     case Carry::nothing:

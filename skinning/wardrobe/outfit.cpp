@@ -232,7 +232,7 @@ Outfit sample_outfit(const Wearer& wearer, bool with_attribution, Random& random
   return Stylist(wearer, with_attribution, random).dress();
 }
 
-std::string description_of(const Outfit& outfit) {
+std::string describe_outfit(const Outfit& outfit) {
   std::string text;
   const auto add = [&](std::string_view label) {
     if (!text.empty()) text += ", ";

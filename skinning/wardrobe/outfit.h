@@ -53,6 +53,6 @@ struct Wearer {
 Outfit sample_outfit(const Wearer& wearer, bool with_attribution, Random& random);
 
 /// In words, e.g. "t-shirt, shorts, trainers, hat".
-std::string description_of(const Outfit& outfit);
+std::string describe_outfit(const Outfit& outfit);
 
 }  // namespace throng::skinning

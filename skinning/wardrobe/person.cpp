@@ -111,11 +111,11 @@ AdultHeights adult_heights(bool male) {
 }
 
 double child_height_m(bool male, double age_years) {
-  constexpr std::array<double, 13> kBoys_cm = {116.0, 121.7, 127.3, 132.6, 137.8, 143.1, 149.1,
-                                               156.0, 163.2, 169.0, 172.9, 175.2, 176.1};
-  constexpr std::array<double, 13> kGirls_cm = {115.1, 120.8, 126.6, 132.5, 138.6, 145.0, 151.2,
-                                                156.4, 159.8, 161.7, 162.5, 162.9, 163.1};
-  const std::array<double, 13>& median_cm = male ? kBoys_cm : kGirls_cm;
+  constexpr std::array<double, 13> kBoysCm = {116.0, 121.7, 127.3, 132.6, 137.8, 143.1, 149.1,
+                                              156.0, 163.2, 169.0, 172.9, 175.2, 176.1};
+  constexpr std::array<double, 13> kGirlsCm = {115.1, 120.8, 126.6, 132.5, 138.6, 145.0, 151.2,
+                                               156.4, 159.8, 161.7, 162.5, 162.9, 163.1};
+  const std::array<double, 13>& median_cm = male ? kBoysCm : kGirlsCm;
   const double at = std::clamp(age_years - 6, 0.0, static_cast<double>(median_cm.size() - 1));
   const auto before = std::min(static_cast<std::size_t>(at), median_cm.size() - 2);
   const double share = at - static_cast<double>(before);

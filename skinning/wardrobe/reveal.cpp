@@ -68,10 +68,10 @@ class Cells {
  private:
   using Cell = std::array<int, 3>;
   static Cell cell_of(const Eigen::Vector3f& point) {
-    constexpr float kSize_m = 0.06F;
-    return {static_cast<int>(std::floor(point.x() / kSize_m)),
-            static_cast<int>(std::floor(point.y() / kSize_m)),
-            static_cast<int>(std::floor(point.z() / kSize_m))};
+    constexpr float kSizeM = 0.06F;
+    return {static_cast<int>(std::floor(point.x() / kSizeM)),
+            static_cast<int>(std::floor(point.y() / kSizeM)),
+            static_cast<int>(std::floor(point.z() / kSizeM))};
   }
 
   std::map<Cell, std::vector<Triangle>> triangles_;

@@ -28,12 +28,12 @@ BoneWeights hang(const Eigen::Vector3f& point) {
   const float shins = 0.5F * (1 - geometry::smoothstep(kKnee - 0.12F, kKnee + 0.05F, point.z()));
   const float left = geometry::smoothstep(-0.07F, 0.07F, point.y());
   BoneWeights weights{};
-  weights[index_of(Bone::spine)] = spine;
-  weights[index_of(Bone::hips)] = (1 - legs) * (1 - spine);
+  weights[index_from(Bone::spine)] = spine;
+  weights[index_from(Bone::hips)] = (1 - legs) * (1 - spine);
   for (const bool is_left : {true, false}) {
     const float share = legs * (is_left ? left : 1 - left);
-    weights[index_of(is_left ? Bone::left_thigh : Bone::right_thigh)] = share * (1 - shins);
-    weights[index_of(is_left ? Bone::left_shin : Bone::right_shin)] = share * shins;
+    weights[index_from(is_left ? Bone::left_thigh : Bone::right_thigh)] = share * (1 - shins);
+    weights[index_from(is_left ? Bone::left_shin : Bone::right_shin)] = share * shins;
   }
   return weights;
 }

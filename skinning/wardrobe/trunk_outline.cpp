@@ -7,9 +7,9 @@ namespace throng::skinning {
 namespace {
 
 float trunk_share(const BoneWeights& weights) {
-  return weights[index_of(Bone::hips)] + weights[index_of(Bone::spine)] +
-         weights[index_of(Bone::chest)] + weights[index_of(Bone::neck)] +
-         weights[index_of(Bone::left_clavicle)] + weights[index_of(Bone::right_clavicle)];
+  return weights[index_from(Bone::hips)] + weights[index_from(Bone::spine)] +
+         weights[index_from(Bone::chest)] + weights[index_from(Bone::neck)] +
+         weights[index_from(Bone::left_clavicle)] + weights[index_from(Bone::right_clavicle)];
 }
 
 }  // namespace

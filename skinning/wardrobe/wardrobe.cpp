@@ -50,8 +50,9 @@ bool worn_below_the_waist(const Proxy& proxy, const std::vector<Quad>& quads) {
   float below = 0;
   for (const Quad& quad : quads) {
     const BoneWeights& weights = proxy.weights[quad.vertex[0]];
-    below += weights[index_of(Bone::hips)];
-    for (auto bone = index_of(Bone::left_thigh); bone < kBoneCount; ++bone) below += weights[bone];
+    below += weights[index_from(Bone::hips)];
+    for (auto bone = index_from(Bone::left_thigh); bone < kBoneCount; ++bone)
+      below += weights[bone];
   }
   return below > 0.5F * static_cast<float>(quads.size());
 }
@@ -156,13 +157,13 @@ const std::string& Wardrobe::author_of(const std::string& proxy) const {
 const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
-  static_cast<void>(license_of(name));  // only what is listed with its terms gets in
+  static_cast<void>(find_license(name));  // only what is listed with its terms gets in
   Proxy proxy = name == kSkirt ? make_skirt(*makehuman_) : makehuman_->load_proxy(kind, name);
   settle_skin(*makehuman_, kind, proxy);
   if (kind != "clothes") {
     // Hair that partly hung on the neck would slip on a turning head.
     for (BoneWeights& weights : proxy.weights) {
-      weights[index_of(Bone::head)] += std::exchange(weights[index_of(Bone::neck)], 0);
+      weights[index_from(Bone::head)] += std::exchange(weights[index_from(Bone::neck)], 0);
     }
   }
   return proxies_.emplace(name, std::move(proxy)).first->second;
@@ -217,7 +218,7 @@ void Wardrobe::add_shoes(const Key& key, Worn& worn) {
     float shin = 0;
     for (const Quad& quad : quads) {
       const BoneWeights& weights = proxy.weights[quad.vertex[0]];
-      shin += weights[index_of(Bone::left_shin)] + weights[index_of(Bone::right_shin)];
+      shin += weights[index_from(Bone::left_shin)] + weights[index_from(Bone::right_shin)];
     }
     const bool sock = shin > 0.3F * static_cast<float>(quads.size());
     append(sock ? socks.quads : shoes.quads, quads);

@@ -205,7 +205,7 @@ std::string help_of_extent(Extent extent) {
 
 std::span<const GroundTruthKind> ground_truth_kinds() { return kKinds; }
 
-const GroundTruthKind& kind_of(GroundTruth kind) {
+const GroundTruthKind& ground_truth_kind(GroundTruth kind) {
   return kKinds.at(static_cast<std::size_t>(kind));
 }
 
@@ -220,7 +220,7 @@ const GroundTruthKind* find_kind(std::string_view name) {
 }
 
 bool holds(std::span<const std::string> names, GroundTruth kind) {
-  return std::find(names.begin(), names.end(), kind_of(kind).name) != names.end();
+  return std::find(names.begin(), names.end(), ground_truth_kind(kind).name) != names.end();
 }
 
 RenderNeeds render_needs(std::span<const std::string> names) {
@@ -257,13 +257,13 @@ std::string ground_truth_help() {
                      help_of_extent(Extent::drone));
 }
 
-std::string_view folder_of(const GroundTruthKind& kind) {
+std::string_view ground_truth_folder(const GroundTruthKind& kind) {
   return kind.file.substr(0, kind.file.find('/'));
 }
 
-std::string file_of(GroundTruth kind, std::string_view run, std::string_view camera,
-                    std::int64_t frame) {
-  std::string file(kind_of(kind).file);
+std::string ground_truth_file(GroundTruth kind, std::string_view run, std::string_view camera,
+                              std::int64_t frame) {
+  std::string file(ground_truth_kind(kind).file);
   const std::string number = fmt::format("{:06}", frame);
   // From the last to the first: a camera's id may hold such a word itself.
   for (const auto& [name, value] : {std::pair<std::string_view, std::string_view>{"FRAME", number},

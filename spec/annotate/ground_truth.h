@@ -87,7 +87,7 @@ struct GroundTruthKind {
 /// All kinds, in the order of the enumerators.
 std::span<const GroundTruthKind> ground_truth_kinds();
 
-const GroundTruthKind& kind_of(GroundTruth kind);
+const GroundTruthKind& ground_truth_kind(GroundTruth kind);
 
 /// Whether a kind comes from images or lies beside them, for each camera.
 bool needs_images(const GroundTruthKind& kind);
@@ -108,10 +108,10 @@ std::vector<std::string> default_ground_truth();
 std::string ground_truth_help();
 
 /// The folder at the dataset's top that holds the kind's files: "density".
-std::string_view folder_of(const GroundTruthKind& kind);
+std::string_view ground_truth_folder(const GroundTruthKind& kind);
 
 /// The kind's file of a run, a camera and a frame, as far as its pattern names them.
-std::string file_of(GroundTruth kind, std::string_view run, std::string_view camera = "",
-                    std::int64_t frame = 0);
+std::string ground_truth_file(GroundTruth kind, std::string_view run, std::string_view camera = "",
+                              std::int64_t frame = 0);
 
 }  // namespace throng::annotate

@@ -32,7 +32,7 @@ double number_at(const json& value, const std::string& name, double low, double 
 }  // namespace
 
 camera::Intrinsics CameraFile::intrinsics() const {
-  return intrinsics_of(lens, parameters, size.width, size.height);
+  return to_intrinsics(lens, parameters, size.width, size.height);
 }
 
 json to_json(const CameraFile& camera) {
@@ -40,7 +40,7 @@ json to_json(const CameraFile& camera) {
                 {"version", kVersion},
                 {"width", camera.size.width},
                 {"height", camera.size.height},
-                {"lens", name_of(camera.lens)}};
+                {"lens", to_string(camera.lens)}};
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(camera.lens, i);
     if (!name.empty()) value[name] = camera.parameters.at(i);

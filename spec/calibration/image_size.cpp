@@ -15,7 +15,7 @@ constexpr int kMaxSide = 100000;
 
 }  // namespace
 
-ImageSize image_size_of(const std::string& text, const std::string& source) {
+ImageSize parse_image_size(const std::string& text, const std::string& source) {
   const std::size_t by = text.find('x');
   ImageSize size;
   const auto read = [](std::string_view word, int& value) {

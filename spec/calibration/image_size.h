@@ -12,6 +12,6 @@ struct ImageSize {
 };
 
 /// "640x480". Throws InputError naming `source`.
-ImageSize image_size_of(const std::string& text, const std::string& source);
+ImageSize parse_image_size(const std::string& text, const std::string& source);
 
 }  // namespace throng::calibrate

@@ -16,12 +16,12 @@ constexpr std::array kLensNames = {"pinhole", "brown2", "brown4", "brown5", "bro
 constexpr std::array kCommonNames = {"fx", "fy", "cx", "cy", "skew"};
 constexpr std::array kBrownNames = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
 
-std::size_t coefficients_of(Lens lens) {
+std::size_t count_coefficients(Lens lens) {
   constexpr std::array<std::size_t, 6> kCounts = {0, 2, 4, 5, 8, 4};
   return kCounts.at(static_cast<std::size_t>(lens));
 }
 
-std::vector<std::string> names_of(Lens lens) {
+std::vector<std::string> parameter_names(Lens lens) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < kParameters; ++i) {
     std::string name = parameter_name(lens, i);
@@ -30,13 +30,13 @@ std::vector<std::string> names_of(Lens lens) {
   return names;
 }
 
-std::size_t place_of(Lens lens, const std::string& name, const std::string& source) {
+std::size_t parameter_index(Lens lens, const std::string& name, const std::string& source) {
   for (std::size_t i = 0; i < kParameters; ++i) {
     if (!name.empty() && parameter_name(lens, i) == name) return i;
   }
   throw InputError(Problem{source, "", fmt::format("a parameter \"{}\"", name),
                            fmt::format("one of {}, which the lens {} has",
-                                       fmt::join(names_of(lens), ", "), name_of(lens))});
+                                       fmt::join(parameter_names(lens), ", "), to_string(lens))});
 }
 
 void refuse_twice(const Wishes& wishes, const std::string& name, const std::string& source) {
@@ -49,7 +49,7 @@ void refuse_twice(const Wishes& wishes, const std::string& name, const std::stri
 
 }  // namespace
 
-std::string_view name_of(Lens lens) { return kLensNames.at(static_cast<std::size_t>(lens)); }
+std::string_view to_string(Lens lens) { return kLensNames.at(static_cast<std::size_t>(lens)); }
 
 Lens lens_named(std::string_view name, const std::string& source) {
   const auto* found = std::find(kLensNames.begin(), kLensNames.end(), name);
@@ -63,12 +63,12 @@ Lens lens_named(std::string_view name, const std::string& source) {
 std::string parameter_name(Lens lens, std::size_t index) {
   if (index < kCoefficients) return kCommonNames.at(index);
   const std::size_t coefficient = index - kCoefficients;
-  if (coefficient >= coefficients_of(lens)) return "";
+  if (coefficient >= count_coefficients(lens)) return "";
   if (lens == Lens::fisheye) return fmt::format("k{}", coefficient + 1);
   return kBrownNames.at(coefficient);
 }
 
-camera::Intrinsics intrinsics_of(Lens lens, const Parameters& p, int width, int height) {
+camera::Intrinsics to_intrinsics(Lens lens, const Parameters& p, int width, int height) {
   camera::Intrinsics k{width, height, p[kFx], p[kFy], p[kCx], p[kCy]};
   k.skew_px = p[kSkew];
   // Tilted and distorted lenses are rendered in the same manner.
@@ -82,7 +82,7 @@ camera::Intrinsics intrinsics_of(Lens lens, const Parameters& p, int width, int 
   return k;
 }
 
-Parameters parameters_of(const camera::Intrinsics& k) {
+Parameters to_parameters(const camera::Intrinsics& k) {
   Parameters p{k.fx_px, k.fy_px, k.cx_px, k.cy_px, k.skew_px};
   if (k.distortion) {
     const auto& coefficients = k.distortion->coefficients();
@@ -99,7 +99,7 @@ std::vector<std::size_t> Rules::free_places() const {
   return places;
 }
 
-Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source) {
+Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& source) {
   Rules rules;
   rules.ratio.fill(1);
   rules.fixed.fill(0);
@@ -108,7 +108,7 @@ Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source) {
     rules.free[i] = !parameter_name(lens, i).empty() && (i != kSkew || wishes.skew);
   }
   for (const auto& [name, value] : wishes.fixed) {
-    const std::size_t i = place_of(lens, name, source);
+    const std::size_t i = parameter_index(lens, name, source);
     refuse_twice(wishes, name, source);
     if (!value && (i == kFx || i == kFy)) {
       throw InputError(Problem{source, "", fmt::format("{} fixed without a value", name),
@@ -119,9 +119,9 @@ Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source) {
     rules.fixed[i] = value.value_or(guess);
   }
   for (const auto& [name, tie] : wishes.tied) {
-    const std::size_t i = place_of(lens, name, source);
+    const std::size_t i = parameter_index(lens, name, source);
     refuse_twice(wishes, name, source);
-    const std::size_t to = place_of(lens, tie.to, source);
+    const std::size_t to = parameter_index(lens, tie.to, source);
     if (to == i || wishes.tied.count(tie.to) > 0) {
       throw InputError(Problem{source, "", fmt::format("{} tied to {}", name, tie.to),
                                "a tie to another parameter, which is not tied itself"});
@@ -136,7 +136,7 @@ Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source) {
                                fmt::format("a prior of {} with deviation {}", name, prior.sd),
                                "a deviation above 0"});
     }
-    rules.priors.at(place_of(lens, name, source)) = prior;
+    rules.priors.at(parameter_index(lens, name, source)) = prior;
   }
   return rules;
 }

@@ -21,7 +21,7 @@ enum class Lens { pinhole, brown2, brown4, brown5, brown8, fisheye };
 inline constexpr std::array kLenses = {Lens::pinhole, Lens::brown2, Lens::brown4,
                                        Lens::brown5,  Lens::brown8, Lens::fisheye};
 
-std::string_view name_of(Lens lens);
+std::string_view to_string(Lens lens);
 /// Throws InputError naming `source` for any other word.
 Lens lens_named(std::string_view name, const std::string& source);
 
@@ -39,9 +39,9 @@ using Parameters = std::array<double, kParameters>;
 std::string parameter_name(Lens lens, std::size_t index);
 
 /// The pixel's grid leans by `skew`: u = fx x' + skew y' + cx, v = fy y' + cy (Zhang 2000, eq. 1).
-camera::Intrinsics intrinsics_of(Lens lens, const Parameters& parameters, int width, int height);
+camera::Intrinsics to_intrinsics(Lens lens, const Parameters& parameters, int width, int height);
 /// The reverse; the camera must be of the lens's family.
-Parameters parameters_of(const camera::Intrinsics& intrinsics);
+Parameters to_parameters(const camera::Intrinsics& intrinsics);
 
 /// Normally distributed knowledge of a parameter.
 struct Prior {
@@ -80,7 +80,7 @@ struct Rules {
 /// Throws InputError naming `source` for parameters that the lens has not, for ties in a circle or
 /// to what is tied itself, and for a parameter that is given as more than one of fixed, tied and
 /// known.
-Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source);
+Rules calibration_rules(Lens lens, const Wishes& wishes, const std::string& source);
 
 /// Gives tied parameters their values.
 void apply_ties(const Rules& rules, Parameters& parameters);

@@ -57,7 +57,7 @@ double render_mib(const JobSpec& job, std::uint64_t run_seed) {
     megapixels = std::max(megapixels, rendered_megapixels(camera));
     kept += static_cast<double>(camera.width) * camera.height / kMegapixel;
   }
-  const int side = render::settings_of(job.quality).supersampling;
+  const int side = render::quality_settings(job.quality).supersampling;
   const double bytes = kImageBytes + (side * side - 1) * kSampleBytes +
                        (has_pixel_truth(job.outputs) ? kTruthBytes : 0);
   const bool keeps =

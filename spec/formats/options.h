@@ -15,7 +15,7 @@ namespace throng::formats {
 
 enum class Split : std::uint8_t { train, val, test };
 inline constexpr std::array<std::string_view, 3> kSplitNames = {"train", "val", "test"};
-inline std::string_view name_of(Split split) {
+inline std::string_view to_string(Split split) {
   return kSplitNames.at(static_cast<std::size_t>(split));
 }
 

@@ -42,7 +42,7 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
     return value_json(number(spec));
   };
   const auto set = [path, quantity, low, set_number](CameraSpec& spec, const json& value,
-                                                     const FieldPlace& place) {
+                                                     const FieldLocation& place) {
     const Distribution distribution =
         Distribution::read(value, quantity, place.pointer, place.problems);
     set_number(spec, value.is_number() ? value.get<double>() : low);
@@ -62,7 +62,7 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
 }
 
 /// In degrees, of an angle that is kept in radians.
-GetNumber angle_of(double camera::GimbalSpec::*member) {
+GetNumber angle_getter(double camera::GimbalSpec::*member) {
   // Digits that degrees need beyond these are those of the conversion.
   constexpr double kDigits = 1e12;
   return [member](const CameraSpec& spec) {
@@ -70,7 +70,7 @@ GetNumber angle_of(double camera::GimbalSpec::*member) {
   };
 }
 
-SetNumber set_angle_of(double camera::GimbalSpec::*member) {
+SetNumber angle_setter(double camera::GimbalSpec::*member) {
   return [member](CameraSpec& spec, double value) { spec.gimbal.*member = value * kDegree; };
 }
 
@@ -80,29 +80,29 @@ FieldTable<CameraSpec>::Get unless_calibrated(int CameraSpec::*member) {
 }
 
 FieldTable<CameraSpec>::Set set_size(int CameraSpec::*member) {
-  return [member](CameraSpec& spec, const json& value, const FieldPlace& /*place*/) {
+  return [member](CameraSpec& spec, const json& value, const FieldLocation& /*place*/) {
     value.get_to(spec.*member);
   };
 }
 
 json model_json(const CameraSpec& spec) {
-  return spec.calibration ? json() : json(name_of(spec.lens.model));
+  return spec.calibration ? json() : json(to_string(spec.lens.model));
 }
 
-void set_model(CameraSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_model(CameraSpec& spec, const json& value, const FieldLocation& /*place*/) {
   spec.lens.model = static_cast<camera::LensModel>(
       std::find(kModels.begin(), kModels.end(), value) - kModels.begin());
 }
 
 json gimbal_json(const CameraSpec& spec) { return kGimbals.at(spec.gimbal.ideal ? 0 : 1); }
 
-void set_gimbal(CameraSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_gimbal(CameraSpec& spec, const json& value, const FieldLocation& /*place*/) {
   spec.gimbal.ideal = value == kGimbals.front();
 }
 
 json metering_json(const CameraSpec& spec) { return kMeterings.at(spec.sensor.is_metered ? 0 : 1); }
 
-void set_metering(CameraSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_metering(CameraSpec& spec, const json& value, const FieldLocation& /*place*/) {
   spec.sensor.is_metered = value == kMeterings.front();
 }
 
@@ -110,7 +110,7 @@ json calibration_json(const CameraSpec& spec) {
   return spec.calibration ? calibrate::to_json(*spec.calibration) : json();
 }
 
-void set_calibration(CameraSpec& spec, const json& value, const FieldPlace& place) {
+void set_calibration(CameraSpec& spec, const json& value, const FieldLocation& place) {
   if (value.is_string()) {
     place.problems.push_back(
         {"", place.pointer, value.dump(), "the id of a calibration that has succeeded"});
@@ -134,7 +134,7 @@ void set_calibration(CameraSpec& spec, const json& value, const FieldPlace& plac
 }
 
 void add_lens_fields(FieldTable<CameraSpec>& table) {
-  table.add("preset", "Preset", "", one_of(camera_presets()), at(&CameraSpec::preset),
+  table.add("preset", "Preset", "", one_of_words(camera_presets()), at(&CameraSpec::preset),
             "A known camera, whose image size and field of view are defaults of the fields below "
             "(spec/job/cameras.json, with sources).");
   table.add("calibration", "Calibration", "",
@@ -161,7 +161,7 @@ void add_lens_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "cy_px", "Principal point, y", "px", -20000, 20000, at(&CameraSpec::cy_px),
              "Of a calibrated camera, 0 being the middle of the first row; default: the image's "
              "middle.");
-  table.add("model", "Lens model", "", one_of(kModels), model_json, set_model,
+  table.add("model", "Lens model", "", one_of_words(kModels), model_json, set_model,
             "pinhole: straight lines stay straight; brown_conrady and fisheye (Kannala and Brandt) "
             "as in OpenCV, with the coefficients of distortion.");
 }
@@ -214,7 +214,7 @@ void add_view_fields(FieldTable<CameraSpec>& table) {
 
 void add_body_fields(FieldTable<CameraSpec>& table) {
   table.group("gimbal", "Gimbal", "The stabilized mount of the camera.");
-  table.add("gimbal/model", "Model", "", one_of(kGimbals), gimbal_json, set_gimbal,
+  table.add("gimbal/model", "Model", "", one_of_words(kGimbals), gimbal_json, set_gimbal,
             "ideal: exact direction; second_order: follows the heading as a damped second-order "
             "system, with jitter and a misaligned mount.");
   add_number(table, "gimbal/natural_rad_s", "Natural frequency", "rad/s", 1, 100,
@@ -224,18 +224,19 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
              at(&CameraSpec::gimbal, &camera::GimbalSpec::damping),
              "Damping ratio of the response; 1: no overshoot.");
   add_number(table, "gimbal/jitter_deg", "Jitter", "degrees", 0, 5,
-             angle_of(&camera::GimbalSpec::jitter_rad),
-             set_angle_of(&camera::GimbalSpec::jitter_rad),
+             angle_getter(&camera::GimbalSpec::jitter_rad),
+             angle_setter(&camera::GimbalSpec::jitter_rad),
              "Standard deviation of the remaining vibration about each axis.");
   add_number(table, "gimbal/bias_deg", "Misalignment", "degrees", 0, 5,
-             angle_of(&camera::GimbalSpec::bias_rad), set_angle_of(&camera::GimbalSpec::bias_rad),
+             angle_getter(&camera::GimbalSpec::bias_rad),
+             angle_setter(&camera::GimbalSpec::bias_rad),
              "Maximum error of the camera's mounting about each axis, sampled per run.");
   add_number(table, "gimbal/reading_deg", "Noise of the encoders", "degrees", 0, 5,
-             angle_of(&camera::GimbalSpec::reading_rad),
-             set_angle_of(&camera::GimbalSpec::reading_rad),
+             angle_getter(&camera::GimbalSpec::reading_rad),
+             angle_setter(&camera::GimbalSpec::reading_rad),
              "Standard deviation of the angles that the gimbal reports.");
   table.group("sensor", "Sensor", "Effects of sensor and shutter on the images.");
-  table.add("sensor/metering", "Exposure metering", "", one_of(kMeterings), metering_json,
+  table.add("sensor/metering", "Exposure metering", "", one_of_words(kMeterings), metering_json,
             set_metering,
             "image: each image's exposure follows the brightness of what it shows, people left "
             "out; light: only the light of hour and weather, the same for all images of a run.");
@@ -286,7 +287,9 @@ const FieldTable<CameraSpec>& camera_fields() {
   return table;
 }
 
-const char* name_of(camera::LensModel model) { return kModels.at(static_cast<std::size_t>(model)); }
+const char* to_string(camera::LensModel model) {
+  return kModels.at(static_cast<std::size_t>(model));
+}
 
 std::span<const char* const> calibrated_fields() { return kCalibrated; }
 

@@ -11,7 +11,7 @@ namespace throng::jobs {
 const FieldTable<CameraSpec>& camera_fields();
 
 /// The word of a lens model: "fisheye".
-const char* name_of(camera::LensModel model);
+const char* to_string(camera::LensModel model);
 
 /// Fields that a calibration says, so that nothing else may.
 std::span<const char* const> calibrated_fields();

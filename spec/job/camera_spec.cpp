@@ -48,8 +48,9 @@ void check_choices(const json& value, const CameraSpec& spec, const std::string&
     unused = {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
   for (const char* name : unused) {
     if (!differs_from_zero(name)) continue;
-    problems.push_back({"", fmt::format("{}/distortion/{}", pointer, name), "a coefficient",
-                        fmt::format("none, since the model is \"{}\"", name_of(spec.lens.model))});
+    problems.push_back(
+        {"", fmt::format("{}/distortion/{}", pointer, name), "a coefficient",
+         fmt::format("none, since the model is \"{}\"", to_string(spec.lens.model))});
   }
   if (!value.contains("calibration") || value["calibration"].is_string()) return;
   for (const char* field : calibrated_fields()) {

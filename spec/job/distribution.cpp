@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// FNV-1a (Fowler, Noll and Vo), 64 bits: a number for a field's name.
-std::uint64_t number_of(std::string_view name) {
+std::uint64_t hash_name(std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : name) {
     hash ^= static_cast<unsigned char>(c);
@@ -35,7 +35,7 @@ std::string forms(const Quantity& quantity) {
 }
 
 /// A standard deviation, in the field's unit.
-std::optional<double> deviation_of(const json& value, const Quantity& quantity) {
+std::optional<double> standard_deviation(const json& value, const Quantity& quantity) {
   const std::optional<double> given =
       value.is_number() ? std::optional(value.get<double>()) : quantity.number(value);
   return given && *given > 0 && std::isfinite(*given) ? given : std::nullopt;
@@ -80,7 +80,7 @@ void Distribution::read_values(const json& list, const Quantity& quantity, const
   for (std::size_t i = 0; i < list.size(); ++i) {
     const bool deviation = kind_ == Kind::normal && i == 1;
     const std::optional<double> number =
-        deviation ? deviation_of(list[i], quantity) : quantity.number(list[i]);
+        deviation ? standard_deviation(list[i], quantity) : quantity.number(list[i]);
     if (!number) {
       const bool alone = kind_ == Kind::choice && !place.ends_with("/choice");
       problems.push_back({"", alone ? place : fmt::format("{}/{}", place, i), describe(list[i]),
@@ -106,7 +106,7 @@ json Distribution::to_json(const Quantity& quantity) const {
 }
 
 double Distribution::draw(std::uint64_t run_seed, std::string_view pointer) const {
-  Random random(run_seed, Stream::randomize, number_of(pointer));
+  Random random(run_seed, Stream::randomize, hash_name(pointer));
   switch (kind_) {
     case Kind::uniform:
       return random.uniform(values_[0], values_[1]);

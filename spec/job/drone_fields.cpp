@@ -14,7 +14,7 @@ json airframe_json(const DroneSpec& drone) {
   return mission.own_airframe ? sim::to_json(*mission.own_airframe) : json(mission.airframe);
 }
 
-void set_airframe(DroneSpec& drone, const json& value, const FieldPlace& place) {
+void set_airframe(DroneSpec& drone, const json& value, const FieldLocation& place) {
   sim::DroneMission& mission = drone.mission;
   if (value.is_string()) {
     value.get_to(mission.airframe);
@@ -29,7 +29,7 @@ json goal_json(const DroneSpec& drone) {
   return goal ? json{goal->set, goal->goal} : json();
 }
 
-void set_goal(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+void set_goal(DroneSpec& drone, const json& value, const FieldLocation& /*place*/) {
   drone.mission.moves_goal = world::GoalRef{value.at(0).get<int>(), value.at(1).get<int>()};
 }
 
@@ -56,7 +56,7 @@ json aim_json(const DroneSpec& drone) {
   return aim ? aim_fields().print(*aim) : json();
 }
 
-void set_aim(DroneSpec& drone, const json& value, const FieldPlace& place) {
+void set_aim(DroneSpec& drone, const json& value, const FieldLocation& place) {
   aim_fields().read(value, drone.mission.aim.emplace(), place);
 }
 
@@ -82,7 +82,7 @@ FieldTable<DroneSpec> make_drone_fields() {
             at(&DroneSpec::mission, &sim::DroneMission::start),
             "Position where the drone hovers when the run begins; default: the scenario's start "
             "for this id.");
-  table.add("aim", "Aim", "", object_of(aim_fields().schema()), aim_json, set_aim,
+  table.add("aim", "Aim", "", object_with(aim_fields().schema()), aim_json, set_aim,
             "Instead of a start: in every run the drone begins where its camera's optical axis "
             "meets one of the people, from a direction with free sight, both sampled by the seed. "
             "For jobs of several scenarios, and for any scenario of which nobody knows the "
@@ -96,9 +96,9 @@ FieldTable<DroneSpec> make_drone_fields() {
       "guidance", guidance_fields(), [](auto& drone) -> auto& { return drone; });
   table
       .add(
-          "camera", "Camera", "", object_of(camera_fields().schema()),
+          "camera", "Camera", "", object_with(camera_fields().schema()),
           [](const DroneSpec& drone) { return to_json(drone.camera); },
-          [](DroneSpec& drone, const json& value, const FieldPlace& place) {
+          [](DroneSpec& drone, const json& value, const FieldLocation& place) {
             drone.camera = read_camera(value, place.pointer, place.problems);
           },
           "A camera on a gimbal that cancels the drone's roll and pitch. Every number except the "

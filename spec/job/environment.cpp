@@ -19,7 +19,7 @@ constexpr int kMinutesPerHour = 60;
 constexpr int kDaysPerYear = 365;
 constexpr std::array kWeathers{"clear", "overcast", "fog", "rain"};
 
-std::optional<double> hours_of(const json& value) {
+std::optional<double> parse_hours(const json& value) {
   if (!value.is_string()) return std::nullopt;
   const auto& text = value.get_ref<const std::string&>();
   const auto digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
@@ -39,7 +39,7 @@ std::string time_text(double hours) {
 
 Quantity time_quantity() {
   return {"a time HH:MM, for example \"15:30\"",
-          hours_of,
+          parse_hours,
           [](double hours) { return json(time_text(hours)); },
           0,
           24 - 1.0 / kMinutesPerHour,
@@ -51,7 +51,7 @@ Values times() {
       {{"type", "string"}, {"pattern", "^([01][0-9]|2[0-3]):[0-5][0-9]$"}}, "", time_quantity()};
 }
 
-std::string pointer_of(const char* name) { return fmt::format("/environment/{}", name); }
+std::string environment_pointer(const char* name) { return fmt::format("/environment/{}", name); }
 
 double usual_visibility_m(render::Weather weather) {
   switch (weather) {
@@ -113,7 +113,7 @@ json to_json(const EnvironmentSpec& spec) { return environment_fields().print(sp
 
 RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run_seed) {
   const auto draw = [&](const Distribution& distribution, const char* name) {
-    return distribution.draw(run_seed, pointer_of(name));
+    return distribution.draw(run_seed, environment_pointer(name));
   };
   RunEnvironment run;
   // Whole minutes, so that the record says all.
@@ -153,14 +153,14 @@ json to_json(const RunEnvironment& environment) {
 }
 
 Sun sun_at(double time_of_day_h, double latitude_deg, int day_of_year) {
-  constexpr double kNoon_h = 12;
+  constexpr double kNoonH = 12;
   constexpr double kTurnPerHour = 15 * kDegree;
   const double day = 360 * kDegree * (day_of_year - 1) / kDaysPerYear;
   const double declination = 0.006918 - 0.399912 * std::cos(day) + 0.070257 * std::sin(day) -
                              0.006758 * std::cos(2 * day) + 0.000907 * std::sin(2 * day) -
                              0.002697 * std::cos(3 * day) + 0.00148 * std::sin(3 * day);
   const double latitude = latitude_deg * kDegree;
-  const double hour_angle = (time_of_day_h - kNoon_h) * kTurnPerHour;
+  const double hour_angle = (time_of_day_h - kNoonH) * kTurnPerHour;
   const double east = -std::cos(declination) * std::sin(hour_angle);
   const double north = std::cos(latitude) * std::sin(declination) -
                        std::sin(latitude) * std::cos(declination) * std::cos(hour_angle);

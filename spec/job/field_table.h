@@ -15,7 +15,7 @@ namespace throng::jobs {
 using fields::at;
 using fields::booleans;
 using fields::Field;
-using fields::FieldPlace;
+using fields::FieldLocation;
 using fields::FieldRules;
 using fields::FieldTable;
 using fields::identifiers;
@@ -24,8 +24,8 @@ using fields::lists;
 using fields::number_quantity;
 using fields::numbers;
 using fields::numbers_above;
-using fields::object_of;
-using fields::one_of;
+using fields::object_with;
+using fields::one_of_words;
 using fields::plain_numbers;
 using fields::pointer_below;
 using fields::raw;
@@ -62,7 +62,7 @@ Field<Object>& add_sampled(FieldTable<Object>& table, std::string path, std::str
   Field<Object>& field = table.add(
       std::move(path), std::move(title), std::move(unit), std::move(values),
       [access, quantity](const Object& object) { return sampled_json(access(object), quantity); },
-      [access, quantity](Object& object, const nlohmann::json& value, const FieldPlace& place) {
+      [access, quantity](Object& object, const nlohmann::json& value, const FieldLocation& place) {
         access(object) = Distribution::read(value, quantity, place.pointer, place.problems);
       },
       std::move(help));

@@ -74,7 +74,7 @@ json lines_json(const JobSpec& job) {
   return lines;
 }
 
-void set_zones(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_zones(JobSpec& job, const json& value, const FieldLocation& place) {
   for (std::size_t i = 0; i < value.size(); ++i) {
     CountZone& zone = job.outputs.counts.zones.emplace_back();
     value[i].at("id").get_to(zone.id);
@@ -87,7 +87,7 @@ void set_zones(JobSpec& job, const json& value, const FieldPlace& place) {
   }
 }
 
-void set_lines(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_lines(JobSpec& job, const json& value, const FieldLocation& place) {
   for (std::size_t i = 0; i < value.size(); ++i) {
     CountLine& line = job.outputs.counts.lines.emplace_back();
     value[i].at("id").get_to(line.id);

@@ -20,7 +20,7 @@ constexpr std::array kPolicies{"hover",  "waypoints", "orbit",   "survey", "foll
 
 json fov_json(const sim::PerceptionSpec& spec) { return spec.fov_rad / kDegree; }
 
-void set_fov(sim::PerceptionSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_fov(sim::PerceptionSpec& spec, const json& value, const FieldLocation& /*place*/) {
   spec.fov_rad = value.get<double>() * kDegree;
 }
 
@@ -69,7 +69,7 @@ json perception_json(const DroneSpec& drone) {
   return perception ? perception_fields().print(*perception) : json();
 }
 
-void set_perception(DroneSpec& drone, const json& value, const FieldPlace& place) {
+void set_perception(DroneSpec& drone, const json& value, const FieldLocation& place) {
   perception_fields().read(value, drone.mission.guidance.perception.emplace(), place);
 }
 
@@ -78,7 +78,7 @@ json area_json(const DroneSpec& drone) {
   return area ? area_fields().print(*area) : json();
 }
 
-void set_area(DroneSpec& drone, const json& value, const FieldPlace& place) {
+void set_area(DroneSpec& drone, const json& value, const FieldLocation& place) {
   area_fields().read(value, drone.mission.guidance.area.emplace(), place);
 }
 
@@ -95,7 +95,7 @@ json waypoints_json(const DroneSpec& drone) {
   return list;
 }
 
-void set_waypoints(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+void set_waypoints(DroneSpec& drone, const json& value, const FieldLocation& /*place*/) {
   drone.mission.waypoints.clear();
   for (const json& point : value) set_value(point, drone.mission.waypoints.emplace_back());
 }
@@ -105,13 +105,13 @@ json exits_json(const DroneSpec& drone) {
   return exits.empty() ? json() : json(exits);
 }
 
-void set_exits(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+void set_exits(DroneSpec& drone, const json& value, const FieldLocation& /*place*/) {
   value.get_to(drone.mission.guidance.exits);
 }
 
 json log_json(const DroneSpec& drone) { return value_json(drone.pilot_log.filename().string()); }
 
-void set_log(DroneSpec& drone, const json& value, const FieldPlace& place) {
+void set_log(DroneSpec& drone, const json& value, const FieldLocation& place) {
   const auto name = value.get<std::string>();
   if (place.source.empty()) {
     place.problems.push_back({"", place.pointer, "\"" + name + "\"",
@@ -131,7 +131,7 @@ ordered_json setpoint_rules() {
 
 /// Degrees that are read back as the same angle: a job is printed and read several times on its
 /// way.
-double degrees_of(double angle_rad) {
+double to_degrees(double angle_rad) {
   constexpr double kParts = 1e9;
   const double degrees = angle_rad / kDegree;
   const double rounded = std::round(degrees * kParts) / kParts;
@@ -142,12 +142,12 @@ json setpoints_json(const DroneSpec& drone) {
   json list;
   for (const sim::PilotSample& sample : drone.mission.guidance.setpoints) {
     list.push_back({sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
-                    degrees_of(sample.yaw_rad), sample.beacon ? 1 : 0});
+                    to_degrees(sample.yaw_rad), sample.beacon ? 1 : 0});
   }
   return list;
 }
 
-void set_setpoints(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+void set_setpoints(DroneSpec& drone, const json& value, const FieldLocation& /*place*/) {
   std::vector<sim::PilotSample>& setpoints = drone.mission.guidance.setpoints;
   setpoints.clear();
   for (const json& row : value) {
@@ -160,7 +160,7 @@ void set_setpoints(DroneSpec& drone, const json& value, const FieldPlace& /*plac
 
 FieldTable<DroneSpec> make_guidance_fields() {
   FieldTable<DroneSpec> table;
-  table.add("policy", "Policy", "", one_of(kPolicies),
+  table.add("policy", "Policy", "", one_of_words(kPolicies),
             at(&DroneSpec::mission, &sim::DroneMission::policy),
             "hover: stay at the start; waypoints: fly from point to point and hover at the last; "
             "orbit: circle a point and look at it; survey: lanes over an area; follow_density: "
@@ -191,7 +191,7 @@ FieldTable<DroneSpec> make_guidance_fields() {
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::beacon),
             "hover, waypoints, orbit, survey, follow_density: whether people may follow the drone, "
             "all the time; default: false. The other policies decide themselves.");
-  table.add("perception", "Perception", "", object_of(perception_fields().schema()),
+  table.add("perception", "Perception", "", object_with(perception_fields().schema()),
             perception_json, set_perception, "A policy's information about people.");
   table
       .add("center", "Center", "m", coordinates(2),
@@ -201,7 +201,7 @@ FieldTable<DroneSpec> make_guidance_fields() {
   table.add("radius_m", "Radius", "m", numbers(1, 10000),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::radius_m),
             "orbit: radius of the circle.");
-  table.add("area", "Area", "", object_of(area_fields().schema()), area_json, set_area,
+  table.add("area", "Area", "", object_with(area_fields().schema()), area_json, set_area,
             "survey: the rectangle that it covers; default: the one that people must leave.");
   table.add("overlap", "Overlap", "", numbers(0, 0.95),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::overlap),

@@ -18,10 +18,10 @@ namespace {
 
 json scenario_json(const JobSpec& job) {
   if (!job.mix.empty()) return mix_json(job.mix);
-  return job.generate ? json{{"generate", places::to_json(*job.generate)}} : json(job.scenario);
+  return job.generate ? json{{"generate", scenarios::to_json(*job.generate)}} : json(job.scenario);
 }
 
-void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_scenario(JobSpec& job, const json& value, const FieldLocation& place) {
   if (value.is_array()) return read_mix(job, value, place);
   if (value.is_string()) {
     value.get_to(job.scenario);
@@ -31,9 +31,9 @@ void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
     place.problems.push_back(
         {"", place.pointer, value.dump(), "an id, or an object with only \"generate\""});
   }
-  job.generate = places::read_place_spec(value.value("generate", json()),
-                                         place.pointer + "/generate", place.problems);
-  job.scenario = places::scenario_id_of(*job.generate);
+  job.generate = scenarios::read_generator_spec(value.value("generate", json()),
+                                                place.pointer + "/generate", place.problems);
+  job.scenario = scenarios::generated_scenario_id(*job.generate);
 }
 
 json drones_json(const JobSpec& job) {
@@ -42,7 +42,7 @@ json drones_json(const JobSpec& job) {
   return drones;
 }
 
-void set_drones(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_drones(JobSpec& job, const json& value, const FieldLocation& place) {
   job.is_without_drones = value.is_array() && value.empty();
   for (const json& drone : value) {
     const std::string index = std::to_string(job.drones.size());
@@ -100,9 +100,9 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
             at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::fall_impulse_ns),
             "Impulse that knocks a person down; needs crowd.physical.");
   table.add(
-      "crowd/recorded", "Recorded people", "", object_of(recorded_fields().schema()),
+      "crowd/recorded", "Recorded people", "", object_with(recorded_fields().schema()),
       [](const JobSpec& job) { return job.recorded ? to_json(*job.recorded) : json(); },
-      [](JobSpec& job, const json& value, const FieldPlace& place) {
+      [](JobSpec& job, const json& value, const FieldLocation& place) {
         job.recorded = read_recorded(value, place);
       },
       "People of a trajectory file, who are replayed instead of simulating the scenario's; see "
@@ -201,7 +201,7 @@ FieldTable<JobSpec> make_job_fields() {
            {"additionalProperties", true},
            {"properties", ordered_json::object()}}),
       [](const JobSpec& job) { return job.randomize.empty() ? json() : to_json(job.randomize); },
-      [](JobSpec&, const json&, const FieldPlace&) {},
+      [](JobSpec&, const json&, const FieldLocation&) {},
       R"(Fields that are sampled again for every run, by their dotted paths, each with a distribution: {"drones.0.camera.pitch_deg": {"uniform": [-80, -35]}}.)");
   add_output_fields(table);
   return table;
@@ -220,7 +220,7 @@ void set_at(const FieldTable<Object>& table, Object& object, const std::string& 
             const json& value, const std::string& pointer) {
   const std::string source;
   std::vector<Problem> problems;
-  const FieldPlace place{pointer, source, problems};
+  const FieldLocation place{pointer, source, problems};
   if (const Field<Object>* field = table.find(path)) {
     field->set(object, value, place);
   } else {

@@ -14,8 +14,8 @@
 #include "spec/job/environment.h"
 #include "spec/job/randomize.h"
 #include "spec/job/recorded_spec.h"
-#include "spec/places/place_spec.h"
 #include "spec/render/quality.h"
+#include "spec/scenarios/generator_spec.h"
 #include "spec/sim/run_spec.h"
 #include "spec/skinning/styling.h"
 
@@ -49,17 +49,17 @@ struct OutputSpec {
 
 /// One of several scenarios of a job.
 struct ScenarioShare {
-  std::string scenario;                       ///< as JobSpec::scenario
-  std::optional<places::PlaceSpec> generate;  ///< as JobSpec::generate
-  bool is_new_each_run = false;               ///< generated from another seed for each run
-  double weight = 1;                          ///< runs are shared out by it
-  std::optional<int> agents;                  ///< instead of the job's
+  std::string scenario;                              ///< as JobSpec::scenario
+  std::optional<scenarios::GeneratorSpec> generate;  ///< as JobSpec::generate
+  bool is_new_each_run = false;                      ///< generated from another seed for each run
+  double weight = 1;                                 ///< runs are shared out by it
+  std::optional<int> agents;                         ///< instead of the job's
 };
 
 struct JobSpec {
   std::string name;
   std::string scenario;  ///< its id; of one that is generated: "generated/" and its parameters
-  std::optional<places::PlaceSpec> generate;  ///< the place is made from a seed
+  std::optional<scenarios::GeneratorSpec> generate;  ///< the scenario is made from a seed
   /// Several scenarios, each of which has a share of the runs (spec/job/scenario_mix.h); scenario
   /// and generate are then those of the first. Empty for a job of one scenario.
   std::vector<ScenarioShare> mix;

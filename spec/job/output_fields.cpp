@@ -38,13 +38,13 @@ Values ground_truth_values() {
               {"items", {{"type", "string"}, {"enum", std::move(names)}}}});
 }
 
-auto share_of(Split split) {
+auto split_share(Split split) {
   return [split](auto& job) -> auto& {
     return job.outputs.exports.splits.share.at(static_cast<std::size_t>(split));
   };
 }
 
-FieldTable<JobSpec>::Get runs_of(Split split) {
+FieldTable<JobSpec>::Get runs_getter(Split split) {
   return [split](const JobSpec& job) {
     json named = json::array();
     for (const auto& [run, its_split] : job.outputs.exports.splits.runs) {
@@ -62,8 +62,8 @@ void assign_run(JobSpec& job, int run, Split split, const std::string& pointer,
       {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
 }
 
-FieldTable<JobSpec>::Set set_runs_of(Split split) {
-  return [split](JobSpec& job, const json& value, const FieldPlace& place) {
+FieldTable<JobSpec>::Set runs_setter(Split split) {
+  return [split](JobSpec& job, const json& value, const FieldLocation& place) {
     for (std::size_t i = 0; i < value.size(); ++i) {
       const int run = value[i].get<int>();
       const std::string pointer = place.below(std::to_string(i)).pointer;
@@ -78,8 +78,8 @@ FieldTable<JobSpec>::Set set_runs_of(Split split) {
 }
 
 /// Runs of scenarios, which are runs from there on.
-FieldTable<JobSpec>::Set set_scenarios_of(Split split) {
-  return [split](JobSpec& job, const json& value, const FieldPlace& place) {
+FieldTable<JobSpec>::Set scenarios_setter(Split split) {
+  return [split](JobSpec& job, const json& value, const FieldLocation& place) {
     std::vector<std::string_view> ids;
     for (const ScenarioShare& share : job.mix) ids.emplace_back(share.scenario);
     if (ids.empty()) ids.emplace_back(job.scenario);
@@ -114,7 +114,7 @@ json class_names_json(const JobSpec& job) {
   return names;
 }
 
-void set_class_names(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_class_names(JobSpec& job, const json& value, const FieldLocation& place) {
   for (std::size_t i = 0; i < value.size(); ++i) {
     try {
       formats::add_class_name(value[i], place.below(std::to_string(i)).pointer,
@@ -127,7 +127,7 @@ void set_class_names(JobSpec& job, const json& value, const FieldPlace& place) {
 
 json publish_json(const JobSpec& job) { return value_json(job.outputs.publish); }
 
-void set_publish(JobSpec& job, const json& value, const FieldPlace& place) {
+void set_publish(JobSpec& job, const json& value, const FieldLocation& place) {
   try {
     const auto& text = value.get_ref<const std::string&>();
     job.outputs.publish = bucket::parse_address(text, "", place.pointer).text();
@@ -138,33 +138,33 @@ void set_publish(JobSpec& job, const json& value, const FieldPlace& place) {
 
 void add_export_fields(FieldTable<JobSpec>& table) {
   table.group("outputs/splits", "Splits", "Assignment of runs to splits in other formats.");
-  table.add("outputs/splits/train", "Training", "", numbers(0, 1), share_of(Split::train),
+  table.add("outputs/splits/train", "Training", "", numbers(0, 1), split_share(Split::train),
             "Share of the runs for training; whole runs, in their order. Default: the rest that "
             "the other two leave. The three sum to at most 1.");
-  table.add("outputs/splits/val", "Validation", "", numbers(0, 1), share_of(Split::val),
+  table.add("outputs/splits/val", "Validation", "", numbers(0, 1), split_share(Split::val),
             "Share of the runs for validation.");
-  table.add("outputs/splits/test", "Test", "", numbers(0, 1), share_of(Split::test),
+  table.add("outputs/splits/test", "Test", "", numbers(0, 1), split_share(Split::test),
             "Share of the runs for tests.");
   table.add("outputs/splits/train_runs", "Training runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
-            runs_of(Split::train), set_runs_of(Split::train),
+            runs_getter(Split::train), runs_setter(Split::train),
             "Runs that are in train regardless of the shares.");
   table.add("outputs/splits/train_scenarios", "Training runs by scenario", "", split_scenarios(),
-            no_scenarios, set_scenarios_of(Split::train),
+            no_scenarios, scenarios_setter(Split::train),
             "Scenarios of which every run is in train regardless of the shares.");
   table.add("outputs/splits/val_runs", "Validation runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
-            runs_of(Split::val), set_runs_of(Split::val),
+            runs_getter(Split::val), runs_setter(Split::val),
             "Runs that are in val regardless of the shares.");
   table.add("outputs/splits/val_scenarios", "Validation runs by scenario", "", split_scenarios(),
-            no_scenarios, set_scenarios_of(Split::val),
+            no_scenarios, scenarios_setter(Split::val),
             "Scenarios of which every run is in val regardless of the shares.");
   table.add("outputs/splits/test_runs", "Test runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
-            runs_of(Split::test), set_runs_of(Split::test),
+            runs_getter(Split::test), runs_setter(Split::test),
             "Runs that are in test regardless of the shares.");
   table.add("outputs/splits/test_scenarios", "Test runs by scenario", "", split_scenarios(),
-            no_scenarios, set_scenarios_of(Split::test),
+            no_scenarios, scenarios_setter(Split::test),
             "Scenarios of which every run is in test regardless of the shares.");
   table.group("outputs/filters", "Filters",
               "Limits for a label in other formats; people beyond them become ignore regions if a "
@@ -193,7 +193,7 @@ void add_export_fields(FieldTable<JobSpec>& table) {
                &WebDatasetOptions::shard_mb),
             "Maximum size of a tar file of WebDataset before the next is begun, in 10^6 bytes.");
   table.group("outputs/classes", "Classes", "Classes of COCO and YOLO.");
-  table.add("outputs/classes/by", "Property", "", one_of(formats::class_properties()),
+  table.add("outputs/classes/by", "Property", "", one_of_words(formats::class_properties()),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::classes, &ClassOptions::by),
             "none: all people are one class; else a class for each value of this property.");
   table.add("outputs/classes/names", "Names", "",
@@ -206,7 +206,7 @@ void add_export_fields(FieldTable<JobSpec>& table) {
 void add_output_fields(FieldTable<JobSpec>& table) {
   table.group("outputs", "Outputs", "Contents of the dataset.");
   table.group("outputs/image", "Images", "Storage of frames.");
-  table.add("outputs/image/format", "Format", "", one_of(std::array{"jpeg"}),
+  table.add("outputs/image/format", "Format", "", one_of_words(std::array{"jpeg"}),
             at(&JobSpec::outputs, &OutputSpec::image_format), "File format.");
   table
       .add("outputs/image/quality", "Quality", "1 to 100", integers(1, 100),

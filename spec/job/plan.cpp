@@ -76,7 +76,7 @@ bool has_preview(const JobSpec& job, std::int64_t frame) {
 
 std::string run_name(int run) { return fmt::format("run{:03}", run); }
 
-std::string name_of(const Task& task) {
+std::string to_string(const Task& task) {
   switch (task.kind) {
     case Task::Kind::simulate:
       return run_name(task.run) + "/trace";
@@ -111,7 +111,7 @@ Task task_named(const JobSpec& job, const std::string& name) {
     }
   }
   for (const Task& task : tasks) {
-    if (name_of(task) == name) return task;
+    if (to_string(task) == name) return task;
   }
   throw InputError(Problem{"", "task", fmt::format("\"{}\"", name),
                            "a task of the job, for example run000/trace or run000/shard0000"});

@@ -61,7 +61,7 @@ struct Task {
 
 /// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "publish", "calibration",
 /// "report", "simulation/000012", "study": what the task publishes.
-std::string name_of(const Task& task);
+std::string to_string(const Task& task);
 
 inline constexpr const char* kPublishName = "publish";
 inline constexpr const char* kStudyRunName = "simulation";

@@ -24,7 +24,7 @@ bool is_index(const std::string& word) {
          std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::vector<std::string> words_of(const std::string& path) {
+std::vector<std::string> path_words(const std::string& path) {
   std::vector<std::string> words(1);
   for (const char c : path) {
     if (c == '.') {
@@ -65,7 +65,7 @@ Quantity enum_quantity(const json& words) {
           false};
 }
 
-Quantity quantity_of(const json& rules) {
+Quantity read_quantity(const json& rules) {
   if (rules.contains("enum")) return enum_quantity(rules["enum"]);
   Quantity quantity =
       number_quantity(rules.at("minimum").get<double>(), rules.at("maximum").get<double>());
@@ -143,7 +143,7 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
   const json block = job.value("randomize", json::object());
   job.erase("randomize");
   for (const auto& [path, value] : block.items()) {
-    const std::vector<std::string> words = words_of(path);
+    const std::vector<std::string> words = path_words(path);
     const std::string place = fmt::format("/randomize/{}", path);
     const json* rules = rules_at(words);
     if (rules == nullptr) {
@@ -160,7 +160,7 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
       job[json::json_pointer(pointer)] = value;
       continue;
     }
-    RandomField field{path, pointer, quantity_of(*rules)};
+    RandomField field{path, pointer, read_quantity(*rules)};
     field.distribution = Distribution::read(value, field.quantity, place, problems);
     fields.push_back(std::move(field));
   }

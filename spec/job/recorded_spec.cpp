@@ -36,7 +36,7 @@ json unit_json(const RecordedSpec& spec) {
   return {};
 }
 
-void set_unit(RecordedSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_unit(RecordedSpec& spec, const json& value, const FieldLocation& /*place*/) {
   for (const LengthUnit& unit : kLengthUnits) {
     if (value == unit.word) spec.format.unit_m = unit.meters;
   }
@@ -46,7 +46,7 @@ json file_json(const RecordedSpec& spec) {
   return fmt::format("{}/{}", kRecordedFolder, spec.file.filename().string());
 }
 
-void set_file(RecordedSpec& spec, const json& value, const FieldPlace& place) {
+void set_file(RecordedSpec& spec, const json& value, const FieldLocation& place) {
   const auto name = value.get<std::string>();
   if (place.source.empty()) {
     place.problems.push_back({"", place.pointer, fmt::format("\"{}\"", name),
@@ -57,7 +57,7 @@ void set_file(RecordedSpec& spec, const json& value, const FieldPlace& place) {
 }
 
 /// A table says when by its frames or by times.
-void set_time_column(RecordedSpec& spec, const json& value, const FieldPlace& /*place*/) {
+void set_time_column(RecordedSpec& spec, const json& value, const FieldLocation& /*place*/) {
   value.get_to(spec.format.columns.time);
   spec.format.columns.frame.clear();
 }
@@ -72,7 +72,7 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
       .add(
           "sha256", "Hash", "", texts_like("^[0-9a-f]{64}$", "64 hexadecimal digits"),
           [](const RecordedSpec& spec) { return json(spec.sha256); },
-          [](RecordedSpec& spec, const json& value, const FieldPlace&) {
+          [](RecordedSpec& spec, const json& value, const FieldLocation&) {
             value.get_to(spec.sha256);
           },
           "SHA-256 of the file; another file is refused. Filled in.")
@@ -88,7 +88,7 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
       at(&RecordedSpec::format, &metrics::TrajectoryFormat::frames_per_s),
       "Frames per second, if the file does not contain the rate or is wrong; with a column of "
       "times, the rate to interpolate to.");
-  table.add("unit", "Unit", "", one_of(unit_words()), unit_json, set_unit,
+  table.add("unit", "Unit", "", one_of_words(unit_words()), unit_json, set_unit,
             "Unit of lengths in the file; default: the file's, else m.");
 }
 
@@ -155,7 +155,7 @@ const FieldTable<RecordedSpec>& recorded_fields() {
   return table;
 }
 
-RecordedSpec read_recorded(const json& value, const FieldPlace& place) {
+RecordedSpec read_recorded(const json& value, const FieldLocation& place) {
   RecordedSpec recorded;
   recorded_fields().read(value, recorded, place);
   if (value_at(value, "columns/time") != nullptr && value_at(value, "columns/frame") != nullptr) {

@@ -23,7 +23,7 @@ const FieldTable<RecordedSpec>& recorded_fields();
 
 /// Reads the block. The file is named from the folder of the job's file, and is not opened; a job
 /// without one (a request) can name none.
-RecordedSpec read_recorded(const nlohmann::json& value, const FieldPlace& place);
+RecordedSpec read_recorded(const nlohmann::json& value, const FieldLocation& place);
 
 /// The block as a job's folder has it: the file is `recorded/NAME` there.
 nlohmann::json to_json(const RecordedSpec& recorded);

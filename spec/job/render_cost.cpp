@@ -17,7 +17,7 @@ constexpr double kLensSetupMegapixelS = 2;
 constexpr double kLensMegapixelS = 0.08;
 constexpr double kShutterFactor = 2.5;  ///< motion blur or a rolling shutter
 
-double megapixels_of(const camera::CameraSpec& camera) {
+double supersampled_megapixels(const camera::CameraSpec& camera) {
   constexpr double kPerMegapixel = 1e6;
   return static_cast<double>(camera.width) * camera.height / kPerMegapixel;
 }
@@ -32,14 +32,14 @@ double image_cpu_s(render::Quality quality, const camera::CameraSpec& camera,
                    double people_in_view) {
   const RenderCost& cost = kRenderCosts.at(static_cast<std::size_t>(quality));
   double image_s =
-      megapixels_of(camera) * cost.per_megapixel_s + people_in_view * cost.per_person_s;
+      supersampled_megapixels(camera) * cost.per_megapixel_s + people_in_view * cost.per_person_s;
   if (camera.exposure.exposure_s > 0 || camera.exposure.readout_s > 0) image_s *= kShutterFactor;
-  if (has_lens(camera)) image_s += megapixels_of(camera) * kLensMegapixelS;
+  if (has_lens(camera)) image_s += supersampled_megapixels(camera) * kLensMegapixelS;
   return image_s;
 }
 
 double camera_setup_cpu_s(const camera::CameraSpec& camera) {
-  return has_lens(camera) ? megapixels_of(camera) * kLensSetupMegapixelS : 0;
+  return has_lens(camera) ? supersampled_megapixels(camera) * kLensSetupMegapixelS : 0;
 }
 
 }  // namespace throng::jobs

@@ -21,15 +21,15 @@ constexpr double kMinWeight = 0.001;
 
 json generate_json(const ScenarioShare& share) {
   if (!share.generate) return {};
-  json place = places::to_json(*share.generate);
+  json place = scenarios::to_json(*share.generate);
   if (share.is_new_each_run) place.erase("seed");
   return place;
 }
 
-void set_generate(ScenarioShare& share, const json& value, const FieldPlace& place) {
-  share.generate = places::read_place_spec(value, place.pointer, place.problems);
+void set_generate(ScenarioShare& share, const json& value, const FieldLocation& place) {
+  share.generate = scenarios::read_generator_spec(value, place.pointer, place.problems);
   share.is_new_each_run = value.is_object() && !value.contains("seed");
-  share.scenario = places::scenario_id_of(*share.generate);
+  share.scenario = scenarios::generated_scenario_id(*share.generate);
 }
 
 const FieldTable<ScenarioShare>& share_fields() {
@@ -41,7 +41,7 @@ const FieldTable<ScenarioShare>& share_fields() {
             [](const ScenarioShare& share) {
               return share.generate ? json() : json(share.scenario);
             },
-            [](ScenarioShare& share, const json& value, const FieldPlace& /*place*/) {
+            [](ScenarioShare& share, const json& value, const FieldLocation& /*place*/) {
               value.get_to(share.scenario);
             },
             "Id of a scenario.")
@@ -58,7 +58,7 @@ const FieldTable<ScenarioShare>& share_fields() {
   return fields;
 }
 
-ScenarioShare read_share(const json& value, const FieldPlace& place) {
+ScenarioShare read_share(const json& value, const FieldLocation& place) {
   ScenarioShare share;
   if (value.is_string()) {
     value.get_to(share.scenario);
@@ -78,7 +78,7 @@ bool is_plain(const ScenarioShare& share) {
 
 }  // namespace
 
-void read_mix(JobSpec& job, const json& list, const FieldPlace& place) {
+void read_mix(JobSpec& job, const json& list, const FieldLocation& place) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     job.mix.push_back(read_share(list[i], place.below(std::to_string(i))));
   }
@@ -142,10 +142,10 @@ JobSpec in_scenario_of_run(const JobSpec& job, int run) {
   one.generate = share.generate;
   if (share.agents) one.agents = share.agents;
   if (share.is_new_each_run) {
-    constexpr std::uint64_t kSeeds = 1'000'000'000;  // as PlaceSpec permits
+    constexpr std::uint64_t kSeeds = 1'000'000'000;  // as GeneratorSpec permits
     const std::uint64_t run_seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
     one.generate->seed = derive_seed(run_seed, Stream::place, 0) % kSeeds;
-    one.scenario = places::scenario_id_of(*one.generate);
+    one.scenario = scenarios::generated_scenario_id(*one.generate);
   }
   return one;
 }

@@ -12,7 +12,7 @@
 namespace throng::jobs {
 
 /// Reads the list of a job's "scenario": ids, or objects {"id" or "generate", "weight", "agents"}.
-void read_mix(JobSpec& job, const nlohmann::json& list, const FieldPlace& place);
+void read_mix(JobSpec& job, const nlohmann::json& list, const FieldLocation& place);
 /// The list, as read_mix() reads it back.
 nlohmann::json mix_json(const std::vector<ScenarioShare>& mix);
 /// The JSON Schema of an element of the list.

@@ -13,7 +13,7 @@
 namespace throng::live {
 
 using fields::at;
-using fields::FieldPlace;
+using fields::FieldLocation;
 using fields::FieldTable;
 using nlohmann::json;
 
@@ -29,7 +29,7 @@ constexpr int kMaxName = 200;
 
 json velocity_json(const DroneCommand& command) { return fields::value_json(command.velocity_mps); }
 
-void set_velocity(DroneCommand& command, const json& value, const FieldPlace& place) {
+void set_velocity(DroneCommand& command, const json& value, const FieldLocation& place) {
   const auto is_speed = [](const json& speed) {
     return speed.is_number() && std::abs(speed.get<double>()) <= kMaxSpeedMps;
   };
@@ -64,7 +64,7 @@ json drones_json(const Commands& commands) {
   return list;
 }
 
-void set_drones(Commands& commands, const json& value, const FieldPlace& place) {
+void set_drones(Commands& commands, const json& value, const FieldLocation& place) {
   for (std::size_t i = 0; i < value.size(); ++i) {
     drone_fields().read_checked(value[i], commands.drones.emplace_back(),
                                 place.below(std::to_string(i)));

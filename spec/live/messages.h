@@ -10,7 +10,7 @@
 namespace throng::live {
 
 enum class MessageType : char {
-  hello = 'H',    ///< JSON, first: the place, people, drones
+  hello = 'H',    ///< JSON, first: the scenario, people, drones
   state = 'S',    ///< binary, after each step: where everybody is
   image = 'P',    ///< binary: a drone's camera
   event = 'V',    ///< JSON: a collision, a low battery

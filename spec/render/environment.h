@@ -1,4 +1,4 @@
-// Light and weather over the place, as one run has them.
+// Light and weather over the scenario, as one run has them.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ struct QualitySettings {
   /// others, whose triangles are pixels, the nearest are textured: as many as leave room for all in
   /// view, if who is textured takes two of so many places. The rest are colored corner by corner.
   int textured_levels;
-  int people_places;
+  int people_positions;
   int shadow_texels;  ///< along each side of the shadow map; 0: no shadows
   bool fine_shadows;  ///< edges on ground and walls as soft as the sun's disc makes them
   /// Along the outlines of people and props: on the CPU from the ids, on a GPU with kSamples a
@@ -37,7 +37,7 @@ inline constexpr std::array<QualitySettings, 3> kQualities = {{
     {"high", true, 2048, 7, 0, 4096, true, false, 2, 2, 0},
 }};
 
-constexpr const QualitySettings& settings_of(Quality quality) {
+constexpr const QualitySettings& quality_settings(Quality quality) {
   return kQualities[static_cast<std::size_t>(quality)];
 }
 

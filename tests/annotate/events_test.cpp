@@ -58,7 +58,7 @@ world::Trace eventful_trace() {
   return trace;
 }
 
-std::vector<json> events_of(const world::Trace& trace, const std::vector<double>& frames_s) {
+std::vector<json> record_events(const world::Trace& trace, const std::vector<double>& frames_s) {
   world::Scenario scenario;
   scenario.inside = {{-50, -50}, {50, 50}};
   scenario.alarm = world::Alarm{};
@@ -71,7 +71,7 @@ std::vector<json> events_of(const world::Trace& trace, const std::vector<double>
 TEST(Events, AreInOrderOfTimeWithTheFrameBefore) {
   std::vector<std::string> types;
   std::vector<int> frames;
-  for (const json& event : events_of(eventful_trace(), {0.55, 1.0, 1.6})) {
+  for (const json& event : record_events(eventful_trace(), {0.55, 1.0, 1.6})) {
     types.push_back(event.at("type"));
     frames.push_back(event.value("frame", -1));
   }
@@ -81,7 +81,7 @@ TEST(Events, AreInOrderOfTimeWithTheFrameBefore) {
 }
 
 TEST(Events, HavePersonDronePlaceAndValues) {
-  const std::vector<json> events = events_of(eventful_trace(), {});
+  const std::vector<json> events = record_events(eventful_trace(), {});
   EXPECT_EQ(events[0], json::parse(R"({"time_s": 0.5, "type": "arrives", "track_id": 3000003,
                                        "position": [-1.0, 3.0]})"));
   EXPECT_EQ(events[1], json::parse(R"({"time_s": 0.6, "type": "near_miss", "drone": "d1",

@@ -7,7 +7,7 @@
 namespace throng::annotate {
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> read_lines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -32,7 +32,7 @@ TEST(ExitsCsv, HasARowPerFrameAndExit) {
                          0.625, 1.75, 1.25, true, 3, 2.5, 1.5, 0.02, metrics::ExitState::clogged};
   const std::vector<double> times = {0, 0.1, 0.2};
   const std::vector<FrameTime> frames = {{12, 0.1}};
-  const auto lines = lines_of(exits_csv(exits, times, frames));
+  const auto lines = read_lines(exits_csv(exits, times, frames));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0],
             "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,"
@@ -51,7 +51,7 @@ TEST(ExitsCsv, TakesTheLastStepAtOrBeforeTheFrame) {
   for (int i = 0; i < 10; ++i) times.push_back(i * 0.1);
   // 0.30000000000000004 is step 3; 3 * 0.1 and 0.3 differ in the last bit.
   const std::vector<FrameTime> frames = {{0, -1}, {1, 0}, {2, 0.3}, {3, 0.39}, {4, 99}};
-  const auto lines = lines_of(exits_csv(two_exits(10), times, frames));
+  const auto lines = read_lines(exits_csv(two_exits(10), times, frames));
   ASSERT_EQ(lines.size(), 11U);
   const std::vector<std::string> crossed = {",0,0,", ",0,0,", ",3,0,", ",3,0,", ",9,0,"};
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(ExitsCsv, TakesTheLastStepAtOrBeforeTheFrame) {
 
 TEST(ExitsCsv, IsOnlyAHeaderForAnEmptyRun) {
   const std::vector<FrameTime> frames = {{0, 0}};
-  EXPECT_EQ(lines_of(exits_csv({}, {}, frames)).size(), 1U);
+  EXPECT_EQ(read_lines(exits_csv({}, {}, frames)).size(), 1U);
 }
 
 }  // namespace

@@ -102,9 +102,9 @@ def bundle(folder, throng):
         "drones": [{"id": "d1", "start": [0, -10, 20], "yaw_deg": 90}],
         "people": {"groups": [{"doing": "stroll", "box": [-8, -8, 8, 8], "count": 10}]},
     }
-    write_json(folder / "plaza.place.json", blueprint)
+    write_json(folder / "plaza.blueprint.json", blueprint)
     subprocess.run(
-        [throng, "scenario", "make", "plaza.place.json", "-o", "my_place"], cwd=folder, check=True, capture_output=True
+        [throng, "scenario", "make", "plaza.blueprint.json", "-o", "my_place"], cwd=folder, check=True, capture_output=True
     )
     with zipfile.ZipFile(folder / "my_place.zip", "w") as archive:
         for file in (folder / "my_place").iterdir():

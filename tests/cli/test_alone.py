@@ -45,7 +45,7 @@ class Alone(unittest.TestCase):
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
         self.folder = pathlib.Path(holder.name)
-        (self.folder / "yard.place.json").write_text(json.dumps(YARD))
+        (self.folder / "yard.blueprint.json").write_text(json.dumps(YARD))
 
     def throng(self, *words, scenarios="mine", code=0):
         done = subprocess.run(
@@ -60,7 +60,7 @@ class Alone(unittest.TestCase):
         return done.stderr if code else done.stdout
 
     def simulated(self, job=JOB):
-        self.throng("scenario", "make", "yard.place.json", "-o", "mine")
+        self.throng("scenario", "make", "yard.blueprint.json", "-o", "mine")
         (self.folder / "job.json").write_text(json.dumps(job))
         self.throng("simulate", "job.json", "-o", "run.h5")
 
@@ -87,11 +87,11 @@ class Alone(unittest.TestCase):
         self.assertIn("/drones: found nothing, expected a drone, whose camera renders", render)
 
     def test_a_scenario_of_a_hazard_is_sound(self):
-        self.throng("scenario", "make", "yard.place.json", "-o", "mine")
+        self.throng("scenario", "make", "yard.blueprint.json", "-o", "mine")
         self.assertIn("0 errors, 0 warnings", self.throng("scenario", "check", "mine/yard.json"))
 
     def test_check_knows_the_goals_that_drones_move(self):
-        self.throng("scenario", "make", "yard.place.json", "-o", "mine")
+        self.throng("scenario", "make", "yard.blueprint.json", "-o", "mine")
         drone = {**JOB["drones"][0], "moves_goal": [99, 7], "guidance": {"policy": "hover", "beacon": True}}
         (self.folder / "job.json").write_text(json.dumps({**JOB, "drones": [drone]}))
         self.assertIn("/drones/0/moves_goal", self.throng("check", "job.json", code=2))

@@ -174,9 +174,9 @@ class Check(unittest.TestCase):
             "disasters": [{"kind": "fire", "position": [0, -4], "start_s": 2, "radius_m": 1}],
             "people": {"groups": [{"doing": "stroll", "box": [-9, -6, 9, 6], "count": 60}]},
         }
-        (self.folder / "hall.place.json").write_text(json.dumps(hall))
+        (self.folder / "hall.blueprint.json").write_text(json.dumps(hall))
         scenarios = self.folder / "places"
-        make = [THRONG, "scenario", "make", self.folder / "hall.place.json", "-o", scenarios]
+        make = [THRONG, "scenario", "make", self.folder / "hall.blueprint.json", "-o", scenarios]
         subprocess.run(make, check=True, capture_output=True)
         job = self.write({"scenario": "hall", "seed": 4, "drones": [], "capture": {"to_s": 40}})
         environment = {**os.environ, "THRONG_SCENARIOS": str(scenarios)}

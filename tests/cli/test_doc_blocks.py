@@ -32,7 +32,7 @@ NOT_RUN = {
     ("docs/container.md", ""): "needs Docker; tests/docker/test_image.py builds and uses the image",
     ("README.md", "python3 -m venv"): "pip needs the network; tests/python/test_package.py installs the package",
     ("docs/api.md", "docker/make_certificate.sh"): "needs Docker",
-    ("docs/blueprint.md", ""): "all blocks are run by tests/cli/test_places.py",
+    ("docs/blueprint.md", ""): "all blocks are run by tests/cli/test_scenarios.py",
     ("docs/calibration.md", "throng calibrate selftest"): "26 s of CPU time; run by tests/cli/test_calibrate.py",
     (
         "docs/evacuation.md",

@@ -104,7 +104,7 @@ class Imports(unittest.TestCase):
         throng(
             "scenario",
             "import",
-            "tests/places/imports/data/yard.sdf",
+            "tests/world/imports/data/yard.sdf",
             "-o",
             "mine",
             "--exit",

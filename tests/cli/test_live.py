@@ -125,7 +125,7 @@ class Live(WithServer):
         self.addCleanup(flight.remove)
         hello = next(flight.messages()).value
         scenario = json.loads(
-            (pathlib.Path(__file__).parents[2] / "scenarios/city_square/emergency.place.json").read_text()
+            (pathlib.Path(__file__).parents[2] / "scenarios/city_square/emergency.blueprint.json").read_text()
         )
         expected = [(d["kind"], d["position"], d["start_s"]) for d in scenario["disasters"] if d["kind"] != "attacker"]
         self.assertEqual([(d["kind"], d["position"], d["start_s"]) for d in hello["dangers"]], expected)

@@ -182,7 +182,7 @@ class Messages(unittest.TestCase):
         self.run_job("/crowd/agents: found 5000, expected 1 to 260, the people", crowd={"agents": 5000})
 
     def test_another_kind_of_file_is_recognized(self):
-        place = self.folder / "yard.place.json"
+        place = self.folder / "yard.blueprint.json"
         place.write_text('{"name": "Yard", "people": {}}')
         self.refused(
             "found a blueprint, expected a job; a blueprint is for `throng scenario check`", "run", place, "-o", "x"

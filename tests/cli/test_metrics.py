@@ -404,7 +404,7 @@ class RecordedBottleneck(unittest.TestCase):
             env={**os.environ, "THRONG_SCENARIOS": str(self.base)},
         )
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("place for recorded people", done.stderr)
+        self.assertIn("only recorded people can be in it", done.stderr)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 const std::string kAlways = R"(<Condition type="auto"/>)";
 
@@ -31,9 +31,9 @@ TEST(Transitions, TheFirstThatHoldsIsTaken) {
            states(R"(<Transition from="Start" to="A"><Condition type="not">)" + kAlways +
                   R"(</Condition></Transition><Transition from="Start" to="B">)" + kAlways +
                   R"(</Transition><Transition from="Start" to="C">)" + kAlways + "</Transition>"));
-  EXPECT_EQ(state_of(crowd, 0), "Start") << "until the first step";
+  EXPECT_EQ(state_name(crowd, 0), "Start") << "until the first step";
   crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "B");
+  EXPECT_EQ(state_name(crowd, 0), "B");
   EXPECT_TRUE(crowd.all_final());
 }
 
@@ -44,7 +44,7 @@ TEST(Transitions, ChainsAreFollowedInOneStepButNoStateTwice) {
                   R"(</Transition><Transition from="B" to="C">)" + kAlways +
                   R"(</Transition><Transition from="C" to="Start">)" + kAlways + "</Transition>"));
   crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "C");
+  EXPECT_EQ(state_name(crowd, 0), "C");
 }
 
 TEST(Targets, ProbChoosesByWeight) {
@@ -57,7 +57,7 @@ TEST(Targets, ProbChoosesByWeight) {
                 <State name="C" weight="0"/></Target></Transition>)"));
   crowd.step();
   std::map<std::string, int> count;
-  for (std::size_t i = 0; i < 600; ++i) ++count[state_of(crowd, i)];
+  for (std::size_t i = 0; i < 600; ++i) ++count[state_name(crowd, i)];
   EXPECT_NEAR(count["A"], 200, 40);
   EXPECT_NEAR(count["B"], 400, 40);
   EXPECT_EQ(count["C"], 0);
@@ -69,9 +69,9 @@ TEST(Targets, ReturnGoesBack) {
                                  R"(</Transition><Transition from="A"><Target type="return"/>)" +
                                  after(1) + "</Transition>"));
   for (int i = 0; i < 7; ++i) crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "A");
+  EXPECT_EQ(state_name(crowd, 0), "A");
   for (int i = 0; i < 10; ++i) crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "Start");
+  EXPECT_EQ(state_name(crowd, 0), "Start");
 }
 
 /// The preferred speed while in state A and after it, from 1.
@@ -83,10 +83,10 @@ std::pair<float, float> speeds(const std::string& actions) {
                               after(0.1) + R"(</Transition><Transition from="A" to="B">)" +
                               after(0.5) + "</Transition></BFSM>");
   for (int i = 0; i < 3; ++i) crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "A");
+  EXPECT_EQ(state_name(crowd, 0), "A");
   const float during = crowd.desired_speeds_mps()[0];
   for (int i = 0; i < 6; ++i) crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "B");
+  EXPECT_EQ(state_name(crowd, 0), "B");
   return {during, crowd.desired_speeds_mps()[0]};
 }
 

@@ -112,7 +112,7 @@ TEST(CitySquare, NobodyGetsStuckBehindABuilding) {
       const Eigen::Vector2f p = crowd.positions()[i];
       EXPECT_TRUE(has_escaped(p) || (p - waiting).norm() < 5)
           << "seed " << seed << ", agent " << i << " at " << p.transpose() << " in state "
-          << test::state_of(crowd, i);
+          << test::state_name(crowd, i);
     }
   }
 }

@@ -89,7 +89,7 @@ inline std::string condition_behavior(const std::string& condition, const std::s
                      goals, condition);
 }
 
-inline const std::string& state_of(const Simulation& simulation, std::size_t agent) {
+inline const std::string& state_name(const Simulation& simulation, std::size_t agent) {
   return simulation.state_names()[simulation.states()[agent]];
 }
 

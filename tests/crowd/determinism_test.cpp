@@ -22,7 +22,7 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-Outcome outcome_of(const Simulation& crowd) {
+Outcome run_to_end(const Simulation& crowd) {
   return {{crowd.positions().begin(), crowd.positions().end()},
           {crowd.yaws_rad().begin(), crowd.yaws_rad().end()},
           {crowd.states().begin(), crowd.states().end()}};
@@ -44,7 +44,7 @@ Outcome run_city_square(std::uint64_t seed, int threads) {
       crowd.move_goal(99, 0, {-10 + 0.1F * static_cast<float>(i), 5});
       crowd.step();
     }
-    outcome = outcome_of(crowd);
+    outcome = run_to_end(crowd);
   });
   return outcome;
 }
@@ -57,7 +57,7 @@ Outcome run_model(std::string_view model, int threads) {
     Simulation crowd = test::load(test::model_crowd_scene(kCrowd), test::to_point_behavior(5, 4),
                                   {.model = std::string(model), .hard_separation = true});
     for (int i = 0; i < 60; ++i) crowd.step();
-    outcome = outcome_of(crowd);
+    outcome = run_to_end(crowd);
   });
   return outcome;
 }

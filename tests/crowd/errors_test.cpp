@@ -18,7 +18,7 @@ using test::mirror_behavior;
 using test::scene_with;
 
 /// The first problem of loading these files.
-Problem problem_of(const std::string& scene, const std::string& behavior) {
+Problem caught_problem(const std::string& scene, const std::string& behavior) {
   try {
     load(scene, behavior);
   } catch (const InputError& error) {
@@ -29,7 +29,7 @@ Problem problem_of(const std::string& scene, const std::string& behavior) {
 }
 
 Problem behavior_problem(const std::string& behavior) {
-  return problem_of(scene_with(agent_at(0, 0)), behavior);
+  return caught_problem(scene_with(agent_at(0, 0)), behavior);
 }
 
 Problem condition_problem(const std::string& condition) {
@@ -144,7 +144,7 @@ TEST(Errors, InBehavior) {
 
 TEST(Errors, InScene) {
   const auto problem = [](const std::string& scene) {
-    return problem_of(scene, mirror_behavior());
+    return caught_problem(scene, mirror_behavior());
   };
   const auto with_obstacle = [&](const std::string& vertices, const std::string& closed = "1") {
     return problem(scene_with(agent_at(0, 0), "", "Start",

@@ -9,7 +9,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 LoadOptions as_huang() { return {.compat = Compat::huang2016}; }
 
@@ -44,7 +44,7 @@ double notice_time(double distance) {
   while (crowd.time_s() < 10) {
     const double now = crowd.time_s();
     crowd.step();
-    if (state_of(crowd, 0) == "End") return now;
+    if (state_name(crowd, 0) == "End") return now;
   }
   return 100;
 }
@@ -73,7 +73,7 @@ TEST(Huang2016, FewerObserversMakeItGrowSlower) {
         <Condition type="circle" center_x="0" center_y="0" radius="1" inside="1"/>
         <Condition type="proximity" distance="2" agentToAvoid="1"/></Condition></Transition></BFSM>)",
              as_huang());
-    while (state_of(crowd, 0) != "End" && crowd.time_s() < 60) crowd.step();
+    while (state_name(crowd, 0) != "End" && crowd.time_s() < 60) crowd.step();
     return crowd.time_s() - 0.1;
   };
   EXPECT_NEAR(alone(2.6), 0, 0.01);
@@ -83,10 +83,10 @@ TEST(Huang2016, FewerObserversMakeItGrowSlower) {
 TEST(Huang2016, CopiesForMoreStatesNeverHold) {
   Simulation first = people_and_disaster(1, "Start,Other");
   first.step();
-  EXPECT_EQ(state_of(first, 0), "End");
+  EXPECT_EQ(state_name(first, 0), "End");
   Simulation copy = people_and_disaster(1, "Other,Start");
   for (int i = 0; i < 20; ++i) copy.step();
-  EXPECT_EQ(state_of(copy, 0), "Start");
+  EXPECT_EQ(state_name(copy, 0), "Start");
 }
 
 int second_nearest(const std::string& goals, Compat compat) {
@@ -124,7 +124,7 @@ TEST(Huang2016, FollowMeasuresToTheLineAndIgnoresItsWeight) {
                              weight + "/>"),
              {.compat = compat});
     crowd.step();
-    return state_of(crowd, 0) == "End";
+    return state_name(crowd, 0) == "End";
   };
   EXPECT_TRUE(follows("", 2, Compat::none));
   EXPECT_FALSE(follows("", 2, Compat::huang2016)) << "8 m from the line";

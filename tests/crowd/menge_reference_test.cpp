@@ -67,7 +67,7 @@ Table read_table(const std::filesystem::path& file) {
   return table;
 }
 
-std::string text_of(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
@@ -115,7 +115,7 @@ class MengeReference : public testing::TestWithParam<Agreement> {
                             std::filesystem::copy_options::recursive);
       project.behavior_file =
           copied.write("reordered.xml",
-                       with_target_order(text_of(project.behavior_file), agreement.target_order));
+                       with_target_order(read_text(project.behavior_file), agreement.target_order));
     }
     if (agreement.model != "orca") project.options.time_step_s = 0.1;
     const bool by_forces = agreement.model != "orca" && agreement.model != "pedvo";
@@ -131,7 +131,7 @@ class MengeReference : public testing::TestWithParam<Agreement> {
   double share_in(const std::string& state) const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < crowd->agent_count(); ++i) {
-      if (test::state_of(*crowd, i) == state) ++count;
+      if (test::state_name(*crowd, i) == state) ++count;
     }
     return static_cast<double>(count) / static_cast<double>(crowd->agent_count());
   }

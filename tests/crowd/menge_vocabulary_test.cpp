@@ -340,7 +340,7 @@ Project write_project(const test::TemporaryFolder& folder, const std::string& el
          scbVersion="2.4" duration="4" timeStep="0.1" subSteps="1" random="11" dumpPath="images"/>)"));
 }
 
-std::string text_of(const std::vector<Problem>& problems) {
+std::string join_problems(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += problem.text() + "\n";
   return text;
@@ -354,11 +354,11 @@ TEST_P(MengeVocabulary, LoadsAndRunsWithoutComplaint) {
     Project project =
         write_project(folder, compat == Compat::none ? "height_field\" file_name=\"slope.ht"
                                                      : "nav_mesh\" file_name=\"room.nav");
-    EXPECT_EQ(text_of(project.warnings), "");
+    EXPECT_EQ(join_problems(project.warnings), "");
     project.options.compat = compat;
     project.options.model = GetParam();
     Simulation crowd = load_simulation(project);
-    EXPECT_EQ(text_of(crowd.warnings()), "");
+    EXPECT_EQ(join_problems(crowd.warnings()), "");
     EXPECT_GE(crowd.agent_count(), 22U) << "hexagonal rows are completed";
     std::vector<bool> visited(crowd.state_names().size());
     while (crowd.time_s() < project.duration_s) {

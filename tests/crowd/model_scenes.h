@@ -47,7 +47,7 @@ inline std::string group(const std::string& profile, const std::string& state,
                      profile, state, agents);
 }
 
-inline std::string scene_of(const std::string& content) {
+inline std::string scene_text(const std::string& content) {
   return fmt::format(R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/>
   <Common time_step="0.1"/>{}{}</Experiment>)",
                      model_constants(), content);
@@ -56,7 +56,7 @@ inline std::string scene_of(const std::string& content) {
 /// Agents in state Start; `extra` more elements.
 inline std::string model_scene(const std::string& agents, const std::string& common = "",
                                const std::string& extra = "") {
-  return scene_of(model_profile("a", common) + group("a", "Start", agents) + extra);
+  return scene_text(model_profile("a", common) + group("a", "Start", agents) + extra);
 }
 
 /// Agents that stand, for model_scene.
@@ -66,16 +66,16 @@ inline std::string standing_group(const std::string& agents) { return group("a",
 inline std::string two_profiles_scene(const std::string& first_common,
                                       const std::string& second_common, const std::string& pedvo,
                                       const std::string& first, const std::string& second) {
-  return scene_of(model_profile("a", first_common, pedvo) +
-                  model_profile("b", second_common, pedvo) + group("a", "Start", first) +
-                  group("b", "Start", second));
+  return scene_text(model_profile("a", first_common, pedvo) +
+                    model_profile("b", second_common, pedvo) + group("a", "Start", first) +
+                    group("b", "Start", second));
 }
 
 /// A column of agents, 0.5 m apart, along the x axis.
 inline std::string column_scene(const std::string& pedvo) {
   std::string agents;
   for (int i = 0; i < 12; ++i) agents += agent_at(0.5 * i, 0);
-  return scene_of(model_profile("a", "", pedvo) + group("a", "Start", agents));
+  return scene_text(model_profile("a", "", pedvo) + group("a", "Start", agents));
 }
 
 /// A square of `count` agents, 1 m apart.

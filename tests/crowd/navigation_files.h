@@ -14,13 +14,13 @@
 
 namespace throng::crowd::test {
 
-inline std::array<Eigen::Vector2f, 4> corners_of(const Box& box) {
+inline std::array<Eigen::Vector2f, 4> box_corners(const Box& box) {
   return {{box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}}};
 }
 
 inline std::string obstacle(const Box& box) {
   std::string text = R"(<Obstacle closed="1">)";
-  for (const Eigen::Vector2f& corner : corners_of(box)) {
+  for (const Eigen::Vector2f& corner : box_corners(box)) {
     text += fmt::format(R"(<Vertex p_x="{}" p_y="{}"/>)", corner.x(), corner.y());
   }
   return text + "</Obstacle>";
@@ -79,7 +79,7 @@ inline float shortest_path(const std::vector<Box>& boxes, const Eigen::Vector2f&
                            const Eigen::Vector2f& to) {
   std::vector<Eigen::Vector2f> places = {from};
   for (const Box& box : boxes) {
-    for (const Eigen::Vector2f& corner : corners_of(box)) places.push_back(corner);
+    for (const Eigen::Vector2f& corner : box_corners(box)) places.push_back(corner);
   }
   places.push_back(to);
   constexpr float kFar = std::numeric_limits<float>::infinity();

@@ -24,7 +24,7 @@ class Projects : public testing::Test {
     return load_project(folder_.write("p.xml", "<Project " + attributes + "/>"));
   }
 
-  Problem problem_of(const std::string& attributes) {
+  Problem caught_problem(const std::string& attributes) {
     try {
       load(attributes);
     } catch (const InputError& error) {
@@ -88,19 +88,20 @@ TEST_F(Projects, WarnOfTheClockAndOfUnknownAttributes) {
 }
 
 TEST_F(Projects, NameMistakes) {
-  EXPECT_THAT(problem_of(R"(scene="nowhere.xml" behavior="b.xml")").where,
+  EXPECT_THAT(caught_problem(R"(scene="nowhere.xml" behavior="b.xml")").where,
               HasSubstr("attribute \"scene\""));
-  EXPECT_THAT(problem_of(R"(scene="." behavior="b.xml")").found, HasSubstr("no file"));
-  EXPECT_THAT(problem_of("scene=\"" + std::string(1000, 'x') + "\"").found, HasSubstr("no file"));
-  EXPECT_THAT(problem_of(R"(scene="s.xml" behavior="b.xml" model="orka")").found,
+  EXPECT_THAT(caught_problem(R"(scene="." behavior="b.xml")").found, HasSubstr("no file"));
+  EXPECT_THAT(caught_problem("scene=\"" + std::string(1000, 'x') + "\"").found,
+              HasSubstr("no file"));
+  EXPECT_THAT(caught_problem(R"(scene="s.xml" behavior="b.xml" model="orka")").found,
               HasSubstr("orka"));
-  EXPECT_THAT(problem_of(R"(duration="-1")").where, HasSubstr("duration"));
-  EXPECT_THAT(problem_of(R"(duration="1e300")").where, HasSubstr("duration"));
-  EXPECT_THAT(problem_of(R"(timeStep="1e-9")").where, HasSubstr("timeStep"));
-  EXPECT_THAT(problem_of(R"(subSteps="-2")").where, HasSubstr("subSteps"));
-  EXPECT_THAT(problem_of(R"(random="-5")").where, HasSubstr("random"));
-  EXPECT_THAT(problem_of(R"(scbVersion="3.0")").expected, HasSubstr("2.4"));
-  EXPECT_THAT(problem_of(R"(compat="meng")").found, HasSubstr("did you mean menge?"));
+  EXPECT_THAT(caught_problem(R"(duration="-1")").where, HasSubstr("duration"));
+  EXPECT_THAT(caught_problem(R"(duration="1e300")").where, HasSubstr("duration"));
+  EXPECT_THAT(caught_problem(R"(timeStep="1e-9")").where, HasSubstr("timeStep"));
+  EXPECT_THAT(caught_problem(R"(subSteps="-2")").where, HasSubstr("subSteps"));
+  EXPECT_THAT(caught_problem(R"(random="-5")").where, HasSubstr("random"));
+  EXPECT_THAT(caught_problem(R"(scbVersion="3.0")").expected, HasSubstr("2.4"));
+  EXPECT_THAT(caught_problem(R"(compat="meng")").found, HasSubstr("did you mean menge?"));
   EXPECT_THROW(load_project("/nowhere/project.xml"), InputError);
   EXPECT_THROW(load_project("/"), InputError);
   EXPECT_THROW(load_simulation(load(R"(behavior="b.xml")")), InputError);

@@ -15,15 +15,15 @@ using test::load;
 using test::mirror_behavior;
 using test::scene_with;
 
-std::string scene_of(const std::string& generator) {
+std::string scene_text(const std::string& generator) {
   return R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common/>
     <AgentProfile name="a"/><AgentGroup><ProfileSelector type="const" name="a"/>
     <StateSelector type="const" name="Start"/>)" +
          generator + "</AgentGroup></Experiment>";
 }
 
-std::vector<Eigen::Vector2f> places_of(const std::string& generator) {
-  const Simulation crowd = load(scene_of(generator), mirror_behavior());
+std::vector<Eigen::Vector2f> generated_positions(const std::string& generator) {
+  const Simulation crowd = load(scene_text(generator), mirror_behavior());
   return {crowd.positions().begin(), crowd.positions().end()};
 }
 
@@ -38,7 +38,7 @@ std::string lattice(const std::string& alignment, const std::string& rows, doubl
 const float kRow = std::sqrt(3.0F) / 2;
 
 TEST(HexLattice, RowsAlternateAndAreCompleted) {
-  const auto places = places_of(lattice("center", "x", 3.2, 9));
+  const auto places = generated_positions(lattice("center", "x", 3.2, 9));
   ASSERT_EQ(places.size(), 10U) << "3 + 2 + 3 + 2: the first whole number of rows above 9";
   const std::vector<Eigen::Vector2f> wanted = {
       {9, 20},           {10, 20},           {11, 20},           {9.5, 20 + kRow},
@@ -47,12 +47,13 @@ TEST(HexLattice, RowsAlternateAndAreCompleted) {
     EXPECT_LT((places[i] - wanted[i]).norm(), 1e-4F) << i;
   }
   // As Menge has it, a population that fills its rows gets one row more.
-  EXPECT_EQ(places_of(lattice("center", "x", 3.2, 10)).size(), 13U);
-  EXPECT_EQ(places_of(lattice("center", "x", 0.5, 1)).size(), 2U) << "rows of one at least";
+  EXPECT_EQ(generated_positions(lattice("center", "x", 3.2, 10)).size(), 13U);
+  EXPECT_EQ(generated_positions(lattice("center", "x", 0.5, 1)).size(), 2U)
+      << "rows of one at least";
 }
 
 TEST(HexLattice, ColumnsRunUpwardsSideBySide) {
-  const auto places = places_of(lattice("left", "y", 2.7, 7));
+  const auto places = generated_positions(lattice("left", "y", 2.7, 7));
   ASSERT_EQ(places.size(), 9U) << "3 columns of 3";
   const std::vector<Eigen::Vector2f> wanted = {{10, 20}, {10, 21}, {10, 22}, {10 + kRow, 20.5}};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -61,16 +62,19 @@ TEST(HexLattice, ColumnsRunUpwardsSideBySide) {
 }
 
 TEST(HexLattice, IsAlignedAndTurnedAboutTheAnchor) {
-  EXPECT_LT((places_of(lattice("left", "x", 3.2, 2))[0] - Eigen::Vector2f(10, 20)).norm(), 1e-4F);
-  EXPECT_LT((places_of(lattice("right", "x", 3.2, 2))[2] - Eigen::Vector2f(10, 20)).norm(), 1e-4F);
-  const auto turned = places_of(lattice("left", "x", 3.2, 9, 90));
+  EXPECT_LT((generated_positions(lattice("left", "x", 3.2, 2))[0] - Eigen::Vector2f(10, 20)).norm(),
+            1e-4F);
+  EXPECT_LT(
+      (generated_positions(lattice("right", "x", 3.2, 2))[2] - Eigen::Vector2f(10, 20)).norm(),
+      1e-4F);
+  const auto turned = generated_positions(lattice("left", "x", 3.2, 9, 90));
   EXPECT_LT((turned[1] - Eigen::Vector2f(10, 21)).norm(), 1e-4F);
   EXPECT_LT((turned[3] - Eigen::Vector2f(10 - kRow, 20.5)).norm(), 1e-4F);
 }
 
 TEST(HexLattice, NobodyIsNearerThanTheDensityAllows) {
   for (const char* rows : {"x", "y"}) {
-    const auto places = places_of(lattice("center", rows, 7.3, 60, 33));
+    const auto places = generated_positions(lattice("center", rows, 7.3, 60, 33));
     ASSERT_GE(places.size(), 60U);
     for (std::size_t i = 0; i < places.size(); ++i) {
       float nearest = 100;
@@ -83,8 +87,8 @@ TEST(HexLattice, NobodyIsNearerThanTheDensityAllows) {
 }
 
 TEST(HexLattice, RejectsHugeNumbers) {
-  EXPECT_THROW(places_of(lattice("center", "x", 1e5, 4000000)), InputError);
-  EXPECT_THROW(places_of(lattice("middle", "x", 5, 4)), InputError);
+  EXPECT_THROW(generated_positions(lattice("center", "x", 1e5, 4000000)), InputError);
+  EXPECT_THROW(generated_positions(lattice("middle", "x", 5, 4)), InputError);
 }
 
 TEST(Generators, PlacesMayHaveToBeOnAMesh) {
@@ -93,8 +97,8 @@ TEST(Generators, PlacesMayHaveToBeOnAMesh) {
   const auto load_at = [&](const std::string& group, double x) {
     return Simulation(
         folder.write("s.xml",
-                     scene_of(R"(<Generator type="nav_mesh_explicit" file_name="floor.nav")" +
-                              group + ">" + agent_at(x, 2) + "</Generator>")),
+                     scene_text(R"(<Generator type="nav_mesh_explicit" file_name="floor.nav")" +
+                                group + ">" + agent_at(x, 2) + "</Generator>")),
         folder.write("b.xml", mirror_behavior()), {});
   };
   EXPECT_EQ(load_at("", 1).agent_count(), 1U);

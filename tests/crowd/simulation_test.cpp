@@ -14,7 +14,7 @@ using test::agent_at;
 using test::load;
 using test::mirror_behavior;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 std::string walk_to(const std::string& goal) {
   return R"(<BFSM><GoalSet id="7"><Goal id="3" )" + goal + R"(/></GoalSet>
@@ -76,7 +76,7 @@ TEST(Simulation, AnAgentThatIsNotPresentRestsAndIsNotSeen) {
     crowd.step();
     EXPECT_NEAR(crowd.positions()[0].y(), 0, 1e-4F) << "walks right through";
     EXPECT_EQ(crowd.positions()[1], Eigen::Vector2f(0, 0));
-    EXPECT_EQ(state_of(crowd, 1), "Start");
+    EXPECT_EQ(state_name(crowd, 1), "Start");
   }
   EXPECT_TRUE(crowd.all_final());
   crowd.set_present(1, true);

@@ -18,7 +18,7 @@ using test::scene_with;
 using testing::HasSubstr;
 
 /// The problem of reading `text` as a file with the root <Root>.
-Problem problem_of(const std::string& text) {
+Problem caught_problem(const std::string& text) {
   const test::TemporaryFolder folder;
   try {
     const Description file = read_description(folder.write("file.xml", text), "Root");
@@ -31,27 +31,27 @@ Problem problem_of(const std::string& text) {
 }
 
 TEST(Xml, ThatIsNoneIsRefusedWithItsLine) {
-  EXPECT_EQ(problem_of("").found, "no element");
-  EXPECT_EQ(problem_of("\n \n").found, "no element");
-  EXPECT_EQ(problem_of("<!-- only a comment -->").where, "line 1");
-  EXPECT_EQ(problem_of("<Root>\n<a>\n</Root>").found, "an element that another one ends");
-  EXPECT_THAT(problem_of("<Root>\n<a b='1' b='2'/></Root>").found, HasSubstr("twice"));
-  EXPECT_EQ(problem_of("<Root>\n<a b='1' b='2'/></Root>").where, "line 2");
-  EXPECT_THAT(problem_of("<Root a=1/>").found, HasSubstr("without quotes"));
-  EXPECT_THAT(problem_of(std::string("<Root>\n") + '\0' + "</Root>").found, HasSubstr("byte"));
-  EXPECT_THAT(problem_of("<Other/>").expected, HasSubstr("<Root>"));
-  EXPECT_THAT(problem_of("<Rot/>").found, HasSubstr("did you mean Root?"));
-  EXPECT_THAT(problem_of("\xFF\xFE<\0R\0").expected, HasSubstr("XML"));
+  EXPECT_EQ(caught_problem("").found, "no element");
+  EXPECT_EQ(caught_problem("\n \n").found, "no element");
+  EXPECT_EQ(caught_problem("<!-- only a comment -->").where, "line 1");
+  EXPECT_EQ(caught_problem("<Root>\n<a>\n</Root>").found, "an element that another one ends");
+  EXPECT_THAT(caught_problem("<Root>\n<a b='1' b='2'/></Root>").found, HasSubstr("twice"));
+  EXPECT_EQ(caught_problem("<Root>\n<a b='1' b='2'/></Root>").where, "line 2");
+  EXPECT_THAT(caught_problem("<Root a=1/>").found, HasSubstr("without quotes"));
+  EXPECT_THAT(caught_problem(std::string("<Root>\n") + '\0' + "</Root>").found, HasSubstr("byte"));
+  EXPECT_THAT(caught_problem("<Other/>").expected, HasSubstr("<Root>"));
+  EXPECT_THAT(caught_problem("<Rot/>").found, HasSubstr("did you mean Root?"));
+  EXPECT_THAT(caught_problem("\xFF\xFE<\0R\0").expected, HasSubstr("XML"));
 }
 
 TEST(Xml, NestedTooDeepIsRefused) {
   std::string text = "<Root>";
   for (int i = 0; i < 100'000; ++i) text += "<a>";
-  EXPECT_THAT(problem_of(text).found, HasSubstr("deep"));
+  EXPECT_THAT(caught_problem(text).found, HasSubstr("deep"));
 }
 
 TEST(Xml, EntitiesOfItsOwnAreRefused) {
-  const Problem problem = problem_of(R"(<!DOCTYPE Root [
+  const Problem problem = caught_problem(R"(<!DOCTYPE Root [
 <!ENTITY a "aaaaaaaaaa">
 <!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>
 <Root x="&b;&b;&b;"/>)");

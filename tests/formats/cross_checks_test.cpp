@@ -24,7 +24,7 @@ Shot ground_shot(std::int64_t frame, double brightness) {
   shot.image = hand_made::image();
   shot.image.frame = frame;
   shot.image.file = fmt::format("images/run002/d1/{:06}.jpg", frame);
-  shot.camera = camera_of(shot.image);
+  shot.camera = image_camera(shot.image);
   Pixels& pixels = shot.pixels;
   pixels.width = hand_made::kWidth;
   pixels.height = hand_made::kHeight;
@@ -110,7 +110,7 @@ std::vector<std::string> clothes_faults(const std::string& first_label, bool sho
     for (int v = y; v < y + 20; ++v) {
       for (int u = x; u < x + 10; ++u) {
         const std::size_t pixel = shot.pixels.at(u, v);
-        shot.pixels.ids[pixel] = instance_of(person);
+        shot.pixels.ids[pixel] = instance_id(person);
         shot.pixels.parts[pixel] = v == y && (shows_item || i > 0) ? 9 : 2;
         for (std::size_t c = 0; c < 3; ++c) {
           // Half of the light is 0.73 of the sRGB value.

@@ -67,7 +67,7 @@ class SmallDataset : public ::testing::Test {
         render::id_of_umbrella(3);
     rendered.index = frame;
     rendered.time_s = 0.5 * frame;
-    rendered.depth_m = depth_of(rendered);
+    rendered.depth_m = make_depth(rendered);
     // Every image is another scene: nobody is in two.
     const auto first = static_cast<std::uint32_t>(100 * (kFrames * camera + frame));
     for (std::uint32_t& id : rendered.id) id += render::is_agent(id) ? first : 0;
@@ -111,13 +111,13 @@ class SmallDataset : public ::testing::Test {
     rendered.flow.assign(2 * rendered.id.size(), 1.5F);
     write("flow/" + place + ".png", annotate::flow_png(rendered));
     write("instances/" + place + ".png", annotate::instance_png(rendered));
-    rendered.surface = classes_of(rendered.id);
+    rendered.surface = classify(rendered.id);
     write("semantic/" + place + ".png", annotate::semantic_png(rendered));
     write("depth/" + place + ".png", annotate::depth_png(rendered));
   }
 
   /// Semantic classes of what a synthetic frame shows.
-  static std::vector<std::uint8_t> classes_of(const std::vector<std::uint32_t>& ids) {
+  static std::vector<std::uint8_t> classify(const std::vector<std::uint32_t>& ids) {
     using world::SemanticClass;
     std::vector<std::uint8_t> classes;
     for (const std::uint32_t id : ids) {
@@ -143,7 +143,7 @@ class SmallDataset : public ::testing::Test {
   }
 
   /// People are 9 m away; the ground is where it is, the sky nowhere.
-  static std::vector<float> depth_of(const render::Frame& rendered) {
+  static std::vector<float> make_depth(const render::Frame& rendered) {
     std::vector<float> depth_m(rendered.id.size(), 9.0F);
     const camera::Camera& camera = rendered.camera;
     const Eigen::Vector3d center = camera.pose.center();

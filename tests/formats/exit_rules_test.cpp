@@ -54,7 +54,7 @@ std::vector<ExitRow> exit_rows() {
 }
 
 /// A column that no rule reads is 0.
-std::string value_of(const ExitRow& row, const std::string& column) {
+std::string cell_value(const ExitRow& row, const std::string& column) {
   const auto found = row.value.find(column);
   return fmt::format("{}", found == row.value.end() ? 0 : found->second);
 }
@@ -82,7 +82,7 @@ class ExitTable {
                 : column == "exit"          ? ",north"
                 : column == "state"         ? "," + rows[i].state
                 : column == "state_offline" ? "," + rows[i].offline
-                                            : "," + value_of(rows[i], column);
+                                            : "," + cell_value(rows[i], column);
       }
       text += "\n";
     }

@@ -27,10 +27,10 @@ TEST_F(Exports, YoloBoxesAreTheVisibleOnes) {
   std::size_t count = 0;
   for (const auto& [stem, people] : people_by_stem(coco())) {
     EXPECT_TRUE(fs::exists(out / "images/train" / (stem + ".jpg")));
-    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    const auto lines = read_lines(out / "labels/train" / (stem + ".txt"));
     ASSERT_EQ(lines.size(), people.size());
     for (std::size_t i = 0; i < lines.size(); ++i, ++count) {
-      const std::vector<double> line = numbers_of(lines[i]);
+      const std::vector<double> line = parse_numbers(lines[i]);
       ASSERT_EQ(line.size(), 5U);
       const json& box = people[i].at("bbox");
       EXPECT_EQ(line[0], 0);
@@ -48,9 +48,9 @@ TEST_F(Exports, YoloPosesAreTheKeypoints) {
   const fs::path out = exported("yolo-pose");
   EXPECT_THAT(read_file(out / "data.yaml"), ::testing::HasSubstr("kpt_shape: [17, 3]"));
   for (const auto& [stem, people] : people_by_stem(coco())) {
-    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    const auto lines = read_lines(out / "labels/train" / (stem + ".txt"));
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const std::vector<double> line = numbers_of(lines[i]);
+      const std::vector<double> line = parse_numbers(lines[i]);
       ASSERT_EQ(line.size(), 5U + 51);
       const json& keypoints = people[i].at("keypoints");
       for (std::size_t k = 0; k < 17; ++k) {
@@ -95,10 +95,10 @@ TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
   int ignored = 0;
   int hidden = 0;
   for (const auto& [sequence, expected] : rows) {
-    const auto lines = lines_of(out / sequence / "gt/gt.txt");
+    const auto lines = read_lines(out / sequence / "gt/gt.txt");
     ASSERT_EQ(lines.size(), expected.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      EXPECT_THAT(numbers_of(lines[i]),
+      EXPECT_THAT(parse_numbers(lines[i]),
                   ::testing::Pointwise(::testing::DoubleNear(1e-4), expected[i]));
       ignored += expected[i][6] == 0 ? 1 : 0;
       hidden += expected[i][8] == 0 ? 1 : 0;
@@ -122,10 +122,10 @@ TEST_F(Exports, MotDetectionsAreVisiblePeople) {
     lines[stem.substr(0, stem.rfind('-'))] += people.size();
   }
   for (const auto& [sequence, expected] : lines) {
-    const auto detections = lines_of(out / sequence / "det/det.txt");
+    const auto detections = read_lines(out / sequence / "det/det.txt");
     ASSERT_EQ(detections.size(), expected);
     for (const std::string& line : detections) {
-      const auto numbers = numbers_of(line);
+      const auto numbers = parse_numbers(line);
       ASSERT_EQ(numbers.size(), 10U);
       EXPECT_EQ(numbers[1], -1);
       EXPECT_GE(numbers[2], 1);
@@ -143,7 +143,7 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
   std::map<std::pair<std::string, int>, std::vector<std::uint16_t>> ids_of_pixels;
   int regions = 0;
   for (const char* sequence : {"run000-d1", "run000-d2", "run001-d1", "run001-d2"}) {
-    for (const std::string& line : lines_of(out / sequence / "gt/gt.txt")) {
+    for (const std::string& line : read_lines(out / sequence / "gt/gt.txt")) {
       std::istringstream text(line);
       int frame = 0;
       int id = 0;
@@ -192,7 +192,7 @@ TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
   options.filters.min_height_px = 12;
   const fs::path det = exported("visdrone-det", options) / "train";
   for (const auto& [stem, people] : people_by_stem(coco())) {
-    const auto lines = lines_of(det / "annotations" / (stem + ".txt"));
+    const auto lines = read_lines(det / "annotations" / (stem + ".txt"));
     ASSERT_EQ(lines.size(), people.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
       EXPECT_EQ(lines[i].find('.'), std::string::npos);
@@ -201,7 +201,7 @@ TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
       const bool kept = number(person.at("bbox_amodal")[3]) >= 12;
       const double hidden = visibility > 0.995 ? 0 : visibility >= 0.5 ? 1 : 2;
       const json& box = person.at("bbox");
-      EXPECT_THAT(numbers_of(lines[i]),
+      EXPECT_THAT(parse_numbers(lines[i]),
                   ::testing::ElementsAre(number(box[0]), number(box[1]), number(box[2]),
                                          number(box[3]), kept, kept,
                                          person.value("truncation", 0.0) < 0.005 ? 0 : 1, hidden));
@@ -209,7 +209,7 @@ TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
   }
   const fs::path mot = exported("visdrone-mot", options) / "train";
   EXPECT_TRUE(fs::exists(mot / "sequences/run001-d2/0000003.jpg"));
-  const auto first = numbers_of(lines_of(mot / "annotations/run001-d1.txt").at(0));
+  const auto first = parse_numbers(read_lines(mot / "annotations/run001-d1.txt").at(0));
   ASSERT_EQ(first.size(), 10U);
   EXPECT_EQ(first[0], 1);
 }
@@ -232,11 +232,11 @@ TEST_F(Exports, UavdtHasClassesOfItsOwn) {
     }
   }
   for (const auto& [sequence, expected] : people) {
-    EXPECT_EQ(lines_of(out / "GT" / (sequence + "_gt_ignore.txt")).size(), ignored[sequence]);
-    const auto lines = lines_of(out / "GT" / (sequence + "_gt_whole.txt"));
+    EXPECT_EQ(read_lines(out / "GT" / (sequence + "_gt_ignore.txt")).size(), ignored[sequence]);
+    const auto lines = read_lines(out / "GT" / (sequence + "_gt_whole.txt"));
     ASSERT_EQ(lines.size(), expected.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto line = numbers_of(lines[i]);
+      const auto line = parse_numbers(lines[i]);
       ASSERT_EQ(line.size(), 9U);
       const double visibility = number(expected[i].at("visibility"));
       EXPECT_EQ(line[2], number(expected[i].at("bbox")[0]));
@@ -415,11 +415,11 @@ TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
 
 TEST(Mask, CountsGoThereAndBack) {
   const Bitmap mask{3, 2, 3, 2, {1, 0, 1, 1, 1, 0}};
-  const auto runs = runs_of({mask}, 8, 6);
-  EXPECT_EQ(runs_of(counts_of(runs), 48), runs);
-  EXPECT_EQ(bitmap_of(runs, 6).set, mask.set);
-  EXPECT_THROW(runs_of(counts_of(runs), 49), InputError);
-  EXPECT_THROW(runs_of("~", 48), InputError);
+  const auto runs = decode_runs({mask}, 8, 6);
+  EXPECT_EQ(decode_runs(encode_counts(runs), 48), runs);
+  EXPECT_EQ(decode_bitmap(runs, 6).set, mask.set);
+  EXPECT_THROW(decode_runs(encode_counts(runs), 49), InputError);
+  EXPECT_THROW(decode_runs("~", 48), InputError);
 }
 
 }  // namespace

@@ -82,15 +82,15 @@ json sound_run() {
         {"level_of_service", {{"A_person_s", 25}, {"B_person_s", 3}}}}}};
 }
 
-std::vector<std::string> faults_of(const json& run) {
+std::vector<std::string> list_faults(const json& run) {
   std::vector<std::string> faults;
   check_run_figures(run, [&](const std::string& what) { faults.push_back(what); });
   return faults;
 }
 
 TEST(RunFigures, ThoseThatFollowFromEachOtherHaveNoFaults) {
-  EXPECT_THAT(faults_of(sound_run()), IsEmpty());
-  EXPECT_THAT(faults_of(json::object()), IsEmpty()) << "other versions have fewer";
+  EXPECT_THAT(list_faults(sound_run()), IsEmpty());
+  EXPECT_THAT(list_faults(json::object()), IsEmpty()) << "other versions have fewer";
 }
 
 TEST(RunFigures, EachOneThatIsChangedIsNamed) {
@@ -126,7 +126,7 @@ TEST(RunFigures, EachOneThatIsChangedIsNamed) {
   for (const auto& [pointer, value] : changes) {
     json run = sound_run();
     run[json::json_pointer(pointer)] = value;
-    EXPECT_FALSE(faults_of(run).empty()) << pointer;
+    EXPECT_FALSE(list_faults(run).empty()) << pointer;
   }
 }
 

@@ -79,15 +79,15 @@ TEST(Npz, HoldsAnArrayOfItsOwnName) {
   const fs::path file = folder.path() / "a.npz";
   const std::string inside =
       npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", {1, 2, 3, 4, 5, 6});
-  write_file_atomically(file, zip_of("density.npy", inside));
+  write_file_atomically(file, make_zip("density.npy", inside));
   EXPECT_THAT(read_npy(file).value, ElementsAre(1, 2, 3, 4, 5, 6));
   const auto expect = [&](const std::string& words, const std::string& bytes) {
     write_file_atomically(file, bytes);
     EXPECT_THAT(refused([&] { read_npy(file); }), AllOf(HasSubstr(words), HasSubstr("a.npz")));
   };
-  expect("no member \"density.npy\"", zip_of("depth.npy", inside));
-  expect("of more than", zip_of("density.npy", std::string(200'000'000, 0)));
-  expect("found ", zip_of("density.npy", inside).substr(0, 60));
+  expect("no member \"density.npy\"", make_zip("depth.npy", inside));
+  expect("of more than", make_zip("density.npy", std::string(200'000'000, 0)));
+  expect("found ", make_zip("density.npy", inside).substr(0, 60));
   expect("found ", inside);
 }
 
@@ -124,15 +124,16 @@ TEST(CsvTables, HaveQuotesAndEqualRows) {
   EXPECT_THAT(refused([&] { read("a,b\n1,2\n3\n"); }),
               ::testing::AllOf(HasSubstr("line 3"), HasSubstr("1 cells"), HasSubstr("2 cells")));
   EXPECT_THAT(refused([&] { read(""); }), HasSubstr("t.csv"));
-  EXPECT_EQ(number_of("-1.5e2"), -150);
-  for (const char* text : {"", "x", "1x", "1 "}) EXPECT_TRUE(std::isnan(number_of(text))) << text;
+  EXPECT_EQ(parse_number("-1.5e2"), -150);
+  for (const char* text : {"", "x", "1x", "1 "})
+    EXPECT_TRUE(std::isnan(parse_number(text))) << text;
 }
 
 TEST(Masks, RunDownColumns) {
   // Image of 4 x 3; the pixels (1, 1), (1, 2) and (2, 0) are set: positions 4, 5 and 6.
   const std::vector<std::uint32_t> runs = {4, 3, 5};
-  EXPECT_EQ(runs_of(counts_of(runs), 12), runs);
-  const Bitmap mask = bitmap_of(runs, 3);
+  EXPECT_EQ(decode_runs(encode_counts(runs), 12), runs);
+  const Bitmap mask = decode_bitmap(runs, 3);
   EXPECT_EQ(mask.x, 1);
   EXPECT_EQ(mask.y, 0);
   EXPECT_EQ(mask.width, 2);
@@ -145,27 +146,27 @@ TEST(Masks, RunDownColumns) {
   }
   EXPECT_FALSE(mask.at(-1, 0));
   EXPECT_FALSE(mask.at(4, 9));
-  EXPECT_EQ(bitmap_of({12}, 3).width, 0) << "an empty one";
-  EXPECT_EQ(bitmap_of({0, 12}, 3).area(), 12);
+  EXPECT_EQ(decode_bitmap({12}, 3).width, 0) << "an empty one";
+  EXPECT_EQ(decode_bitmap({0, 12}, 3).area(), 12);
 }
 
 TEST(Masks, HaveCocosCompressedCounts) {
   // Computed by pycocotools' rule: from the fourth run on the difference to the run two before,
   // five bits a character from '0', the sixth says that more follow, the fifth of the last is the
   // sign. 4, 3, 5: "4", "3", "5". 4, 3, 5, 2: the fourth is 2 - 3 = -1, 31 without more: 'O'.
-  EXPECT_EQ(counts_of({4, 3, 5}), "435");
-  EXPECT_EQ(counts_of({4, 3, 5, 2}), "435O");
+  EXPECT_EQ(encode_counts({4, 3, 5}), "435");
+  EXPECT_EQ(encode_counts({4, 3, 5, 2}), "435O");
   // 16 has the sign's bit set, so that it takes two characters: 16 + 32 = '`', then '0'.
-  EXPECT_EQ(counts_of({16}), "`0");
-  EXPECT_EQ(runs_of("`0", 16), (std::vector<std::uint32_t>{16}));
-  EXPECT_THAT(refused([] { runs_of("435O", 15); }), HasSubstr("runs that fill the image"));
-  EXPECT_THAT(refused([] { runs_of("`", 16); }), HasSubstr("whole numbers"));
-  EXPECT_THAT(refused([] { runs_of("O", 16); }), HasSubstr("runs of positive length"));
+  EXPECT_EQ(encode_counts({16}), "`0");
+  EXPECT_EQ(decode_runs("`0", 16), (std::vector<std::uint32_t>{16}));
+  EXPECT_THAT(refused([] { decode_runs("435O", 15); }), HasSubstr("runs that fill the image"));
+  EXPECT_THAT(refused([] { decode_runs("`", 16); }), HasSubstr("whole numbers"));
+  EXPECT_THAT(refused([] { decode_runs("O", 16); }), HasSubstr("runs of positive length"));
 }
 
 TEST(Masks, TakePartsOfColumns) {
   // Image of 3 x 4; a run over the end of the first column: (0, 3), (1, 0) and (1, 1).
-  const Bitmap mask = bitmap_of({3, 3, 6}, 4);
+  const Bitmap mask = decode_bitmap({3, 3, 6}, 4);
   EXPECT_EQ(mask.x, 0);
   EXPECT_EQ(mask.width, 2);
   EXPECT_EQ(mask.height, 4);
@@ -175,15 +176,15 @@ TEST(Masks, TakePartsOfColumns) {
   EXPECT_FALSE(mask.at(0, 2));
   EXPECT_FALSE(mask.at(1, 2));
   EXPECT_EQ(mask.area(), 3);
-  EXPECT_EQ(runs_of({mask}, 3, 4), (std::vector<std::uint32_t>{3, 3, 6})) << "and back";
+  EXPECT_EQ(decode_runs({mask}, 3, 4), (std::vector<std::uint32_t>{3, 3, 6})) << "and back";
 }
 
 TEST(Masks, AreJoined) {
   const Bitmap a{0, 0, 2, 1, {1, 1}};
   const Bitmap b{1, 0, 2, 1, {1, 0}};
   const Bitmap c{3, 2, 1, 1, {1}};
-  EXPECT_EQ(runs_of({a, b, c}, 4, 3), (std::vector<std::uint32_t>{0, 1, 2, 1, 7, 1}));
-  EXPECT_EQ(runs_of(std::vector<Bitmap>{}, 4, 3), (std::vector<std::uint32_t>{12}));
+  EXPECT_EQ(decode_runs({a, b, c}, 4, 3), (std::vector<std::uint32_t>{0, 1, 2, 1, 7, 1}));
+  EXPECT_EQ(decode_runs(std::vector<Bitmap>{}, 4, 3), (std::vector<std::uint32_t>{12}));
 }
 
 TEST(Comparisons, NameDifferentMissingAndSurplusFiles) {
@@ -220,7 +221,7 @@ TEST(SplitShares, RoundToWholeRuns) {
     for (std::size_t i = 0; i < runs; ++i) info.runs.push_back("run00" + std::to_string(i));
     info.options.splits.share = share;
     std::string text;
-    for (const std::string& run : info.runs) text += name_of(info.split_of(run))[1];
+    for (const std::string& run : info.runs) text += to_string(info.split_of(run))[1];
     return text;
   };
   // r: train, a: val, e: test.
@@ -261,7 +262,7 @@ TEST(ClassNames, AreValuesOfTheirProperty) {
 
 TEST(PixelsAcross, AreFocalLengthsPerDistance) {
   const Image image = hand_made::image();
-  const camera::Camera camera = camera_of(image);
+  const camera::Camera camera = image_camera(image);
   // 50 px of focal length, 0.4 m at 20 m.
   EXPECT_NEAR(pixels_across(camera, {0, 20, 1}, 0.4), 1, 1e-9);
   EXPECT_NEAR(pixels_across(camera, {7, 40, 1}, 0.4), 0.5, 1e-9) << "by depth, not by distance";
@@ -270,15 +271,15 @@ TEST(PixelsAcross, AreFocalLengthsPerDistance) {
 
 TEST(CameraOf, HasTheLensOfTheRecord) {
   Image image = hand_made::image();
-  EXPECT_FALSE(camera_of(image).intrinsics.distortion);
+  EXPECT_FALSE(image_camera(image).intrinsics.distortion);
   image.record["camera"] = {
       {"model", "brown_conrady"},
       {"distortion", {{"k1", 1}, {"k2", 2}, {"p1", 3}, {"p2", 4}, {"k3", 5}}}};
-  const auto brown = camera_of(image).intrinsics.distortion;
+  const auto brown = image_camera(image).intrinsics.distortion;
   EXPECT_THAT(brown->coefficients(), ElementsAre(1, 2, 3, 4, 5, 0, 0, 0)) << "OpenCV's order";
   image.record["camera"] = {{"model", "fisheye"},
                             {"distortion", {{"k1", 1}, {"k2", 2}, {"k3", 3}, {"k4", 4}}}};
-  const auto lens = camera_of(image).intrinsics.distortion;
+  const auto lens = image_camera(image).intrinsics.distortion;
   EXPECT_EQ(lens->model(), camera::Distortion::Model::fisheye);
   EXPECT_THAT(std::vector<double>(lens->coefficients().begin(), lens->coefficients().begin() + 4),
               ElementsAre(1, 2, 3, 4));

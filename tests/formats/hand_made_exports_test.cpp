@@ -52,7 +52,7 @@ TEST(HandMadeMots, NumbersPeopleByClassAndHasOneIgnoreRegion) {
   Image image = crossing();
   image.people.push_back(hand_made::person(1234, {80, 60, 2, 2}, {80, 60, 2, 2}, 1));
   out.run("mots", {image});
-  const auto lines = lines_of(out.root() / "out/train/run002-d1/gt/gt.txt");
+  const auto lines = read_lines(out.root() / "out/train/run002-d1/gt/gt.txt");
   ASSERT_EQ(lines.size(), 4);
   EXPECT_EQ(lines[0], "5 2003 2 80 100 " + hand_made::filled(10, 20, 8, 30));
   EXPECT_EQ(lines[1], "5 2012 2 80 100 " + hand_made::filled(0, 40, 6, 20));
@@ -95,7 +95,8 @@ TEST(HandMadeYolo, PosesHaveKeypointsAndTheirMirror) {
   for (int i = 0; i < 17; ++i) image.people[0].keypoints.push_back({10.0 + i, 20, 2});
   image.people[0].keypoints[16] = {0, 0, 0};
   out.run("yolo-pose", {image});
-  const auto line = numbers_of(lines_of(out.root() / "out/labels/train/run002-d1-000004.txt")[0]);
+  const auto line =
+      parse_numbers(read_lines(out.root() / "out/labels/train/run002-d1-000004.txt")[0]);
   ASSERT_EQ(line.size(), 5 + 51);
   EXPECT_DOUBLE_EQ(line[5], 0.10);
   EXPECT_DOUBLE_EQ(line[6], 0.25);
@@ -112,7 +113,8 @@ TEST(HandMadeYolo, SegmentsEncloseTheMask) {
   Image image = crossing();
   image.people.resize(1);
   out.run("yolo-segment", {image});
-  const auto line = numbers_of(lines_of(out.root() / "out/labels/train/run002-d1-000004.txt")[0]);
+  const auto line =
+      parse_numbers(read_lines(out.root() / "out/labels/train/run002-d1-000004.txt")[0]);
   ASSERT_GE(line.size(), 1 + 8);
   double twice = 0;
   const std::size_t corners = (line.size() - 1) / 2;
@@ -149,7 +151,7 @@ TEST(HandMadeVisDrone, DrawsTheLineOfOcclusionAtAHalf) {
     image.people.resize(1);
     image.people[0].visibility = visibility;
     out.run("visdrone-det", {image});
-    return numbers_of(out.text("train/annotations/run002-d1-000004.txt")).back();
+    return parse_numbers(out.text("train/annotations/run002-d1-000004.txt")).back();
   };
   EXPECT_EQ(occlusion(0.996), 0);
   EXPECT_EQ(occlusion(0.99), 1);
@@ -175,7 +177,7 @@ TEST(HandMadeUavdt, ClassesOcclusionByThirds) {
     image.people[0].visibility = visibility;
     image.people[0].truncation = truncation;
     out.run("uavdt", {image});
-    const auto numbers = numbers_of(out.text("train/GT/run002-d1_gt_whole.txt"));
+    const auto numbers = parse_numbers(out.text("train/GT/run002-d1_gt_whole.txt"));
     return std::pair(numbers.at(6), numbers.at(7));
   };
   EXPECT_EQ(line_of(1, 0), std::pair(1.0, 1.0));
@@ -203,12 +205,12 @@ TEST(HandMadeKitti, PutsPeopleIntoTheCamerasFrame) {
             "Pedestrian 0.50 2 -1.5708 0.00 40.00 6.00 60.00 0.400 0.500 1.700 0.000 10.000 10.000 "
             "-1.5708\n"
             "DontCare -1 -1 -10 60.00 10.00 64.00 16.00 -1 -1 -1 -1000 -1000 -1000 -10\n");
-  const auto calib = lines_of(out.root() / "out/train/calib/run002-d1-000004.txt");
+  const auto calib = read_lines(out.root() / "out/train/calib/run002-d1-000004.txt");
   ASSERT_EQ(calib.size(), 6);
-  EXPECT_THAT(numbers_of(calib[2].substr(3)),
+  EXPECT_THAT(parse_numbers(calib[2].substr(3)),
               ::testing::ElementsAre(50, 0, 49.5, 0, 0, 50, 39.5, 0, 0, 0, 1, 0));
   EXPECT_EQ(calib[4], "R0_rect: 1 0 0 0 1 0 0 0 1");
-  EXPECT_THAT(numbers_of(calib[5].substr(calib[5].find(':') + 1)),
+  EXPECT_THAT(parse_numbers(calib[5].substr(calib[5].find(':') + 1)),
               ::testing::ElementsAre(1, 0, 0, 0, 0, 0, -1, 10, 0, 1, 0, 0));
 }
 

@@ -106,7 +106,7 @@ TEST(HandMadeTable, HasAValuePerColumnAndQuotes) {
   a.record["exit"] = "west \"gate\", 2";
   a.record["behaviour"] = "Walk";
   out.run("table", {image});
-  const auto lines = lines_of(out.root() / "out/people.csv");
+  const auto lines = read_lines(out.root() / "out/people.csv");
   ASSERT_EQ(lines.size(), 2);
   EXPECT_EQ(lines[1],
             "run002,d1,4,2,train,7,103,2000003,10,20,8,30,10,20,8,30,1,0,30,14,22,1.5,20,0.25,-1,"

@@ -75,7 +75,7 @@ struct Element {
   std::size_t begin;
   std::size_t size;
 };
-std::vector<Element> elements_of(const std::string& bytes, std::size_t at, std::size_t end) {
+std::vector<Element> read_elements(const std::string& bytes, std::size_t at, std::size_t end) {
   std::vector<Element> elements;
   while (at < end) {
     const auto size = value_at<std::uint32_t>(bytes, at + 4);
@@ -91,16 +91,16 @@ TEST_F(MoreExports, MatFilesHoldThePointsFromOne) {
     const std::string bytes = read_file(truth / ("GT_IMG_" + stem + ".mat"));
     EXPECT_EQ(bytes.substr(0, 10), "MATLAB 5.0");
     EXPECT_EQ(bytes.substr(124, 4), std::string("\x00\x01IM", 4));
-    const auto variables = elements_of(bytes, 128, bytes.size());
+    const auto variables = read_elements(bytes, 128, bytes.size());
     ASSERT_EQ(variables.size(), 1U);
     const auto cell =
-        elements_of(bytes, variables[0].begin, variables[0].begin + variables[0].size);
+        read_elements(bytes, variables[0].begin, variables[0].begin + variables[0].size);
     ASSERT_EQ(cell.size(), 4U);
     EXPECT_EQ(bytes.substr(cell[2].begin, cell[2].size), "image_info");
-    const auto inner = elements_of(bytes, cell[3].begin, cell[3].begin + cell[3].size);
+    const auto inner = read_elements(bytes, cell[3].begin, cell[3].begin + cell[3].size);
     ASSERT_EQ(inner.size(), 7U);
     EXPECT_STREQ(bytes.c_str() + inner[4].begin, "location");
-    const auto location = elements_of(bytes, inner[5].begin, inner[5].begin + inner[5].size);
+    const auto location = read_elements(bytes, inner[5].begin, inner[5].begin + inner[5].size);
     const auto heads = heads_of_people(people);
     ASSERT_EQ(location.at(3).size, heads.size() * 16);
     for (std::size_t i = 0; i < heads.size(); ++i) {
@@ -117,15 +117,15 @@ TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
   const fs::path out = exported("kitti", options) / "train";
   int ignored = 0;
   for (const auto& [stem, people] : people_by_stem(coco())) {
-    const auto lines = lines_of(out / "label_2" / (stem + ".txt"));
+    const auto lines = read_lines(out / "label_2" / (stem + ".txt"));
     ASSERT_EQ(lines.size(), people.size());
-    const auto camera = numbers_of(lines_of(out / "calib" / (stem + ".txt")).at(2).substr(3));
+    const auto camera = parse_numbers(read_lines(out / "calib" / (stem + ".txt")).at(2).substr(3));
     ASSERT_EQ(camera.size(), 12U);
-    const std::string transform = lines_of(out / "calib" / (stem + ".txt")).back();
-    const auto to_camera = numbers_of(transform.substr(transform.find(':') + 1));
+    const std::string transform = read_lines(out / "calib" / (stem + ".txt")).back();
+    const auto to_camera = parse_numbers(transform.substr(transform.find(':') + 1));
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string type = lines[i].substr(0, lines[i].find(' '));
-      const auto line = numbers_of(lines[i].substr(type.size()));
+      const auto line = parse_numbers(lines[i].substr(type.size()));
       ASSERT_EQ(line.size(), 14U);
       const json& box = people[i].at("bbox");
       EXPECT_NEAR(line[3], number(box[0]), 0.01);
@@ -158,7 +158,7 @@ TEST_F(MoreExports, KittiHoldsTheLens) {
   };
   const auto last_line = [](const fs::path& out) {
     for (const auto& file : fs::directory_iterator(out / "train/calib")) {
-      return lines_of(file.path()).back();
+      return read_lines(file.path()).back();
     }
     return std::string();
   };
@@ -171,7 +171,7 @@ TEST_F(MoreExports, KittiHoldsTheLens) {
   out = exported("kitti");
   const std::string line = last_line(out);
   EXPECT_THAT(line, ::testing::StartsWith("D2_brown_conrady: "));
-  EXPECT_THAT(numbers_of(line.substr(line.find(' '))),
+  EXPECT_THAT(parse_numbers(line.substr(line.find(' '))),
               ::testing::ElementsAre(-0.2, 0.03, 0.001, 0, 0.5, 0, 0, 0));
   EXPECT_THAT(read_file(out / "README.txt"), ::testing::HasSubstr("distorted"));
 }
@@ -179,7 +179,7 @@ TEST_F(MoreExports, KittiHoldsTheLens) {
 TEST_F(MoreExports, VocCountsFromOneWithBothEndsInside) {
   const fs::path out = exported("voc");
   const auto people = people_by_stem(coco());
-  EXPECT_EQ(lines_of(out / "ImageSets/Main/train.txt").size(), people.size());
+  EXPECT_EQ(read_lines(out / "ImageSets/Main/train.txt").size(), people.size());
   for (const auto& [stem, expected] : people) {
     tinyxml2::XMLDocument xml;
     ASSERT_EQ(xml.LoadFile((out / "Annotations" / (stem + ".xml")).c_str()), tinyxml2::XML_SUCCESS);
@@ -330,7 +330,7 @@ TEST_F(MoreExports, ImageFoldersLinesHaveEqualKeys) {
   std::size_t boxes = 0;
   for (const char* split : {"train", "validation"}) {
     std::vector<std::string> keys;
-    for (const std::string& text : lines_of(out / split / "metadata.jsonl")) {
+    for (const std::string& text : read_lines(out / split / "metadata.jsonl")) {
       const json line = json::parse(text);
       std::vector<std::string> own;
       for (const auto& [key, value] : line.items()) own.push_back(key);
@@ -437,7 +437,7 @@ TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {
 }
 
 TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
-  const auto lines = lines_of(exported("table") / "people.csv");
+  const auto lines = read_lines(exported("table") / "people.csv");
   const json all = coco();
   ASSERT_EQ(lines.size(), 1 + all.at("annotations").size());
   const auto columns = std::count(lines[0].begin(), lines[0].end(), ',');
@@ -474,8 +474,8 @@ TEST_F(MoreExports, DroneCrowdBoxesAreAboutHeads) {
     expected += heads_of_people(people).size();
   for (const char* sequence : {"run000-d1", "run000-d2", "run001-d1", "run001-d2"}) {
     for (const std::string& line :
-         lines_of(out / "annotations" / (std::string(sequence) + ".txt"))) {
-      const auto numbers = numbers_of(line);
+         read_lines(out / "annotations" / (std::string(sequence) + ".txt"))) {
+      const auto numbers = parse_numbers(line);
       ASSERT_EQ(numbers.size(), 10U);
       EXPECT_GE(numbers[4], 1);
       ++heads;

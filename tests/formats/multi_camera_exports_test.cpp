@@ -137,7 +137,7 @@ TEST(HandMadeMarket, CharactersAreForTrainingOrForTheTest) {
   }
   EXPECT_EQ(trained, 10U) << "of each pair of characters one is for training";
   // Two of one character are on one side.
-  const auto lines = lines_of(out.root() / "out/attributes.csv");
+  const auto lines = read_lines(out.root() / "out/attributes.csv");
   ASSERT_EQ(lines.size(), 21U);
   EXPECT_EQ(lines[0].substr(0, 52), "id,set,sex,age_years,age_band,stature_m,upper_type,u");
   for (std::size_t i = 1; i < lines.size(); i += 2) {
@@ -171,7 +171,7 @@ TEST(HandMadeMarket, EachQueryIsInTheGalleryByAnotherCamera) {
 TEST(HandMadeMarket, CropsHaveThePixelsOfTheImage) {
   Export out;
   out.run("market1501", two_cameras(out));
-  const auto lines = lines_of(out.root() / "out/crops.csv");
+  const auto lines = read_lines(out.root() / "out/crops.csv");
   EXPECT_EQ(lines[0], "file,image,x,y,width,height,run,camera,track_id,visibility");
   ASSERT_GE(lines.size(), 121U);
   for (std::size_t i = 1; i < lines.size(); ++i) {

@@ -14,14 +14,14 @@
 
 namespace throng::formats {
 
-inline std::vector<std::string> lines_of(const std::filesystem::path& path) {
+inline std::vector<std::string> read_lines(const std::filesystem::path& path) {
   std::istringstream text(read_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
 }
 
-inline std::vector<double> numbers_of(std::string line) {
+inline std::vector<double> parse_numbers(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   std::istringstream text(line);
   std::vector<double> numbers;
@@ -35,7 +35,7 @@ inline std::map<std::int64_t, nlohmann::json> images_by_id(const nlohmann::json&
   return images;
 }
 
-inline std::string stem_of(const nlohmann::json& image) {
+inline std::string image_stem(const nlohmann::json& image) {
   std::string name = image.at("file_name");
   name = name.substr(name.find('/') + 1, name.size() - name.find('/') - 5);
   std::replace(name.begin(), name.end(), '/', '-');
@@ -47,9 +47,9 @@ inline std::map<std::string, std::vector<nlohmann::json>> people_by_stem(
     const nlohmann::json& coco) {
   const auto images = images_by_id(coco);
   std::map<std::string, std::vector<nlohmann::json>> people;
-  for (const auto& [id, image] : images) people[stem_of(image)];
+  for (const auto& [id, image] : images) people[image_stem(image)];
   for (const nlohmann::json& person : coco.at("annotations")) {
-    people[stem_of(images.at(person.at("image_id")))].push_back(person);
+    people[image_stem(images.at(person.at("image_id")))].push_back(person);
   }
   return people;
 }

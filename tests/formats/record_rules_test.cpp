@@ -69,7 +69,7 @@ TEST(RecordRules, BoxesAreThoseOfMasks) {
 TEST(RecordRules, MasksFillTheirImage) {
   expect_people("mask-size", [](Person& p) { p.record["segmentation"]["size"] = {100, 80}; });
   expect_people("mask-runs annotation 103 runs that fill the image", [](Person& p) {
-    p.mask = counts_of({10, 4});
+    p.mask = encode_counts({10, 4});
   });
   expect_people("mask-runs annotation 103 characters", [](Person& p) { p.mask = " "; });
 }
@@ -218,8 +218,8 @@ TEST(CameraRules, CenterIsWhereTheRotationPutsIt) {
 }
 
 TEST(InstanceIds, AreAgentNumbersOrThoseOfDrones) {
-  EXPECT_EQ(instance_of(hand_made::person(3, {}, {}, 1)), 3U);
-  const std::uint32_t drone = instance_of(hand_made::person(99'985, {}, {}, 1));
+  EXPECT_EQ(instance_id(hand_made::person(3, {}, {}, 1)), 3U);
+  const std::uint32_t drone = instance_id(hand_made::person(99'985, {}, {}, 1));
   EXPECT_GE(drone, kFirstDrone);
   EXPECT_LT(drone, kGround);
 }
@@ -234,7 +234,7 @@ Image frame_at(std::int64_t frame, double x) {
   return image;
 }
 
-std::vector<std::string> presence_of(const std::vector<Image>& images) {
+std::vector<std::string> presence_findings(const std::vector<Image>& images) {
   return found_by([&](Findings& findings) {
     PresenceCheck check;
     for (const Image& image : images) check.add(image, findings);
@@ -243,13 +243,13 @@ std::vector<std::string> presence_of(const std::vector<Image>& images) {
 
 TEST(PresenceRules, NobodyIsMissingBetweenTwoFrames) {
   std::vector<Image> images = {frame_at(0, -0.4), frame_at(1, 0), frame_at(2, 0.4)};
-  EXPECT_THAT(presence_of(images), ::testing::IsEmpty());
+  EXPECT_THAT(presence_findings(images), ::testing::IsEmpty());
   images[1].people.clear();
-  EXPECT_TRUE(any_with(presence_of(images), "nobody-left-out image 11 track 2000003"));
+  EXPECT_TRUE(any_with(presence_findings(images), "nobody-left-out image 11 track 2000003"));
   images[1].hidden = {{2'000'003, {48, 58, 4, 8}, false}};
-  EXPECT_THAT(presence_of(images), ::testing::IsEmpty()) << "among the hidden";
+  EXPECT_THAT(presence_findings(images), ::testing::IsEmpty()) << "among the hidden";
   images[1].hidden[0].amodal = {5, 5, 4, 8};
-  EXPECT_TRUE(any_with(presence_of(images), "hidden-box image 11"));
+  EXPECT_TRUE(any_with(presence_findings(images), "hidden-box image 11"));
 }
 
 TEST(PresenceRules, OnlyConsecutiveFramesOfOneCameraTell) {
@@ -257,26 +257,26 @@ TEST(PresenceRules, OnlyConsecutiveFramesOfOneCameraTell) {
   images[1].people.clear();
   std::vector<Image> gap = images;
   gap[2].frame = 3;
-  EXPECT_THAT(presence_of(gap), ::testing::IsEmpty());
+  EXPECT_THAT(presence_findings(gap), ::testing::IsEmpty());
   std::vector<Image> other_run = images;
   other_run[0].run = "run001";
-  EXPECT_THAT(presence_of(other_run), ::testing::IsEmpty());
+  EXPECT_THAT(presence_findings(other_run), ::testing::IsEmpty());
   std::vector<Image> slow = images;
   slow[2].time_s = 5;
-  EXPECT_THAT(presence_of(slow), ::testing::IsEmpty()) << "more than 1.1 s";
+  EXPECT_THAT(presence_findings(slow), ::testing::IsEmpty()) << "more than 1.1 s";
   std::vector<Image> beyond = {frame_at(0, -19), frame_at(1, 0), frame_at(2, -21)};
   beyond[1].people.clear();
-  EXPECT_THAT(presence_of(beyond), ::testing::IsEmpty()) << "at the edge of the image";
+  EXPECT_THAT(presence_findings(beyond), ::testing::IsEmpty()) << "at the edge of the image";
 }
 
 TEST(PresenceRules, HiddenPeopleAreInViewAndNotVisible) {
   Image image = with_walker();
   image.hidden = {{2'000'003, {10, 10, 5, 5}, false}};
-  EXPECT_TRUE(any_with(presence_of({image}), "hidden track 2000003 has an annotation"));
+  EXPECT_TRUE(any_with(presence_findings({image}), "hidden track 2000003 has an annotation"));
   image.hidden = {{2'000'004, {-6, 10, 5, 5}, false}};
-  EXPECT_TRUE(any_with(presence_of({image}), "hidden-box"));
+  EXPECT_TRUE(any_with(presence_findings({image}), "hidden-box"));
   image.hidden = {{2'000'004, {-4, 10, 5, 5}, false}};
-  EXPECT_THAT(presence_of({image}), ::testing::IsEmpty());
+  EXPECT_THAT(presence_findings({image}), ::testing::IsEmpty());
 }
 
 TEST(GroundDepthRule, IsThePlaneZ0) {
@@ -335,7 +335,7 @@ TEST(DensityRule, IsTheHeadsKernels) {
   EXPECT_TRUE(any_with(faults(stray), "at pixel (0, 0)"));
 }
 
-Pixels pixels_of(std::uint32_t id) {
+Pixels fill_pixels(std::uint32_t id) {
   Pixels pixels;
   pixels.width = 100;
   pixels.height = 80;
@@ -345,7 +345,7 @@ Pixels pixels_of(std::uint32_t id) {
 
 TEST(PartRules, PeopleHaveAPartAndNothingElseHas) {
   const auto faults = [](std::uint32_t id, std::uint16_t part) {
-    Pixels pixels = pixels_of(id);
+    Pixels pixels = fill_pixels(id);
     pixels.parts.assign(8000, part);
     return found_by([&](Findings& findings) {
       check_parts(hand_made::info("/x"), hand_made::image(), pixels, findings);
@@ -361,7 +361,7 @@ TEST(PartRules, PeopleHaveAPartAndNothingElseHas) {
 
 TEST(NormalRules, HaveLengthOneExceptInTheSky) {
   const auto faults = [](std::uint32_t id, int x, int y, int z) {
-    Pixels pixels = pixels_of(id);
+    Pixels pixels = fill_pixels(id);
     for (int i = 0; i < 8000; ++i) {
       for (const int n : {x, y, z}) pixels.normals.push_back(static_cast<std::uint16_t>(n));
     }

@@ -84,7 +84,7 @@ void set_flow(Shot& shot, const Shot& next, double factor = 1) {
 }
 
 /// The rules that a check finds broken.
-std::vector<std::string> rules_of(const std::function<void(Findings&)>& check) {
+std::vector<std::string> broken_rules(const std::function<void(Findings&)>& check) {
   Validation validation;
   Findings findings(validation);
   check(findings);
@@ -101,8 +101,8 @@ bool has(const std::vector<std::string>& rules, const std::string& rule) {
   return std::find(rules.begin(), rules.end(), rule) != rules.end();
 }
 
-std::vector<std::string> alignment_of(const std::vector<Shot>& shots) {
-  return rules_of([&](Findings& findings) {
+std::vector<std::string> alignment_findings(const std::vector<Shot>& shots) {
+  return broken_rules([&](Findings& findings) {
     AlignmentCheck check;
     for (const Shot& shot : shots) check.add(shot);
     check.finish(findings);
@@ -123,7 +123,7 @@ Shot houses(double x_m, std::int64_t frame = 0) {
 }
 
 TEST(ValidateChecks, OutlinesAreWhereTheImageHasEdges) {
-  EXPECT_TRUE(alignment_of({houses(0), houses(1, 1)}).empty());
+  EXPECT_TRUE(alignment_findings({houses(0), houses(1, 1)}).empty());
   const auto damaged = [](const std::function<std::size_t(int, int)>& from) {
     const Shot sound = houses(1);
     Shot shot = sound;
@@ -133,7 +133,7 @@ TEST(ValidateChecks, OutlinesAreWhereTheImageHasEdges) {
                     &shot.pixels.rgb[3 * sound.pixels.at(x, y)]);
       }
     }
-    return has(alignment_of({shot}), "image-is-labels");
+    return has(alignment_findings({shot}), "image-is-labels");
   };
   const Pixels size = scene(0).pixels;
   EXPECT_TRUE(damaged([&](int x, int y) { return size.at(std::max(0, x - 3), y); }));
@@ -144,15 +144,15 @@ TEST(ValidateChecks, OutlinesAreWhereTheImageHasEdges) {
 TEST(ValidateChecks, TheOutlineOfASingleThingCannotTell) {
   Shot shot = scene(0);
   std::fill(shot.pixels.rgb.begin(), shot.pixels.rgb.end(), std::uint8_t{150});
-  EXPECT_TRUE(alignment_of({shot}).empty());
+  EXPECT_TRUE(alignment_findings({shot}).empty());
 }
 
 TEST(ValidateChecks, ADarkImageAloneCannotTell) {
   Shot shot = houses(0);
   shot.image.record["environment"]["sun_elevation_deg"] = -20;
   std::fill(shot.pixels.rgb.begin(), shot.pixels.rgb.end(), std::uint8_t{3});
-  EXPECT_TRUE(alignment_of({shot}).empty());
-  EXPECT_FALSE(alignment_of({houses(0), houses(1, 1), houses(2, 2), shot}).empty());
+  EXPECT_TRUE(alignment_findings({shot}).empty());
+  EXPECT_FALSE(alignment_findings({houses(0), houses(1, 1), houses(2, 2), shot}).empty());
 }
 
 TEST(ValidateChecks, StillPixelsFlowAsDepthAndCamerasSay) {
@@ -160,7 +160,7 @@ TEST(ValidateChecks, StillPixelsFlowAsDepthAndCamerasSay) {
     Shot before = scene(0);
     const Shot after = scene(0.8, 1);
     set_flow(before, after, factor);
-    return rules_of([&](Findings& findings) { check_flow_between(before, after, findings); });
+    return broken_rules([&](Findings& findings) { check_flow_between(before, after, findings); });
   };
   EXPECT_TRUE(rules(1).empty());
   for (const double factor : {0.0, -1.0, 1.05}) EXPECT_TRUE(has(rules(factor), "flow-of-still"));
@@ -170,7 +170,7 @@ TEST(ValidateChecks, TheSkyHasNoDepth) {
   Shot shot = scene(0);
   shot.image.record["camera"] = {{"model", "fisheye"}};  // the ground is not looked at
   const auto rules = [&] {
-    return rules_of(
+    return broken_rules(
         [&](Findings& findings) { check_depth({}, shot.image, shot.pixels, findings); });
   };
   EXPECT_TRUE(rules().empty());
@@ -191,7 +191,7 @@ TEST(ValidateChecks, SurfacesAreUprightOrNotByTheirClass) {
                                                 : of_ground;
       shot.pixels.semantic.push_back(static_cast<std::uint16_t>(surface));
     }
-    return rules_of([&](Findings& findings) { check_surface_classes(shot, findings); });
+    return broken_rules([&](Findings& findings) { check_surface_classes(shot, findings); });
   };
   EXPECT_TRUE(rules(SemanticClass::building, SemanticClass::road).empty());
   EXPECT_TRUE(has(rules(SemanticClass::roof, SemanticClass::road), "semantic"));
@@ -215,7 +215,7 @@ TEST(ValidateChecks, DepthIsOneInAllImages) {
       if (after.pixels.ids[i] != kWall) continue;
       after.pixels.depth_cm[i] = static_cast<std::uint16_t>(after.pixels.depth_cm[i] * factor);
     }
-    return rules_of([&](Findings& findings) {
+    return broken_rules([&](Findings& findings) {
       check_still_surfaces(before, after, findings);
       check_buildings(after, findings);
     });
@@ -233,7 +233,7 @@ TEST(ValidateChecks, NormalsAreThoseOfTheSurface) {
     for (std::size_t i = 0; i < shot.pixels.normals.size(); i += 3) {
       if (shot.pixels.ids[i / 3] == kWall) damage(&shot.pixels.normals[i]);
     }
-    return rules_of([&](Findings& findings) { check_normals(shot, findings); });
+    return broken_rules([&](Findings& findings) { check_normals(shot, findings); });
   };
   EXPECT_TRUE(rules([](std::uint16_t* /*n*/) {}).empty());
   EXPECT_TRUE(has(rules([](std::uint16_t* n) { n[1] = 255; }), "normals-face-camera"));
@@ -259,7 +259,7 @@ Shot walkers(double speed_factor, std::int64_t frame, double turn_rad = 0) {
 
 TEST(ValidateChecks, PeopleMoveAsTheirVelocitySays) {
   const auto rules = [](double factor, double turn_rad) {
-    return rules_of([&](Findings& findings) {
+    return broken_rules([&](Findings& findings) {
       const Shot now = walkers(factor, 1, turn_rad);
       check_motion(walkers(factor, 0, turn_rad), now, findings);
       check_facing_motion(now, findings);
@@ -298,8 +298,8 @@ TEST(ValidateChecks, TablesWithQuotesAndLinesThatAreCutOff) {
   const CsvTable table = read_csv(path);
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0][0], "x,\"y");
-  EXPECT_EQ(number_of(table.rows[0][table.find("b")]), 2.5);
-  EXPECT_TRUE(std::isnan(number_of(table.rows[0][0])));
+  EXPECT_EQ(parse_number(table.rows[0][table.find("b")]), 2.5);
+  EXPECT_TRUE(std::isnan(parse_number(table.rows[0][0])));
   write_file_atomically(path, "a,b\n1\n");
   EXPECT_THROW(read_csv(path), InputError);
   EXPECT_THROW(read_csv(path.string() + ".none"), InputError);

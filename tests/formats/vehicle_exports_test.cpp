@@ -71,7 +71,7 @@ TEST(VehicleExports, UavdtHasCarsOnly) {
 
 TEST(VehicleExports, KittiHasCarsAndTrams) {
   const StreetExport out("kitti");
-  const auto lines = lines_of(out.root() / "out/train/label_2/run002-d1-000004.txt");
+  const auto lines = read_lines(out.root() / "out/train/label_2/run002-d1-000004.txt");
   ASSERT_EQ(lines.size(), 4);
   // Height, width, length; the middle of the foot, 2 m right of the axis and 10 m below the camera.
   EXPECT_EQ(lines[1],

@@ -28,7 +28,7 @@ void check_taken(const RequestHead& head) {
     require(!field.name.empty() && is_one_line(field.name) && is_one_line(field.value));
     require(field.name.find_first_of(" \t:") == std::string::npos);
   }
-  const std::string text = throng::server::library_text_of(head);
+  const std::string text = throng::server::library_text(head);
   require(text.find("\r\n\r\n") == text.size() - 4);
   const auto again = throng::server::parse_request_head(text);
   if (const auto* error = std::get_if<throng::server::HeadError>(&again)) {

@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-std::size_t depth_of(const json& value) {
+std::size_t nesting_depth(const json& value) {
   std::size_t deepest = 0;
   if (!value.is_structured()) return 0;
-  for (const json& child : value) deepest = std::max(deepest, depth_of(child));
+  for (const json& child : value) deepest = std::max(deepest, nesting_depth(child));
   return deepest + 1;
 }
 
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                      .max_number_chars = 40};
   try {
     const json value = throng::parse_json(text, "", limits);
-    if (depth_of(value) > limits.max_depth || value != json::parse(text)) std::abort();
+    if (nesting_depth(value) > limits.max_depth || value != json::parse(text)) std::abort();
     if (throng::parse_own_json(text, "x") != value) std::abort();
   } catch (const throng::InputError& error) {
     if (error.problems().size() != 1 || error.problems().front().found.size() > 500) std::abort();

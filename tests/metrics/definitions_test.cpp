@@ -16,7 +16,7 @@ namespace {
 nlohmann::json figures() {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 0);
-  const world::Trace trace = trace_of({walking({-5, 0}, {1, 0}), walking({-6, 0}, {1, 0})});
+  const world::Trace trace = make_trace({walking({-5, 0}, {1, 0}), walking({-6, 0}, {1, 0})});
   return to_json(run_metrics(trace, scenario, exit_series(trace, scenario)));
 }
 
@@ -24,17 +24,17 @@ TEST(MetricDefinitions, AreThereForEveryValue) {
   const nlohmann::json run = figures();
   std::vector<std::string> missing;
   for (const auto& [name, value] : run.items()) {
-    if (!definition_of(name) && !value.is_object() && !value.is_array()) missing.push_back(name);
+    if (!find_definition(name) && !value.is_object() && !value.is_array()) missing.push_back(name);
     if (value.is_object() && name != "definitions") {
       for (const auto& member : value.items()) {
         const std::string path = name + "." + member.key();
-        if (!definition_of(path)) missing.push_back(path);
+        if (!find_definition(path)) missing.push_back(path);
       }
     }
     if (value.is_array() && !value.empty() && value[0].is_object()) {
       for (const auto& member : value[0].items()) {
         const std::string path = name + "[]." + member.key();
-        if (!definition_of(path)) missing.push_back(path);
+        if (!find_definition(path)) missing.push_back(path);
       }
     }
   }
@@ -46,8 +46,8 @@ TEST(MetricDefinitions, LeadToTheirParagraphs) {
   EXPECT_EQ(addresses.at("people"), "docs/metrics.md#people");
   EXPECT_EQ(addresses.at("exits[].congested_s"), "docs/metrics.md#exits-demand_s");
   EXPECT_EQ(addresses.at("exits[].crossings.in"), "docs/metrics.md#exits-crossings");
-  EXPECT_EQ(definition_of("exits[].gaps.median_s")->anchor, "exits-gaps");
-  EXPECT_EQ(definition_of("nothing"), nullptr);
+  EXPECT_EQ(find_definition("exits[].gaps.median_s")->anchor, "exits-gaps");
+  EXPECT_EQ(find_definition("nothing"), nullptr);
   std::set<std::string> anchors;
   for (const Definition& definition : definitions_of_run()) {
     EXPECT_TRUE(anchors.insert(definition.anchor).second) << definition.anchor;

@@ -15,14 +15,14 @@ RunMetrics measure(const world::Trace& trace) {
   return run_metrics(trace, scenario, exit_series(trace, scenario));
 }
 
-// Person i of n leaves the place (x > 10) at about i + 1 s.
+// Person i of n leaves the scenario (x > 10) at about i + 1 s.
 world::Trace one_a_second(int people, double duration_s) {
   std::vector<Walk> walks;
   walks.reserve(people);
   for (int i = 0; i < people; ++i) walks.push_back(walking({9.05 - i, 0}, {1, 0}));
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;
-  return trace_of(walks, crowd);
+  return make_trace(walks, crowd);
 }
 
 TEST(RunMetrics, StraightWalkersGiveAStraightEscapeCurve) {
@@ -56,13 +56,13 @@ TEST(RunMetrics, EscapeIsForEver) {
   const Walk out_and_back = [](double time_s) -> Eigen::Vector2d {
     return {time_s > 1 && time_s < 5 ? 12 : 0, 0};
   };
-  const RunMetrics metrics = measure(trace_of({out_and_back, standing({0, 0})}));
+  const RunMetrics metrics = measure(make_trace({out_and_back, standing({0, 0})}));
   EXPECT_DOUBLE_EQ(metrics.escape_curve.back(), 0.5);
   EXPECT_EQ(metrics.not_escaped, 1);
 }
 
 TEST(RunMetrics, TheDisasterIsNotAPerson) {
-  world::Trace trace = trace_of({standing({0, 0}), standing({50, 0})});
+  world::Trace trace = make_trace({standing({0, 0}), standing({50, 0})});
   trace.header.role[1] = world::AgentRole::disaster;
   const RunMetrics metrics = measure(trace);
   EXPECT_EQ(metrics.people, 1);
@@ -70,7 +70,7 @@ TEST(RunMetrics, TheDisasterIsNotAPerson) {
 }
 
 TEST(RunMetrics, AnAttackerIsInNoFigure) {
-  world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
+  world::Trace trace = make_trace({standing({0, 0}), walking({-5, 0}, {1, 0})});
   trace.header.role[1] = world::AgentRole::attacker;
   const RunMetrics metrics = measure(trace);
   EXPECT_EQ(metrics.people, 1);
@@ -82,7 +82,7 @@ TEST(RunMetrics, AnAttackerIsInNoFigure) {
 TEST(RunMetrics, CasualtiesAreCountedApart) {
   // One lies from 10 s on, one faints and gets up again, one is hurt but is carried out.
   world::Trace trace =
-      trace_of({standing({0, 0}), standing({1, 0}), walking({-5, 0}, {1, 0}), standing({2, 0})});
+      make_trace({standing({0, 0}), standing({1, 0}), walking({-5, 0}, {1, 0}), standing({2, 0})});
   trace.header.state_names = {"Walk", "Casualty"};
   for (std::size_t step = 100; step < trace.steps(); ++step) {
     trace.state[trace.at(step, 0)] = 1;
@@ -103,7 +103,7 @@ TEST(RunMetrics, CasualtiesAreCountedApart) {
 }
 
 TEST(RunMetrics, CasualtiesAreInTheStatesThatTheTraceNames) {
-  world::Trace trace = trace_of({standing({0, 0}), standing({1, 0})});
+  world::Trace trace = make_trace({standing({0, 0}), standing({1, 0})});
   trace.header.state_names = {"Dead_end", "Struck"};
   trace.header.state_lying = {0, 1};
   for (std::size_t step = 100; step < trace.steps(); ++step) trace.state[trace.at(step, 1)] = 1;
@@ -114,7 +114,7 @@ TEST(RunMetrics, CasualtiesAreInTheStatesThatTheTraceNames) {
 }
 
 TEST(RunMetrics, IfAllAreOutOrHurtLaterFiguresAreKnown) {
-  world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
+  world::Trace trace = make_trace({standing({0, 0}), walking({-5, 0}, {1, 0})});
   trace.header.state_names = {"Walk", "Casualty"};
   for (std::size_t step = 100; step < trace.steps(); ++step) trace.state[trace.at(step, 0)] = 1;
   const RunMetrics metrics = measure(trace);
@@ -123,7 +123,7 @@ TEST(RunMetrics, IfAllAreOutOrHurtLaterFiguresAreKnown) {
 }
 
 TEST(RunMetrics, PeopleThatVanishAtASinkHaveEscapedAndUnusedAgentsAreNoPeople) {
-  world::Trace trace = trace_of({standing({0, 0}), standing({1, 0}), standing({2, 0})});
+  world::Trace trace = make_trace({standing({0, 0}), standing({1, 0}), standing({2, 0})});
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (step < 50 || step >= 200) trace.flags[trace.at(step, 0)] = 0;
     trace.flags[trace.at(step, 1)] = 0;
@@ -143,7 +143,7 @@ TEST(RunMetrics, SumsUpEachExit) {
   scenario.exits[1].id = "side";
   scenario.exits[1].from.y() += 30;
   scenario.exits[1].to.y() += 30;
-  const world::Trace trace = trace_of(walks);
+  const world::Trace trace = make_trace(walks);
   const RunMetrics metrics = run_metrics(trace, scenario, exit_series(trace, scenario));
   ASSERT_EQ(metrics.exits.size(), 2U);
   EXPECT_EQ(metrics.exits[0].crossings.out, 2);
@@ -161,7 +161,7 @@ TEST(RunMetrics, TimeInStatesIsThatOfTheSamples) {
                                        : ExitState::clogged;
     series.samples[i].clogging_index = 0.5;
   }
-  const world::Trace trace = trace_of({standing({0, 0})});
+  const world::Trace trace = make_trace({standing({0, 0})});
   const ExitTotals totals = run_metrics(trace, place_with_door(2), {series}).exits.at(0);
   EXPECT_NEAR(totals.demand_s, 6, 1e-9);
   EXPECT_NEAR(totals.congested_s, 4, 1e-9);
@@ -170,7 +170,7 @@ TEST(RunMetrics, TimeInStatesIsThatOfTheSamples) {
 }
 
 TEST(RunMetrics, NobodyGivesNoNonsense) {
-  const RunMetrics metrics = measure(trace_of({}));
+  const RunMetrics metrics = measure(make_trace({}));
   EXPECT_EQ(metrics.people, 0);
   EXPECT_EQ(metrics.mean_escape_time_s, 0);
   EXPECT_FALSE(metrics.percentiles.back().time_s);

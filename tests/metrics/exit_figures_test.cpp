@@ -17,25 +17,25 @@ namespace {
 
 using Eigen::Vector2d;
 
-ExitSeries series_of(const std::vector<Walk>& walks, double duration_s = 60) {
+ExitSeries exit_series(const std::vector<Walk>& walks, double duration_s = 60) {
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;
-  return exit_series(trace_of(walks, crowd), place_with_door(2)).at(0);
+  return exit_series(make_trace(walks, crowd), place_with_door(2)).at(0);
 }
 
 // A standing line of people straight back from the door, the first `first_m` from it.
-std::vector<Walk> line_of(int people, double first_m, double pitch_m) {
+std::vector<Walk> walk_in_line(int people, double first_m, double pitch_m) {
   std::vector<Walk> walks;
   for (int i = 0; i < people; ++i) walks.push_back(standing({-first_m - i * pitch_m, 0}));
   return walks;
 }
 
 TEST(ExitQueue, GoesAsFarAsTheLinksReach) {
-  std::vector<Walk> walks = line_of(8, 1, 1.1);
+  std::vector<Walk> walks = walk_in_line(8, 1, 1.1);
   walks.push_back(standing({-10, 0}));            // 1.3 m behind the last one
   walks.push_back(standing({0.3, 0}));            // beyond the door
   walks.push_back(walking({-2, 1}, {1, 0}, -9));  // fast enough not to queue
-  const ExitSample sample = series_of(walks).samples.front();
+  const ExitSample sample = exit_series(walks).samples.front();
   EXPECT_EQ(sample.queue, 8);
   EXPECT_NEAR(sample.queue_length_m, 1 + 7 * 1.1, 1e-5);
   // Nothing was measured yet: the capacity of one lane, 0.8 m.
@@ -47,35 +47,35 @@ TEST(ExitQueue, OnlyThatPartOfTheDoorServesBeforeWhichPeopleStand) {
   std::vector<Walk> walks;
   for (int i = 0; i < 5; ++i) walks.push_back(standing({-1, i * 0.5 - 1.0}));
   const auto wait_s = [&](double door_m) {
-    return exit_series(trace_of(walks, crowd), place_with_door(door_m))
+    return exit_series(make_trace(walks, crowd), place_with_door(door_m))
         .at(0)
         .samples.front()
         .predicted_wait_s;
   };
-  const double radius_m = trace_of(walks, crowd).header.radius_m.front();
+  const double radius_m = make_trace(walks, crowd).header.radius_m.front();
   EXPECT_NEAR(wait_s(10), 5 / (1.3 * (2 + 2 * radius_m)), 1e-6);
   EXPECT_NEAR(wait_s(1.5), 5 / (1.3 * 1.5), 1e-6) << "never more than the door";
   EXPECT_NEAR(wait_s(0.5), 5 / (1.3 * 0.8), 1e-6) << "one lane passes whatever its width";
 }
 
 TEST(ExitQueue, AroundACornerIsAsLongAsTheWay) {
-  std::vector<Walk> walks = line_of(3, 1, 1);  // to x = -3
+  std::vector<Walk> walks = walk_in_line(3, 1, 1);  // to x = -3
   for (int i = 1; i <= 4; ++i) walks.push_back(standing({-3, static_cast<double>(i)}));
-  EXPECT_NEAR(series_of(walks).samples.front().queue_length_m, 7, 1e-6);
+  EXPECT_NEAR(exit_series(walks).samples.front().queue_length_m, 7, 1e-6);
 }
 
 TEST(ExitQueue, WhereNobodyStandsAtTheDoorThereIsNone) {
-  const ExitSample sample = series_of(line_of(5, 4, 1)).samples.front();
+  const ExitSample sample = exit_series(walk_in_line(5, 4, 1)).samples.front();
   EXPECT_EQ(sample.queue, 0);
   EXPECT_EQ(sample.queue_length_m, 0);
   EXPECT_EQ(sample.predicted_wait_s, 0);
 }
 
 TEST(ExitQueue, TheWaitIsTheQueueOverTheFlow) {
-  std::vector<Walk> walks = line_of(6, 1, 1);
+  std::vector<Walk> walks = walk_in_line(6, 1, 1);
   // A person a second beside them, from 0.5 s on.
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - i, 0.9}, {1, 0}));
-  const ExitSample sample = series_of(walks).samples.at(300);
+  const ExitSample sample = exit_series(walks).samples.at(300);
   EXPECT_EQ(sample.queue, 6);
   // 20 people in the last 20 s, and 10 s at the capacity of one lane, 1.04 /s.
   EXPECT_NEAR(sample.predicted_wait_s, 6 / ((20 + 10.4) / 30), 0.1);
@@ -105,7 +105,7 @@ TEST(ExitPressure, IsDensityTimesVariance) {
 }
 
 TEST(ExitPressure, IsZeroForAUniformStream) {
-  const ExitSeries series = series_of({walking({-5, 0}, {1, 0}), walking({-5, 1}, {1, 0})}, 8);
+  const ExitSeries series = exit_series({walking({-5, 0}, {1, 0}), walking({-5, 1}, {1, 0})}, 8);
   for (const ExitSample& sample : series.samples) EXPECT_NEAR(sample.pressure_per_s2, 0, 1e-6);
 }
 
@@ -116,7 +116,7 @@ TEST(ExitVoronoi, ALatticeHasItsDensity) {
       walks.push_back(standing({0.25 + 0.5 * column, 0.5 * row}));
     }
   }
-  const ExitSample sample = series_of(walks, 0.1).samples.front();
+  const ExitSample sample = exit_series(walks, 0.1).samples.front();
   EXPECT_NEAR(sample.voronoi_density_per_m2, 4, 1e-6);
   EXPECT_NEAR(sample.density_per_m2, 4, 0.5) << "counting whole people is rougher";
 }
@@ -124,7 +124,7 @@ TEST(ExitVoronoi, ALatticeHasItsDensity) {
 TEST(ExitFlow, SpecificFlowIsPerMeter) {
   std::vector<Walk> walks;
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - 0.5 * i, 0}, {1, 0}));
-  const ExitSeries series = series_of(walks, 15);
+  const ExitSeries series = exit_series(walks, 15);
   for (const ExitSample& sample : series.samples) {
     EXPECT_DOUBLE_EQ(sample.specific_flow_per_ms, sample.flow_per_s / 2);
   }
@@ -149,7 +149,7 @@ std::vector<Walk> two_passers() {
 }
 
 TEST(ExitClogs, TheWholeGapIsClogged) {
-  const ExitSeries series = series_of(two_passers(), 30);
+  const ExitSeries series = exit_series(two_passers(), 30);
   ASSERT_EQ(series.clogs.size(), 3U);
   EXPECT_NEAR(series.clogs[0].from_s, 0, 1e-9);
   EXPECT_NEAR(series.clogs[0].until_s, 10.4, 0.101);
@@ -195,13 +195,13 @@ TEST(ExitClogs, LastsUntilSomebodyPasses) {
 }
 
 TEST(ExitClogs, AFreeDoorHasNone) {
-  EXPECT_TRUE(series_of({walking({-5, 0}, {1, 0})}).clogs.empty());
+  EXPECT_TRUE(exit_series({walking({-5, 0}, {1, 0})}).clogs.empty());
 }
 
 TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
   world::Scenario scenario = place_with_door(2);
   scenario.exits[0].open = false;
-  const world::Trace trace = trace_of(two_passers());
+  const world::Trace trace = make_trace(two_passers());
   const auto exits = exit_series(trace, scenario);
   for (const ExitSample& sample : exits[0].samples) EXPECT_EQ(sample.state, ExitState::closed);
   EXPECT_TRUE(exits[0].clogs.empty());
@@ -215,7 +215,7 @@ TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
 TEST(ExitTotals, ADoorThatADisasterReachesIsClosedFromThenOn) {
   world::Scenario scenario = place_with_door(2);
   scenario.exits[0].closes_at_s = 20;
-  const world::Trace trace = trace_of(two_passers());
+  const world::Trace trace = make_trace(two_passers());
   const auto exits = exit_series(trace, scenario);
   const auto& samples = exits[0].samples;
   for (std::size_t step = 0; step < samples.size(); ++step) {
@@ -241,7 +241,7 @@ ExitTotals used(double capacity_per_s, int crossings, double share, double last_
 }
 
 TEST(ExitBalance, InProportionToCapacityIsPerfect) {
-  const auto balance = balance_of({used(1, 10, 0.25, 30), used(3, 30, 0.75, 44)});
+  const auto balance = balance_exits({used(1, 10, 0.25, 30), used(3, 30, 0.75, 44)});
   ASSERT_TRUE(balance);
   EXPECT_DOUBLE_EQ(balance->balance, 1);
   EXPECT_DOUBLE_EQ(balance->jain, 1);
@@ -251,16 +251,16 @@ TEST(ExitBalance, InProportionToCapacityIsPerfect) {
 TEST(ExitBalance, OneOfTwoEqualDoorsIsHalf) {
   ExitTotals unused = used(2, 0, 0, 0);
   unused.last_crossing_s.reset();
-  const auto balance = balance_of({used(2, 20, 1, 9), unused});
+  const auto balance = balance_exits({used(2, 20, 1, 9), unused});
   ASSERT_TRUE(balance);
   EXPECT_DOUBLE_EQ(balance->balance, 0.5);
   EXPECT_DOUBLE_EQ(balance->jain, 0.5);
   EXPECT_DOUBLE_EQ(balance->last_spread_s, 0);
-  EXPECT_FALSE(balance_of({unused}));
+  EXPECT_FALSE(balance_exits({unused}));
 }
 
 TEST(ExitTotals, JsonNamesTheExits) {
-  const world::Trace trace = trace_of(two_passers());
+  const world::Trace trace = make_trace(two_passers());
   const world::Scenario scenario = place_with_door(2);
   const auto totals = exit_totals(exit_series(trace, scenario), 0.1);
   const nlohmann::json json = to_json(totals.at(0));
@@ -279,7 +279,7 @@ TEST(ExitCrossings, AreCountedInBothDirections) {
   };
   CrowdOfTest crowd;
   crowd.duration_s = 7.5;
-  const world::Trace trace = trace_of({to_and_fro, walking({2, 0.5}, {-1, 0})}, crowd);
+  const world::Trace trace = make_trace({to_and_fro, walking({2, 0.5}, {-1, 0})}, crowd);
   // |x| falls from 1 at 0 s to -1 at 2 s and so on: in at 1 s, out at 3 s, in at 5 s, out at 7 s.
   const world::Scenario scenario = place_with_door(2);
   const auto totals = exit_totals(exit_series(trace, scenario), 0.1);

@@ -19,7 +19,8 @@ namespace {
 using Eigen::Vector2d;
 
 /// With an alarm at the start where the scenario has none.
-RunMetrics figures_of(const world::Trace& trace, world::Scenario scenario = place_with_door(2)) {
+RunMetrics compute_figures(const world::Trace& trace,
+                           world::Scenario scenario = place_with_door(2)) {
   if (scenario.disasters.empty()) add_alarm(scenario, 0);
   return run_metrics(trace, scenario, exit_series(trace, scenario));
 }
@@ -29,7 +30,7 @@ world::Trace two_observers(double notice_s, double duration_s = 60) {
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;
   world::Trace trace =
-      trace_of({walking({-2, 0}, {1, 0}, notice_s), walking({-4, 0}, {1, 0}, notice_s)}, crowd);
+      make_trace({walking({-2, 0}, {1, 0}, notice_s), walking({-4, 0}, {1, 0}, notice_s)}, crowd);
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (trace.time_s[step] >= notice_s) continue;
     for (const std::size_t agent : {0, 1}) trace.exit_intent[trace.at(step, agent)] = -1;
@@ -38,7 +39,7 @@ world::Trace two_observers(double notice_s, double duration_s = 60) {
 }
 
 TEST(NotificationFigures, CountFromTheFirstIntent) {
-  const RunMetrics metrics = figures_of(two_observers(5.05));
+  const RunMetrics metrics = compute_figures(two_observers(5.05));
   EXPECT_EQ(metrics.notification->never, 0);
   ASSERT_TRUE(metrics.notification->first_s);
   EXPECT_NEAR(*metrics.notification->first_s, 5.1, 1e-6);
@@ -50,7 +51,7 @@ TEST(NotificationFigures, CountFromTheFirstIntent) {
 }
 
 TEST(NotificationFigures, PeopleThatNeverNoticeAreCounted) {
-  const RunMetrics metrics = figures_of(two_observers(100));
+  const RunMetrics metrics = compute_figures(two_observers(100));
   EXPECT_EQ(metrics.notification->never, 2);
   EXPECT_FALSE(metrics.notification->first_s);
   EXPECT_TRUE(to_json(metrics).at("notification").at("mean_s").is_null());
@@ -60,14 +61,14 @@ TEST(NotificationFigures, PeopleThatNeverNoticeAreCounted) {
 TEST(NotificationFigures, PercentilesCountPeopleNotWatchedToTheEnd) {
   CrowdOfTest crowd;
   crowd.duration_s = 15;
-  world::Trace trace = trace_of(
+  world::Trace trace = make_trace(
       {walking({-2, 0}, {1, 0}, 1), walking({-2, 1}, {1, 0}, 9), standing({-5, 0})}, crowd);
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (step < 10) trace.exit_intent[trace.at(step, 0)] = -1;
     if (step < 90) trace.exit_intent[trace.at(step, 1)] = -1;
     trace.exit_intent[trace.at(step, 2)] = -1;
   }
-  const nlohmann::json json = to_json(*figures_of(trace).notification);
+  const nlohmann::json json = to_json(*compute_figures(trace).notification);
   EXPECT_EQ(json.at("noticed"), 2);
   EXPECT_EQ(json.at("never"), 1);
   EXPECT_NEAR(json.at("percentiles").at("t25_s"), 1, 1e-6) << "of all three";
@@ -78,17 +79,17 @@ TEST(NotificationFigures, PercentilesCountPeopleNotWatchedToTheEnd) {
 }
 
 TEST(Horizons, AreKnownWhenEverybodyIsOut) {
-  const RunMetrics metrics = figures_of(two_observers(0));
+  const RunMetrics metrics = compute_figures(two_observers(0));
   ASSERT_EQ(metrics.horizons.size(), 2U);
   EXPECT_EQ(metrics.horizons[0].not_escaped, 0);
   EXPECT_NEAR(*metrics.horizons[0].restricted_mean_s, 13, 0.11);
-  const RunMetrics short_run = figures_of(two_observers(0, 13));
+  const RunMetrics short_run = compute_figures(two_observers(0, 13));
   EXPECT_FALSE(short_run.horizons[0].not_escaped);
   EXPECT_NEAR(short_run.mean_escape_time_s, 12.5, 0.11);
 }
 
 TEST(Journeys, StraightToTheDoorHasNoDetour) {
-  const RunMetrics metrics = figures_of(two_observers(3));
+  const RunMetrics metrics = compute_figures(two_observers(3));
   ASSERT_EQ(metrics.journeys.size(), 2U);
   EXPECT_NEAR(metrics.journeys[1].walked_m, 4, 0.11);
   EXPECT_NEAR(*metrics.journeys[1].to_used_m, 4, 0.02);
@@ -103,7 +104,7 @@ TEST(Journeys, AStopAndAnUnneededWayCount) {
     if (time_s < 6) return {-7, 0};
     return {-7 + (time_s - 6), 0};
   };
-  const RunMetrics metrics = figures_of(trace_of({there_and_back}));
+  const RunMetrics metrics = compute_figures(make_trace({there_and_back}));
   ASSERT_EQ(metrics.journeys.size(), 1U);
   EXPECT_NEAR(metrics.journeys[0].walked_m, 10, 0.11);
   EXPECT_EQ(metrics.journeys[0].stops, 1);
@@ -154,7 +155,7 @@ TEST(ExposureFigures, ALatticeIsAsDenseAsItIs) {
   }
   CrowdOfTest crowd;
   crowd.duration_s = 0.9;  // ten steps: a second of everybody
-  const Exposure exposure = figures_of(trace_of(walks, crowd)).exposure;
+  const Exposure exposure = compute_figures(make_trace(walks, crowd)).exposure;
   const int inner = 19 * 19;
   EXPECT_GE(exposure.above_person_s[1], inner - 1e-6);  // 3.57
   EXPECT_EQ(exposure.above_person_s[3], 0);             // 5
@@ -177,13 +178,13 @@ TEST(ExposureFigures, TheGreatestPressureIsDensityTimesVariance) {
   }
   CrowdOfTest crowd;
   crowd.duration_s = 2;
-  world::Trace trace = trace_of(walks, crowd);
+  world::Trace trace = make_trace(walks, crowd);
   for (std::size_t i = 0; i < trace.velocity.size(); ++i) {
     const auto agent = static_cast<int>(i % walks.size());
     trace.velocity[i] = {0, (agent / 20 + agent % 20) % 2 == 0 ? 1.0F : -1.0F};
   }
-  EXPECT_NEAR(figures_of(trace).exposure.max_pressure_per_s2, 16, 0.5);
-  EXPECT_NEAR(to_json(figures_of(trace)).at("exposure").at("max_pressure_per_s2"), 16, 0.5);
+  EXPECT_NEAR(compute_figures(trace).exposure.max_pressure_per_s2, 16, 0.5);
+  EXPECT_NEAR(to_json(compute_figures(trace)).at("exposure").at("max_pressure_per_s2"), 16, 0.5);
 }
 
 // For a second somebody stands still beside somebody who walks; then nobody is there.
@@ -219,7 +220,7 @@ TEST(ExposureFigures, ThePressureIsAMeanOverASecond) {
 TEST(ExposureFigures, ALonePersonIsAtTheBestLevel) {
   CrowdOfTest crowd;
   crowd.duration_s = 9.9;
-  const Exposure exposure = figures_of(trace_of({standing({-5, 0})}, crowd)).exposure;
+  const Exposure exposure = compute_figures(make_trace({standing({-5, 0})}, crowd)).exposure;
   EXPECT_NEAR(exposure.service_person_s[0], 10, 1e-9);
   EXPECT_NEAR(exposure.max_density_per_m2, 1 / (std::numbers::pi * 4), 1e-6);
 }
@@ -235,12 +236,12 @@ Exposure lattice_exposure(double pitch_m, float radius_m, float mps) {
   CrowdOfTest crowd;
   crowd.duration_s = 0.9;  // ten steps: a second of everybody
   crowd.radius_m = radius_m;
-  world::Trace trace = trace_of(walks, crowd);
+  world::Trace trace = make_trace(walks, crowd);
   for (std::size_t i = 0; i < trace.velocity.size(); ++i) {
     const auto agent = i % walks.size();
     trace.velocity[i] = {0, (agent / 15 + agent % 15) % 2 == 0 ? mps : -mps};
   }
-  return figures_of(trace).exposure;
+  return compute_figures(trace).exposure;
 }
 
 // 4 per m² is no crush, however large the discs are; 5.5 and 6.5 are, however small.
@@ -288,7 +289,8 @@ TEST(ExposureFigures, CountsEveryStep) {
     const bool near = time_s > 1.25 && time_s < 1.75;  // five steps, between two full seconds
     return {near ? -5.1 : -9.0, 0};
   };
-  const Exposure exposure = figures_of(trace_of({standing({-5, 0}), meeting}, crowd)).exposure;
+  const Exposure exposure =
+      compute_figures(make_trace({standing({-5, 0}), meeting}, crowd)).exposure;
   // Each owns half of a disc of 2 m and 0.1 m of the other's: less than 7 m² while they are near.
   const double alone = 1 / (std::numbers::pi * 4);
   EXPECT_LT(alone, kServiceDensities[0]);
@@ -302,7 +304,7 @@ TEST(GuidanceFigures, FollowersAreInAStateOfThatName) {
   world::Trace trace = two_observers(0);
   trace.header.state_names = {"Walk", "FollowDrone"};
   for (std::size_t step = 10; step < 40; ++step) trace.state[trace.at(step, 1)] = 1;
-  const GuidanceFigures guidance = figures_of(trace).guidance;
+  const GuidanceFigures guidance = compute_figures(trace).guidance;
   EXPECT_EQ(guidance.led, 1);
   EXPECT_NEAR(guidance.mean_followed_s, 3, 1e-9);
   EXPECT_NEAR(guidance.mean_followed_m, 3, 1e-4);
@@ -331,7 +333,7 @@ TEST(GuidanceFigures, TheEffectIsAgainstTheSameRunWithoutGuides) {
 
 TEST(GuidanceFigures, AnythingButThePairIsRefused) {
   const world::Scenario scenario = place_with_door(2);
-  EXPECT_THROW(lead_effect(two_observers(0), trace_of({standing({0, 0})}), scenario), InputError);
+  EXPECT_THROW(lead_effect(two_observers(0), make_trace({standing({0, 0})}), scenario), InputError);
   world::Trace other = two_observers(5);
   other.header.seed = 7;
   EXPECT_THROW(lead_effect(two_observers(0), other, scenario), InputError);
@@ -341,7 +343,7 @@ TEST(GuidanceFigures, AnythingButThePairIsRefused) {
 }
 
 TEST(ReferenceTime, IsThatOfEachPersonsNoticeSpeedAndWay) {
-  const RunMetrics metrics = figures_of(two_observers(2));
+  const RunMetrics metrics = compute_figures(two_observers(2));
   ASSERT_TRUE(metrics.reference);
   // 2 and 4 m to the door, in the second that ends 3.08 s after the notice at 2 s, and 10 m on at
   // 1.3 m/s.
@@ -359,18 +361,18 @@ TEST(ReferenceTime, GoesAroundBuildings) {
   const world::Trace trace = two_observers(0);
   world::Scenario walled = place_with_door(2);
   walled.buildings.push_back(box({-1.5, -6}, {-1, 6}));
-  const double straight_s = figures_of(trace).reference->escape_s.back();
+  const double straight_s = compute_figures(trace).reference->escape_s.back();
   const double around_m = std::hypot(2.5, 6) + 0.5 + std::hypot(1, 5);  // to (0, 1)
-  const double around_s = figures_of(trace, walled).reference->escape_s.back();
+  const double around_s = compute_figures(trace, walled).reference->escape_s.back();
   EXPECT_NEAR(around_s - straight_s, (around_m - 4) / 1.3, 1.1);
 }
 
 TEST(ReferenceTime, PeopleThatNeverNoticeNeverLeave) {
-  world::Trace trace = trace_of({walking({-2, 0}, {1, 0}), standing({-5, 0})});
+  world::Trace trace = make_trace({walking({-2, 0}, {1, 0}), standing({-5, 0})});
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     trace.exit_intent[trace.at(step, 1)] = -1;
   }
-  const RunMetrics metrics = figures_of(trace);
+  const RunMetrics metrics = compute_figures(trace);
   for (const char* name : {"lower_bound", "reference_time"}) {
     const nlohmann::json json = to_json(metrics).at(name);
     EXPECT_TRUE(json.at("t100_s").is_null());
@@ -381,7 +383,8 @@ TEST(ReferenceTime, PeopleThatNeverNoticeNeverLeave) {
 }
 
 TEST(PersonTable, HasARowForEverybody) {
-  const RunMetrics metrics = figures_of(trace_of({walking({-2, 0}, {1, 0}), standing({-5, 0})}));
+  const RunMetrics metrics =
+      compute_figures(make_trace({walking({-2, 0}, {1, 0}), standing({-5, 0})}));
   const nlohmann::json table = to_json(metrics).at("by_person");
   for (const auto& [name, column] : table.items()) EXPECT_EQ(column.size(), 2U) << name;
   EXPECT_EQ(table.at("exit"), (nlohmann::json{"door", nullptr}));

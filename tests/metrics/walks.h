@@ -36,8 +36,8 @@ struct CrowdOfTest {
 };
 
 /// A trace of people who all intend the first of `exit_ids`.
-inline world::Trace trace_of(const std::vector<Walk>& walks, const CrowdOfTest& crowd = {},
-                             std::vector<std::string> exit_ids = {"door"}) {
+inline world::Trace make_trace(const std::vector<Walk>& walks, const CrowdOfTest& crowd = {},
+                               std::vector<std::string> exit_ids = {"door"}) {
   world::Trace trace;
   trace.header.dt_s = crowd.dt_s;
   trace.header.exit_ids = std::move(exit_ids);

@@ -21,7 +21,7 @@ import throng
 from free_ports import free_port
 from service import start_service, wait_until
 from throng import Client, job
-from throng._download import file_name_of
+from throng._download import file_name_from
 from throng._events import parse
 from throng._job_base import plain
 from throng._progress import ProgressBar
@@ -300,9 +300,9 @@ class WithService(unittest.TestCase):
 
     def test_scenarios(self):
         folder = self.folder()
-        (folder / "yard.place.json").write_text(json.dumps(PLACE))
+        (folder / "yard.blueprint.json").write_text(json.dumps(PLACE))
         subprocess.run(
-            [common.THRONG, "scenario", "make", "yard.place.json", "-o", "mine"],
+            [common.THRONG, "scenario", "make", "yard.blueprint.json", "-o", "mine"],
             cwd=folder,
             check=True,
             capture_output=True,
@@ -314,7 +314,7 @@ class WithService(unittest.TestCase):
         self.assertIn("<svg", self.client.scenario_plan("yards/yard"))
         with self.assertRaises(throng.ConflictError):
             self.client.upload_scenario(folder / "mine", "yards")
-        blueprint = common.ROOT / "scenarios" / "city_square" / "everyday.place.json"
+        blueprint = common.ROOT / "scenarios" / "city_square" / "everyday.blueprint.json"
         self.assertEqual(self.client.upload_scenario(blueprint, "square", dry_run=True)["ids"], ["square/place"])
         self.client.remove_scenario("yards")
         answer = self.client.dry_run({"scenario": "bundle/yard", "capture": {"to_s": 2}}, scenario=folder / "mine")
@@ -478,7 +478,7 @@ class Parts(unittest.TestCase):
             (".bashrc", "x"),
             ("", "x"),
         ):
-            self.assertEqual(file_name_of({"Content-Disposition": f'attachment; filename="{proposed}"'}, "x"), name)
+            self.assertEqual(file_name_from({"Content-Disposition": f'attachment; filename="{proposed}"'}, "x"), name)
 
     def test_the_bar_of_a_notebook(self):
         shown = []

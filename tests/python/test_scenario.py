@@ -196,7 +196,7 @@ class Simulated(unittest.TestCase):
             place = self.bottleneck(2)
             self.assertEqual(place.write(folder).name, "bottleneck.json")
             self.assertEqual(
-                json.loads((pathlib.Path(folder) / "bottleneck.place.json").read_text()), place.blueprint()
+                json.loads((pathlib.Path(folder) / "bottleneck.blueprint.json").read_text()), place.blueprint()
             )
             self.assertIn("<svg", place.plan(f"{folder}/plan.svg").read_text())
             trace = place.simulate(to_s=2, trace=f"{folder}/kept.h5")

@@ -32,11 +32,11 @@ class Traces(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         folder = pathlib.Path(cls.temporary.name)
-        (folder / "hall.place.json").write_text(json.dumps(HALL))
+        (folder / "hall.blueprint.json").write_text(json.dumps(HALL))
         (folder / "job.json").write_text(json.dumps({"scenario": "hall", "seed": 3, "capture": {"to_s": 40}}))
         environment = {"THRONG_SCENARIOS": str(folder / "s"), "PATH": "/usr/bin:/bin"}
         for command in (
-            ["scenario", "make", "hall.place.json", "-o", "s"],
+            ["scenario", "make", "hall.blueprint.json", "-o", "s"],
             ["simulate", "job.json", "-o", "run.h5"],
             ["metrics", "run.h5", "-o", "metrics.json"],
         ):

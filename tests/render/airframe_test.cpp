@@ -47,7 +47,7 @@ TEST_F(Airframes, AreDrawnWhereTheirPoseProjects) {
   ASSERT_EQ(frame.objects.size(), 1U) << "a camera does not see what it hangs from";
   const ObjectInView& drone = frame.objects[0];
   EXPECT_EQ(drone.number, kOther);
-  const Mask mask = mask_of(frame, kIdDrone + kOther);
+  const Mask mask = instance_mask(frame, kIdDrone + kOther);
   ASSERT_GT(mask.pixels, 300U);
   // Nothing is in front: what is visible is all of it, to the rounding of corners.
   EXPECT_NEAR(static_cast<double>(mask.pixels), static_cast<double>(drone.amodal_area_px),
@@ -72,7 +72,7 @@ TEST_F(Airframes, AreOneConnectedShape) {
   std::vector<char> reached(frame.id.size(), 0);
   std::vector<int> waiting;
   const auto visit = [&](int x, int y) {
-    const std::size_t i = index_of(frame, x, y);
+    const std::size_t i = index_from(frame, x, y);
     if (frame.id[i] != kIdDrone + kOther || reached[i] != 0) return;
     reached[i] = 1;
     waiting.push_back(static_cast<int>(i));
@@ -88,7 +88,7 @@ TEST_F(Airframes, AreOneConnectedShape) {
   const auto connected = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 1));
   EXPECT_GT(connected, 1000U);
   EXPECT_GT(static_cast<double>(connected),
-            0.95 * static_cast<double>(mask_of(frame, kIdDrone + kOther).pixels));
+            0.95 * static_cast<double>(instance_mask(frame, kIdDrone + kOther).pixels));
 }
 
 TEST_F(Airframes, FlowCarriesThemAsTheyFlyAndTilt) {
@@ -102,12 +102,12 @@ TEST_F(Airframes, FlowCarriesThemAsTheyFlyAndTilt) {
   int count = 0;
   for (int y = 0; y < before.height(); ++y) {
     for (int x = 0; x < before.width(); ++x) {
-      const std::size_t i = index_of(before, x, y);
+      const std::size_t i = index_from(before, x, y);
       if (before.id[i] != kIdDrone + kOther) continue;
       const auto to_x = static_cast<int>(std::lround(x + before.flow[2 * i]));
       const auto to_y = static_cast<int>(std::lround(y + before.flow[2 * i + 1]));
       ASSERT_TRUE(to_x >= 0 && to_y >= 0 && to_x < 640 && to_y < 480);
-      sum += after.id[index_of(after, to_x, to_y)] == kIdDrone + kOther ? 1 : 0;
+      sum += after.id[index_from(after, to_x, to_y)] == kIdDrone + kOther ? 1 : 0;
       ++count;
     }
   }
@@ -128,7 +128,7 @@ TEST_F(Airframes, AreMeasuredThroughALensAndInStrips) {
     ASSERT_EQ(frame.objects.size(), 1U);
     EXPECT_GT(exposed.samples, 1) << "it moves while the shutter is open";
     EXPECT_EQ(exposed.strips > 1, readout_s > 0);
-    const Mask mask = mask_of(frame, kIdDrone + kOther);
+    const Mask mask = instance_mask(frame, kIdDrone + kOther);
     const ObjectInView& drone = frame.objects[0];
     EXPECT_GT(mask.pixels, 200U);
     EXPECT_NEAR(static_cast<double>(mask.pixels), static_cast<double>(drone.amodal_area_px),
@@ -142,7 +142,7 @@ TEST_F(Airframes, BehindABuildingAreNotVisibleButMeasured) {
   Stage stage(open_ground({block(2, 3, -10, 10, 21)}));
   Lens lens(stage.renderer(), stage.people());
   const Frame frame = lens.draw(two_drones(), camera_at(kHigh, 0, -45, 320, 240, 50));
-  EXPECT_EQ(mask_of(frame, kIdDrone + kOther).pixels, 0U);
+  EXPECT_EQ(instance_mask(frame, kIdDrone + kOther).pixels, 0U);
   ASSERT_EQ(frame.objects.size(), 1U);
   EXPECT_GT(frame.objects[0].amodal_area_px, 50U);
 }

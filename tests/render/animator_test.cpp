@@ -137,7 +137,7 @@ class AnimatorWithClipsTest : public AnimatorTest {
     const skinning::Palette palette = people_.palettes.front();
     people_.palettes.assign(people_.characters.size() * people_.palettes_per_character, palette);
   }
-  std::string clip_of(const Animator& animator, double time_s, std::size_t person) {
+  std::string find_clip(const Animator& animator, double time_s, std::size_t person) {
     const std::uint32_t palette = animator.scene_at(time_s, 0).people[person].pose.a;
     std::string name;
     for (const skinning::Clip& clip : people_.clips) {
@@ -154,9 +154,9 @@ TEST_F(AnimatorWithClipsTest, TheTracesFlagMakesPeopleLie) {
     trace_.flags[trace_.at(step, 1)] |= world::kFallen;
   }
   const Animator animator(trace_, people_);
-  EXPECT_EQ(clip_of(animator, 1.0, 1), "idle");
-  EXPECT_EQ(clip_of(animator, 4.5, 1).substr(0, 4), "fall");
-  EXPECT_EQ(clip_of(animator, 4.5, 0), "walk");
+  EXPECT_EQ(find_clip(animator, 1.0, 1), "idle");
+  EXPECT_EQ(find_clip(animator, 4.5, 1).substr(0, 4), "fall");
+  EXPECT_EQ(find_clip(animator, 4.5, 0), "walk");
 }
 
 TEST_F(AnimatorWithClipsTest, SomeLookUpAtADroneThatIsNearAndHigh) {
@@ -179,7 +179,7 @@ TEST_F(AnimatorWithClipsTest, SomeLookUpAtADroneThatIsNearAndHigh) {
     int count = 0;
     for (double time = 0.3; time < 60; time += 3) {
       for (std::size_t person = 0; person < 40; ++person) {
-        count += clip_of(animator, time, person) == "look_up" ? 1 : 0;
+        count += find_clip(animator, time, person) == "look_up" ? 1 : 0;
       }
     }
     return count;

@@ -14,15 +14,15 @@
 
 #include "base/files/resources.h"
 #include "base/geometry/polygon.h"
-#include "places/blueprint/generated.h"
-#include "places/blueprint/load_scenario.h"
 #include "render/frame.h"
-#include "render/place/ground_layers.h"
-#include "render/place/place.h"
-#include "render/place/rubble.h"
 #include "render/props/mesh_file.h"
 #include "render/props/prop_shapes.h"
+#include "render/scenery/ground_layers.h"
+#include "render/scenery/rubble.h"
+#include "render/scenery/scenery.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/generated.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::render {
 namespace {
@@ -54,9 +54,9 @@ void add_faces(const Mesh& mesh, std::size_t first, std::size_t count, const std
 
 /// All that stands in a place, and its ground. Its areas and markings lie above it by tenths of
 /// a millimeter each, in an order of their own.
-std::vector<Face> faces_of(const world::Scenario& scenario) {
+std::vector<Face> list_faces(const world::Scenario& scenario) {
   std::vector<Face> faces;
-  const PlaceMesh place = place_mesh(scenario);
+  const SceneryMesh place = scenery_mesh(scenario);
   add_faces(place, place.walls.first, place.walls.count, "wall", faces);
   add_faces(place, place.roofs.first, place.roofs.count, "roof", faces);
   add_faces(place, place.ground.first, place.ground.count, "ground", faces);
@@ -73,7 +73,7 @@ std::vector<Face> faces_of(const world::Scenario& scenario) {
   }
   for (std::size_t i = first_mesh; i < faces.size(); ++i) faces[i].is_two_sided = true;
   for (const world::Disaster& disaster : scenario.disasters) {
-    for (const RubblePiece& piece : rubble_of(disaster, id)) {
+    for (const RubblePiece& piece : make_rubble(disaster, id)) {
       add_faces(piece.mesh, 0, piece.mesh.indices.size(), "rubble", faces);
     }
     ++id;
@@ -82,8 +82,8 @@ std::vector<Face> faces_of(const world::Scenario& scenario) {
 }
 
 /// Areas and markings of the ground, by material.
-std::vector<Face> ground_layers_of(const world::Scenario& scenario) {
-  PlaceMesh mesh;
+std::vector<Face> list_ground_layers(const world::Scenario& scenario) {
+  SceneryMesh mesh;
   std::vector<Face> faces;
   std::map<std::string, std::uint32_t> ids;
   const auto open = [](const Vector2d& /*place*/) { return 1.0F; };
@@ -185,8 +185,8 @@ std::map<std::string, std::pair<double, Vector3d>> coinciding(const std::vector<
 }
 
 void expect_apart(const world::Scenario& scenario, const std::string& name) {
-  auto found = coinciding(faces_of(scenario));
-  found.merge(coinciding(ground_layers_of(scenario), kLayersApartM));
+  auto found = coinciding(list_faces(scenario));
+  found.merge(coinciding(list_ground_layers(scenario), kLayersApartM));
   for (const auto& [parts, where] : found) {
     ADD_FAILURE() << name << ": " << parts << " coincide on " << where.first << " m2, near "
                   << where.second.transpose();
@@ -200,11 +200,11 @@ TEST(CoincidingSurfaces, AreFoundWhereTheyAre) {
   building.height_m = 2;
   scenario.buildings = {building, building};
   for (Vector2d& corner : scenario.buildings[1].footprint) corner += Vector2d(2, 0.001);
-  const auto found = coinciding(faces_of(scenario));
+  const auto found = coinciding(list_faces(scenario));
   EXPECT_NEAR(found.at("wall and wall").first, 2 * (2 * 2), 1e-3);
   EXPECT_NEAR(found.at("roof and roof").first, 2 * 2.999, 1e-3);
   for (Vector2d& corner : scenario.buildings[1].footprint) corner += Vector2d(2, 0);
-  EXPECT_TRUE(coinciding(faces_of(scenario)).empty()) << "they stand side by side";
+  EXPECT_TRUE(coinciding(list_faces(scenario)).empty()) << "they stand side by side";
 }
 
 TEST(CoincidingSurfaces, AreInNoShippedPlace) {
@@ -219,17 +219,17 @@ TEST(CoincidingSurfaces, AreInNoShippedPlace) {
   std::sort(files.begin(), files.end());
   EXPECT_GT(files.size(), 15U);
   for (const std::filesystem::path& file : files) {
-    expect_apart(places::load_scenario(file, "shipped"), file.string());
+    expect_apart(scenarios::load_scenario(file, "shipped"), file.string());
   }
 }
 
 TEST(CoincidingSurfaces, AreInNoGeneratedPlace) {
   for (const char* kind : {"plaza", "street", "campus", "block"}) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      places::PlaceSpec spec;
+      scenarios::GeneratorSpec spec;
       spec.kind = kind;
       spec.seed = seed;
-      expect_apart(places::load_generated(spec), kind + (" " + std::to_string(seed)));
+      expect_apart(scenarios::load_generated(spec), kind + (" " + std::to_string(seed)));
     }
   }
 }

@@ -12,7 +12,7 @@ constexpr int kImageSize = 64;
 
 /// Values by column and row, the same in all channels.
 template <typename Value>
-skinning::Texture image_of(Value value) {
+skinning::Texture texture_from(Value value) {
   skinning::Texture image;
   for (int y = 0; y < kImageSize; ++y) {
     for (int x = 0; x < kImageSize; ++x) {
@@ -28,7 +28,7 @@ struct Grid {
   std::size_t corners;
 };
 
-Grid grid_of(std::uint32_t cells) {
+Grid make_grid(std::uint32_t cells) {
   Grid grid{{}, (cells + 1) * (cells + 1)};
   const auto add = [&](std::array<std::array<std::uint32_t, 2>, 3> at) {
     TexturedTriangle& triangle = grid.triangles.emplace_back();
@@ -49,8 +49,8 @@ Grid grid_of(std::uint32_t cells) {
 }
 
 TEST(CornerColors, ShowASlopeAsItIs) {
-  const skinning::Texture slope = image_of([](int x, int y) { return 20 + 2 * x + y; });
-  const Grid grid = grid_of(4);
+  const skinning::Texture slope = texture_from([](int x, int y) { return 20 + 2 * x + y; });
+  const Grid grid = make_grid(4);
   const std::vector<Rgba> colors = corner_colors(slope, kImageSize, grid.triangles, grid.corners);
   ASSERT_EQ(colors.size(), 25U);
   for (int y = 0; y <= 4; ++y) {
@@ -65,8 +65,8 @@ TEST(CornerColors, ShowASlopeAsItIs) {
 TEST(CornerColors, KeepTheTwoSidesOfAnEdgeApart) {
   // The edge lies in the middle of a cell: corners to its left stay dark, those to its right
   // bright.
-  const skinning::Texture edge = image_of([](int x, int) { return x < 24 ? 60 : 180; });
-  const Grid grid = grid_of(4);
+  const skinning::Texture edge = texture_from([](int x, int) { return x < 24 ? 60 : 180; });
+  const Grid grid = make_grid(4);
   const std::vector<Rgba> colors = corner_colors(edge, kImageSize, grid.triangles, grid.corners);
   double error = 0;
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -79,15 +79,15 @@ TEST(CornerColors, KeepTheTwoSidesOfAnEdgeApart) {
 TEST(CornerColors, ASmallSpotDoesNotColorAllAround) {
   // A corner that happens to lie on a spot of one texel has its surroundings' color.
   const skinning::Texture spot =
-      image_of([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
-  const Grid grid = grid_of(2);
+      texture_from([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
+  const Grid grid = make_grid(2);
   const std::vector<Rgba> colors = corner_colors(spot, kImageSize, grid.triangles, grid.corners);
   EXPECT_NEAR(colors[4][0], 90, 12);
 }
 
 TEST(CornerColors, CornersOfNothingAreBlack) {
-  const skinning::Texture white = image_of([](int, int) { return 255; });
-  const Grid grid = grid_of(1);
+  const skinning::Texture white = texture_from([](int, int) { return 255; });
+  const Grid grid = make_grid(1);
   const std::vector<Rgba> colors =
       corner_colors(white, kImageSize, grid.triangles, grid.corners + 1);
   EXPECT_GT(colors[0][1], 245);

@@ -120,7 +120,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   const Frame& frame = rolling.frame;
   ASSERT_EQ(frame.id.size(), 320U * 240);
   ASSERT_EQ(frame.rgb.size(), frame.id.size() * 3);
-  const Mask mask = mask_of(frame, id_of_agent(3));
+  const Mask mask = instance_mask(frame, id_of_agent(3));
   // Row by row, the person's left edge is where an image of that row's time has it.
   double worst = 0;
   int rows = 0;
@@ -128,7 +128,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
     const Frame still = street.still(flight, readout_s * (y + 0.5 - 120) / 240);
     const auto left_edge = [&](const Frame& image) {
       for (int x = 0; x < 320; ++x) {
-        if (image.id[index_of(image, x, y)] == id_of_agent(3)) return x;
+        if (image.id[index_from(image, x, y)] == id_of_agent(3)) return x;
       }
       return -1;
     };
@@ -141,7 +141,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   EXPECT_GT(rows, 5);
   EXPECT_LE(worst, 2) << "half a strip's motion and a pixel";
   // Ground truth is that of the rolled image.
-  const PersonInView& person = person_of(frame, 3);
+  const PersonInView& person = find_person(frame, 3);
   EXPECT_NEAR(person.amodal_box.min().x(), mask.box.min().x(), 1.5);
   EXPECT_NEAR(person.amodal_box.max().x(), mask.box.max().x(), 1.5);
   EXPECT_NEAR(person.amodal_box.min().y(), mask.box.min().y(), 1.5);
@@ -149,7 +149,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   EXPECT_EQ(person.amodal_area_px, mask.pixels);
   ASSERT_TRUE(person.head_px);
   const Eigen::Vector2i head = person.head_px->array().floor().cast<int>();
-  EXPECT_EQ(frame.id[index_of(frame, head.x(), head.y())], id_of_agent(3));
+  EXPECT_EQ(frame.id[index_from(frame, head.x(), head.y())], id_of_agent(3));
   // The image leans: another one than all rows at once.
   EXPECT_NE(frame.id, street.still(flight, 0).id);
 }
@@ -166,9 +166,9 @@ TEST(Exposure, BothAtOnceThroughALens) {
   EXPECT_GT(exposed.samples, 2);
   EXPECT_GT(exposed.strips, 2);
   EXPECT_EQ(exposed.frame.id.size(), 320U * 240);
-  const Mask mask = mask_of(exposed.frame, id_of_agent(3));
+  const Mask mask = instance_mask(exposed.frame, id_of_agent(3));
   EXPECT_GT(mask.pixels, 500U);
-  EXPECT_EQ(person_of(exposed.frame, 3).amodal_area_px, mask.pixels);
+  EXPECT_EQ(find_person(exposed.frame, 3).amodal_area_px, mask.pixels);
 }
 
 }  // namespace

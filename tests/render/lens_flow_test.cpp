@@ -37,7 +37,7 @@ TEST_P(LensFlow, OfStillThingsIsWhereTheModelSeesThemNext) {
   double error = 0;
   for (int y = 3; y < frame.height(); y += 9) {
     for (int x = 3; x < frame.width(); x += 9) {
-      const std::size_t i = index_of(frame, x, y);
+      const std::size_t i = index_from(frame, x, y);
       if (std::isinf(frame.depth_m[i]) || std::isnan(frame.flow[2 * i])) continue;
       const Camera::Projection seen =
           next.camera.project(frame.camera.unproject(Vector2d(x, y), frame.depth_m[i]));
@@ -72,8 +72,8 @@ TEST_P(LensFlow, CarriesEachPersonsMaskToTheNextFrame) {
   int measured = 0;
   for (const PersonInstance& person : now.people) {
     const auto is_whole = [&](const Frame& frame) {
-      return mask_of(frame, id_of_agent(person.agent)).pixels ==
-             person_of(frame, person.agent).amodal_area_px;
+      return instance_mask(frame, id_of_agent(person.agent)).pixels ==
+             find_person(frame, person.agent).amodal_area_px;
     };
     if (!is_whole(here) || !is_whole(there)) continue;
     EXPECT_GE(carried_overlap(here, there, person.agent), 0.9) << "agent " << person.agent;

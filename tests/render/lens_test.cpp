@@ -48,7 +48,8 @@ struct Set {
   Lens lens;
 };
 
-std::vector<PersonInstance> crowd_of(const Stage& stage, std::uint32_t count, double reach_m) {
+std::vector<PersonInstance> scatter_people(const Stage& stage, std::uint32_t count,
+                                           double reach_m) {
   std::vector<PersonInstance> crowd;
   for (std::uint32_t i = 0; i < count; ++i) {
     Random random(5, Stream::crowd_generator, i);
@@ -61,7 +62,7 @@ std::vector<PersonInstance> crowd_of(const Stage& stage, std::uint32_t count, do
 TEST(Lens, WithoutDistortionTheImageIsThePinholes) {
   Set set(open_ground({block(2, 5, -2, 1, 2)}));
   const Camera pinhole = camera_at({-9, 2, 6}, -10, -30);
-  const std::vector<PersonInstance> crowd = crowd_of(set.stage, 30, 5);
+  const std::vector<PersonInstance> crowd = scatter_people(set.stage, 30, 5);
   const Frame plain = set.draw(pinhole, crowd);
   const Frame mapped = set.draw(through(pinhole, Distortion(Model::brown_conrady, {})), crowd);
   EXPECT_EQ(mapped.id, plain.id);
@@ -157,7 +158,7 @@ void add_errors(const Frame& frame, EdgeErrors& errors) {
     const int right = brightness(frame, near + 6, y);
     if (std::abs(left - right) < 90) continue;
     int first = near - 4;
-    while (frame.id[index_of(frame, first, y)] != kIdBuilding && first < near + 4) ++first;
+    while (frame.id[index_from(frame, first, y)] != kIdBuilding && first < near + 4) ++first;
     ASSERT_LT(std::abs(first - 0.5 - edge), 1.3) << "row " << y;
     double covered = 0;
     for (int x = near - 4; x <= near + 5; ++x) {
@@ -193,7 +194,7 @@ TEST(Lens, DepthIsTheCamerasZ) {
     double error = 0;
     for (int y = 0; y < frame.height(); y += 3) {
       for (int x = 0; x < frame.width(); x += 3) {
-        const double depth = frame.depth_m[index_of(frame, x, y)];
+        const double depth = frame.depth_m[index_from(frame, x, y)];
         const Vector3d ground = camera.unproject({x, y}, depth);
         EXPECT_LT(std::abs(ground.z()), 0.06) << x << ' ' << y;
         error += ground.z();
@@ -212,16 +213,16 @@ TEST(Lens, PeoplesBoxesAndAreasAreThoseOfTheDistortedImage) {
     for (std::uint32_t i = 0; i < 8; ++i) {
       const PersonInstance person = open.stage.standing(i, 3.0, 0.7 * i - 2.2, 0.6 * i);
       const Frame alone = open.draw(camera, {person});
-      const Mask mask = mask_of(alone, id_of_agent(i));
-      const PersonInView& truth = person_of(alone, i);
+      const Mask mask = instance_mask(alone, id_of_agent(i));
+      const PersonInView& truth = find_person(alone, i);
       EXPECT_EQ(truth.amodal_area_px, mask.pixels);
       EXPECT_LT((truth.amodal_box.min() - mask.box.min()).cwiseAbs().maxCoeff(), 1.5);
       EXPECT_LT((truth.amodal_box.max() - mask.box.max()).cwiseAbs().maxCoeff(), 1.5);
 
       const Frame behind = set.draw(camera, {person});
-      EXPECT_EQ(person_of(behind, i).amodal_area_px, mask.pixels);
-      EXPECT_TRUE(person_of(behind, i).amodal_box.isApprox(truth.amodal_box));
-      hidden += mask_of(behind, id_of_agent(i)).pixels < mask.pixels ? 1 : 0;
+      EXPECT_EQ(find_person(behind, i).amodal_area_px, mask.pixels);
+      EXPECT_TRUE(find_person(behind, i).amodal_box.isApprox(truth.amodal_box));
+      hidden += instance_mask(behind, id_of_agent(i)).pixels < mask.pixels ? 1 : 0;
     }
     EXPECT_GT(hidden, 3U);
   }
@@ -229,18 +230,18 @@ TEST(Lens, PeoplesBoxesAndAreasAreThoseOfTheDistortedImage) {
 
 TEST(Lens, VisibleNeverExceedsAmodalAndAllVisiblePeopleAreListed) {
   Set set(open_ground({block(2, 5, -2, 1, 2)}));
-  const std::vector<PersonInstance> crowd = crowd_of(set.stage, 250, 7);
+  const std::vector<PersonInstance> crowd = scatter_people(set.stage, 250, 7);
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {
     for (const Camera& camera :
          {camera_at({-9, 2, 4}, -10, -20), camera_at({0.3, 0.2, 1.5}, 70, -5)}) {
       const Frame frame = set.draw(through(camera, distortion), crowd);
       for (const PersonInView& person : frame.people) {
-        EXPECT_LE(mask_of(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
+        EXPECT_LE(instance_mask(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
         EXPECT_TRUE(person.amodal_box.min().allFinite() && person.amodal_box.max().allFinite());
       }
       for (const std::uint32_t id : frame.id) {
         if (!is_agent(id)) continue;
-        ASSERT_NO_THROW(person_of(frame, agent_of_id(id)));
+        ASSERT_NO_THROW(find_person(frame, agent_of_id(id)));
       }
     }
   }
@@ -249,7 +250,7 @@ TEST(Lens, VisibleNeverExceedsAmodalAndAllVisiblePeopleAreListed) {
 TEST(Lens, StripsOfRowsMakeUpTheImage) {
   Set set(open_ground({block(2, 5, -2, 1, 2)}));
   Scene scene;
-  scene.people = crowd_of(set.stage, 40, 5);
+  scene.people = scatter_people(set.stage, 40, 5);
   const Camera pinhole = camera_at({-9, 2, 6}, -10, -30);
   for (const Camera& camera : {pinhole, through(pinhole, barrel())}) {
     const Frame whole = set.lens.draw(scene, camera);

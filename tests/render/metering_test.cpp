@@ -11,7 +11,7 @@
 namespace throng::render {
 namespace {
 
-Environment light_of(double elevation_deg, Weather weather = Weather::clear) {
+Environment environment_at(double elevation_deg, Weather weather = Weather::clear) {
   return {0.8, elevation_deg * kDegree, weather, 20000, 0, 1};
 }
 
@@ -19,16 +19,16 @@ Environment light_of(double elevation_deg, Weather weather = Weather::clear) {
 double mean_lightness(const Frame& frame) {
   double sum = 0;
   for (std::size_t i = 0; i + 2 < frame.rgb.size(); i += 3) {
-    const double y = 0.2126 * linear_of_srgb(frame.rgb[i]) +
-                     0.7152 * linear_of_srgb(frame.rgb[i + 1]) +
-                     0.0722 * linear_of_srgb(frame.rgb[i + 2]);
+    const double y = 0.2126 * linear_from_srgb(frame.rgb[i]) +
+                     0.7152 * linear_from_srgb(frame.rgb[i + 1]) +
+                     0.0722 * linear_from_srgb(frame.rgb[i + 2]);
     sum += y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
   }
   return 3 * sum / static_cast<double>(frame.rgb.size());
 }
 
 TEST(Metering, TheGainBringsAnImageToTheLightnessButForAQuarterOfTheDifference) {
-  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), light_of(45));
+  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), environment_at(45));
   const camera::Camera camera = camera_at({15, 0, 12}, 180, -35);
   const Frame image = stage.renderer().draw({}, camera);
   for (const double lightness : {35.0, 45.0, 60.0}) {
@@ -53,7 +53,7 @@ TEST(Metering, OfNothingOrBlackOrWhiteIsWithinTheCamerasRange) {
 }
 
 TEST(Metering, PeopleDoNotChangeIt) {
-  Stage stage(open_ground(), light_of(45));
+  Stage stage(open_ground(), environment_at(45));
   const camera::Camera camera = camera_at({-8, 0, 6}, 0, -35);
   Scene crowd;
   for (int i = 0; i < 20; ++i) crowd.people.push_back(stage.standing(0.5 * i - 5, 0, i));
@@ -62,7 +62,7 @@ TEST(Metering, PeopleDoNotChangeIt) {
 }
 
 TEST(Metering, DoesNotDependOnTheImagesBefore) {
-  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), light_of(45));
+  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), environment_at(45));
   const camera::Camera wall = camera_at({15, 0, 12}, 180, -35);
   const camera::Camera sky = camera_at({15, 0, 12}, 0, 10, 200, 300);
   const double first = stage.renderer().metered_gain({}, wall);
@@ -73,7 +73,7 @@ TEST(Metering, DoesNotDependOnTheImagesBefore) {
 }
 
 TEST(Metering, ALensSeesTheSameLight) {
-  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), light_of(45));
+  Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), environment_at(45));
   camera::Camera camera = camera_at({15, 0, 12}, 180, -35);
   const double plain = stage.renderer().metered_gain({}, camera);
   camera.intrinsics.distortion =
@@ -87,7 +87,7 @@ TEST(Metering, NightImagesAreDarkerThanThoseOfDayAndNotBlack) {
   EXPECT_GT(metered_lightness(5000), 35);
   EXPECT_LT(metered_lightness(5000), 50);
   for (const double elevation_deg : {60.0, 20.0, 2.0, -3.0, -20.0}) {
-    Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), light_of(elevation_deg));
+    Stage stage(open_ground({block(-20, -10, -20, 20, 9)}), environment_at(elevation_deg));
     const camera::Camera camera = camera_at({15, 0, 12}, 180, -35);
     const double gain = stage.renderer().metered_gain({}, camera);
     const Frame image = stage.renderer().draw({}, camera, nullptr, {.exposure_gain = gain});

@@ -38,7 +38,7 @@ struct Hit {
   double depth_m = std::numeric_limits<double>::infinity();
 };
 
-Hit hit_of(const Camera& camera, const Vector2d& pixel) {
+Hit find_hit(const Camera& camera, const Vector2d& pixel) {
   const Vector3d from = camera.pose.center();
   const Vector3d ray = camera.unproject(pixel, 1) - from;
   Hit hit;
@@ -65,22 +65,22 @@ struct Errors {
 /// Pixels closer than this to where surfaces meet, or to the end of the lens, show either.
 constexpr double kEdgePx = 2;
 
-Errors errors_of(const Frame& frame) {
+Errors count_errors(const Frame& frame) {
   Errors errors;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       if (!frame.camera.intrinsics.direction_of({x, y})) continue;
-      const Hit hit = hit_of(frame.camera, {x, y});
+      const Hit hit = find_hit(frame.camera, {x, y});
       bool at_edge = false;
       for (const Vector2d& off : {Vector2d(kEdgePx, 0), Vector2d(-kEdgePx, 0), Vector2d(0, kEdgePx),
                                   Vector2d(0, -kEdgePx)}) {
         const Vector2d beside = Vector2d(x, y) + off;
         at_edge = at_edge || !frame.camera.intrinsics.direction_of(beside) ||
-                  hit_of(frame.camera, beside).id != hit.id;
+                  find_hit(frame.camera, beside).id != hit.id;
       }
       if (at_edge) continue;
       ++errors.compared;
-      const std::size_t pixel = index_of(frame, x, y);
+      const std::size_t pixel = index_from(frame, x, y);
       const double depth_m = static_cast<double>(frame.depth_m[pixel]);
       if (frame.id[pixel] != hit.id) ++errors.other_surface;
       if (hit.id != kIdNothing && std::isinf(depth_m)) ++errors.sky;
@@ -123,7 +123,7 @@ TEST_F(NearSurfaces, GroundAndWallAreThereFromAFewCentimeters) {
       camera.intrinsics.fx_px = lens.focal_px;
       camera.intrinsics.fy_px = lens.focal_px;
       camera.intrinsics.distortion = lens.distortion;
-      const Errors errors = errors_of(draw(camera));
+      const Errors errors = count_errors(draw(camera));
       SCOPED_TRACE(std::string(lens.name) + " at " + std::to_string(pose.center.x()) + ", " +
                    std::to_string(pose.center.y()) + ", " + std::to_string(pose.center.z()) + " " +
                    std::to_string(pose.yaw_deg) + " " + std::to_string(pose.pitch_deg));
@@ -139,12 +139,13 @@ TEST_F(NearSurfaces, GroundAndWallAreThereFromAFewCentimeters) {
 TEST_F(NearSurfaces, SomebodyIsThereFromAFewCentimeters) {
   const PersonInstance person = stage.standing(7, 0, 0);
   const Frame from_afar = draw(camera_at({-3, 0, 1}, 0, 0), {person});
-  const double front_m = static_cast<double>(from_afar.depth_m[index_of(from_afar, 160, 120)]) - 3;
+  const double front_m =
+      static_cast<double>(from_afar.depth_m[index_from(from_afar, 160, 120)]) - 3;
   for (const double gap_m : {0.01, 0.03, 0.07}) {
     const Frame near = draw(camera_at({front_m - gap_m, 0, 1}, 0, 0), {person});
     SCOPED_TRACE(gap_m);
-    EXPECT_EQ(near.id[index_of(near, 160, 120)], id_of_agent(7));
-    EXPECT_NEAR(near.depth_m[index_of(near, 160, 120)], gap_m, 0.002);
+    EXPECT_EQ(near.id[index_from(near, 160, 120)], id_of_agent(7));
+    EXPECT_NEAR(near.depth_m[index_from(near, 160, 120)], gap_m, 0.002);
   }
 }
 

@@ -34,14 +34,14 @@ std::size_t with(const std::vector<Seen>& seen, Shading shading) {
 class Textures : public ::testing::Test {
  protected:
   static QualitySettings places(int count) {
-    QualitySettings quality = settings_of(Quality::standard);
+    QualitySettings quality = quality_settings(Quality::standard);
     quality.textured_levels = 0;
-    quality.people_places = count;
+    quality.people_positions = count;
     return quality;
   }
 
-  std::vector<Seen> seen(std::uint32_t count, int people_places) const {
-    return PeopleFinder(people_, places(people_places)).find(crowd(people_, count), watching());
+  std::vector<Seen> seen(std::uint32_t count, int people_positions) const {
+    return PeopleFinder(people_, places(people_positions)).find(crowd(people_, count), watching());
   }
 
   skinning::Population people_ = synthetic_people();
@@ -92,8 +92,8 @@ struct Misfit {
   double loose_m = 0;
 };
 
-Misfit misfit_of(const skinning::Population& people, const PersonInstance& person,
-                 const PersonInView& truth) {
+Misfit measure_misfit(const skinning::Population& people, const PersonInstance& person,
+                      const PersonInView& truth) {
   const skinning::Character& character = people.characters[person.appearance.character];
   const skinning::Palette& a = people.palette(person.appearance.character, person.pose.a);
   const skinning::Palette& b = people.palette(person.appearance.character, person.pose.b);
@@ -104,7 +104,7 @@ Misfit misfit_of(const skinning::Population& people, const PersonInstance& perso
   Eigen::Array3d below = above;
   Misfit misfit;
   for (const skinning::Mesh& mesh : character.levels) {
-    for (const skinning::Part& part : parts_of(character, mesh, Share::body)) {
+    for (const skinning::Part& part : select_parts(character, mesh, Share::body)) {
       for (std::uint32_t i = 0; i < part.index_count; ++i) {
         const skinning::Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];
         Eigen::Vector3d model = Eigen::Vector3d::Zero();
@@ -130,7 +130,7 @@ Misfit misfit_of(const skinning::Population& people, const PersonInstance& perso
 
 /// Boxes of many poses, between frames and between motions.
 void expect_boxes_fit(const skinning::Population& people) {
-  const PeopleFinder finder(people, settings_of(Quality::standard));
+  const PeopleFinder finder(people, quality_settings(Quality::standard));
   std::uint64_t draws = 0;
   for (std::uint32_t i = 0; i < 300; ++i) {
     Random random(9, Stream::crowd_generator, i);
@@ -145,7 +145,7 @@ void expect_boxes_fit(const skinning::Population& people) {
     Scene scene;
     scene.people = {person};
     for (const Seen& seen : finder.find(scene, camera_at({0, 0, 6}, 0, -20, 1280, 960, 90))) {
-      const Misfit misfit = misfit_of(people, person, seen.truth);
+      const Misfit misfit = measure_misfit(people, person, seen.truth);
       EXPECT_LT(misfit.outside_m, 1e-4) << i;
       EXPECT_LT(misfit.loose_m, 1.2e-3) << i;
       ++draws;

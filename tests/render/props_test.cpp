@@ -91,7 +91,7 @@ TEST_P(PropOutline, IdsCoverTheProjectedMesh) {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-std::vector<Triangle> triangles_of(const PropMesh& mesh) {
+std::vector<Triangle> list_triangles(const PropMesh& mesh) {
   std::vector<Triangle> triangles(mesh.indices.size() / 3);
   for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
     const auto& p = mesh.vertices[mesh.indices[k]].position;
@@ -123,13 +123,13 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
   Stage stage(ground_with({prop}));
   const camera::Camera camera = camera_at({0, 0, 6}, 0, -25, 320, 240);
   const Frame frame = stage.draw(camera);
-  const std::vector<Triangle> triangles = triangles_of(prop_shape(prop, kIdProp));
+  const std::vector<Triangle> triangles = list_triangles(prop_shape(prop, kIdProp));
   const Eigen::Vector3d eye = camera.pose.center();
   int compared = 0;
   int wrong = 0;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::size_t i = index_of(frame, x, y);
+      const std::size_t i = index_from(frame, x, y);
       if (frame.id[i] != kIdProp && frame.id[i] != kIdGround) continue;
       // At depth 1 along the pixel's ray, so that distances are depths.
       const Eigen::Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
@@ -157,9 +157,9 @@ TEST(Props, HaveIdsOfTheirOwnAndTreesHaveTransparentCrowns) {
   Stage stage(ground_with({tree, prop_at(PropKind::car, 9, 4), prop_at(PropKind::car, 9, -4)}));
   const camera::Camera camera = camera_at({0, 0, 7}, 0, -20, 640, 480);
   const Frame frame = stage.draw(camera);
-  EXPECT_GT(mask_of(frame, kIdProp + 1).pixels, 1000U);
-  EXPECT_GT(mask_of(frame, kIdProp + 2).pixels, 1000U);
-  const double shown = static_cast<double>(mask_of(frame, kIdProp).pixels);
+  EXPECT_GT(instance_mask(frame, kIdProp + 1).pixels, 1000U);
+  EXPECT_GT(instance_mask(frame, kIdProp + 2).pixels, 1000U);
+  const double shown = static_cast<double>(instance_mask(frame, kIdProp).pixels);
   const auto outline = static_cast<double>(projected(tree, camera).size());
   EXPECT_GT(shown, 0.5 * outline);
   EXPECT_LT(shown, 0.97 * outline);
@@ -171,9 +171,10 @@ TEST(Props, HidePeopleWhoseWholeOutlineIsStillKnown) {
   const camera::Camera camera = camera_at({0, 0, 2}, 0, -5, 640, 480);
   const Frame free = alone.draw(camera, {alone.standing(0, 11, 0)});
   const Frame hidden = behind.draw(camera, {behind.standing(0, 11, 0)});
-  EXPECT_LT(mask_of(hidden, id_of_agent(0)).pixels, 0.8 * mask_of(free, id_of_agent(0)).pixels);
-  EXPECT_GT(mask_of(hidden, id_of_agent(0)).pixels, 0U);
-  EXPECT_EQ(person_of(hidden, 0).amodal_area_px, person_of(free, 0).amodal_area_px);
+  EXPECT_LT(instance_mask(hidden, id_of_agent(0)).pixels,
+            0.8 * instance_mask(free, id_of_agent(0)).pixels);
+  EXPECT_GT(instance_mask(hidden, id_of_agent(0)).pixels, 0U);
+  EXPECT_EQ(find_person(hidden, 0).amodal_area_px, find_person(free, 0).amodal_area_px);
 }
 
 TEST(Props, CastShadows) {
@@ -248,13 +249,13 @@ TEST_F(MeshFile, StandsUprightWhereTheScenarioPutsIt) {
   Stage stage(scenario);
   const camera::Camera camera = camera_at({0, 0, 3}, 0, -10, 640, 480);
   const Frame frame = stage.draw(camera);
-  const Mask mask = mask_of(frame, kIdProp + 1);
+  const Mask mask = instance_mask(frame, kIdProp + 1);
   ASSERT_GT(mask.pixels, 1000U);
   const Eigen::Vector2d tip = camera.project({10, 1, 3}).pixel;
   EXPECT_NEAR(mask.box.min().y(), tip.y() + 0.5, 1.5) << "2 units of 1.5 m high";
   const Eigen::Vector2d inside = camera.project({10, 1, 1}).pixel;
   const std::size_t i =
-      3 * index_of(frame, static_cast<int>(inside.x()), static_cast<int>(inside.y()));
+      3 * index_from(frame, static_cast<int>(inside.x()), static_cast<int>(inside.y()));
   EXPECT_GT(frame.rgb[i], 2 * frame.rgb[i + 2]) << "red";
 }
 
@@ -263,7 +264,7 @@ TEST_F(MeshFile, IsAVehicleWhoseFootIsThatOfItsShape) {
   scenario.meshes = {{folder_ / "t.obj", {10, 1, 0}, 0.3, 1.5}};
   scenario.meshes[0].semantic_class = world::SemanticClass::car;
   ASSERT_EQ(vehicle_count(scenario), 1U);
-  const Vehicle car = vehicles_of(scenario).at(0);
+  const Vehicle car = list_vehicles(scenario).at(0);
   EXPECT_EQ(car.id, kIdProp);
   EXPECT_NEAR(car.position.z(), 0, 1e-6);
   // Its shape reaches 1.5 m to one side of its origin, 3 m wide: turned by 0.3 about it.
@@ -302,8 +303,8 @@ TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {
   const Frame frame = stage.draw(camera);
   const auto color = [&](double x, double y) {
     const Eigen::Vector2d pixel = camera.project({x, y, 0}).pixel;
-    const std::size_t i = 3 * index_of(frame, static_cast<int>(std::lround(pixel.x())),
-                                       static_cast<int>(std::lround(pixel.y())));
+    const std::size_t i = 3 * index_from(frame, static_cast<int>(std::lround(pixel.x())),
+                                         static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };
   const Eigen::Vector3i asphalt = color(10, 9);

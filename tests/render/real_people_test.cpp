@@ -21,7 +21,7 @@ TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
       static_cast<std::uint32_t>(std::min<std::size_t>(people.characters.size(), 24));
   for (std::uint32_t i = 0; i < count; ++i) {
     PersonInstance person = standing(people, i, 1.5 * (i % 4), 1.5 * (i / 4));
-    person.appearance = skinning::appearance_of(people, 1, i);
+    person.appearance = skinning::sample_appearance(people, 1, i);
     person.appearance.character = i;
     person.pose = skinning::pose_at(people, 0.1 * i, 1.4, 0);
     scene.people.push_back(person);
@@ -34,10 +34,10 @@ TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
     Scene alone;
     alone.people = {scene.people[person.agent]};
     const Frame single = renderer.draw(alone, frame.camera);
-    const Mask mask = mask_of(single, id_of_agent(person.agent));
+    const Mask mask = instance_mask(single, id_of_agent(person.agent));
     EXPECT_GT(mask.pixels, 400U);
-    EXPECT_LE(mask_of(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
-    if (mask_of(single, id_of_umbrella(person.agent)).pixels > 0) {
+    EXPECT_LE(instance_mask(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
+    if (instance_mask(single, id_of_umbrella(person.agent)).pixels > 0) {
       EXPECT_GT(person.amodal_area_px, mask.pixels);
       continue;
     }

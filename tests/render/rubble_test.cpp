@@ -1,12 +1,12 @@
 // Rubble of a collapse, and walls too low to be houses.
-#include "render/place/rubble.h"
+#include "render/scenery/rubble.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "render/place/lamps.h"
-#include "render/place/place_details.h"
+#include "render/scenery/lamps.h"
+#include "render/scenery/scenery_details.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {
@@ -15,7 +15,7 @@ namespace {
 world::Disaster falling_wall() { return {world::DisasterKind::collapse, 0, {14, 0}, 5, 2, 1, 6}; }
 
 TEST(Rubble, LiesWhereTheCollapseHasReached) {
-  const std::vector<RubblePiece> pieces = rubble_of(falling_wall(), kIdProp);
+  const std::vector<RubblePiece> pieces = make_rubble(falling_wall(), kIdProp);
   ASSERT_GT(pieces.size(), 50U);
   for (const RubblePiece& piece : pieces) {
     EXPECT_GE(piece.from_s, 5);
@@ -28,7 +28,7 @@ TEST(Rubble, LiesWhereTheCollapseHasReached) {
   }
   world::Disaster fire = falling_wall();
   fire.kind = world::DisasterKind::fire;
-  EXPECT_TRUE(rubble_of(fire, kIdProp).empty());
+  EXPECT_TRUE(make_rubble(fire, kIdProp).empty());
 }
 
 TEST(Rubble, IsInTheImageAndItsIdsOnceItHasFallen) {
@@ -39,7 +39,7 @@ TEST(Rubble, IsInTheImageAndItsIdsOnceItHasFallen) {
   const auto pixels_at = [&](double time_s) {
     Scene scene;
     scene.time_s = time_s;
-    return mask_of(stage.renderer().draw(scene, camera), kIdProp).pixels;
+    return instance_mask(stage.renderer().draw(scene, camera), kIdProp).pixels;
   };
   EXPECT_EQ(pixels_at(4.9), 0U);
   const std::uint64_t first = pixels_at(5.1);
@@ -85,8 +85,8 @@ TEST(Rubble, OfTwoCollapsesHasAnIdEachAfterThoseOfTheProps) {
   Scene scene;
   scene.time_s = 20;
   const Frame frame = stage.renderer().draw(scene, camera_at({-6, 7, 14}, 0, -30));
-  const Mask right = mask_of(frame, kIdProp + 1);
-  const Mask left = mask_of(frame, kIdProp + 2);
+  const Mask right = instance_mask(frame, kIdProp + 1);
+  const Mask left = instance_mask(frame, kIdProp + 2);
   ASSERT_GT(right.pixels, 200U);
   ASSERT_GT(left.pixels, 200U);
   EXPECT_GT(right.box.center().x(), left.box.center().x()) << "which is farther to the left";

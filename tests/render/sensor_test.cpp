@@ -23,11 +23,11 @@ struct Light {
   double sd = 0;
 };
 
-Light light_of(const Frame& frame, std::size_t channel) {
+Light measure_light(const Frame& frame, std::size_t channel) {
   double sum = 0;
   double squares = 0;
   for (std::size_t i = channel; i < frame.rgb.size(); i += 3) {
-    const double light = linear_of_srgb(frame.rgb[i]);
+    const double light = linear_from_srgb(frame.rgb[i]);
     sum += light;
     squares += light * light;
   }
@@ -46,7 +46,7 @@ TEST(Sensor, ExposureDoublesLight) {
   sensor.ev = 1;
   Frame frame = gray(4, 4, 100);
   apply_sensor(sensor, 1, frame);
-  EXPECT_NEAR(linear_of_srgb(frame.rgb[0]), 2 * linear_of_srgb(100), 0.004);
+  EXPECT_NEAR(linear_from_srgb(frame.rgb[0]), 2 * linear_from_srgb(100), 0.004);
   sensor.ev = -1;
   apply_sensor(sensor, 1, frame);
   EXPECT_NEAR(frame.rgb[0], 100, 1);
@@ -73,9 +73,9 @@ TEST(Sensor, CornersFallOffByTheFourthPowerOfTheCosine) {
   sensor.vignette = 1;
   Frame frame = gray(401, 301, 200);
   apply_sensor(sensor, 1, frame);
-  const double middle = linear_of_srgb(frame.rgb[(150 * 401 + 200) * 3]);
-  const double edge = linear_of_srgb(frame.rgb[150 * 401 * 3]);
-  EXPECT_NEAR(middle, linear_of_srgb(200), 0.005);
+  const double middle = linear_from_srgb(frame.rgb[(150 * 401 + 200) * 3]);
+  const double edge = linear_from_srgb(frame.rgb[150 * 401 * 3]);
+  EXPECT_NEAR(middle, linear_from_srgb(200), 0.005);
   const double angle = std::atan(200 / frame.camera.intrinsics.fx_px);
   EXPECT_NEAR(edge / middle, std::pow(std::cos(angle), 4), 0.01);
 }
@@ -88,13 +88,13 @@ TEST(Sensor, NoiseIsThatOfPhotonsAndReading) {
     for (const std::uint8_t value : {90, 160, 200}) {
       Frame frame = gray(256, 256, value);
       apply_sensor(sensor, 5, frame);
-      const double light = linear_of_srgb(value);
+      const double light = linear_from_srgb(value);
       // Rounding to bytes adds its own: that of a uniform distribution over a step.
-      const double step = 0.5 * (linear_of_srgb(value + 1) - linear_of_srgb(value - 1));
+      const double step = 0.5 * (linear_from_srgb(value + 1) - linear_from_srgb(value - 1));
       const double sd = std::sqrt((light * white_e + 9) / white_e / white_e + step * step / 12);
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        EXPECT_NEAR(light_of(frame, channel).mean, light, 0.002);
-        EXPECT_NEAR(light_of(frame, channel).sd, sd, 0.02 * sd);
+        EXPECT_NEAR(measure_light(frame, channel).mean, light, 0.002);
+        EXPECT_NEAR(measure_light(frame, channel).sd, sd, 0.02 * sd);
       }
     }
   }

@@ -36,7 +36,7 @@ inline camera::Camera camera_at(const Eigen::Vector3d& center, double yaw_deg, d
           camera::pose_looking(center, yaw_deg * kDegree, pitch_deg * kDegree)};
 }
 
-inline std::size_t index_of(const Frame& frame, int x, int y) {
+inline std::size_t pixel_index(const Frame& frame, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
          static_cast<std::size_t>(x);
 }
@@ -47,11 +47,11 @@ struct Mask {
   Eigen::AlignedBox2d box;  ///< box coordinates
 };
 
-inline Mask mask_of(const Frame& frame, std::uint32_t id) {
+inline Mask instance_mask(const Frame& frame, std::uint32_t id) {
   Mask mask;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      if (frame.id[index_of(frame, x, y)] != id) continue;
+      if (frame.id[pixel_index(frame, x, y)] != id) continue;
       ++mask.pixels;
       mask.box.extend(Eigen::Vector2d(x, y));
       mask.box.extend(Eigen::Vector2d(x + 1, y + 1));
@@ -60,7 +60,7 @@ inline Mask mask_of(const Frame& frame, std::uint32_t id) {
   return mask;
 }
 
-inline const PersonInView& person_of(const Frame& frame, std::uint32_t agent) {
+inline const PersonInView& find_person(const Frame& frame, std::uint32_t agent) {
   for (const PersonInView& person : frame.people) {
     if (person.agent == agent) return person;
   }
@@ -69,7 +69,7 @@ inline const PersonInView& person_of(const Frame& frame, std::uint32_t agent) {
 
 /// Sum of the color channels of a pixel.
 inline int brightness(const Frame& frame, int x, int y) {
-  const std::size_t i = index_of(frame, x, y) * 3;
+  const std::size_t i = pixel_index(frame, x, y) * 3;
   return frame.rgb[i] + frame.rgb[i + 1] + frame.rgb[i + 2];
 }
 
@@ -122,14 +122,14 @@ inline double carried_overlap(const Frame& frame, const Frame& next, std::uint32
   std::vector<char> carried(frame.id.size(), 0);
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::size_t i = index_of(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       if (frame.id[i] != id) continue;
       for (const double dy : {-0.4, 0.0, 0.4}) {
         for (const double dx : {-0.4, 0.0, 0.4}) {
           const auto to_x = static_cast<int>(std::lround(x + dx + frame.flow[i * 2]));
           const auto to_y = static_cast<int>(std::lround(y + dy + frame.flow[i * 2 + 1]));
           if (to_x < 0 || to_y < 0 || to_x >= frame.width() || to_y >= frame.height()) continue;
-          carried[index_of(frame, to_x, to_y)] = 1;
+          carried[pixel_index(frame, to_x, to_y)] = 1;
         }
       }
     }

@@ -82,12 +82,12 @@ std::optional<SemanticClass> building_class_at(std::uint32_t building, double he
 
 /// The class of the surface that a pixel shows, from its id and depth.
 std::optional<SemanticClass> expected_class(const Frame& frame, int x, int y) {
-  const std::size_t pixel = index_of(frame, x, y);
+  const std::size_t pixel = index_from(frame, x, y);
   const std::uint32_t id = frame.id[pixel];
   if (id == kIdNothing) return SemanticClass::sky;
   if (is_agent(id)) return SemanticClass::person;
   if (id >= kIdProp && id < kIdDrone) {
-    return world::class_of(static_cast<world::PropKind>(id - kIdProp));
+    return world::semantic_class(static_cast<world::PropKind>(id - kIdProp));
   }
   const Eigen::Vector3d point = frame.camera.unproject({x, y}, frame.depth_m[pixel]);
   if (id == kIdGround) return ground_class_at(point.head<2>());
@@ -115,13 +115,13 @@ Counts compared(const Frame& frame) {
   EXPECT_EQ(frame.surface.size(), frame.id.size());
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const auto shown = static_cast<SemanticClass>(frame.surface[index_of(frame, x, y)]);
+      const auto shown = static_cast<SemanticClass>(frame.surface[index_from(frame, x, y)]);
       ++counts[shown];
       const auto expected = expected_within(frame, x, y);
       if (!expected || *expected == shown) continue;
       if (++wrong <= 5) {
-        ADD_FAILURE() << x << ' ' << y << ": " << world::info_of(shown).name << ", expected "
-                      << world::info_of(*expected).name;
+        ADD_FAILURE() << x << ' ' << y << ": " << world::semantic_class_info(shown).name
+                      << ", expected " << world::semantic_class_info(*expected).name;
       }
     }
   }
@@ -143,7 +143,8 @@ TEST(SurfaceClasses, AreThoseOfThePlaceInEveryQuality) {
           SemanticClass::wall, SemanticClass::hedge, SemanticClass::grass, SemanticClass::road,
           SemanticClass::dirt, SemanticClass::kerb, SemanticClass::marking, SemanticClass::pavement,
           SemanticClass::person, SemanticClass::tree, SemanticClass::car, SemanticClass::train}) {
-      EXPECT_GT(counts.count(shown) == 0 ? 0 : counts.at(shown), 3) << world::info_of(shown).name;
+      EXPECT_GT(counts.count(shown) == 0 ? 0 : counts.at(shown), 3)
+          << world::semantic_class_info(shown).name;
     }
   }
 }
@@ -182,7 +183,7 @@ TEST(SurfaceClasses, GoThroughALensAndARollingShutter) {
   for (std::size_t i = 0; i < exposed.frame.id.size(); ++i) {
     const auto shown = static_cast<SemanticClass>(exposed.frame.surface[i]);
     const bool is_prop = exposed.frame.id[i] >= kIdProp && exposed.frame.id[i] < kIdDrone;
-    ASSERT_EQ(world::info_of(shown).group == world::SemanticGroup::prop, is_prop);
+    ASSERT_EQ(world::semantic_class_info(shown).group == world::SemanticGroup::prop, is_prop);
   }
 }
 

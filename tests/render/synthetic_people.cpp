@@ -199,7 +199,7 @@ skinning::Population synthetic_people(std::size_t characters) {
   for (std::size_t i = 0; i < characters; ++i) {
     skinning::Character& character = people.characters.emplace_back();
     character.name = "box man " + std::to_string(i);
-    character.stature_m = kSyntheticStature_m;
+    character.stature_m = kSyntheticStatureM;
     character.levels = {fine, coarse};
     character.joints = joints();
     people.palettes.push_back(pose(0));

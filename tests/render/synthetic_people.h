@@ -9,7 +9,7 @@
 namespace throng::render {
 
 /// Stature of every synthetic person (m).
-inline constexpr float kSyntheticStature_m = 1.8F;
+inline constexpr float kSyntheticStatureM = 1.8F;
 
 /// `characters` equal bodies of 21 bones with two levels of detail (each face of level 0 is cut in
 /// four), an alpha-tested head of hair, and clips idle (1 palette), walk and run (8 each).

@@ -7,7 +7,7 @@
 namespace throng::render {
 namespace {
 
-constexpr float kHalf_m = 0.5F;
+constexpr float kHalfM = 0.5F;
 
 constexpr RenderOptions kAllOfThem = {
     .quality = Quality::draft, .normals = true, .flow = true, .parts = true, .whole_masks = true};
@@ -20,7 +20,7 @@ class Umbrella : public ::testing::TestWithParam<Quality> {
     return options;
   }
 
-  Stage wet_{open_ground(), {}, options(), under_umbrellas(kHalf_m)};
+  Stage wet_{open_ground(), {}, options(), under_umbrellas(kHalfM)};
   Stage dry_{open_ground(), {}, options()};
 };
 
@@ -30,21 +30,21 @@ TEST_P(Umbrella, HidesItsOwnerAndIsNotTheirs) {
   const PersonInstance somebody = wet_.standing(6, 0.5, 0.2, 0.4);
   const Frame wet = wet_.draw(from_above(), {somebody});
   const Frame dry = dry_.draw(from_above(), {somebody});
-  const PersonInView& truth = person_of(wet, 6);
-  const PersonInView& bare = person_of(dry, 6);
+  const PersonInView& truth = find_person(wet, 6);
+  const PersonInView& bare = find_person(dry, 6);
   EXPECT_EQ(truth.amodal_area_px, bare.amodal_area_px);
   EXPECT_EQ(truth.amodal_box.min(), bare.amodal_box.min());
   EXPECT_EQ(truth.amodal_box.max(), bare.amodal_box.max());
   EXPECT_EQ(truth.box_size, bare.box_size);
-  const std::uint64_t umbrella = mask_of(wet, id_of_umbrella(6)).pixels;
-  const std::uint64_t visible = mask_of(wet, id_of_agent(6)).pixels;
+  const std::uint64_t umbrella = instance_mask(wet, id_of_umbrella(6)).pixels;
+  const std::uint64_t visible = instance_mask(wet, id_of_agent(6)).pixels;
   EXPECT_GT(umbrella, 1000U);
   EXPECT_GT(visible, 100U);
   EXPECT_LT(4 * visible, 3 * bare.amodal_area_px);
-  EXPECT_EQ(mask_of(dry, id_of_umbrella(6)).pixels, 0U);
+  EXPECT_EQ(instance_mask(dry, id_of_umbrella(6)).pixels, 0U);
   for (int y = 0; y < wet.height(); ++y) {
     for (int x = 0; x < wet.width(); ++x) {
-      const std::size_t i = index_of(wet, x, y);
+      const std::size_t i = index_from(wet, x, y);
       ASSERT_EQ(truth.whole_mask->at(x, y), bare.whole_mask->at(x, y)) << x << ' ' << y;
       ASSERT_FALSE(is_umbrella(wet.id[i]) && wet.part[i] != 0) << x << ' ' << y;
     }
@@ -54,8 +54,8 @@ TEST_P(Umbrella, HidesItsOwnerAndIsNotTheirs) {
 TEST_P(Umbrella, IsNotCountedWhereItsOwnerLeavesTheImage) {
   const camera::Camera camera = camera_at({-2.2, 0, 2.2}, 0, -40, 320, 240);
   const PersonInstance somebody = wet_.standing(3, 0, 0.9, 0.4);
-  const PersonInView truth = person_of(wet_.draw(camera, {somebody}), 3);
-  const PersonInView bare = person_of(dry_.draw(camera, {somebody}), 3);
+  const PersonInView truth = find_person(wet_.draw(camera, {somebody}), 3);
+  const PersonInView bare = find_person(dry_.draw(camera, {somebody}), 3);
   ASSERT_GT(bare.amodal_area_px, 1000U);
   ASSERT_FALSE(Eigen::AlignedBox2d(Eigen::Vector2d(0, 0), Eigen::Vector2d(320, 240))
                    .contains(bare.amodal_box));
@@ -66,7 +66,7 @@ TEST_P(Umbrella, ThatComesIntoViewAloneDoesNotListItsOwner) {
   // Beside the camera: the canopy's corner reaches into the image, the body does not.
   const camera::Camera camera = camera_at({0, 0, 1.6}, 0, 0, 320, 240, 60);
   const Frame frame = wet_.draw(camera, {wet_.standing(1, 1, 1.2)});
-  EXPECT_GT(mask_of(frame, id_of_umbrella(1)).pixels, 50U);
+  EXPECT_GT(instance_mask(frame, id_of_umbrella(1)).pixels, 50U);
   EXPECT_TRUE(frame.people.empty());
 }
 
@@ -81,8 +81,8 @@ TEST_P(Umbrella, MovesWithItsOwner) {
   next.camera = from_above();
   const Frame frame = wet_.renderer().draw(now, from_above(), &next);
   const Frame later = wet_.draw(from_above(), {there});
-  const Mask before = mask_of(frame, id_of_umbrella(0));
-  const Mask after = mask_of(later, id_of_umbrella(0));
+  const Mask before = instance_mask(frame, id_of_umbrella(0));
+  const Mask after = instance_mask(later, id_of_umbrella(0));
   double moved_px = 0;
   for (std::size_t i = 0; i < frame.id.size(); ++i) {
     if (is_umbrella(frame.id[i])) moved_px += frame.flow[2 * i];

@@ -67,14 +67,14 @@ void expect_masks(const std::vector<world::Prop>& props, const camera::Camera& c
   for (const ObjectInView& object : frame.objects) {
     SCOPED_TRACE(object.id);
     const world::Prop& what = props.at(object.id - kIdProp);
-    EXPECT_EQ(object.surface, world::class_of(what.kind));
+    EXPECT_EQ(object.surface, world::semantic_class(what.kind));
     View single({what});
     const Frame alone = single.draw(camera);
     std::uint64_t whole = 0;
     std::uint64_t wrong = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
-        const bool is_shown = alone.id[index_of(alone, x, y)] == kIdProp;
+        const bool is_shown = alone.id[index_from(alone, x, y)] == kIdProp;
         whole += is_shown ? 1 : 0;
         wrong += is_shown != object.whole_mask->at(x, y) ? 1 : 0;
       }
@@ -83,7 +83,7 @@ void expect_masks(const std::vector<world::Prop>& props, const camera::Camera& c
     EXPECT_LE(static_cast<double>(wrong), tolerance * static_cast<double>(whole));
     EXPECT_GE(static_cast<double>(object.amodal_area_px),
               (1 - tolerance) * static_cast<double>(whole));
-    const Mask visible = mask_of(frame, object.id);
+    const Mask visible = instance_mask(frame, object.id);
     EXPECT_LE(visible.pixels, object.amodal_area_px);
   }
 }
@@ -105,7 +105,7 @@ Eigen::AlignedBox2d projected_box(const ObjectInView& object, const camera::Came
 TEST(Vehicles, AreTheCarsAndTrainsOfAScenario) {
   const world::Scenario scenario = place_with(parked());
   EXPECT_EQ(vehicle_count(scenario), 3U);
-  const std::vector<Vehicle> vehicles = vehicles_of(scenario);
+  const std::vector<Vehicle> vehicles = list_vehicles(scenario);
   ASSERT_EQ(vehicles.size(), 3U);
   EXPECT_EQ(vehicles[0].id, kIdProp + 1);
   EXPECT_EQ(vehicles[2].surface, SemanticClass::train);
@@ -169,7 +169,7 @@ TEST(Vehicles, HaveOneSetOfMasksInStripsOfARollingShutter) {
   const Frame frame = expose(view.lens(), moment, 0, {0.002, 0.03}, {.next_s = 0.5}).frame;
   ASSERT_EQ(frame.objects.size(), 3U);
   for (const ObjectInView& object : frame.objects) {
-    const Mask visible = mask_of(frame, object.id);
+    const Mask visible = instance_mask(frame, object.id);
     EXPECT_LE(visible.pixels, object.amodal_area_px);
     EXPECT_TRUE(Eigen::AlignedBox2d(object.amodal_box.min().array() - 1.5,
                                     object.amodal_box.max().array() + 1.5)

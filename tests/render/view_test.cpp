@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/compute/random.h"
-#include "render/place/lighting.h"
+#include "render/scenery/lighting.h"
 #include "skinning/levels.h"
 #include "tests/render/stage.h"
 

@@ -40,7 +40,7 @@ class Queue {
     std::size_t cut_off = 0;
     for (const PersonInstance& person : people_) {
       const Frame alone = drawn(true, {person});
-      const PersonInView& truth = person_of(together, person.agent);
+      const PersonInView& truth = find_person(together, person.agent);
       ASSERT_NE(truth.whole_mask, nullptr);
       const std::uint32_t id = id_of_agent(person.agent);
       std::uint64_t pixels = 0;
@@ -49,14 +49,14 @@ class Queue {
         for (int x = 0; x < together.width(); ++x) {
           const bool is_covered = truth.whole_mask->at(x, y);
           pixels += is_covered ? 1 : 0;
-          wrong += is_covered != (alone.id[index_of(alone, x, y)] == id) ? 1 : 0;
+          wrong += is_covered != (alone.id[index_from(alone, x, y)] == id) ? 1 : 0;
         }
       }
       EXPECT_EQ(wrong, 0U) << "agent " << person.agent;
       EXPECT_GT(pixels, 20U);
       EXPECT_LE(pixels, truth.amodal_area_px);
       cut_off += pixels < truth.amodal_area_px ? 1 : 0;
-      const std::uint64_t visible = mask_of(together, id).pixels;
+      const std::uint64_t visible = instance_mask(together, id).pixels;
       partly_hidden += visible < pixels ? 1 : 0;
     }
     EXPECT_GT(partly_hidden, 5U);
@@ -75,7 +75,7 @@ class Queue {
 
 camera::Camera queue_camera() { return camera_at({-8, 0, 3}, 5, -14); }
 
-Scene scene_of(const std::vector<PersonInstance>& people) {
+Scene make_scene(const std::vector<PersonInstance>& people) {
   Scene scene;
   scene.people = people;
   return scene;
@@ -84,7 +84,7 @@ Scene scene_of(const std::vector<PersonInstance>& people) {
 TEST(WholeMasks, AreTheMasksOfEachPersonAlone) {
   Queue queue;
   queue.expect_exact([&](bool is_alone, const std::vector<PersonInstance>& people) {
-    return queue.lens(is_alone).draw(scene_of(people), queue_camera());
+    return queue.lens(is_alone).draw(make_scene(people), queue_camera());
   });
 }
 
@@ -94,7 +94,7 @@ TEST(WholeMasks, AreThoseOfTheDistortedImage) {
   camera.intrinsics.distortion.emplace(camera::Distortion::Model::brown_conrady,
                                        camera::Distortion::Coefficients{-0.25, 0.05});
   queue.expect_exact([&](bool is_alone, const std::vector<PersonInstance>& people) {
-    return queue.lens(is_alone).draw(scene_of(people), camera);
+    return queue.lens(is_alone).draw(make_scene(people), camera);
   });
 }
 
@@ -104,7 +104,7 @@ TEST(WholeMasks, ArePutTogetherFromStrips) {
     // The camera turns while the rows are read.
     const MomentAt turning = [&](double time_s) {
       ShutterMoment moment;
-      auto scene = std::make_shared<Scene>(scene_of(people));
+      auto scene = std::make_shared<Scene>(make_scene(people));
       scene->time_s = time_s;
       moment.scene = scene;
       moment.camera = camera_at({-8, 0, 3}, 5 + 20 * time_s, -14);

@@ -59,7 +59,7 @@ std::string big_endian(std::uint32_t value) {
 
 std::string png_chunk(const std::string& type_and_data) {
   return big_endian(static_cast<std::uint32_t>(type_and_data.size() - 4)) + type_and_data +
-         big_endian(crc32_of(type_and_data));
+         big_endian(crc32(type_and_data));
 }
 
 /// A gray image of 480 x 360 px with a chessboard of 10 x 7 squares of 40 px.
@@ -236,7 +236,7 @@ TEST_F(CalibrationApi, OneThatWaitsCanBeCancelled) {
 }
 
 /// The processes that work on a folder.
-std::vector<pid_t> workers_of(const fs::path& folder) {
+std::vector<pid_t> list_workers(const fs::path& folder) {
   std::vector<pid_t> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     std::ifstream file(entry.path() / "cmdline", std::ios::binary);
@@ -249,7 +249,7 @@ std::vector<pid_t> workers_of(const fs::path& folder) {
   return found;
 }
 
-std::string line_of(const fs::path& file, const std::string& beginning) {
+std::string find_line(const fs::path& file, const std::string& beginning) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(beginning)) return line;
@@ -269,7 +269,7 @@ class SlowCalibration : public CalibrationApi {
     folder = service.folders().calibration_folder(fs::path(self).filename());
     std::vector<pid_t> workers;
     EXPECT_TRUE(wait_until([&] {
-      workers = workers_of(folder);
+      workers = list_workers(folder);
       // Its log is begun once it has limited itself.
       return workers.size() == 1 && fs::exists(folder / "logs/calibration.log") &&
              fs::file_size(folder / "logs/calibration.log") > 0;
@@ -284,8 +284,8 @@ class SlowCalibration : public CalibrationApi {
 TEST_F(SlowCalibration, IsLimitedLikeTheWorkersOfJobs) {
   SKIP_WITHOUT_PROGRAM();
   const fs::path process = fs::path("/proc") / std::to_string(begin());
-  EXPECT_EQ(line_of(process / "status", "Seccomp:"), "Seccomp:\t2");
-  EXPECT_THAT(line_of(process / "limits", "Max core file size"), HasSubstr(" 0 "));
+  EXPECT_EQ(find_line(process / "status", "Seccomp:"), "Seccomp:\t2");
+  EXPECT_THAT(find_line(process / "limits", "Max core file size"), HasSubstr(" 0 "));
 }
 
 TEST_F(CalibrationApi, AWorkerReadsNothingElseOfTheDataFolder) {
@@ -322,7 +322,7 @@ TEST_F(SlowCalibration, EndsWithItsCancellation) {
   SKIP_WITHOUT_PROGRAM();
   begin();
   EXPECT_EQ(client().Delete(self)->status, 204);
-  EXPECT_TRUE(workers_of(folder).empty());
+  EXPECT_TRUE(list_workers(folder).empty());
   EXPECT_FALSE(fs::exists(folder));
 }
 
@@ -330,7 +330,7 @@ TEST_F(SlowCalibration, EndsWithItsCancellation) {
 std::string head_of_png(std::uint32_t width, std::uint32_t height) {
   using namespace std::string_literals;
   const std::string header = "IHDR" + big_endian(width) + big_endian(height) + "\1\0\0\0\0"s;
-  return "\x89PNG\r\n\x1a\n" + big_endian(13) + header + big_endian(crc32_of(header)) +
+  return "\x89PNG\r\n\x1a\n" + big_endian(13) + header + big_endian(crc32(header)) +
          big_endian(1000) + "IDAT";
 }
 

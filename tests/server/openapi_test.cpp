@@ -95,7 +95,7 @@ std::string lower(std::string_view text) {
 TEST_F(OpenApi, DescribesEveryRouteAndNoOther) {
   std::set<std::string> served;
   for (const Route& route : routes()) {
-    served.insert(fmt::format("{} {}", lower(name_of(route.method)), route.path));
+    served.insert(fmt::format("{} {}", lower(to_string(route.method)), route.path));
   }
   const json document = get_json("/openapi.json");
   EXPECT_EQ(document["openapi"], "3.1.0");
@@ -130,9 +130,9 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("post", "/v1/jobs", client().Post("/v1/jobs", "x", "text/plain"));
   const std::string id = submit_and_wait();
   const std::string self = "/v1/jobs/" + id;
-  write_file_atomically(service.folders().dataset_of(id) / "metrics/run000.json", "{}");
-  write_file_atomically(service.folders().dataset_of(id) / "exits/run000.csv", "frame\n");
-  write_file_atomically(service.folders().dataset_of(id) / "previews/run000/d1/000000.jpg",
+  write_file_atomically(service.folders().dataset_folder(id) / "metrics/run000.json", "{}");
+  write_file_atomically(service.folders().dataset_folder(id) / "exits/run000.csv", "frame\n");
+  write_file_atomically(service.folders().dataset_folder(id) / "previews/run000/d1/000000.jpg",
                         "image");
   write_file_atomically(service.folders().job_folder(id) / "logs/run000_trace.log", "hello\n");
   for (const auto& [path, tail] : std::map<std::string, std::string>{

@@ -26,7 +26,7 @@ class Uploads : public ApiTest {
   }
 
   /// The mistakes in an upload of the yard with these files changed.
-  json errors_of(const std::vector<PackedEntry>& changed) const {
+  json upload_errors(const std::vector<PackedEntry>& changed) const {
     std::vector<PackedEntry> files = yard_files();
     for (const PackedEntry& entry : changed) {
       const auto same = std::find_if(files.begin(), files.end(), [&](const PackedEntry& file) {
@@ -142,15 +142,15 @@ TEST_F(Uploads, NamesAreTakenOnce) {
 
 TEST_F(Uploads, MistakesNameFileElementAndRemedy) {
   SKIP_WITHOUT_PROGRAM();
-  json errors =
-      errors_of({{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});
+  json errors = upload_errors(
+      {{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});
   EXPECT_EQ(errors[0]["source"], "behavior.xml");
   EXPECT_THAT(errors[0]["pointer"].get<std::string>(), HasSubstr("line 3"));
   testing::Yard unnamed;
   unnamed.scenario["name"] = 3;
-  errors = errors_of({{"yard.json", unnamed.scenario.dump()}});
+  errors = upload_errors({{"yard.json", unnamed.scenario.dump()}});
   EXPECT_EQ(errors[0]["source"], "yard.json");
-  errors = errors_of({{"a.xml", "", AE_IFLNK, "/etc/passwd"}});
+  errors = upload_errors({{"a.xml", "", AE_IFLNK, "/etc/passwd"}});
   EXPECT_EQ(errors[0]["source"], "bundle");
   testing::Yard walled;
   walled.scenario["exits"][0]["goals"] = json::array({json::array({7, 0})});
@@ -170,11 +170,11 @@ TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
   const std::string outside = (scenarios.path() / "yard_scene.xml").string();
   json scenario = testing::Yard().scenario;
   scenario["crowd"]["scene"] = outside;
-  json errors = errors_of({{"yard.json", scenario.dump()}});
+  json errors = upload_errors({{"yard.json", scenario.dump()}});
   EXPECT_EQ(errors[0]["pointer"], "/crowd/scene");
   EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere"));
   scenario["crowd"]["scene"] = "../../../../../../etc/passwd";
-  errors = errors_of({{"yard.json", scenario.dump()}});
+  errors = upload_errors({{"yard.json", scenario.dump()}});
   EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere"));
 
   const std::string scene = yard_files()[0].bytes;
@@ -186,12 +186,12 @@ TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
   for (const char* element : {R"(<Elevation type="height_field" file_name="/etc/hostname"/>)",
                               R"(<Elevation type="nav_mesh" file_name="../../../x"/>)",
                               R"(<ObstacleSet type="nav_mesh" class="1" file_name="/etc/x"/>)"}) {
-    errors = errors_of({{"scene.xml", with(element)}});
+    errors = upload_errors({{"scene.xml", with(element)}});
     EXPECT_EQ(errors[0]["source"], "scene.xml") << element;
     EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere")) << element;
   }
   // A file of the bundle that names one outside.
-  errors = errors_of(
+  errors = upload_errors(
       {{"scene.xml", with(R"(<Elevation type="height_field" file_name="a.ht"/>)")},
        {"a.ht", R"(<HeightField file_name="/etc/hostname" cell_size="1" vert_scale="1"/>)"}});
   EXPECT_EQ(errors[0]["source"], "a.ht");
@@ -222,8 +222,8 @@ TEST_F(Uploads, MeshesNameNoFileOutsideTheBundle) {
                 {"buffers", {{{"uri", uri}, {"byteLength", 36}}}}}
         .dump();
   };
-  const json errors = errors_of({{"yard.json", scenario.dump()},
-                                 {"a.gltf", gltf((elsewhere.path() / "points.bin").string())}});
+  const json errors = upload_errors({{"yard.json", scenario.dump()},
+                                     {"a.gltf", gltf((elsewhere.path() / "points.bin").string())}});
   EXPECT_EQ(errors[0]["source"], "a.gltf");
   std::vector<PackedEntry> files = yard_files();
   files.back().bytes = scenario.dump();
@@ -276,7 +276,7 @@ TEST_F(Uploads, HaveABoundTogether) {
 
 TEST_F(Uploads, ABundleThatComesWithAJobLivesAsLongAsItsJobs) {
   const std::string bundle = yard_bundle();
-  const std::string name = bundle_name_of(bundle);
+  const std::string name = bundle_name(bundle);
   const httplib::Result first = submit_bundled(bundle);
   ASSERT_EQ(first->status, 201) << first->body;
   const json job = json::parse(first->body);
@@ -313,7 +313,7 @@ TEST_F(Uploads, BundlesWithoutAJobAreDroppedAtTheStart) {
   const std::string bundle = yard_bundle();
   {
     ScenarioStore store(data.path() / "two", scenarios.path(), service.confined(), {});
-    ScenarioStore::Staged staged = store.stage(bundle_name_of(bundle), bundle, "");
+    ScenarioStore::Staged staged = store.stage(bundle_name(bundle), bundle, "");
     store.publish(staged);
     ScenarioStore::Staged kept = store.stage("kept", bundle, "");
     store.publish(kept);

@@ -13,7 +13,7 @@ using ::testing::StartsWith;
 
 constexpr const char* kHost = "Host: localhost\r\n";
 
-std::size_t count_of(const std::string& text, const std::string& part) {
+std::size_t count_occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -26,7 +26,7 @@ class Smuggling : public ApiTest {
   void expect_one_answer(const std::string& head, int status) {
     const std::string answers = raw(head + inner());
     EXPECT_THAT(answers, StartsWith(fmt::format("HTTP/1.1 {} ", status))) << head;
-    EXPECT_EQ(count_of(answers, "HTTP/1."), 1U) << head << answers;
+    EXPECT_EQ(count_occurrences(answers, "HTTP/1."), 1U) << head << answers;
     EXPECT_THAT(answers, HasSubstr("Connection: close\r\n")) << head;
     EXPECT_EQ(get("/v1/jobs/" + job)->status, 200) << head;
   }
@@ -87,7 +87,7 @@ TEST_F(Smuggling, RefusedBodiesAreNotReadAsRequests) {
   expect_one_answer("POST /v1/jobs HTTP/1.1\r\nHost: evil\r\n" + length + "\r\n", 421);
   keys.create("somebody", Scope::admin);
   EXPECT_THAT(raw(head("POST /v1/jobs", "") + inner()), StartsWith("HTTP/1.1 401 "));
-  EXPECT_EQ(count_of(raw(head("POST /v1/jobs", "") + inner()), "HTTP/1."), 1U);
+  EXPECT_EQ(count_occurrences(raw(head("POST /v1/jobs", "") + inner()), "HTTP/1."), 1U);
 }
 
 TEST_F(Smuggling, ConnectionsOfRefusedRequestsAreClosed) {
@@ -104,13 +104,14 @@ TEST_F(Smuggling, ConnectionsOfRefusedRequestsAreClosed) {
   const std::string next =
       fmt::format("GET /healthz HTTP/1.1\r\n{}Connection: close\r\n\r\n", kHost);
   const std::string answers = raw(head + body + next);
-  EXPECT_EQ(count_of(answers, "HTTP/1."), 2U) << answers;
+  EXPECT_EQ(count_occurrences(answers, "HTTP/1."), 2U) << answers;
   EXPECT_THAT(answers, StartsWith("HTTP/1.1 400 "));
   EXPECT_THAT(answers, HasSubstr("HTTP/1.1 200 OK"));
   const std::string ranges = "Range: bytes=" + std::string(6000, '9') + "-\r\n";
-  EXPECT_EQ(count_of(raw(fmt::format("POST /v1/jobs HTTP/1.1\r\n{}{}Content-Length: {}\r\n\r\n{}",
-                                     kHost, ranges, inner().size(), inner())),
-                     "HTTP/1."),
+  EXPECT_EQ(count_occurrences(
+                raw(fmt::format("POST /v1/jobs HTTP/1.1\r\n{}{}Content-Length: {}\r\n\r\n{}", kHost,
+                                ranges, inner().size(), inner())),
+                "HTTP/1."),
             1U);
   EXPECT_EQ(get("/v1/jobs/" + job)->status, 200);
 }
@@ -159,8 +160,8 @@ TEST_F(Smuggling, PipelinedRequestsAreAnsweredInOrder) {
   const std::string answers =
       raw(post + "GET /v1/version HTTP/1.1\r\n" + kHost + "\r\n" + post +
           "\r\nGET /healthz HTTP/1.1\r\n" + kHost + "Connection: close\r\n\r\n" + inner());
-  EXPECT_EQ(count_of(answers, "HTTP/1.1 200 OK"), 4U) << answers;
-  EXPECT_EQ(count_of(answers, "HTTP/1."), 4U);
+  EXPECT_EQ(count_occurrences(answers, "HTTP/1.1 200 OK"), 4U) << answers;
+  EXPECT_EQ(count_occurrences(answers, "HTTP/1."), 4U);
   EXPECT_LT(answers.find("\"valid\""), answers.find("\"api\""));
   EXPECT_EQ(get("/v1/jobs/" + job)->status, 200);
 }
@@ -185,7 +186,7 @@ TEST_F(Smuggling, OldClientsAreServed) {
   EXPECT_THAT(one, HasSubstr("Connection: close"));
   const std::string two = raw(
       "GET /v1/version HTTP/1.0\r\nConnection: keep-alive\r\n\r\nGET /healthz HTTP/1.0\r\n\r\n");
-  EXPECT_EQ(count_of(two, "HTTP/1.1 200 OK"), 2U);
+  EXPECT_EQ(count_occurrences(two, "HTTP/1.1 200 OK"), 2U);
   EXPECT_THAT(raw("GET /v1/version\r\n\r\n"), StartsWith("HTTP/1.1 400 "));
   EXPECT_THAT(raw("POST /v1/jobs/" + job +
                   "/retry HTTP/1.1\r\nHost: localhost\r\nConnection: "

@@ -17,7 +17,7 @@
 #include "jobs/queue/confine/confined_task.h"
 #include "spec/estimates/job_cost.h"
 #include "spec/job/spec.h"
-#include "spec/places/scenario_summary.h"
+#include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
 
 namespace throng::server {

@@ -22,7 +22,7 @@ json f450() {
   return {{"mine", json::parse(text)["f450"]}};
 }
 
-std::string problem_of(const json& airframes) {
+std::string caught_problem(const json& airframes) {
   try {
     parse_airframes(airframes.dump(), "mine.json");
   } catch (const InputError& error) {
@@ -55,7 +55,8 @@ TEST(Airframe, ReadsAUsersOwn) {
 TEST(Airframe, OneThatCannotHoverIsRefused) {
   json airframes = f450();
   airframes["mine"]["mass_kg"] = 40;
-  EXPECT_THAT(problem_of(airframes), HasSubstr("mine.json: /mine: found rotors that lift 40.2 N"));
+  EXPECT_THAT(caught_problem(airframes),
+              HasSubstr("mine.json: /mine: found rotors that lift 40.2 N"));
 }
 
 TEST(Airframe, BadValuesAreReportedWhereTheyStand) {
@@ -63,11 +64,11 @@ TEST(Airframe, BadValuesAreReportedWhereTheyStand) {
   airframes["mine"]["arm_m"] = -1;
   airframes["mine"]["colour"] = "red";
   airframes["mine"].erase("motor_up_s");
-  const std::string problem = problem_of(airframes);
+  const std::string problem = caught_problem(airframes);
   EXPECT_THAT(problem, HasSubstr("/mine/arm_m"));
   EXPECT_THAT(problem, HasSubstr("/mine/colour"));
   EXPECT_THAT(problem, HasSubstr("motor_up_s"));
-  EXPECT_THAT(problem_of(json::array()), HasSubstr("one airframe per name"));
+  EXPECT_THAT(caught_problem(json::array()), HasSubstr("one airframe per name"));
 }
 
 }  // namespace

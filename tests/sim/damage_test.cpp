@@ -34,12 +34,12 @@ TEST(Damage, NeedsAnImpactAboveTheAirframesLimit) {
   impact.rotor_ns = {impact.impulse_ns / 2, 0, 0, impact.impulse_ns / 2};
   EXPECT_NEAR(wall_speed_mps(impact.impulse_ns, airframe), 3, 1e-12);
   airframe.propeller_limit_mps = 3.1;
-  EXPECT_FALSE(damage_of(impact, airframe).any_propeller());
+  EXPECT_FALSE(impact_damage(impact, airframe).any_propeller());
   airframe.propeller_limit_mps = 2.9;
-  EXPECT_EQ(damage_of(impact, airframe).propeller, (std::array{true, false, false, true}));
-  EXPECT_FALSE(damage_of(impact, airframe).structure);
+  EXPECT_EQ(impact_damage(impact, airframe).propeller, (std::array{true, false, false, true}));
+  EXPECT_FALSE(impact_damage(impact, airframe).structure);
   airframe.structure_limit_mps = 2.9;
-  EXPECT_TRUE(damage_of(impact, airframe).structure);
+  EXPECT_TRUE(impact_damage(impact, airframe).structure);
 }
 
 TEST(Damage, APushFromBelowGoesThroughTheLandingGear) {

@@ -6,12 +6,12 @@
 
 #include "base/files/files.h"
 #include "base/files/resources.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/guidance_loop.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/run.h"
 #include "tests/sim/missions.h"
 #include "tests/world/temporary_folder.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 world::Scenario square(const std::string& id) {
-  return places::find_scenario(source_folder() / "scenarios", "city_square/" + id);
+  return scenarios::find_scenario(source_folder() / "scenarios", "city_square/" + id);
 }
 
 RunSpec guided_run(const std::string& policy, double duration_s) {

@@ -19,28 +19,30 @@ VehicleInAir vehicle_at(const Eigen::Vector3d& position, const Eigen::Vector3d& 
 
 TEST(Approach, OfTwoThatMeetHeadOn) {
   const Approach approach =
-      approach_of(vehicle_at({0, 0, 5}, {2, 0, 0}), vehicle_at({10.6, 0, 5}, {-3, 0, 0}));
+      nearest_approach(vehicle_at({0, 0, 5}, {2, 0, 0}), vehicle_at({10.6, 0, 5}, {-3, 0, 0}));
   EXPECT_NEAR(approach.gap_m, 10, 1e-9);
   EXPECT_NEAR(approach.contact_in_s, 2, 1e-9);
 }
 
 TEST(Approach, OfTwoThatPassEachOther) {
   const VehicleInAir flies = vehicle_at({0, 0, 5}, {2, 0, 0});
-  EXPECT_TRUE(std::isinf(approach_of(flies, vehicle_at({10, 0.7, 5}, {0, 0, 0})).contact_in_s));
-  EXPECT_TRUE(std::isinf(approach_of(flies, vehicle_at({10, 0, 5.2}, {0, 0, 0})).contact_in_s));
-  EXPECT_TRUE(std::isinf(approach_of(flies, vehicle_at({-10, 0, 5}, {0, 0, 0})).contact_in_s));
-  EXPECT_NEAR(approach_of(flies, vehicle_at({0, 0, 7.1}, {0, 0, 0})).gap_m, 2, 1e-9);
+  EXPECT_TRUE(
+      std::isinf(nearest_approach(flies, vehicle_at({10, 0.7, 5}, {0, 0, 0})).contact_in_s));
+  EXPECT_TRUE(
+      std::isinf(nearest_approach(flies, vehicle_at({10, 0, 5.2}, {0, 0, 0})).contact_in_s));
+  EXPECT_TRUE(std::isinf(nearest_approach(flies, vehicle_at({-10, 0, 5}, {0, 0, 0})).contact_in_s));
+  EXPECT_NEAR(nearest_approach(flies, vehicle_at({0, 0, 7.1}, {0, 0, 0})).gap_m, 2, 1e-9);
   // Straight down onto it.
   const VehicleInAir sinks = vehicle_at({0, 0, 7.1}, {2, 0, -1});
-  EXPECT_NEAR(approach_of(flies, sinks).contact_in_s, 2, 1e-9);
+  EXPECT_NEAR(nearest_approach(flies, sinks).contact_in_s, 2, 1e-9);
 }
 
 TEST(Approach, ToAWall) {
   const world::Building house{"house", {{8, -5}, {12, -5}, {12, 5}, {8, 5}}, 20};
-  const Approach approach = approach_of(vehicle_at({5.7, 0, 10}, {2, 0, 0}), house);
+  const Approach approach = nearest_approach(vehicle_at({5.7, 0, 10}, {2, 0, 0}), house);
   EXPECT_NEAR(approach.gap_m, 2, 1e-9);
   EXPECT_NEAR(approach.contact_in_s, 1, 0.11);
-  EXPECT_NEAR(approach_of(vehicle_at({10, 0, 21.05}, {0, 0, 0}), house).gap_m, 1, 1e-9);
+  EXPECT_NEAR(nearest_approach(vehicle_at({10, 0, 21.05}, {0, 0, 0}), house).gap_m, 1, 1e-9);
 }
 
 TEST(NearMiss, OneWithItsLeastDistance) {

@@ -17,7 +17,7 @@ world::Scenario meadow() {
   return scenario;
 }
 
-RunSpec run_of(const DroneMission& mission, double duration_s) {
+RunSpec run_with_mission(const DroneMission& mission, double duration_s) {
   RunSpec run;
   run.duration_s = duration_s;
   run.drones = {mission};
@@ -35,15 +35,15 @@ DroneMission scout_with(const std::string& policy) {
 TEST(PlannedPaths, PassEveryWaypointInOrder) {
   DroneMission mission = scout_with("waypoints");
   mission.waypoints = {{10, 0, 12}, {10, 10, 12}, {10, 10, 18}};
-  const auto paths = planned_paths(meadow(), run_of(mission, 60));
+  const auto paths = planned_paths(meadow(), run_with_mission(mission, 60));
   ASSERT_EQ(paths.size(), 1U);
   EXPECT_EQ(paths[0].id, "scout");
-  EXPECT_EQ(paths[0].places.front(), Eigen::Vector3d(-10, 0, 12));
-  auto from = paths[0].places.begin();
+  EXPECT_EQ(paths[0].points.front(), Eigen::Vector3d(-10, 0, 12));
+  auto from = paths[0].points.begin();
   for (const Eigen::Vector3d& waypoint : mission.waypoints) {
-    from = std::find_if(from, paths[0].places.end(),
-                        [&](const auto& place) { return (place - waypoint).norm() < 0.2; });
-    ASSERT_NE(from, paths[0].places.end()) << waypoint.transpose();
+    from = std::find_if(from, paths[0].points.end(),
+                        [&](const auto& point) { return (point - waypoint).norm() < 0.2; });
+    ASSERT_NE(from, paths[0].points.end()) << waypoint.transpose();
   }
 }
 
@@ -51,9 +51,9 @@ TEST(PlannedPaths, EndWithTheRun) {
   DroneMission mission = scout_with("waypoints");
   mission.waypoints = {{30, 0, 12}};
   mission.speed_mps = 2;
-  const auto path = planned_paths(meadow(), run_of(mission, 10)).front();
-  EXPECT_GT(path.places.back().x(), 5);
-  EXPECT_LE(path.places.back().x(), 10) << "20 m in 10 s at the most";
+  const auto path = planned_paths(meadow(), run_with_mission(mission, 10)).front();
+  EXPECT_GT(path.points.back().x(), 5);
+  EXPECT_LE(path.points.back().x(), 10) << "20 m in 10 s at the most";
 }
 
 TEST(PlannedPaths, GoRoundAnOrbit) {
@@ -61,25 +61,25 @@ TEST(PlannedPaths, GoRoundAnOrbit) {
   mission.guidance.center = Eigen::Vector2d(0, 0);
   mission.guidance.radius_m = 10;
   mission.speed_mps = 4;
-  const auto path = planned_paths(meadow(), run_of(mission, 40)).front();
+  const auto path = planned_paths(meadow(), run_with_mission(mission, 40)).front();
   double max_x = 0;
-  for (const Eigen::Vector3d& place : path.places) {
-    EXPECT_NEAR(place.head<2>().norm(), 10, 0.5);
-    EXPECT_NEAR(place.z(), 12, 0.1);
-    max_x = std::max(max_x, place.x());
+  for (const Eigen::Vector3d& point : path.points) {
+    EXPECT_NEAR(point.head<2>().norm(), 10, 0.5);
+    EXPECT_NEAR(point.z(), 12, 0.1);
+    max_x = std::max(max_x, point.x());
   }
   EXPECT_GT(max_x, 9.5) << "to the other side";
 }
 
 TEST(PlannedPaths, AreUnknownForPoliciesThatFollowPeople) {
   for (const char* policy : {"balance", "follow_density", "zigzag", "signage"}) {
-    const auto path = planned_paths(meadow(), run_of(scout_with(policy), 40)).front();
-    EXPECT_EQ(path.places.size(), 1U) << policy;
+    const auto path = planned_paths(meadow(), run_with_mission(scout_with(policy), 40)).front();
+    EXPECT_EQ(path.points.size(), 1U) << policy;
   }
 }
 
 TEST(PlannedPaths, RefuseImpossibleFlights) {
-  EXPECT_THROW(planned_paths(meadow(), run_of(scout_with("teleport"), 10)), InputError);
+  EXPECT_THROW(planned_paths(meadow(), run_with_mission(scout_with("teleport"), 10)), InputError);
 }
 
 }  // namespace

@@ -12,13 +12,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::IdealFlight;
-using testing::mission_of;
+using testing::mission_with_policy;
 using testing::people_about;
 using testing::yard;
 
 TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
   const world::Scenario scenario = yard();
-  DroneMission mission = mission_of("orbit");
+  DroneMission mission = mission_with_policy("orbit");
   mission.guidance.center = Vector2d(5, -3);
   mission.guidance.radius_m = 8;
   IdealFlight flight(scenario, mission, {0, 0, 15});
@@ -41,7 +41,7 @@ TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
 
 TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
   const world::Scenario scenario = yard();
-  DroneMission mission = mission_of("survey");
+  DroneMission mission = mission_with_policy("survey");
   mission.guidance.area = world::Rectangle{{-15, -10}, {15, 12}};
   mission.guidance.overlap = 0.2;
   mission.camera.hfov_deg = 60;
@@ -61,7 +61,7 @@ TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
 
 TEST(Policies, FollowDensityLooksAtTheCrowd) {
   const world::Scenario scenario = yard();
-  DroneMission mission = mission_of("follow_density");
+  DroneMission mission = mission_with_policy("follow_density");
   mission.camera.pitch_deg = -45;
   mission.camera.yaw_deg = 90;
   mission.speed_mps = 5;
@@ -78,7 +78,7 @@ TEST(Policies, FollowDensityLooksAtTheCrowd) {
 
 TEST(Policies, APilotLogIsRepeated) {
   const world::Scenario scenario = yard();
-  DroneMission mission = mission_of("pilot_log");
+  DroneMission mission = mission_with_policy("pilot_log");
   mission.guidance.setpoints = {
       {1, {0, 0, 10}, 0, false}, {3, {4, 0, 10}, 0, true}, {5, {4, 8, 12}, 1, false}};
   IdealFlight flight(scenario, mission, {0, 0, 10});
@@ -97,7 +97,7 @@ TEST(Policies, APilotLogIsRepeated) {
 
 TEST(Policies, SignageStandsBeforeTheExitWithRoom) {
   const world::Scenario scenario = yard();
-  IdealFlight flight(scenario, mission_of("signage"), {0, 0, 12});
+  IdealFlight flight(scenario, mission_with_policy("signage"), {0, 0, 12});
   WorldView view;
   view.people = people_about({-12, 0}, 60, 0);
   int shown = 0;
@@ -130,7 +130,7 @@ void follow(WorldView& view, const Vector3d& drone, bool beacon) {
 
 int people_led_out(const std::string& policy, double speed_mps, WorldView view, double duration_s) {
   const world::Scenario scenario = yard();
-  DroneMission mission = mission_of(policy);
+  DroneMission mission = mission_with_policy(policy);
   mission.speed_mps = speed_mps;
   IdealFlight flight(scenario, mission, {0, 0, 12});
   const auto before = static_cast<int>(view.people.size());
@@ -167,7 +167,7 @@ TEST_P(GuidesBesideAFire, LeadNobodyToADoorFromWhenItShuts) {
   world::Scenario scenario = yard();
   scenario.exits.push_back({"top", {11, 20}, {13, 20}, {0, 1}, true, {{3, 2}}});
   scenario.exits[1].closes_at_s = kShutsS;
-  DroneMission mission = mission_of(GetParam());
+  DroneMission mission = mission_with_policy(GetParam());
   mission.speed_mps = 1.8;
   IdealFlight flight(scenario, mission, {0, 0, 12});
   WorldView view;
@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(All, GuidesBesideAFire, ::testing::Values("balance", "s
 TEST(Policies, BalanceTurnsWithItsFollowers) {
   world::Scenario scenario = yard();
   scenario.exits.push_back({"top", {-1, 20}, {1, 20}, {0, 1}, true, {{3, 2}}});
-  IdealFlight flight(scenario, mission_of("balance"), {0, 0, 12});
+  IdealFlight flight(scenario, mission_with_policy("balance"), {0, 0, 12});
   WorldView view;
   view.people = people_about({-13, 0}, 100, 0);
   const auto step = [&] { follow(view, flight.step(view), flight.policy().beacon()); };
@@ -229,7 +229,7 @@ TEST(Policies, BalanceFetchesUnawarePeopleOnlyIfTheyListen) {
   view.people.push_back({{-19, 0}, {1, 0}, 0});  // somebody runs: there is an alarm
   for (const bool alert : {true, false}) {
     scenario.guides_alert = alert;
-    IdealFlight flight(scenario, mission_of("balance"), {0, 0, 12});
+    IdealFlight flight(scenario, mission_with_policy("balance"), {0, 0, 12});
     bool lit = false;
     for (int i = 0; i < 100; ++i) {
       flight.step(view);

@@ -19,7 +19,7 @@ world::Scenario yard_with_third_door(bool open) {
   return scenario;
 }
 
-WorldView view_of(const world::Scenario& scenario, std::vector<PersonSeen> people) {
+WorldView make_view(const world::Scenario& scenario, std::vector<PersonSeen> people) {
   WorldView view;
   view.people = std::move(people);
   view.exit_flow_per_s.resize(scenario.exits.size());
@@ -30,7 +30,7 @@ TEST(QueueModel, PeopleAtAClosedDoorJoinTheQueueOfTheNearestOpenOne) {
   const world::Scenario scenario = yard_with_third_door(false);
   const std::vector<PersonSeen> people = people_about({-5, 5}, 40, 2);
   QueueModel queues(scenario);
-  queues.update(view_of(scenario, people), 0);
+  queues.update(make_view(scenario, people), 0);
   EXPECT_EQ(queues.ends_up_at(people.front()), 0);
   EXPECT_NEAR(queues.wait_s(0), 40 / queues.capacity_per_s(0), 1e-9);
   EXPECT_EQ(queues.wait_s(1), 0);
@@ -41,7 +41,7 @@ TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
   world::Scenario scenario = yard_with_third_door(true);
   scenario.exits[2].closes_at_s = 10;
   QueueModel queues(scenario);
-  WorldView view = view_of(scenario, people_about({-5, 5}, 40, 2));
+  WorldView view = make_view(scenario, people_about({-5, 5}, 40, 2));
   view.time_s = 9.9;
   queues.update(view, 0);
   EXPECT_EQ(queues.ends_up_at(view.people.front()), 2);
@@ -56,7 +56,7 @@ TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
 TEST(QueueModel, PeopleWhoHaveNotNoticedAreExpectedAtTheNearestOpenExit) {
   const world::Scenario scenario = yard_with_third_door(false);
   QueueModel queues(scenario);
-  queues.update(view_of(scenario, people_about({-15, 10}, 30, -1)), 0);
+  queues.update(make_view(scenario, people_about({-15, 10}, 30, -1)), 0);
   EXPECT_GT(queues.wait_s(0), 20 / queues.capacity_per_s(0));
   EXPECT_EQ(queues.wait_s(1), 0);
 }
@@ -68,7 +68,7 @@ TEST(QueueModel, LearnsWherePeopleRunFromWhereTheyAre) {
   std::vector<PersonSeen> people = people_about({-8, 0}, 20, 0);
   for (std::size_t i = 0; i < people.size(); i += 2) people[i].exit = 1;
   for (const PersonSeen& person : people_about({-8, 10}, 50, -1)) people.push_back(person);
-  const WorldView view = view_of(scenario, people);
+  const WorldView view = make_view(scenario, people);
   QueueModel queues(scenario);
   queues.update(view, 0);
   const double at_first_s = queues.wait_s(1);

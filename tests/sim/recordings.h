@@ -16,8 +16,8 @@ struct RecordedWalk {
   Eigen::Vector2d velocity;  ///< m/s
 };
 
-inline std::shared_ptr<const world::Trace> recording_of(double dt_s, std::size_t frames,
-                                                        const std::vector<RecordedWalk>& walks) {
+inline std::shared_ptr<const world::Trace> make_recording(double dt_s, std::size_t frames,
+                                                          const std::vector<RecordedWalk>& walks) {
   auto trace = std::make_shared<world::Trace>();
   trace->header.dt_s = dt_s;
   trace->header.role.assign(walks.size(), world::AgentRole::person);

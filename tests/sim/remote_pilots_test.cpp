@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "base/files/files.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/recording/pilot_log.h"
 #include "sim/recording/trace_recorder.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::sim {
 namespace {
@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 constexpr int kSteps = 120;
 
 world::Scenario square() {
-  return places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+  return scenarios::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
 }
 
-RunSpec spec_of(int drones) {
+RunSpec run_with_drones(int drones) {
   RunSpec spec;
   spec.seed = 11;
   spec.duration_s = 600;
@@ -72,7 +72,7 @@ std::vector<std::vector<PilotSample>> fly(const world::Scenario& scenario, const
   return logs;
 }
 
-RunSpec replay_of(const RunSpec& flown, const std::vector<std::vector<PilotSample>>& logs) {
+RunSpec replay_flight(const RunSpec& flown, const std::vector<std::vector<PilotSample>>& logs) {
   RunSpec spec = flown;
   spec.duration_s = kSteps * 0.1;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -86,9 +86,9 @@ RunSpec replay_of(const RunSpec& flown, const std::vector<std::vector<PilotSampl
 TEST(RemotePilots, TheLogRepeatsTheFlightByteForByte) {
   const ::throng::testing::TemporaryFolder folder;
   const world::Scenario scenario = square();
-  const RunSpec spec = spec_of(2);
+  const RunSpec spec = run_with_drones(2);
   const auto logs = fly(scenario, spec, folder.path() / "flown.h5");
-  simulate(scenario, replay_of(spec, logs), folder.path() / "replayed.h5");
+  simulate(scenario, replay_flight(spec, logs), folder.path() / "replayed.h5");
   EXPECT_EQ(read_file(folder.path() / "flown.h5"), read_file(folder.path() / "replayed.h5"));
   const world::Trace trace = world::read_trace(folder.path() / "flown.h5");
   EXPECT_GT((trace.drone_at(0, 6).position - trace.drone_at(0, 0).position).norm(), 3)
@@ -99,7 +99,7 @@ TEST(RemotePilots, KeepOutOfBuildingsAndOffTheGround) {
   const ::throng::testing::TemporaryFolder folder;
   world::Scenario scenario = square();
   scenario.buildings = {{"wall", {{15, -50}, {20, -50}, {20, 50}, {15, 50}}, 40}};
-  RunSpec spec = spec_of(1);
+  RunSpec spec = run_with_drones(1);
   spec.wind = {};
   fly_remotely(spec, scenario);
   TraceRecorder recorder(folder.path() / "trace.h5", {});
@@ -118,13 +118,13 @@ TEST(RemotePilots, KeepOutOfBuildingsAndOffTheGround) {
   EXPECT_LT(last.position.z(), 2);
   EXPECT_GT(last.position.z(), 0);
   // A job may fly it, too.
-  EXPECT_NO_THROW(SteppedRun(scenario, replay_of(spec, {pilots.log(0)}), recorder));
+  EXPECT_NO_THROW(SteppedRun(scenario, replay_flight(spec, {pilots.log(0)}), recorder));
 }
 
 TEST(RemotePilots, KeepAwayFromEachOther) {
   const ::throng::testing::TemporaryFolder folder;
   const world::Scenario scenario = square();
-  RunSpec spec = spec_of(2);
+  RunSpec spec = run_with_drones(2);
   spec.wind = {};
   fly_remotely(spec, scenario);
   TraceRecorder recorder(folder.path() / "trace.h5", {});
@@ -140,14 +140,14 @@ TEST(RemotePilots, KeepAwayFromEachOther) {
   }
   EXPECT_GT(min_m, 2);
   EXPECT_LT(pilots.log(0).back().position.x(), pilots.log(1).back().position.x());
-  EXPECT_NO_THROW(simulate(scenario, replay_of(spec, {pilots.log(0), pilots.log(1)}),
+  EXPECT_NO_THROW(simulate(scenario, replay_flight(spec, {pilots.log(0), pilots.log(1)}),
                            folder.path() / "replayed.h5"));
 }
 
 TEST(RemotePilots, ComeHome) {
   const ::throng::testing::TemporaryFolder folder;
   const world::Scenario scenario = square();
-  const RunSpec spec = spec_of(1);
+  const RunSpec spec = run_with_drones(1);
   const auto logs = fly(scenario, spec, folder.path() / "trace.h5");
   const double at_90 = (logs[0][90].position - logs[0][0].position).norm();
   EXPECT_LT((logs[0].back().position - logs[0][0].position).norm(), at_90 - 5);

@@ -11,8 +11,8 @@
 namespace throng::sim {
 namespace {
 
+using testing::make_recording;
 using testing::RecordedWalk;
-using testing::recording_of;
 
 TEST(Replay, KeepsTheStepOfUsualRecordingsAndDividesOthers) {
   EXPECT_DOUBLE_EQ(replay_step_s(1.0 / 16), 1.0 / 16);
@@ -25,7 +25,7 @@ TEST(Replay, KeepsTheStepOfUsualRecordingsAndDividesOthers) {
 
 TEST(Replay, PeopleAreThereInTheFramesThatHaveThem) {
   // One a second: replayed five times a second. The second person comes late and goes early.
-  const auto recording = recording_of(1.0, 4, {{0, 3, {0, 0}, {1, 0}}, {1, 2, {0, 5}, {0, 1}}});
+  const auto recording = make_recording(1.0, 4, {{0, 3, {0, 0}, {1, 0}}, {1, 2, {0, 5}, {0, 1}}});
   const auto crowd = replayed(recording, 1);
   EXPECT_DOUBLE_EQ(crowd->dt_s(), 0.2);
   std::vector<int> there;
@@ -43,7 +43,7 @@ TEST(Replay, PeopleAreThereInTheFramesThatHaveThem) {
 
 TEST(Replay, FacesTheWayWalkedHoweverTheHeadSways) {
   auto recording =
-      recording_of(1.0 / 25, 101, {{0, 100, {0, 0}, {1, 0}}, {0, 100, {9, 9}, {0, 0}}});
+      make_recording(1.0 / 25, 101, {{0, 100, {0, 0}, {1, 0}}, {0, 100, {9, 9}, {0, 0}}});
   auto swaying = std::make_shared<world::Trace>(*recording);
   for (std::size_t step = 0; step < swaying->steps(); ++step) {
     const auto sway = static_cast<float>(0.05 * std::sin(2 * EIGEN_PI * swaying->time_s[step]));
@@ -61,7 +61,7 @@ TEST(Replay, FacesTheWayWalkedHoweverTheHeadSways) {
 
 TEST(Replay, AbsentPeopleStayAway) {
   const auto crowd =
-      replayed(recording_of(0.1, 11, {{0, 10, {0, 0}, {1, 0}}, {0, 10, {5, 0}, {1, 0}}}), 1);
+      replayed(make_recording(0.1, 11, {{0, 10, {0, 0}, {1, 0}}, {0, 10, {5, 0}, {1, 0}}}), 1);
   crowd->set_present(0, false);
   crowd->step();
   EXPECT_EQ(crowd->present()[0], 0);
@@ -88,7 +88,7 @@ TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {
   scenario.disaster_agents = {99};
   RunSpec spec;
   spec.duration_s = 2;
-  spec.recorded = recording_of(0.0625, 33, {{0, 32, {9, 0}, {1, 0}}, {8, 16, {0, 0}, {0, 1}}});
+  spec.recorded = make_recording(0.0625, 33, {{0, 32, {9, 0}, {1, 0}}, {8, 16, {0, 0}, {0, 1}}});
   DroneMission mission;
   mission.id = "d1";
   mission.start = Eigen::Vector3d(0, 0, 10);

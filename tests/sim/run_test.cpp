@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "base/files/hash.h"
-#include "places/blueprint/load_scenario.h"
 #include "tests/world/temporary_folder.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -27,7 +27,7 @@ constexpr int kPeopleInSquare = 260;
 
 const world::Scenario& city_square() {
   static const world::Scenario scenario =
-      places::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
+      scenarios::find_scenario(source_folder() / "scenarios", "city_square/nearest_exit");
   return scenario;
 }
 
@@ -43,7 +43,7 @@ RunSpec short_run() {
   return spec;
 }
 
-world::Trace trace_of(const RunSpec& spec) {
+world::Trace simulate_trace(const RunSpec& spec) {
   const TemporaryFolder folder;
   simulate(city_square(), spec, folder.path() / "run.h5");
   return world::read_trace(folder.path() / "run.h5");
@@ -52,19 +52,20 @@ world::Trace trace_of(const RunSpec& spec) {
 TEST(Run, SaysWhichModelMovedThePeople) {
   RunSpec spec = short_run();
   spec.duration_s = 0.2;
-  EXPECT_EQ(trace_of(spec).header.crowd, (world::CrowdOrigin{"orca", "none", false, 1, false, 20}));
+  EXPECT_EQ(simulate_trace(spec).header.crowd,
+            (world::CrowdOrigin{"orca", "none", false, 1, false, 20}));
   spec.crowd.model = "helbing";
   spec.crowd.compat = crowd::Compat::menge;
   spec.crowd.hard_separation = true;
   spec.crowd.compliance = 0.5;
   spec.crowd.physical = {true, 35};
-  EXPECT_EQ(trace_of(spec).header.crowd,
+  EXPECT_EQ(simulate_trace(spec).header.crowd,
             (world::CrowdOrigin{"helbing", "menge", true, 0.5, true, 35}));
 }
 
 TEST(Run, RecordsTheWholeDurationOfCrowdAndDrone) {
   const RunSpec spec = short_run();
-  const world::Trace trace = trace_of(spec);
+  const world::Trace trace = simulate_trace(spec);
   EXPECT_EQ(trace.header.scenario_id, "city_square/nearest_exit");
   EXPECT_EQ(trace.header.seed, 7U);
   EXPECT_THAT(trace.header.drone_ids, ElementsAre("d1"));
@@ -88,7 +89,7 @@ TEST(Run, RecordsTheWholeDurationOfCrowdAndDrone) {
 TEST(Run, DoesNotEndEarlyWhenTheDurationIsNoMultipleOfTheStep) {
   RunSpec spec = short_run();
   spec.duration_s = 0.35;
-  EXPECT_GE(trace_of(spec).duration_s(), 0.35);
+  EXPECT_GE(simulate_trace(spec).duration_s(), 0.35);
 }
 
 TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
@@ -121,7 +122,7 @@ void watch(const world::Scenario& scenario, double duration_s, RecordingObserver
 
 TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
   world::Scenario street =
-      places::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
+      scenarios::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
   // So small that he is outside of it as soon as he walks.
   street.inside = {{4, -1}, {6, 1}};
   RecordingObserver recorded;
@@ -162,9 +163,9 @@ TEST(Run, TellsWhenADisasterReachesADoor) {
 
 TEST(Run, AnotherSeedGivesAnotherRun) {
   RunSpec spec = short_run();
-  const world::Trace one = trace_of(spec);
+  const world::Trace one = simulate_trace(spec);
   spec.seed = 8;
-  EXPECT_NE(one.position, trace_of(spec).position);
+  EXPECT_NE(one.position, simulate_trace(spec).position);
 }
 
 TEST(Run, FewerPeopleAreDrawnFromAll) {
@@ -178,16 +179,16 @@ TEST(Run, FewerPeopleAreDrawnFromAll) {
   RunSpec spec = short_run();
   spec.duration_s = 0.1;
   spec.people = 60;
-  const auto sixty = people_of(trace_of(spec));
+  const auto sixty = people_of(simulate_trace(spec));
   EXPECT_EQ(sixty.size(), 60U);
   spec.people = 20;
-  const auto twenty = people_of(trace_of(spec));
+  const auto twenty = people_of(simulate_trace(spec));
   EXPECT_EQ(twenty.size(), 20U);
   EXPECT_TRUE(std::includes(sixty.begin(), sixty.end(), twenty.begin(), twenty.end()));
   spec.seed = 8;
-  EXPECT_NE(people_of(trace_of(spec)), twenty);
+  EXPECT_NE(people_of(simulate_trace(spec)), twenty);
   spec.people = 0;
-  EXPECT_TRUE(people_of(trace_of(spec)).empty());
+  EXPECT_TRUE(people_of(simulate_trace(spec)).empty());
 }
 
 // A hundred people and half a minute: the news spreads and people run.
@@ -204,7 +205,7 @@ class Evacuation : public ::testing::Test {
     return spec;
   }
   static const world::Trace& trace() {
-    static const world::Trace recorded = trace_of(spec());
+    static const world::Trace recorded = simulate_trace(spec());
     return recorded;
   }
 };
@@ -275,12 +276,12 @@ TEST(Run, PeopleFollowTheDroneWhoseGoalTheyAreGiven) {
   spec.drones[0].id = "d1";
   spec.drones[0].start = Eigen::Vector3d(-8, 0, 5);
   spec.drones[0].guidance.beacon = true;
-  const world::Trace with = trace_of(spec);
+  const world::Trace with = simulate_trace(spec);
   spec.drones[0].moves_goal = world::GoalRef{99, 0};
-  EXPECT_EQ(with.position, trace_of(spec).position);  // the scenario's own choice for d1
-  spec.drones[0].id = "other";                        // of which the scenario knows nothing
+  EXPECT_EQ(with.position, simulate_trace(spec).position);  // the scenario's own choice for d1
+  spec.drones[0].id = "other";                              // of which the scenario knows nothing
   spec.drones[0].moves_goal.reset();
-  EXPECT_NE(with.position, trace_of(spec).position);
+  EXPECT_NE(with.position, simulate_trace(spec).position);
 }
 
 TEST(Run, ReportsProgressToTheEnd) {
@@ -337,7 +338,7 @@ TEST(Run, ADisasterThatIsNoAgentIsTheScenariosFault) {
 TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
   RunSpec spec = short_run();
   spec.duration_s = 60;
-  const world::Trace trace = trace_of(spec);
+  const world::Trace trace = simulate_trace(spec);
   ASSERT_FALSE(city_square().props.empty());
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
@@ -374,7 +375,7 @@ std::pair<bool, std::vector<Problem>> verdict_on_bench(const Eigen::Vector2d& po
 }
 
 TEST(Run, PropsOnPeopleAreNamedWithThePeople) {
-  const world::Trace trace = trace_of(short_run());
+  const world::Trace trace = simulate_trace(short_run());
   const auto place_of = [&](double time_s) -> Eigen::Vector2d {
     const auto step = static_cast<std::size_t>(std::lround(time_s / trace.header.dt_s));
     return trace.position[trace.at(step, 5)].cast<double>();
@@ -392,7 +393,7 @@ TEST(Run, PropsOnPeopleAreNamedWithThePeople) {
 
 TEST(Run, WalkingThroughAPropIsAWarning) {
   // A place that nobody stands at in the beginning and somebody comes to later.
-  const world::Trace trace = trace_of(short_run());
+  const world::Trace trace = simulate_trace(short_run());
   for (std::size_t agent = 0; agent < kPeopleInSquare; ++agent) {
     const Eigen::Vector2d place = trace.position[trace.at(trace.steps() - 1, agent)].cast<double>();
     double nearest = 100;
@@ -422,11 +423,11 @@ RunSpec low_flight(bool physical) {
 }
 
 TEST(Run, PhysicalPeopleFallWhenADroneHitsThemHard) {
-  const world::Trace hard = trace_of(low_flight(false));
-  const world::Trace physical = trace_of(low_flight(true));
+  const world::Trace hard = simulate_trace(low_flight(false));
+  const world::Trace physical = simulate_trace(low_flight(true));
   const auto count = [](const world::Trace& trace, std::string_view type) {
     return std::count_if(trace.events.begin(), trace.events.end(),
-                         [&](const auto& event) { return world::name_of(event.kind) == type; });
+                         [&](const auto& event) { return world::to_string(event.kind) == type; });
   };
   ASSERT_GT(count(hard, "collision"), 0);
   EXPECT_EQ(count(hard, "fall"), 0);

@@ -33,7 +33,7 @@ struct Moments {
 };
 
 template <typename Value>
-Moments moments_of(const SensorLog& log, const Value& value) {
+Moments compute_moments(const SensorLog& log, const Value& value) {
   double sum = 0;
   double squares = 0;
   for (const SensorReading& reading : log.readings()) {
@@ -54,7 +54,7 @@ SensorNoise quiet_but_for(const std::function<void(SensorNoise&)>& change) {
   return noise;
 }
 
-SensorLog log_of(double duration_s, const SensorNoise& noise, std::uint64_t seed = 3) {
+SensorLog record_log(double duration_s, const SensorNoise& noise, std::uint64_t seed = 3) {
   return {hover(duration_s), seed, 0, kLatitude, noise};
 }
 
@@ -84,13 +84,13 @@ TEST(Sensors, WhiteNoiseHasItsDensity) {
     n.gyro.density = 3.394e-4;
     n.accelerometer.density = 4e-3;
   });
-  const SensorLog log = log_of(600, noise);
+  const SensorLog log = record_log(600, noise);
   for (int axis = 0; axis < 3; ++axis) {
-    const Moments gyro = moments_of(log, [&](const SensorReading& r) { return r.gyro[axis]; });
+    const Moments gyro = compute_moments(log, [&](const SensorReading& r) { return r.gyro[axis]; });
     EXPECT_NEAR(gyro.sd, 3.394e-4 * std::sqrt(60), 0.02 * gyro.sd);
     EXPECT_NEAR(gyro.mean, 0, 4 * gyro.sd / std::sqrt(36'000));
     const Moments force =
-        moments_of(log, [&](const SensorReading& r) { return r.accelerometer[axis]; });
+        compute_moments(log, [&](const SensorReading& r) { return r.accelerometer[axis]; });
     EXPECT_NEAR(force.sd, 4e-3 * std::sqrt(60), 0.02 * force.sd);
   }
 }
@@ -113,14 +113,14 @@ double allan_deviation(const SensorLog& log, std::size_t n) {
 
 TEST(Sensors, AllanDeviationFallsWithNoiseAndRisesWithTheBias) {
   const SensorNoise white = quiet_but_for([](SensorNoise& n) { n.gyro.density = 1e-3; });
-  const SensorLog noisy = log_of(4000, white);
+  const SensorLog noisy = record_log(4000, white);
   for (const std::size_t n : {60U, 240U, 960U}) {  // 1, 4 and 16 s
     const double expected = 1e-3 / std::sqrt(static_cast<double>(n) * kStepS);
     EXPECT_NEAR(allan_deviation(noisy, n), expected, 0.15 * expected) << n;
   }
   // Far below its correlation time a bias walks at random: K sqrt(t / 3).
   const SensorNoise walk = quiet_but_for([](SensorNoise& n) { n.gyro.walk = 1e-3; });
-  const SensorLog wandering = log_of(4000, walk);
+  const SensorLog wandering = record_log(4000, walk);
   for (const std::size_t n : {60U, 240U, 960U}) {
     const double expected = 1e-3 * std::sqrt(static_cast<double>(n) * kStepS / 3);
     EXPECT_NEAR(allan_deviation(wandering, n), expected, 0.15 * expected) << n;
@@ -133,8 +133,8 @@ TEST(Sensors, BiasesWanderWithTheirStandardDeviation) {
     n.gyro.walk = 1e-3;
     n.gyro.walk_s = 2;
   });
-  const SensorLog log = log_of(4000, noise);
-  const Moments bias = moments_of(log, [](const SensorReading& r) { return r.gyro.y(); });
+  const SensorLog log = record_log(4000, noise);
+  const Moments bias = compute_moments(log, [](const SensorReading& r) { return r.gyro.y(); });
   EXPECT_NEAR(bias.sd, 1e-3, 0.05e-3);
 }
 
@@ -143,7 +143,7 @@ TEST(Sensors, TurnOnBiasesDifferFromRunToRun) {
   double squares = 0;
   constexpr int kRuns = 400;
   for (int seed = 0; seed < kRuns; ++seed) {
-    const SensorLog log = log_of(0.1, noise, static_cast<std::uint64_t>(seed));
+    const SensorLog log = record_log(0.1, noise, static_cast<std::uint64_t>(seed));
     const double bias = log.readings().front().accelerometer.x();
     EXPECT_EQ(bias, log.readings().back().accelerometer.x());
     squares += bias * bias;
@@ -157,7 +157,7 @@ TEST(Sensors, GpsIsLateAndSeldomAndWanders) {
     n.gps_vertical_m = 2;
     n.gps_wander_s = 10;
   });
-  const SensorLog log = log_of(6000, noise);
+  const SensorLog log = record_log(6000, noise);
   double last_s = -1;
   int fixes = 0;
   for (const SensorReading& reading : log.readings()) {
@@ -170,9 +170,9 @@ TEST(Sensors, GpsIsLateAndSeldomAndWanders) {
   }
   EXPECT_NEAR(fixes, 30'000, 2);
   const auto east = [](const SensorReading& r) { return r.gps.position.x() - 3; };
-  EXPECT_NEAR(moments_of(log, east).sd, 1, 0.08);
+  EXPECT_NEAR(compute_moments(log, east).sd, 1, 0.08);
   const auto up = [](const SensorReading& r) { return r.gps.position.z() - 20; };
-  EXPECT_NEAR(moments_of(log, up).sd, 2, 0.16);
+  EXPECT_NEAR(compute_moments(log, up).sd, 2, 0.16);
   // Correlated as exp(-t / 10 s).
   double own = 0;
   double lagged = 0;
@@ -189,13 +189,15 @@ TEST(Sensors, BarometerAndMagnetometerHaveTheirNoise) {
     n.pressure_pa = 1;
     n.field_share = 0.013;
   });
-  const SensorLog log = log_of(600, noise);
-  const Moments pressure = moments_of(log, [](const SensorReading& r) { return r.pressure_pa; });
+  const SensorLog log = record_log(600, noise);
+  const Moments pressure =
+      compute_moments(log, [](const SensorReading& r) { return r.pressure_pa; });
   EXPECT_NEAR(pressure.sd, 1, 0.02);
   EXPECT_NEAR(pressure.mean, pressure_at(20), 0.05);
-  const Moments height = moments_of(log, [](const SensorReading& r) { return r.height_m; });
+  const Moments height = compute_moments(log, [](const SensorReading& r) { return r.height_m; });
   EXPECT_NEAR(height.sd, 0.083, 0.003);
-  const Moments field = moments_of(log, [](const SensorReading& r) { return r.magnetometer.y(); });
+  const Moments field =
+      compute_moments(log, [](const SensorReading& r) { return r.magnetometer.y(); });
   EXPECT_NEAR(field.sd, 0.013 * magnetic_field(kLatitude).norm(), 0.02 * field.sd);
 }
 
@@ -206,9 +208,9 @@ TEST(Sensors, PressureIsThatOfTheStandardAtmosphere) {
 }
 
 TEST(Sensors, SameSeedSameReadings) {
-  const SensorLog one = log_of(20, {}, 5);
-  const SensorLog two = log_of(20, {}, 5);
-  const SensorLog other_run = log_of(20, {}, 6);
+  const SensorLog one = record_log(20, {}, 5);
+  const SensorLog two = record_log(20, {}, 5);
+  const SensorLog other_run = record_log(20, {}, 6);
   const SensorLog other_drone(hover(20), 5, 1, kLatitude);
   EXPECT_EQ(one.at(13).gyro, two.at(13).gyro);
   EXPECT_NE(one.at(13).gyro, other_run.at(13).gyro);

@@ -26,8 +26,8 @@ DroneMission mission(const std::string& id, const Eigen::Vector3d& start,
   return mission;
 }
 
-std::vector<Problem> problems_of(const std::vector<DroneMission>& missions,
-                                 double duration_s = 60) {
+std::vector<Problem> separation_problems(const std::vector<DroneMission>& missions,
+                                         double duration_s = 60) {
   world::Scenario meadow;
   std::vector<Problem> problems;
   plan_drones(meadow, missions, duration_s, problems);
@@ -35,7 +35,7 @@ std::vector<Problem> problems_of(const std::vector<DroneMission>& missions,
 }
 
 TEST(Separation, TwoStartsAtOnePlace) {
-  const auto problems = problems_of({mission("a", {0, 0, 20}), mission("b", {0, 0, 20})});
+  const auto problems = separation_problems({mission("a", {0, 0, 20}), mission("b", {0, 0, 20})});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/1/start");
   EXPECT_EQ(problems[0].found, "[0, 0, 20]");
@@ -44,20 +44,21 @@ TEST(Separation, TwoStartsAtOnePlace) {
 
 TEST(Separation, StartsNeedTheClearanceAsideOrAbove) {
   // An F450 is 0.67 m wide and 0.1 m high.
-  EXPECT_EQ(problems_of({mission("a", {0, 0, 20}), mission("b", {1.1, 0, 20})}).size(), 1U);
-  EXPECT_TRUE(problems_of({mission("a", {0, 0, 20}), mission("b", {1.2, 0, 20})}).empty());
-  EXPECT_EQ(problems_of({mission("a", {0, 0, 20}), mission("b", {0, 0, 20.55})}).size(), 1U);
-  EXPECT_TRUE(problems_of({mission("a", {0, 0, 20}), mission("b", {0, 0, 20.7})}).empty());
+  EXPECT_EQ(separation_problems({mission("a", {0, 0, 20}), mission("b", {1.1, 0, 20})}).size(), 1U);
+  EXPECT_TRUE(separation_problems({mission("a", {0, 0, 20}), mission("b", {1.2, 0, 20})}).empty());
+  EXPECT_EQ(separation_problems({mission("a", {0, 0, 20}), mission("b", {0, 0, 20.55})}).size(),
+            1U);
+  EXPECT_TRUE(separation_problems({mission("a", {0, 0, 20}), mission("b", {0, 0, 20.7})}).empty());
 }
 
 TEST(Separation, EveryPolicyNeedsAStartOfItsOwn) {
   DroneMission guide = mission("b", {0.2, 0, 20});
   guide.policy = "balance";
-  EXPECT_EQ(problems_of({mission("a", {0, 0, 20}), guide}).size(), 1U);
+  EXPECT_EQ(separation_problems({mission("a", {0, 0, 20}), guide}).size(), 1U);
 }
 
 TEST(Separation, PathsThatCrossAtTheSameTime) {
-  const auto problems = problems_of(
+  const auto problems = separation_problems(
       {mission("a", {-20, 0, 20}, {{20, 0, 20}}), mission("b", {0, -20, 20}, {{0, 20, 20}})});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/1/guidance");
@@ -65,16 +66,16 @@ TEST(Separation, PathsThatCrossAtTheSameTime) {
 }
 
 TEST(Separation, PathsThatCrossAtOtherTimesAreFine) {
-  EXPECT_TRUE(problems_of({mission("a", {-20, 0, 20}, {{20, 0, 20}}, 4),
-                           mission("b", {0, -20, 20}, {{0, 20, 20}}, 2)})
+  EXPECT_TRUE(separation_problems({mission("a", {-20, 0, 20}, {{20, 0, 20}}, 4),
+                                   mission("b", {0, -20, 20}, {{0, 20, 20}}, 2)})
                   .empty());
 }
 
 TEST(Separation, PathsThatMeetAfterTheRunAreFine) {
   const std::vector<DroneMission> missions{mission("a", {-20, 0, 20}, {{20, 0, 20}}, 1),
                                            mission("b", {20, 0, 20}, {{-20, 0, 20}}, 1)};
-  EXPECT_EQ(problems_of(missions, 30).size(), 1U);
-  EXPECT_TRUE(problems_of(missions, 15).empty());
+  EXPECT_EQ(separation_problems(missions, 30).size(), 1U);
+  EXPECT_TRUE(separation_problems(missions, 15).empty());
 }
 
 TEST(Separation, FastDronesDoNotSlipThroughEachOther) {
@@ -85,7 +86,7 @@ TEST(Separation, FastDronesDoNotSlipThroughEachOther) {
     missions[i].guidance.setpoints = {{0, {-60 * side, 0, 20}, 0, false},
                                       {2, {60 * side, 0, 20}, 0, false}};
   }
-  EXPECT_EQ(problems_of(missions).size(), 1U);
+  EXPECT_EQ(separation_problems(missions).size(), 1U);
 }
 
 TEST(Separation, AnOrbitThatGoesThroughAHoveringDrone) {
@@ -93,8 +94,8 @@ TEST(Separation, AnOrbitThatGoesThroughAHoveringDrone) {
   orbit.policy = "orbit";
   orbit.guidance.center = Eigen::Vector2d(0, 0);
   orbit.guidance.radius_m = 10;
-  EXPECT_EQ(problems_of({mission("a", {0, 10, 20}), orbit}).size(), 1U);
-  EXPECT_TRUE(problems_of({mission("a", {0, 10, 22}), orbit}).empty());
+  EXPECT_EQ(separation_problems({mission("a", {0, 10, 20}), orbit}).size(), 1U);
+  EXPECT_TRUE(separation_problems({mission("a", {0, 10, 22}), orbit}).empty());
 }
 
 TEST(Separation, GuidesAtOneHeightMayMeet) {

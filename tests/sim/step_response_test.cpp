@@ -95,7 +95,7 @@ struct StepFigures {
   double settle_s;
 };
 
-StepFigures figures_of(const Flown& flown, double step_m, const Vector3d& axis) {
+StepFigures measure_step(const Flown& flown, double step_m, const Vector3d& axis) {
   const double t90_s = flown.first_beyond(0.9 * step_m, axis);
   const double last = flown.settled_within(0.05 * step_m, kStart + step_m * axis);
   return {t90_s - flown.first_beyond(0.1 * step_m, axis), t90_s,
@@ -111,7 +111,7 @@ TEST(F450, HoversOnTheSpot) {
 
 TEST(F450, StepsOneMeterAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + Vector3d::UnitX(), 10);
-  const StepFigures figures = figures_of(flown, 1, Vector3d::UnitX());
+  const StepFigures figures = measure_step(flown, 1, Vector3d::UnitX());
   EXPECT_GT(figures.rise_s, 0.6);
   EXPECT_LT(figures.rise_s, 1.2);
   EXPECT_LT(figures.overshoot, 0.10);
@@ -121,7 +121,7 @@ TEST(F450, StepsOneMeterAhead) {
 
 TEST(F450, StepsFiveMetersAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + 5 * Vector3d::UnitX(), 12);
-  const StepFigures figures = figures_of(flown, 5, Vector3d::UnitX());
+  const StepFigures figures = measure_step(flown, 5, Vector3d::UnitX());
   EXPECT_LT(figures.t90_s, 2.3);
   EXPECT_LT(figures.overshoot, 0.05);
   EXPECT_LT(flown.max_tilt_rad, 37 * kDegree);
@@ -129,7 +129,7 @@ TEST(F450, StepsFiveMetersAhead) {
 
 TEST(F450, StepsTwentyMetersAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + 20 * Vector3d::UnitX(), 15);
-  const StepFigures figures = figures_of(flown, 20, Vector3d::UnitX());
+  const StepFigures figures = measure_step(flown, 20, Vector3d::UnitX());
   EXPECT_LT(figures.t90_s, 5.5);
   EXPECT_LT(figures.overshoot, 0.05);
   EXPECT_LE(flown.max_speed_mps, 5.0);
@@ -142,7 +142,7 @@ TEST_P(HeightStep, OvershootsLittleAndSettles) {
   const Flown flown = fly(airframe_named("f450"), kStart + step_m * Vector3d::UnitZ(), 12);
   const double size_m = std::abs(step_m);
   const StepFigures figures =
-      figures_of(flown, size_m, std::copysign(1, step_m) * Vector3d::UnitZ());
+      measure_step(flown, size_m, std::copysign(1, step_m) * Vector3d::UnitZ());
   EXPECT_LT(figures.overshoot, 0.12);
   EXPECT_LT(figures.settle_s, 3.5);
 }
@@ -223,7 +223,7 @@ Flown fly_in_gusts(std::uint64_t seed, Rates rates) {
   return flown;
 }
 
-double rms_of(const Flown& flown) {
+double compute_rms(const Flown& flown) {
   double squares = 0;
   for (const Vector3d& p : flown.position) squares += (p - kStart).squaredNorm();
   return std::sqrt(squares / static_cast<double>(flown.position.size()));
@@ -233,9 +233,9 @@ TEST(F450, HoldsInGusts) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Flown slow = fly_in_gusts(seed, {240, 1});
     const Flown fast = fly_in_gusts(seed, {1000, 4});
-    EXPECT_LT(rms_of(slow), 0.25) << seed;
-    EXPECT_GT(rms_of(slow), 0.05) << seed;
-    EXPECT_NEAR(rms_of(slow), rms_of(fast), 0.03 * rms_of(fast)) << seed;
+    EXPECT_LT(compute_rms(slow), 0.25) << seed;
+    EXPECT_GT(compute_rms(slow), 0.05) << seed;
+    EXPECT_NEAR(compute_rms(slow), compute_rms(fast), 0.03 * compute_rms(fast)) << seed;
   }
 }
 

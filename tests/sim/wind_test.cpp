@@ -18,8 +18,8 @@ WindSpec breeze(double speed_mps) {
   return wind;
 }
 
-std::vector<Vector3d> gusts_of(const WindSpec& spec, double height_m, double airspeed_mps,
-                               double duration_s, std::uint64_t seed = 3) {
+std::vector<Vector3d> sample_gusts(const WindSpec& spec, double height_m, double airspeed_mps,
+                                   double duration_s, std::uint64_t seed = 3) {
   Gusts gusts(spec, seed, 0);
   std::vector<Vector3d> list;
   for (int i = 0; i * kGridS < duration_s; ++i) {
@@ -28,7 +28,7 @@ std::vector<Vector3d> gusts_of(const WindSpec& spec, double height_m, double air
   return list;
 }
 
-Vector3d sd_of(const std::vector<Vector3d>& values) {
+Vector3d standard_deviations(const std::vector<Vector3d>& values) {
   Vector3d sum = Vector3d::Zero();
   Vector3d squares = Vector3d::Zero();
   for (const Vector3d& v : values) {
@@ -79,8 +79,8 @@ TEST(Gusts, OfDrydenHaveTheStandardsStrengthAndSize) {
   wind.profile = WindProfile::uniform;
   const double height_m = 30.48;
   const double airspeed_mps = 12;
-  const auto gusts = gusts_of(wind, height_m, airspeed_mps, 40'000);
-  const Vector3d sd = sd_of(gusts);
+  const auto gusts = sample_gusts(wind, height_m, airspeed_mps, 40'000);
+  const Vector3d sd = standard_deviations(gusts);
   EXPECT_NEAR(sd.z(), 1.0, 0.03);
   EXPECT_NEAR(sd.x(), 1 / std::pow(0.2593, 0.4), 0.06);
   EXPECT_NEAR(sd.y(), sd.x(), 0.08);
@@ -98,8 +98,8 @@ TEST(Gusts, OfOrnsteinAndUhlenbeckHaveTheirStrengthAndDuration) {
   wind.gusts = GustModel::ou;
   wind.gust_mps = 1.5;
   wind.gust_time_s = 3;
-  const auto gusts = gusts_of(wind, 20, 5, 30'000);
-  const Vector3d sd = sd_of(gusts);
+  const auto gusts = sample_gusts(wind, 20, 5, 30'000);
+  const Vector3d sd = standard_deviations(gusts);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(sd[axis], 1.5, 0.05);
     EXPECT_NEAR(correlation(gusts, axis, 180), std::exp(-1), 0.04);
@@ -110,8 +110,8 @@ TEST(Gusts, TurnWithTheWind) {
   WindSpec east = breeze(8);
   WindSpec north = east;
   north.direction_rad = EIGEN_PI / 2;
-  const auto one = gusts_of(east, 20, 8, 10);
-  const auto two = gusts_of(north, 20, 8, 10);
+  const auto one = sample_gusts(east, 20, 8, 10);
+  const auto two = sample_gusts(north, 20, 8, 10);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_NEAR(two[i].y(), one[i].x(), 1e-12);
     EXPECT_NEAR(two[i].x(), -one[i].y(), 1e-12);
@@ -134,10 +134,10 @@ TEST(Gusts, DependOnSeedAndCraftButNotOnHowOftenTheyAreAskedFor) {
 }
 
 TEST(Gusts, NoneInStillAirAndWhereNoneAreWanted) {
-  for (const Vector3d& gust : gusts_of(breeze(0), 20, 0, 5)) EXPECT_EQ(gust.norm(), 0);
+  for (const Vector3d& gust : sample_gusts(breeze(0), 20, 0, 5)) EXPECT_EQ(gust.norm(), 0);
   WindSpec smooth = breeze(9);
   smooth.gusts = GustModel::none;
-  for (const Vector3d& gust : gusts_of(smooth, 20, 9, 5)) EXPECT_EQ(gust.norm(), 0);
+  for (const Vector3d& gust : sample_gusts(smooth, 20, 9, 5)) EXPECT_EQ(gust.norm(), 0);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ inline std::vector<PersonSeen> people_about(const Eigen::Vector2d& middle, int c
   return people;
 }
 
-inline DroneMission mission_of(const std::string& policy) {
+inline DroneMission mission_with_policy(const std::string& policy) {
   DroneMission mission;
   mission.id = "d1";
   mission.policy = policy;

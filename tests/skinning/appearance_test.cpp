@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kAgents = 2000;
 
 // The people of a baked population as far as their colors go.
-Population people_of(int count) {
+Population make_people(int count) {
   Population population;
   for (int i = 0; i < count; ++i) {
     Character character;
@@ -25,10 +25,10 @@ Population people_of(int count) {
   return population;
 }
 
-std::vector<Appearance> crowd_of(const Population& population, std::uint64_t seed) {
+std::vector<Appearance> sample_appearances(const Population& population, std::uint64_t seed) {
   std::vector<Appearance> crowd;
   for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
-    crowd.push_back(appearance_of(population, seed, agent));
+    crowd.push_back(sample_appearance(population, seed, agent));
   }
   return crowd;
 }
@@ -48,10 +48,10 @@ bool dressed_alike(const Appearance& a, const Appearance& b) {
 
 TEST(Twins, EqualBodiesAreFarApartInId) {
   for (const int count : {24, 96, 97}) {
-    const Population population = people_of(count);
+    const Population population = make_people(count);
     std::map<std::uint32_t, std::uint32_t> last;
     for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
-      const std::uint32_t character = appearance_of(population, 5, agent).character;
+      const std::uint32_t character = sample_appearance(population, 5, agent).character;
       if (last.contains(character)) {
         EXPECT_GE(agent - last[character], static_cast<std::uint32_t>(count) / 2);
       }
@@ -61,9 +61,10 @@ TEST(Twins, EqualBodiesAreFarApartInId) {
 }
 
 TEST(Twins, EverybodyIsUsedEquallyOften) {
-  const Population population = people_of(96);
+  const Population population = make_people(96);
   std::map<std::uint32_t, int> used;
-  for (const Appearance& appearance : crowd_of(population, 7)) ++used[appearance.character];
+  for (const Appearance& appearance : sample_appearances(population, 7))
+    ++used[appearance.character];
   ASSERT_EQ(used.size(), 96U);
   for (const auto& [unused, times] : used) {
     EXPECT_GE(times, 20);
@@ -73,12 +74,12 @@ TEST(Twins, EverybodyIsUsedEquallyOften) {
 
 // Crowds start in rectangular grids row by row, so that neighbors are one row apart in id.
 TEST(Twins, NoneStandSideBySideInAGrid) {
-  const Population population = people_of(96);
+  const Population population = make_people(96);
   int pairs = 0;
   int same_body = 0;
   int twins = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const std::vector<Appearance> crowd = crowd_of(population, seed);
+    const std::vector<Appearance> crowd = sample_appearances(population, seed);
     for (std::uint32_t width = 10; width <= 200; ++width) {
       for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
         for (const std::uint32_t step : {1U, width - 1, width, width + 1}) {
@@ -100,8 +101,8 @@ TEST(Twins, NoneStandSideBySideInAGrid) {
 }
 
 TEST(Twins, ABodyRarelyWearsTheSameColorsAgain) {
-  const Population population = people_of(96);
-  const std::vector<Appearance> crowd = crowd_of(population, 11);
+  const Population population = make_people(96);
+  const std::vector<Appearance> crowd = sample_appearances(population, 11);
   std::map<std::uint32_t, std::vector<const Appearance*>> by_body;
   for (const Appearance& appearance : crowd) by_body[appearance.character].push_back(&appearance);
   int repeats = 0;
@@ -123,7 +124,7 @@ TEST(Twins, ABodyRarelyWearsTheSameColorsAgain) {
 }
 
 Population people_of_ages(int count) {
-  Population population = people_of(count);
+  Population population = make_people(count);
   for (std::size_t i = 0; i < population.characters.size(); ++i) {
     population.characters[i].age_years = static_cast<float>(5 + 3 * i);
   }
@@ -137,7 +138,7 @@ TEST(Cast, OnlyPeopleOfTheAgesTakePart) {
   styling.oldest_years = 40;
   std::map<std::uint32_t, int> seen;
   for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
-    const std::uint32_t character = appearance_of(population, 5, agent, styling).character;
+    const std::uint32_t character = sample_appearance(population, 5, agent, styling).character;
     EXPECT_GE(population.characters[character].age_years, 18);
     EXPECT_LE(population.characters[character].age_years, 40);
     ++seen[character];
@@ -152,7 +153,7 @@ TEST(Cast, AShareIsChosenByTheRun) {
   const auto cast_of_run = [&](std::uint64_t seed) {
     std::map<std::uint32_t, int> seen;
     for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
-      ++seen[appearance_of(population, seed, agent, styling).character];
+      ++seen[sample_appearance(population, seed, agent, styling).character];
     }
     return seen;
   };
@@ -168,7 +169,7 @@ TEST(Cast, NobodyOfTheAgesIsAMistakeOfTheInput) {
   Styling styling;
   styling.oldest_years = 4;
   try {
-    appearance_of(population, 1, 0, styling);
+    sample_appearance(population, 1, 0, styling);
     FAIL() << "nobody is so young";
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 1U);
@@ -179,7 +180,7 @@ TEST(Cast, NobodyOfTheAgesIsAMistakeOfTheInput) {
 
 // Every sixth of them under an umbrella.
 Population people_with_umbrellas(int count) {
-  Population population = people_of(count);
+  Population population = make_people(count);
   for (std::size_t i = 0; i < population.characters.size(); i += 6) {
     population.characters[i].carries = Carry::umbrella;
     population.characters[i].tints = population.characters[0].tints;
@@ -192,7 +193,7 @@ double share_under_umbrellas(const Population& population, double wanted) {
   styling.umbrellas = wanted;
   int under = 0;
   for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
-    const std::uint32_t character = appearance_of(population, 9, agent, styling).character;
+    const std::uint32_t character = sample_appearance(population, 9, agent, styling).character;
     under += population.characters[character].carries == Carry::umbrella ? 1 : 0;
   }
   return static_cast<double>(under) / kAgents;
@@ -206,8 +207,8 @@ TEST(Umbrellas, AreUpForTheShareThatIsAskedFor) {
 }
 
 TEST(Umbrellas, StayShutWhereNobodyHasOneAndUpWhereAllHave) {
-  EXPECT_EQ(share_under_umbrellas(people_of(24), 0.5), 0);
-  Population population = people_of(4);
+  EXPECT_EQ(share_under_umbrellas(make_people(24), 0.5), 0);
+  Population population = make_people(4);
   for (Character& character : population.characters) character.carries = Carry::umbrella;
   EXPECT_EQ(share_under_umbrellas(population, 0), 1);
 }

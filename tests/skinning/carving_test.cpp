@@ -34,7 +34,7 @@ void add_box(Surface& surface, const Eigen::Vector3f& low, const Eigen::Vector3f
 }
 
 // Around the z axis, open below.
-Surface skirt_of(float radius_m, float low_m, float high_m) {
+Surface make_skirt(float radius_m, float low_m, float high_m) {
   Surface surface;
   constexpr std::uint32_t kSides = 48;
   for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -77,7 +77,7 @@ double volume_m3(const ClosedSurface& surface) {
 }
 
 TEST(Carving, ASkirtIsFilledAndKeepsItsShape) {
-  const Surface skirt = skirt_of(0.25F, 0.4F, 1.0F);
+  const Surface skirt = make_skirt(0.25F, 0.4F, 1.0F);
   const std::vector<PosedSurface> surfaces = {posed(skirt)};
   const Carving carving(surfaces);
   EXPECT_LT(carving.distance_m({0, 0, 0.7F}), -0.1F);

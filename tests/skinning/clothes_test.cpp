@@ -15,7 +15,7 @@ namespace {
 std::vector<std::string> names_in(std::string_view wears) {
   std::vector<std::string> names;
   for (const Clothing& clothing : clothes_in(wears)) {
-    names.push_back(std::string(name_of(clothing.slot)) + " " + std::string(clothing.type));
+    names.push_back(std::string(to_string(clothing.slot)) + " " + std::string(clothing.type));
   }
   return names;
 }

@@ -12,16 +12,16 @@ namespace throng::skinning {
 namespace {
 
 Clip clip_named(const std::string& name, double stride) {
-  const Population population = population_of({});
+  const Population population = make_population({});
   return *ClipSet(population).find(name, stride);
 }
 
 Eigen::Vector3f joint_at(const Walker& walker, const Palette& palette, Bone bone) {
-  const Eigen::Vector3f& joint = walker.joints[index_of(bone)];
-  return palette[index_of(bone)].leftCols<3>() * joint + palette[index_of(bone)].col(3);
+  const Eigen::Vector3f& joint = walker.joints[index_from(bone)];
+  return palette[index_from(bone)].leftCols<3>() * joint + palette[index_from(bone)].col(3);
 }
 
-float lowest_of(const std::vector<Vertex>& vertices, const Palette& palette) {
+float lowest_point(const std::vector<Vertex>& vertices, const Palette& palette) {
   float lowest = 10;
   for (const Vertex& vertex : vertices) {
     lowest = std::min(lowest, skin(vertex, palette, palette, 0).z());
@@ -36,7 +36,7 @@ TEST(Gait, EveryClipIsFiniteAndFeetStandOnTheGround) {
     ASSERT_EQ(palettes.size(), clip.frames);
     const bool runs = clip.name == "run" || clip.name == "panic";
     for (const Palette& palette : palettes) {
-      const float lowest = lowest_of(walker.body, palette);
+      const float lowest = lowest_point(walker.body, palette);
       EXPECT_GT(lowest, -0.02F) << clip.name << " " << clip.stride;
       EXPECT_LT(lowest, runs ? 0.2F : 0.001F) << clip.name << " " << clip.stride;
       for (const BoneMatrix& matrix : palette) EXPECT_TRUE(matrix.allFinite());
@@ -124,9 +124,9 @@ TEST(Gait, RunnersFlyTwiceAStrideAndWalkersNever) {
     const std::vector<Palette> palettes = bake_clip(walker, clip);
     int flights = 0;
     for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
-      const bool flies = lowest_of(walker.soles, palettes[frame]) > 0.008F;
+      const bool flies = lowest_point(walker.soles, palettes[frame]) > 0.008F;
       const std::size_t before = (frame + palettes.size() - 1) % palettes.size();
-      const bool flew = lowest_of(walker.soles, palettes[before]) > 0.008F;
+      const bool flew = lowest_point(walker.soles, palettes[before]) > 0.008F;
       flights += flies && !flew ? 1 : 0;
     }
     const bool runs = clip.name == "run" || clip.name == "panic";
@@ -154,8 +154,8 @@ TEST(Gait, StandingLegsAreNeitherLockedNorCrouching) {
   for (const double stride : {0.5, 0.66, 0.82, 0.94}) {
     const Stride walk(walker, {false, stride});
     const Pose pose = solve(walker, walk.at(0.3));
-    const Eigen::Matrix3f bend = pose.rotation[index_of(Bone::left_thigh)].transpose() *
-                                 pose.rotation[index_of(Bone::left_shin)];
+    const Eigen::Matrix3f bend = pose.rotation[index_from(Bone::left_thigh)].transpose() *
+                                 pose.rotation[index_from(Bone::left_shin)];
     const double knee_deg = Eigen::AngleAxisf(bend).angle() / kDegree;
     EXPECT_GT(knee_deg, 3) << stride;
     EXPECT_LT(knee_deg, 22) << stride;
@@ -185,7 +185,7 @@ TEST(Gait, OldPeopleStoop) {
   Walker walker = made_up_walker();
   const auto head_x = [&] {
     const Pose pose = Stride(walker, {false, 0.7}).at(0).pose;
-    return pose_joints(walker.joints, pose)[index_of(Bone::head)].x();
+    return pose_joints(walker.joints, pose)[index_from(Bone::head)].x();
   };
   walker.manner.age_years = 30;
   const float young = head_x();

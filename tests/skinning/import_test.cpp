@@ -78,7 +78,7 @@ struct Bounds {
   Eigen::Vector3f high = Eigen::Vector3f::Constant(-100);
 };
 
-Bounds bounds_of(const Mesh& mesh) {
+Bounds bounding_box(const Mesh& mesh) {
   Bounds bounds;
   for (const Vertex& vertex : mesh.vertices) {
     const Eigen::Vector3f p(vertex.position[0], vertex.position[1], vertex.position[2]);
@@ -92,7 +92,7 @@ void expect_sound(const Population& people, double height_m) {
   ASSERT_EQ(people.characters.size(), 1U);
   const Character& character = people.characters.front();
   EXPECT_NEAR(character.stature_m, height_m, 1e-4);
-  const Bounds bounds = bounds_of(character.levels.front());
+  const Bounds bounds = bounding_box(character.levels.front());
   EXPECT_NEAR(bounds.low.z(), 0, 1e-4);
   EXPECT_NEAR(bounds.high.z(), height_m, 1e-3);
   EXPECT_NEAR(bounds.low.y(), -bounds.high.y(), 0.01);
@@ -173,7 +173,7 @@ TEST_F(ImportTest, ArmsOfATPoseComeDown) {
   write_model();
   const Population people = import(describe());
   expect_sound(people, 1.62);
-  const Bounds bounds = bounds_of(people.characters.front().levels.front());
+  const Bounds bounds = bounding_box(people.characters.front().levels.front());
   EXPECT_LT(bounds.high.y(), 0.45F);
 }
 
@@ -230,7 +230,7 @@ TEST_F(ImportTest, FeetDoNotSkateInTheOwnWalkAtAnySpeed) {
     Appearance appearance;
     appearance.phase_offset = 0.6F;
     const MotionPlan plan(people, appearance, 1, moments, 0.1);
-    const Contact contact = contact_of(people, 0, plan, moments, 0, 70, ball, 0.0025F, 0.1);
+    const Contact contact = find_contact(people, 0, plan, moments, 0, 70, ball, 0.0025F, 0.1);
     EXPECT_GE(contact.landings, 2) << speed_mps;
     EXPECT_LT(contact.slide_m, 0.015) << speed_mps;
     EXPECT_GT(contact.lowest_m, -0.01) << speed_mps;
@@ -278,7 +278,7 @@ TEST_F(ImportTest, ManyTrianglesAreSimplifiedToLevels) {
     EXPECT_TRUE(kept || levels[i].indices.size() / 3 <= max_triangles + max_triangles / 4)
         << "level " << i;
     EXPECT_GE(levels[i].indices.size() / 3, max_triangles / 4);
-    const Bounds bounds = bounds_of(levels[i]);
+    const Bounds bounds = bounding_box(levels[i]);
     EXPECT_NEAR(bounds.high.z(), 1.62, 0.02);
     EXPECT_NEAR(bounds.low.z(), 0, 0.02);
   }

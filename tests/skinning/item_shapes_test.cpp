@@ -15,7 +15,7 @@ DressedPerson boxy_person() {
   person.stature_m = 1.8F;
   Surface trunk;
   BoneWeights weights{};
-  weights[index_of(Bone::chest)] = 1;
+  weights[index_from(Bone::chest)] = 1;
   for (const float x : {-0.1F, 0.1F}) {
     for (const float y : {-0.17F, 0.17F}) {
       for (const float z : {0.85F, 1.5F}) {
@@ -80,7 +80,7 @@ TEST(ItemShapes, HangWhereTheyBelong) {
         EXPECT_LT(middle.y(), -0.05F);
         break;
       case Carry::handbag:
-        EXPECT_LT(middle.z(), person.joints[index_of(Bone::right_hand)].z());
+        EXPECT_LT(middle.z(), person.joints[index_from(Bone::right_hand)].z());
         EXPECT_GT(middle.z(), 0.3F);
         break;
       default:
@@ -91,7 +91,7 @@ TEST(ItemShapes, HangWhereTheyBelong) {
 
 TEST(ItemShapes, TheUmbrellasStickGoesThroughTheGrip) {
   const DressedPerson person = boxy_person();
-  const auto grip = grip_of(Carry::umbrella, person.joints);
+  const auto grip = find_grip(Carry::umbrella, person.joints);
   ASSERT_TRUE(grip.has_value());
   const auto item = make_item(Carry::umbrella, person, 0);
   float nearest = 1;
@@ -99,7 +99,7 @@ TEST(ItemShapes, TheUmbrellasStickGoesThroughTheGrip) {
     nearest = std::min(nearest, (point - grip->point).norm());
   }
   EXPECT_LT(nearest, 0.04F);
-  EXPECT_FALSE(grip_of(Carry::backpack, person.joints).has_value());
+  EXPECT_FALSE(find_grip(Carry::backpack, person.joints).has_value());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using BakedLandmarks = BakedPeopleTest;
 
 TEST_F(BakedLandmarks, FacesHaveTheirNosesEyesAndEarsWherePeopleHaveThem) {
   for (const Character& character : people_->characters) {
-    const Landmarks found = landmarks_of(character);
+    const Landmarks found = find_landmarks(character);
     const Keypoints& at = found.rest;
     const float stature = character.stature_m;
     SCOPED_TRACE(character.name);
@@ -37,10 +37,10 @@ TEST_F(BakedLandmarks, FacesHaveTheirNosesEyesAndEarsWherePeopleHaveThem) {
 
 TEST_F(BakedLandmarks, OfHeadHandsAndFeetAreAtTheirEnds) {
   for (const Character& character : people_->characters) {
-    const Landmarks found = landmarks_of(character);
+    const Landmarks found = find_landmarks(character);
     const float stature = character.stature_m;
     SCOPED_TRACE(character.name);
-    const auto at = [&](Joint joint) { return found.rest[index_of(joint)]; };
+    const auto at = [&](Joint joint) { return found.rest[index_from(joint)]; };
     EXPECT_NEAR(at(Joint::head_top).z(), stature, 0.02F * stature);
     EXPECT_LT(at(Joint::head_center).z(), at(Joint::head_top).z() - 0.04F * stature);
     EXPECT_GT(at(Joint::head_center).z(), at(Joint::neck).z());
@@ -50,7 +50,7 @@ TEST_F(BakedLandmarks, OfHeadHandsAndFeetAreAtTheirEnds) {
     for (const int right : {0, 1}) {
       const float side = right == 0 ? 1.0F : -1.0F;
       const auto of_side = [&](Joint left) {
-        return found.rest[index_of(left) + static_cast<std::size_t>(right)];
+        return found.rest[index_from(left) + static_cast<std::size_t>(right)];
       };
       const Eigen::Vector3f big = of_side(Joint::left_big_toe);
       const Eigen::Vector3f small = of_side(Joint::left_small_toe);
@@ -70,16 +70,16 @@ TEST_F(BakedLandmarks, OfHeadHandsAndFeetAreAtTheirEnds) {
 }
 
 TEST(Joints, HaveNames) {
-  EXPECT_EQ(joint_names()[index_of(Joint::right_ankle)], "right_ankle");
-  EXPECT_EQ(joint_names()[index_of(Joint::head_top)], "head_top");
-  EXPECT_EQ(joint_names()[index_of(Joint::right_heel)], "right_heel");
+  EXPECT_EQ(joint_names()[index_from(Joint::right_ankle)], "right_ankle");
+  EXPECT_EQ(joint_names()[index_from(Joint::head_top)], "head_top");
+  EXPECT_EQ(joint_names()[index_from(Joint::right_heel)], "right_heel");
 }
 
 TEST(Landmarks, WithoutAMeshTheyFollowStature) {
   Character character;
   character.stature_m = 2;
   character.joints.fill(Eigen::Vector3f(0, 0, 1.75F));
-  const Landmarks found = landmarks_of(character);
+  const Landmarks found = find_landmarks(character);
   EXPECT_NEAR(found.rest[1].z(), 1.872, 1e-4);
   EXPECT_GT(found.rest[1].y(), 0);
   EXPECT_LT(found.rest[2].y(), 0);

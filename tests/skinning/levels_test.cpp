@@ -104,7 +104,7 @@ double overlap(const Silhouette& a, const Silhouette& b) {
   return static_cast<double>(both) / either;
 }
 
-double share_of(std::vector<double> values, double share) {
+double share_quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
@@ -160,15 +160,15 @@ TEST_F(LevelsTest, NobodyNoticesTheSwitch) {
     std::vector<double> all;
     for (std::size_t i = 0; i < people_->characters.size(); ++i) {
       const std::vector<double> own = overlaps(people_->characters[i], i, finer);
-      EXPECT_GE(share_of(own, 0.5), 0.88)
+      EXPECT_GE(share_quantile(own, 0.5), 0.88)
           << people_->characters[i].name << ", " << people_->characters[i].wears;
       all.insert(all.end(), own.begin(), own.end());
     }
     const std::string switch_name = "from_" + std::to_string(finer);
-    RecordProperty(switch_name + "_median", std::to_string(share_of(all, 0.5)));
-    RecordProperty(switch_name + "_tenth", std::to_string(share_of(all, 0.1)));
-    EXPECT_GE(share_of(all, 0.5), 0.92) << "from level " << finer << " to the next";
-    EXPECT_GE(share_of(all, 0.1), 0.86) << "from level " << finer << " to the next";
+    RecordProperty(switch_name + "_median", std::to_string(share_quantile(all, 0.5)));
+    RecordProperty(switch_name + "_tenth", std::to_string(share_quantile(all, 0.1)));
+    EXPECT_GE(share_quantile(all, 0.5), 0.92) << "from level " << finer << " to the next";
+    EXPECT_GE(share_quantile(all, 0.1), 0.86) << "from level " << finer << " to the next";
   }
 }
 

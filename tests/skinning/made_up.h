@@ -14,7 +14,7 @@ namespace throng::skinning {
 inline Joints made_up_joints() {
   Joints joints;
   const auto put = [&](Bone bone, float x, float y, float z) {
-    joints[index_of(bone)] = {x, y, z};
+    joints[index_from(bone)] = {x, y, z};
   };
   put(Bone::hips, 0, 0, 0.95F);
   put(Bone::spine, 0, 0, 1.05F);
@@ -24,7 +24,7 @@ inline Joints made_up_joints() {
   for (const bool left : {true, false}) {
     const float side = left ? 1 : -1;
     const auto of = [&](Bone bone) {
-      return static_cast<Bone>(index_of(bone) + (left ? 0 : 4));  // each limb has four bones
+      return static_cast<Bone>(index_from(bone) + (left ? 0 : 4));  // each limb has four bones
     };
     put(of(Bone::left_clavicle), 0, side * 0.03F, 1.45F);
     put(of(Bone::left_upper_arm), 0, side * 0.18F, 1.45F);

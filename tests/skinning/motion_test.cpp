@@ -72,7 +72,7 @@ TEST(Clips, AnotherTakesThePlaceOfAMissingOne) {
   EXPECT_EQ(clips.find("phone"), nullptr);
 }
 
-const Clip& clip_of(const Population& population, std::uint32_t palette) {
+const Clip& find_clip(const Population& population, std::uint32_t palette) {
   const Clip* found = &population.clips.front();
   for (const Clip& clip : population.clips) {
     if (clip.first <= palette) found = &clip;
@@ -85,8 +85,8 @@ TEST(Pose, BlendsNeighboringFramesOfOneClip) {
   for (double speed = 0; speed < 5; speed += 0.07) {
     for (double phase = -3; phase < 3; phase += 0.013) {
       const PoseBlend pose = pose_at(population, phase, speed, 12.5);
-      const Clip& clip = clip_of(population, pose.a);
-      EXPECT_EQ(&clip, &clip_of(population, pose.b));
+      const Clip& clip = find_clip(population, pose.a);
+      EXPECT_EQ(&clip, &find_clip(population, pose.b));
       EXPECT_EQ((pose.a - clip.first + 1) % clip.frames, pose.b - clip.first);
       EXPECT_GE(pose.blend, 0);
       EXPECT_LE(pose.blend, 1);
@@ -97,7 +97,7 @@ TEST(Pose, BlendsNeighboringFramesOfOneClip) {
 TEST(Pose, TakesTheClipOfTheSpeed) {
   const Population population = made_up_population(1);
   const auto clip = [&](double speed) {
-    return clip_of(population, pose_at(population, 0.3, speed, 0).a);
+    return find_clip(population, pose_at(population, 0.3, speed, 0).a);
   };
   EXPECT_EQ(clip(0.05).name, "idle");
   EXPECT_EQ(clip(1.3).name, "walk");
@@ -107,10 +107,10 @@ TEST(Pose, TakesTheClipOfTheSpeed) {
 
 TEST(Pose, ClipsThatDoNotRepeatEnd) {
   const Clip clip{"fall_forwards", 0, 10, 5, 0, 0, false};
-  EXPECT_EQ(frame_of(clip, -1).a, 10U);
-  EXPECT_EQ(frame_of(clip, 99).b, 14U);
-  EXPECT_EQ(frame_of(clip, 2.25).a, 12U);
-  EXPECT_EQ(frame_of(clip, 2.25).b, 13U);
+  EXPECT_EQ(blend_frame(clip, -1).a, 10U);
+  EXPECT_EQ(blend_frame(clip, 99).b, 14U);
+  EXPECT_EQ(blend_frame(clip, 2.25).a, 12U);
+  EXPECT_EQ(blend_frame(clip, 2.25).b, 13U);
 }
 
 TEST(Pose, StandingPeopleMoveWithTime) {
@@ -122,9 +122,9 @@ TEST(Pose, StandingPeopleMoveWithTime) {
 
 TEST(AppearanceOf, IsAPureFunctionOfSeedAndAgent) {
   const Population population = made_up_population(5);
-  const Appearance a = appearance_of(population, 9, 123);
-  appearance_of(population, 9, 7);
-  const Appearance b = appearance_of(population, 9, 123);
+  const Appearance a = sample_appearance(population, 9, 123);
+  sample_appearance(population, 9, 7);
+  const Appearance b = sample_appearance(population, 9, 123);
   EXPECT_EQ(a.character, b.character);
   EXPECT_EQ(a.phase_offset, b.phase_offset);
   EXPECT_EQ(a.tint, b.tint);
@@ -134,8 +134,8 @@ TEST(AppearanceOf, NeighborsAreDifferentPeople) {
   for (const std::size_t count : {3, 8, 12}) {
     const Population population = made_up_population(count);
     for (std::uint32_t agent = 0; agent < 500; ++agent) {
-      EXPECT_NE(appearance_of(population, 4, agent).character,
-                appearance_of(population, 4, agent + 1).character)
+      EXPECT_NE(sample_appearance(population, 4, agent).character,
+                sample_appearance(population, 4, agent + 1).character)
           << count << " characters, agent " << agent;
     }
   }
@@ -145,7 +145,7 @@ TEST(AppearanceOf, UsesEverybodyAboutEquallyOften) {
   const Population population = made_up_population(8);
   std::vector<int> used(8, 0);
   for (std::uint32_t agent = 0; agent < 800; ++agent) {
-    ++used[appearance_of(population, 1, agent).character];
+    ++used[sample_appearance(population, 1, agent).character];
   }
   for (const int count : used) EXPECT_NEAR(count, 100, 3);
 }
@@ -154,7 +154,7 @@ TEST(AppearanceOf, CloneColorsDiffer) {
   const Population population = made_up_population(1);
   std::set<Rgb> tops;
   for (std::uint32_t agent = 0; agent < 100; ++agent) {
-    const Appearance appearance = appearance_of(population, 1, agent);
+    const Appearance appearance = sample_appearance(population, 1, agent);
     tops.insert(appearance.tint[static_cast<std::size_t>(Tint::top)]);
     EXPECT_EQ(appearance.tint[static_cast<std::size_t>(Tint::shoes)], (Rgb{255, 255, 255}));
     EXPECT_GE(appearance.phase_offset, 0);
@@ -169,8 +169,8 @@ TEST(AppearanceOf, OtherRunsHaveOtherPeople) {
   const Population population = made_up_population(12);
   int same = 0;
   for (std::uint32_t agent = 0; agent < 120; ++agent) {
-    same += appearance_of(population, 1, agent).character ==
-                    appearance_of(population, 2, agent).character
+    same += sample_appearance(population, 1, agent).character ==
+                    sample_appearance(population, 2, agent).character
                 ? 1
                 : 0;
   }

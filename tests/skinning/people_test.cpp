@@ -191,16 +191,16 @@ TEST_F(PeopleTest, HeadsAreOnTopAndFeetBelowPointingForwards) {
 }
 
 TEST_F(PeopleTest, LeftIsPositiveY) {
-  constexpr float kTouching_m = 0.01F;  // heavy legs touch
+  constexpr float kTouchingM = 0.01F;  // heavy legs touch
   for (const Character& character : people_->characters) {
     for (const Vertex& vertex : character.levels.front().vertices) {
       if (vertex.weights[0] < 250) continue;
       const auto bone = static_cast<Bone>(vertex.bones[0]);
       if (bone == Bone::left_hand || bone == Bone::left_shin) {
-        EXPECT_GT(vertex.position[1], -kTouching_m);
+        EXPECT_GT(vertex.position[1], -kTouchingM);
       }
       if (bone == Bone::right_hand || bone == Bone::right_shin) {
-        EXPECT_LT(vertex.position[1], kTouching_m);
+        EXPECT_LT(vertex.position[1], kTouchingM);
       }
     }
   }
@@ -342,17 +342,17 @@ TEST_F(PeopleTest, NobodyHasGapsFromHeadToFoot) {
 // Skin is left out where clothes cover it: where a short top leaves a low waistband, one must not
 // look through somebody.
 TEST_F(PeopleTest, NobodyCanBeLookedThroughAtTheWaist) {
-  constexpr float kPixel_m = 0.002F;
+  constexpr float kPixelM = 0.002F;
   constexpr int kWidth = 40;  // the middle of the trunk, which arms leave free
   const Palette rest = rest_palette();
   for (const Character& character : people_->characters) {
     const Mesh& mesh = character.levels.front();
     const float low_m = 0.52F * character.stature_m;
-    const auto height = static_cast<int>(0.2F * character.stature_m / kPixel_m);
+    const auto height = static_cast<int>(0.2F * character.stature_m / kPixelM);
     std::vector<char> covered(static_cast<std::size_t>(kWidth) * height, 0);
     const auto place = [&](std::uint32_t index) {
       const Eigen::Vector3f p = skin(mesh.vertices[index], rest, rest, 0);
-      return Eigen::Vector2f(p.y() / kPixel_m + 0.5F * kWidth, (p.z() - low_m) / kPixel_m);
+      return Eigen::Vector2f(p.y() / kPixelM + 0.5F * kWidth, (p.z() - low_m) / kPixelM);
     };
     for (std::size_t at = 0; at < mesh.indices.size(); at += 3) {
       const Eigen::Vector2f corner = place(mesh.indices[at]);
@@ -376,7 +376,7 @@ TEST_F(PeopleTest, RestPoseIsTheIdentity) {
   EXPECT_LT((skin(vertex, rest, rest, 0.3F) - position).norm(), 1e-6F);
 }
 
-int share_of(const Vertex& vertex, Bone bone) {
+int bone_weight(const Vertex& vertex, Bone bone) {
   int share = 0;
   for (std::size_t slot = 0; slot < 4; ++slot) {
     if (static_cast<Bone>(vertex.bones[slot]) == bone) share += vertex.weights[slot];
@@ -386,11 +386,11 @@ int share_of(const Vertex& vertex, Bone bone) {
 
 // The ball of the foot: of what follows the toes more than the rest of the foot, the rearmost
 // vertex of the sole. The soles of some shoes rise toward their tips, which stay in the air.
-const Vertex* ball_of(const Mesh& mesh, Bone toe) {
-  constexpr float kSole_m = 0.006F;
+const Vertex* ball_of_foot(const Mesh& mesh, Bone toe) {
+  constexpr float kSoleM = 0.006F;
   std::vector<const Vertex*> forefoot;
   for (const Vertex& vertex : mesh.vertices) {
-    if (share_of(vertex, toe) > 127) forefoot.push_back(&vertex);
+    if (bone_weight(vertex, toe) > 127) forefoot.push_back(&vertex);
   }
   if (forefoot.empty()) return nullptr;
   const auto lower = [](const Vertex* a, const Vertex* b) {
@@ -399,7 +399,7 @@ const Vertex* ball_of(const Mesh& mesh, Bone toe) {
   const float sole_m = (*std::min_element(forefoot.begin(), forefoot.end(), lower))->position[2];
   const Vertex* found = nullptr;
   for (const Vertex* vertex : forefoot) {
-    if (vertex->position[2] > sole_m + kSole_m) continue;
+    if (vertex->position[2] > sole_m + kSoleM) continue;
     if (found == nullptr || vertex->position[0] < found->position[0]) found = vertex;
   }
   return found;
@@ -415,9 +415,10 @@ double slide_mm(const Population& people, std::uint32_t character, double speed_
   appearance.amplitude = amplitude;
   appearance.phase_offset = 0.6F;
   const MotionPlan plan(people, appearance, 1, moments, 0.1);
-  const Vertex* ball = ball_of(mesh, Bone::left_toe);
+  const Vertex* ball = ball_of_foot(mesh, Bone::left_toe);
   if (ball == nullptr) return 1000;
-  const Contact contact = contact_of(people, character, plan, moments, 0, 70, *ball, 0.0025F, 0.1);
+  const Contact contact =
+      find_contact(people, character, plan, moments, 0, 70, *ball, 0.0025F, 0.1);
   return contact.landings < 2 ? 1000 : 1000 * contact.slide_m;
 }
 

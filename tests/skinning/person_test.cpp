@@ -21,8 +21,8 @@ std::vector<PersonSpec> sample_many(std::uint64_t seed, bool with_attribution = 
   return people;
 }
 
-std::vector<double> heights_of(const std::vector<PersonSpec>& people,
-                               const std::function<bool(const PersonSpec&)>& wanted) {
+std::vector<double> list_heights(const std::vector<PersonSpec>& people,
+                                 const std::function<bool(const PersonSpec&)>& wanted) {
   std::vector<double> heights;
   for (const PersonSpec& person : people) {
     if (wanted(person)) heights.push_back(person.height_m);
@@ -30,14 +30,14 @@ std::vector<double> heights_of(const std::vector<PersonSpec>& people,
   return heights;
 }
 
-double mean_of(const std::vector<double>& values) {
+double compute_mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
-double deviation_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
+double standard_deviation(const std::vector<double>& values) {
+  const double mean = compute_mean(values);
   double sum = 0;
   for (const double value : values) sum += (value - mean) * (value - mean);
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
@@ -71,12 +71,12 @@ TEST(Person, AdultHeightsFollowThePublishedDistributions) {
   for (const bool male : {true, false}) {
     const double mean = male ? 1.76 : 1.63;
     const double deviation = male ? 0.07 : 0.065;
-    const std::vector<double> heights = heights_of(people, [&](const PersonSpec& person) {
+    const std::vector<double> heights = list_heights(people, [&](const PersonSpec& person) {
       return person.male == male && person.age_years >= 18 && person.age_years < 40;
     });
     ASSERT_GT(heights.size(), 300U);
-    EXPECT_NEAR(mean_of(heights), mean, 0.01);
-    EXPECT_NEAR(deviation_of(heights), deviation, 0.006);
+    EXPECT_NEAR(compute_mean(heights), mean, 0.01);
+    EXPECT_NEAR(standard_deviation(heights), deviation, 0.006);
     // 1.63 / sqrt(n) is exceeded by one sample of a hundred.
     EXPECT_LT(distance_from_normal(heights, mean, deviation),
               1.63 / std::sqrt(static_cast<double>(heights.size())));
@@ -86,7 +86,7 @@ TEST(Person, AdultHeightsFollowThePublishedDistributions) {
 TEST(Person, OldPeopleAreALittleShorter) {
   const std::vector<PersonSpec> people = sample_many(2);
   for (const bool male : {true, false}) {
-    const double old = mean_of(heights_of(people, [&](const PersonSpec& person) {
+    const double old = compute_mean(list_heights(people, [&](const PersonSpec& person) {
       return person.male == male && person.age_years >= 65;
     }));
     const double lost = (male ? 1.76 : 1.63) - old;
@@ -99,11 +99,11 @@ TEST(Person, ChildrenGrow) {
   const std::vector<PersonSpec> people = sample_many(3);
   double before = 1.0;
   for (int age = 6; age < 18; age += 3) {
-    const std::vector<double> heights = heights_of(people, [&](const PersonSpec& person) {
+    const std::vector<double> heights = list_heights(people, [&](const PersonSpec& person) {
       return person.age_years >= age && person.age_years < age + 3;
     });
     ASSERT_GT(heights.size(), 20U) << age;
-    const double mean = mean_of(heights);
+    const double mean = compute_mean(heights);
     EXPECT_GT(mean, before) << age;
     EXPECT_NEAR(mean, 0.5 * (child_height_m(true, age + 1.5) + child_height_m(false, age + 1.5)),
                 0.03)
@@ -164,7 +164,7 @@ TEST(Outfit, FitsTogether) {
   for (const bool with_attribution : {false, true}) {
     for (const PersonSpec& person : sample_many(6, with_attribution)) {
       const Outfit& outfit = person.outfit;
-      EXPECT_FALSE(description_of(outfit).empty());
+      EXPECT_FALSE(describe_outfit(outfit).empty());
       EXPECT_FALSE(outfit.shoes.empty());
       if (outfit.bottom.empty()) {
         EXPECT_EQ(garment(outfit.top, Slot::dress).slot, Slot::dress) << person.name;
@@ -195,7 +195,7 @@ TEST(Outfit, IsFreeOfAttributionUnlessAsked) {
       for (const std::string& name :
            {outfit.top, outfit.bottom, outfit.shoes, outfit.hair, outfit.hat, person.eyebrows}) {
         if (name.empty()) continue;
-        const bool free = license_of(name) == License::cc0;
+        const bool free = find_license(name) == License::cc0;
         if (!with_attribution) {
           EXPECT_TRUE(free) << name;
         }

@@ -18,7 +18,7 @@ constexpr double kDtS = 0.1;
 
 /// Baked once: an adult and a child.
 const Population& two_people() {
-  static const Population population = population_of({made_up_walker(1), made_up_walker(0.7F)});
+  static const Population population = make_population({made_up_walker(1), made_up_walker(0.7F)});
   return population;
 }
 
@@ -29,8 +29,8 @@ Contact worst_contact(const MotionPlan& plan, std::size_t character,
   Contact worst;
   for (const Side side : kSides) {
     for (const Vertex& mark : made_up_marks(side, kScale[character])) {
-      const Contact contact = contact_of(two_people(), character, plan, moments, 0,
-                                         static_cast<double>(moments.size() - 1), mark);
+      const Contact contact = find_contact(two_people(), character, plan, moments, 0,
+                                           static_cast<double>(moments.size() - 1), mark);
       worst.slide_m = std::max(worst.slide_m, contact.slide_m);
       worst.lowest_m = std::min(worst.lowest_m, contact.lowest_m);
       worst.landings += contact.landings;
@@ -230,7 +230,7 @@ TEST(Plan, FallenPeopleFallLieAndGetUp) {
   for (std::size_t step = 40; step < 120; ++step) moments[step].down = true;
   const MotionPlan plan = plan_for(moments);
   const Vertex head =
-      made_up_vertex(made_up_joints()[index_of(Bone::head)], Bone::head, Bone::head, 0);
+      made_up_vertex(made_up_joints()[index_from(Bone::head)], Bone::head, Bone::head, 0);
   const auto height = [&](double step) {
     return placed(two_people(), 0, plan, moments, step, head).z();
   };
@@ -246,7 +246,7 @@ TEST(Plan, FallenPeopleFallLieAndGetUp) {
 // is down in action exactly while the flag says so.
 TEST(Plan, PoseActionAndFlagChangeTogether) {
   const Vertex head =
-      made_up_vertex(made_up_joints()[index_of(Bone::head)], Bone::head, Bone::head, 0);
+      made_up_vertex(made_up_joints()[index_from(Bone::head)], Bone::head, Bone::head, 0);
   const std::size_t last = 99;
   for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{{40, 80},
                                                                                  {40, last},

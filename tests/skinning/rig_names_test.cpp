@@ -71,19 +71,19 @@ const std::array kRigs = {
 
 class RigNamesTest : public testing::TestWithParam<NamedRig> {};
 
-RiggedModel model_of(const NamedRig& rig) {
+RiggedModel make_model(const NamedRig& rig) {
   RiggedModel model;
   model.file = "model.glb";
   model.nodes.push_back({"Root", -1, Eigen::Matrix4f::Identity(), false});
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    const int parent = bone == 0 ? 0 : static_cast<int>(index_of(kParent[bone])) + 1;
+    const int parent = bone == 0 ? 0 : static_cast<int>(index_from(kParent[bone])) + 1;
     model.nodes.push_back({rig.names[bone], parent, Eigen::Matrix4f::Identity(), true});
   }
   return model;
 }
 
 TEST_P(RigNamesTest, AreKnown) {
-  const BoneNodes nodes = map_bones(model_of(GetParam()), {}, "x.json");
+  const BoneNodes nodes = map_bones(make_model(GetParam()), {}, "x.json");
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
     EXPECT_EQ(nodes[bone], static_cast<int>(bone) + 1) << kBoneNames[bone];
   }
@@ -93,20 +93,20 @@ INSTANTIATE_TEST_SUITE_P(Programs, RigNamesTest, testing::ValuesIn(kRigs),
                          [](const auto& rig_info) { return std::string(rig_info.param.program); });
 
 TEST(RigNames, HandlesOfAnimatorsAreNoBones) {
-  RiggedModel model = model_of(kRigs[0]);
+  RiggedModel model = make_model(kRigs[0]);
   model.nodes.insert(model.nodes.begin() + 1,
                      {"LeftFoot_IK", 0, Eigen::Matrix4f::Identity(), false});
   for (std::size_t i = 3; i < model.nodes.size(); ++i) ++model.nodes[i].parent;
   const BoneNodes nodes = map_bones(model, {}, "x.json");
-  EXPECT_EQ(model.nodes[static_cast<std::size_t>(nodes[index_of(Bone::left_foot)])].name,
+  EXPECT_EQ(model.nodes[static_cast<std::size_t>(nodes[index_from(Bone::left_foot)])].name,
             "mixamorig:LeftFoot");
 }
 
 TEST(RigNames, TheUsersNamesComeFirst) {
-  RiggedModel model = model_of(kRigs[0]);
+  RiggedModel model = make_model(kRigs[0]);
   model.nodes.push_back({"Skull", 5, Eigen::Matrix4f::Identity(), true});
   const BoneNodes nodes = map_bones(model, {{"head", "Skull"}}, "x.json");
-  EXPECT_EQ(nodes[index_of(Bone::head)], static_cast<int>(model.nodes.size()) - 1);
+  EXPECT_EQ(nodes[index_from(Bone::head)], static_cast<int>(model.nodes.size()) - 1);
 }
 
 TEST(RigNames, SimilarNamesAreFound) {

@@ -69,22 +69,22 @@ class SceneMaker {
 
   void raise_arms() {
     for (const Side side : kSides) {
-      const Eigen::Vector3f out(0, sign_of(side), 0);
+      const Eigen::Vector3f out(0, side_sign(side), 0);
       for (const Bone bone : {Bone::left_forearm, Bone::left_hand}) {
-        const std::size_t at = index_of(on(side, bone));
+        const std::size_t at = index_from(on(side, bone));
         const Joints rest = made_up_joints();
         joints_[at] = joints_[at - 1] + (rest[at] - rest[at - 1]).norm() * out;
       }
     }
   }
 
-  std::string name_of(Bone bone) const {
+  std::string to_string(Bone bone) const {
     return options_->name(options_->swapped ? mirrored(bone) : bone);
   }
 
   /// The bone itself or the nearest one above it that the rig has.
   Bone held_by(Bone bone) const {
-    while (name_of(bone).empty()) bone = kParent[index_of(bone)];
+    while (to_string(bone).empty()) bone = kParent[index_from(bone)];
     return bone;
   }
 
@@ -100,16 +100,16 @@ class SceneMaker {
     aiNode* armature = child(scene_->mRootNode, "Armature", {});
     for (std::size_t i = 0; i < kBoneCount; ++i) {
       const auto bone = static_cast<Bone>(i);
-      if (name_of(bone).empty()) continue;
+      if (to_string(bone).empty()) continue;
       const bool root = i == 0;
       const Bone parent = root ? bone : held_by(kParent[i]);
       const Eigen::Vector3f offset =
-          root ? joints_[i] : Eigen::Vector3f(joints_[i] - joints_[index_of(parent)]);
-      nodes_[bone] = child(root ? armature : nodes_.at(parent), name_of(bone), to_file(offset));
+          root ? joints_[i] : Eigen::Vector3f(joints_[i] - joints_[index_from(parent)]);
+      nodes_[bone] = child(root ? armature : nodes_.at(parent), to_string(bone), to_file(offset));
     }
     if (!options_->fingers) return;
     for (const Bone hand : {Bone::left_hand, Bone::right_hand}) {
-      child(nodes_.at(hand), name_of(hand) + "Middle1", to_file(Eigen::Vector3f(0, 0, -0.08F)));
+      child(nodes_.at(hand), to_string(hand) + "Middle1", to_file(Eigen::Vector3f(0, 0, -0.08F)));
     }
   }
 
@@ -132,12 +132,12 @@ class SceneMaker {
   std::vector<Limb3> limbs() const {
     std::vector<Limb3> limbs;
     const auto around = [&](Bone bone, const Eigen::Vector3f& end, float half) {
-      const Eigen::Vector3f& start = joints_[index_of(bone)];
+      const Eigen::Vector3f& start = joints_[index_from(bone)];
       limbs.push_back(
           {bone, start.cwiseMin(end).array() - half, start.cwiseMax(end).array() + half});
     };
     const auto to = [&](Bone bone, Bone end, float half) {
-      around(bone, joints_[index_of(end)], half);
+      around(bone, joints_[index_from(end)], half);
     };
     to(Bone::hips, Bone::spine, 0.1F);
     to(Bone::spine, Bone::chest, 0.1F);
@@ -149,12 +149,13 @@ class SceneMaker {
       to(on(side, Bone::left_upper_arm), on(side, Bone::left_forearm), 0.035F);
       to(on(side, Bone::left_forearm), on(side, Bone::left_hand), 0.03F);
       const Bone hand = on(side, Bone::left_hand);
-      const Eigen::Vector3f finger = options_->t_pose ? Eigen::Vector3f(0, 0.16F * sign_of(side), 0)
-                                                      : Eigen::Vector3f(0, 0, -0.16F);
-      around(hand, joints_[index_of(hand)] + finger, 0.02F);
+      const Eigen::Vector3f finger = options_->t_pose
+                                         ? Eigen::Vector3f(0, 0.16F * side_sign(side), 0)
+                                         : Eigen::Vector3f(0, 0, -0.16F);
+      around(hand, joints_[index_from(hand)] + finger, 0.02F);
       to(on(side, Bone::left_thigh), on(side, Bone::left_shin), 0.06F);
       to(on(side, Bone::left_shin), on(side, Bone::left_foot), 0.04F);
-      const float y = 0.085F * sign_of(side);
+      const float y = 0.085F * side_sign(side);
       limbs.push_back(
           {on(side, Bone::left_foot), {-0.06F, y - 0.04F, 0}, {0.14F, y + 0.04F, 0.1F}});
       limbs.push_back({on(side, Bone::left_toe), {0.14F, y - 0.04F, 0}, {0.22F, y + 0.04F, 0.05F}});
@@ -237,8 +238,8 @@ class SceneMaker {
     const Bone bone = bones_[vertex];
     const bool finger = options_->fingers &&
                         (bone == Bone::left_hand || bone == Bone::right_hand) &&
-                        points_[vertex].z() < joints_[index_of(bone)].z() - 0.08F;
-    return name_of(held_by(bone)) + (finger ? "Middle1" : "");
+                        points_[vertex].z() < joints_[index_from(bone)].z() - 0.08F;
+    return to_string(held_by(bone)) + (finger ? "Middle1" : "");
   }
 
   void add_weights(aiMesh& mesh) const {
@@ -268,13 +269,13 @@ class SceneMaker {
 
   void add_walk() {
     const Walker walker = made_up_walker();
-    constexpr double kStride_m = 1.2;
-    const Stride stride(walker, {false, kStride_m / static_cast<double>(walker.stature_m)});
+    constexpr double kStrideM = 1.2;
+    const Stride stride(walker, {false, kStrideM / static_cast<double>(walker.stature_m)});
     constexpr unsigned kKeys = 31;
     auto* clip = new aiAnimation;
     clip->mName = "Stroll";
     clip->mTicksPerSecond = 1;  // the one rate that all of assimp's exporters agree on
-    clip->mDuration = kStride_m / kStrollSpeedMps;
+    clip->mDuration = kStrideM / kStrollSpeedMps;
     clip->mNumChannels = static_cast<unsigned>(nodes_.size());
     clip->mChannels = new aiNodeAnim*[nodes_.size()];
     std::size_t at = 0;
@@ -294,7 +295,7 @@ class SceneMaker {
         const bool root = bone == Bone::hips;
         const Eigen::Matrix3f above =
             root ? Eigen::Matrix3f::Identity()
-                 : pose.rotation[index_of(held_by(kParent[index_of(bone)]))];
+                 : pose.rotation[index_from(held_by(kParent[index_from(bone)]))];
         const Eigen::Matrix3f turn = above.transpose() * pose.of(bone);
         const aiVector3D shift(node->mTransformation.a4, node->mTransformation.b4,
                                node->mTransformation.c4);
@@ -322,7 +323,7 @@ class SceneMaker {
 
 }  // namespace
 
-std::string mixamo_name(Bone bone) { return std::string("mixamorig:") + kMixamo[index_of(bone)]; }
+std::string mixamo_name(Bone bone) { return std::string("mixamorig:") + kMixamo[index_from(bone)]; }
 
 std::unique_ptr<aiScene> rigged_scene(const RiggedOptions& options) {
   return SceneMaker(options).make();

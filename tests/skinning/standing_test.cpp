@@ -11,7 +11,7 @@
 namespace throng::skinning {
 namespace {
 
-Pose pose_of(const Walker& walker, const Figure& figure) { return solve(walker, figure); }
+Pose solve_pose(const Walker& walker, const Figure& figure) { return solve(walker, figure); }
 
 double apart(const Pose& a, const Pose& b, const Joints& joints) {
   const Joints at_a = pose_joints(joints, a);
@@ -27,7 +27,7 @@ double apart(const Pose& a, const Pose& b, const Joints& joints) {
 
 TEST(Standing, EverythingBeginsAndEndsInOneStance) {
   const Walker walker = made_up_walker();
-  const Pose ready_pose = pose_of(walker, ready(walker));
+  const Pose ready_pose = solve_pose(walker, ready(walker));
   const Stride stride(walker, {false, 0.62});
   const std::vector<std::pair<const char*, Figure>> ends = {
       {"stand", stand(walker, 1)},
@@ -42,31 +42,31 @@ TEST(Standing, EverythingBeginsAndEndsInOneStance) {
       {"stop left", stop(walker, stride, Side::left, 1)},
       {"stop right", stop(walker, stride, Side::right, 1)}};
   for (const auto& [name, figure] : ends) {
-    EXPECT_LT(apart(pose_of(walker, figure), ready_pose, walker.joints), 0.01) << name;
+    EXPECT_LT(apart(solve_pose(walker, figure), ready_pose, walker.joints), 0.01) << name;
   }
 }
 
 TEST(Standing, StartsLeadIntoTheWalkAndStopsOutOfIt) {
   const Walker walker = made_up_walker();
   const Stride stride(walker, {false, 0.62});
-  EXPECT_LT(apart(pose_of(walker, start(walker, stride, Side::left, 1)),
-                  pose_of(walker, stride.at(kWalkMiddle + 0.25)), walker.joints),
+  EXPECT_LT(apart(solve_pose(walker, start(walker, stride, Side::left, 1)),
+                  solve_pose(walker, stride.at(kWalkMiddle + 0.25)), walker.joints),
             1e-4);
-  EXPECT_LT(apart(pose_of(walker, stop(walker, stride, Side::right, 0)),
-                  pose_of(walker, stride.at(kWalkMiddle + 0.5 - kStopStrides)), walker.joints),
+  EXPECT_LT(apart(solve_pose(walker, stop(walker, stride, Side::right, 0)),
+                  solve_pose(walker, stride.at(kWalkMiddle + 0.5 - kStopStrides)), walker.joints),
             1e-4);
 }
 
 TEST(Standing, FeetStayWhereTheyAre) {
   const Walker walker = made_up_walker();
-  const Pose ready_pose = pose_of(walker, ready(walker));
+  const Pose ready_pose = solve_pose(walker, ready(walker));
   const Joints at_ease = pose_joints(walker.joints, ready_pose);
   for (double share = 0; share <= 1; share += 0.1) {
     for (const Figure& figure : {stand(walker, share), look_around(walker, share),
                                  look_at_phone(walker, share, 0), look_up(walker, 1, share, 0)}) {
-      const Joints joints = pose_joints(walker.joints, pose_of(walker, figure));
+      const Joints joints = pose_joints(walker.joints, solve_pose(walker, figure));
       for (const Bone bone : {Bone::left_foot, Bone::right_foot, Bone::left_toe}) {
-        EXPECT_LT((joints[index_of(bone)] - at_ease[index_of(bone)]).norm(), 0.003F) << share;
+        EXPECT_LT((joints[index_from(bone)] - at_ease[index_from(bone)]).norm(), 0.003F) << share;
       }
     }
   }
@@ -87,7 +87,7 @@ TEST(Standing, APhoneIsHeldBeforeTheChestByTheFreeHand) {
     const bool left = carries == Carry::umbrella;
     Pose pose = look_at_phone(walker, 1, 0).pose;
     const Joints joints = pose_joints(walker.joints, pose);
-    const Eigen::Vector3f& hand = joints[index_of(left ? Bone::left_hand : Bone::right_hand)];
+    const Eigen::Vector3f& hand = joints[index_from(left ? Bone::left_hand : Bone::right_hand)];
     EXPECT_GT(hand.x(), 0.15F);
     EXPECT_GT(hand.z(), 1.1F);
     EXPECT_LT(pose.of(Bone::head).col(0).z(), -0.3F) << "looks down";
@@ -121,7 +121,7 @@ TEST(Standing, FallenPeopleLieOnTheGround) {
   for (const float scale : {0.65F, 1.0F}) {
     const Walker walker = made_up_walker(scale);
     for (const char* name : {"fall_forwards", "fall_backwards"}) {
-      const Population population = population_of({});
+      const Population population = make_population({});
       const std::vector<Palette> palettes = bake_clip(walker, *ClipSet(population).find(name));
       float low = 10;
       float high = -10;

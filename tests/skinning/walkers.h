@@ -18,7 +18,7 @@ namespace throng::skinning {
 using FootMarks = std::array<Vertex, 3>;
 
 inline FootMarks made_up_marks(Side side, float scale = 1) {
-  const float y = sign_of(side);
+  const float y = side_sign(side);
   const Bone foot = on(side, Bone::left_foot);
   const Bone toe = on(side, Bone::left_toe);
   return {made_up_vertex(scale * Eigen::Vector3f(-0.06F, y * 0.08F, 0), foot, foot, 0),
@@ -47,7 +47,7 @@ inline Walker made_up_walker(float scale = 1) {
 }
 
 /// One character for each walker, with the standard clips.
-inline Population population_of(const std::vector<Walker>& walkers) {
+inline Population make_population(const std::vector<Walker>& walkers) {
   Population population;
   population.clips = standard_clips();
   population.palettes_per_character =
@@ -104,10 +104,10 @@ struct Contact {
 
 /// On the ground is what is within `near_m` of it, or of the vertex's own lowest place when that is
 /// higher; `trim` of each contact is left out at both ends, where a foot comes and goes.
-inline Contact contact_of(const Population& population, std::size_t character,
-                          const MotionPlan& plan, std::span<const Moment> moments, double from_step,
-                          double to_step, const Vertex& vertex, float near_m = 0.0005F,
-                          double trim = 0) {
+inline Contact find_contact(const Population& population, std::size_t character,
+                            const MotionPlan& plan, std::span<const Moment> moments,
+                            double from_step, double to_step, const Vertex& vertex,
+                            float near_m = 0.0005F, double trim = 0) {
   std::vector<Eigen::Vector3f> path;
   Contact contact;
   for (double step = from_step; step <= to_step; step += 0.05) {

@@ -32,10 +32,10 @@ before(async () => {
   ({ differencesOf: differences } = await importStudio(packages, "compare/differences.ts"));
   events = await importStudio(packages, "run/events.ts");
   exits = await importStudio(packages, "run/exit_states.ts");
-  elements = await importStudio(packages, "place/elements.ts");
-  kinds = await importStudio(packages, "place/kinds.ts");
+  elements = await importStudio(packages, "blueprint/elements.ts");
+  kinds = await importStudio(packages, "blueprint/kinds.ts");
   camera = await importStudio(packages, "calibration/camera.ts");
-  names = await importStudio(packages, "place/names.ts");
+  names = await importStudio(packages, "blueprint/names.ts");
   scale = await importStudio(packages, "charts/scale.ts");
   running = await importStudio(packages, "study/running.ts");
   subjects = await importStudio(packages, "compare/subjects.ts");
@@ -399,14 +399,14 @@ const kArea = (points) =>
 
 test("elements of a blueprint are added, moved and reshaped; outlines stay counter-clockwise", () => {
   const { added, elementAt, elementsOf, moved, removed, withCorner, withNewCorner, withoutCorner } = elements;
-  const first = kinds.kFirstPlace;
+  const first = kinds.kFirstBlueprint;
   assert.equal(elementsOf(first).length, 11);
   const kind = (name) => kinds.kindNamed(name);
   const drawn = added(first, kind("building"), [5, 5], [1, 2]);
   assert.deepEqual(drawn.path, ["buildings", 6]);
   const at = (document, pointer) => elementAt(elementsOf(document), pointer);
   assert.deepEqual(drawn.document.buildings[6].box, [1, 2, 5, 5]);
-  assert.equal(first.buildings.length, 6, "the first place is as it was");
+  assert.equal(first.buildings.length, 6, "the first blueprint is as it was");
   // A wall's outline has its length and thickness, whatever its direction.
   for (const end of [
     [10, 0],
@@ -649,8 +649,8 @@ test("smoke rises where dangers are, as far as they reach", async () => {
   assert.equal(new Smoke({ smoke: 0, dangers: [fire] }).group.children.length, 0);
 });
 
-test("places of a run are read from their bytes", async () => {
-  const { placesOf, unseenAt } = await importStudio(packages, "run/trajectories.ts");
+test("positions of a run are read from their bytes", async () => {
+  const { readPositions, unseenAt } = await importStudio(packages, "run/trajectories.ts");
   const bytes = new DataView(new ArrayBuffer(24 + 8 + 3 + 3 * 6));
   [
     [0, 1],
@@ -668,10 +668,10 @@ test("places of a run are read from their bytes", async () => {
     [1, 1],
     [65535, 65535],
   ].forEach(([x, y], agent) => [x, y].forEach((value, axis) => bytes.setUint16(35 + 6 * agent + 2 * axis, value, true)));
-  const places = placesOf(bytes.buffer);
-  assert.deepEqual(unseenAt(places, 0, 2, new Set()), [[-8, 6]], "neither hazards nor absent people");
-  assert.deepEqual(unseenAt(places, 0, 2, new Set([2000001])), []);
-  assert.deepEqual(unseenAt(places, 1, 2, new Set()), []);
+  const positions = readPositions(bytes.buffer);
+  assert.deepEqual(unseenAt(positions, 0, 2, new Set()), [[-8, 6]], "neither hazards nor absent people");
+  assert.deepEqual(unseenAt(positions, 0, 2, new Set([2000001])), []);
+  assert.deepEqual(unseenAt(positions, 1, 2, new Set()), []);
 });
 
 test("a copy of a case has an id of its own, and crowds and drones are as in a job", async () => {

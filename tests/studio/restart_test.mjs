@@ -87,8 +87,8 @@ test("a job's screen goes on after a restart in the middle of the job", async ()
   await page.waitForFunction(() => [...document.querySelectorAll("figure img")].some((image) => image.naturalWidth > 0));
 });
 
-test("a place is kept, and checked by itself when the service is back", async () => {
-  await go("/place");
+test("a blueprint is kept, and checked by itself when the service is back", async () => {
+  await go("/blueprint");
   await page.locator(".plan-editor").waitFor();
   await service.halt();
   await page.getByRole("button", { name: /^Wall/ }).click();

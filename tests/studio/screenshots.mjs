@@ -1,5 +1,5 @@
 // Screenshots of docs/studio.md, from a service of their own with two jobs, a calibration and a study.
-// usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT [NAME...]   OUTPUT: folder, docs/studio; NAME: of those alone, such as place
+// usage: node screenshots.mjs PROGRAM PACKAGES OUTPUT [NAME...]   OUTPUT: folder, docs/studio; NAME: of those alone, such as blueprint
 import { execFile } from "node:child_process";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -9,7 +9,7 @@ import { launch, TestService } from "./service.mjs";
 
 const [program, packages, output, ...names] = process.argv.slice(2);
 const isWanted = (list) => names.length === 0 || list.some((name) => names.includes(name));
-const kWithoutJobs = ["calibration", "place", "study", "fly"];
+const kWithoutJobs = ["calibration", "blueprint", "study", "fly"];
 // The demo, so that the pages show what a new user sees.
 const kDemo = JSON.parse(readFileSync(new URL("../../scenarios/city_square/demo.job.json", import.meta.url), "utf8"));
 const kJobs = [
@@ -131,7 +131,7 @@ try {
     },
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
     { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
-    { name: "place", address: "/place", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
+    { name: "blueprint", address: "/blueprint", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
     { name: "fly", address: `/fly?flight=${flight}`, height: 940, ready: ".badge.recording", action: flyAbout },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });

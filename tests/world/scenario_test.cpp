@@ -46,7 +46,7 @@ class ScenarioFile : public ::testing::Test {
   Scenario load_text(const std::string& text) {
     return load_scenario(folder.write("yard.json", text), "yard");
   }
-  std::vector<Problem> problems_of(const std::string& text) {
+  std::vector<Problem> list_problems(const std::string& text) {
     try {
       load_text(text);
     } catch (const InputError& error) {
@@ -67,7 +67,7 @@ TEST_F(ScenarioFile, APlaceForRecordedPeopleNeedsNeitherCrowdNorGoals) {
   EXPECT_TRUE(s.behavior_file.empty());
   EXPECT_TRUE(s.exits.at(0).goals.empty());
   document["exits"][0]["goals"] = json::array();
-  EXPECT_EQ(problems_of(document.dump()).at(0).where, "/exits/0/goals") << "given, but none";
+  EXPECT_EQ(list_problems(document.dump()).at(0).where, "/exits/0/goals") << "given, but none";
 }
 
 TEST_F(ScenarioFile, ReadsDisastersWhoseAgentsAreNotPeople) {
@@ -84,7 +84,7 @@ TEST_F(ScenarioFile, ReadsDisastersWhoseAgentsAreNotPeople) {
   EXPECT_DOUBLE_EQ(gas.reach_m(14), 4);
   EXPECT_EQ(gas.reach_m(100), 6);
   document["disasters"].push_back(document["disasters"][0]);
-  EXPECT_EQ(problems_of(document.dump()).front().where, "/disasters/1/agent");
+  EXPECT_EQ(list_problems(document.dump()).front().where, "/disasters/1/agent");
 }
 
 TEST_F(ScenarioFile, ReadsEverything) {
@@ -118,13 +118,13 @@ TEST_F(ScenarioFile, ADoorMayCloseAtATime) {
   EXPECT_FALSE(s.exits[0].is_open(125 * 0.1)) << "the step's time, however it was summed up";
   EXPECT_TRUE(s.exits[1].is_open(1e9));
   document["exits"][0]["open"] = false;
-  EXPECT_EQ(problems_of(document.dump()).front().where, "/exits/0/closes_at_s");
+  EXPECT_EQ(list_problems(document.dump()).front().where, "/exits/0/closes_at_s");
 }
 
 TEST_F(ScenarioFile, ExitsThatCountTheSamePeopleAreRefused) {
   json document = valid_scenario();
   document["exits"].push_back({{"id", "c"}, {"from", {10.5, 0}}, {"to", {10.5, 3}}});
-  const std::vector<Problem> problems = problems_of(document.dump());
+  const std::vector<Problem> problems = list_problems(document.dump());
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/exits/2");
   EXPECT_THAT(problems[0].found, HasSubstr("exit \"c\", which lies 0.5 m behind exit \"a\""));
@@ -147,12 +147,12 @@ TEST_F(ScenarioFile, NamesOfVersion01AreReadWithAWarning) {
   EXPECT_FALSE(s.exits[0].is_open(12.5));
   EXPECT_EQ(s.disasters.at(0).reach_m(100), 6);
   document["exits"][0]["closes_at_s"] = 20;
-  const Problem both = problems_of(document.dump()).front();
+  const Problem both = list_problems(document.dump()).front();
   EXPECT_EQ(both.where, "/exits/0/shuts_s");
   EXPECT_EQ(both.expected, "only \"closes_at_s\"");
   document["exits"][0].erase("closes_at_s");
   document["exits"][0]["shuts"] = 1;
-  EXPECT_THAT(problems_of(document.dump()).front().expected, Not(HasSubstr("shuts_s")));
+  EXPECT_THAT(list_problems(document.dump()).front().expected, Not(HasSubstr("shuts_s")));
 }
 
 TEST_F(ScenarioFile, OutwardIsAUnitNormalAsGivenOrAwayFromTheMiddle) {
@@ -191,7 +191,7 @@ TEST_F(ScenarioFile, AnExtendingFileHoldsOnlyDifferences) {
   folder.write("base.json", chain.dump());
   EXPECT_THROW(load_extending({{"name", "Other"}}), InputError);
   for (const char* name : {"nowhere.json", "", "."}) {
-    const auto problems = problems_of(json{{"extends", name}}.dump());
+    const auto problems = list_problems(json{{"extends", name}}.dump());
     ASSERT_FALSE(problems.empty()) << name;
     EXPECT_EQ(problems[0].where, "/extends");
   }
@@ -212,7 +212,7 @@ class BadScenario : public ScenarioFile, public ::testing::WithParamInterface<Ba
 TEST_P(BadScenario, IsReportedWhereItStands) {
   json document = valid_scenario();
   document[json::json_pointer(GetParam().pointer)] = GetParam().value;
-  const auto problems = problems_of(document.dump());
+  const auto problems = list_problems(document.dump());
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].source, (folder.path() / "yard.json").string());
   EXPECT_EQ(problems[0].where, GetParam().reported_at);
@@ -284,20 +284,20 @@ TEST_F(ScenarioFile, AllProblemsAreReportedAtOnce) {
   document.erase("name");
   document["exits"][0]["to"] = document["exits"][0]["from"];
   document["buildings"][0]["height_m"] = "tall";
-  EXPECT_EQ(problems_of(document.dump()).size(), 3U);
+  EXPECT_EQ(list_problems(document.dump()).size(), 3U);
 }
 
 TEST_F(ScenarioFile, MalformedJsonIsReportedByLineAndColumn) {
-  const auto problems = problems_of("{\n  \"name\": \"x\",\n  oops\n}");
+  const auto problems = list_problems("{\n  \"name\": \"x\",\n  oops\n}");
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "line 3, column 3");
   for (const std::string text : {"", "[", "\xff\xfe", "{\"name\": 1e999}", "\"\\ud800\"", "null"}) {
-    EXPECT_EQ(problems_of(text).empty(), false) << text;
+    EXPECT_EQ(list_problems(text).empty(), false) << text;
   }
 }
 
 TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
-  const auto problems = problems_of(R"({"name": "a", "name": "b"})");
+  const auto problems = list_problems(R"({"name": "a", "name": "b"})");
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_THAT(problems[0].found, HasSubstr("\"name\" twice"));
 }
@@ -324,17 +324,33 @@ TEST_F(ScenarioFile, ScenariosAreFoundById) {
   EXPECT_EQ(id_from_file("town/yard_2.json"), "yard_2");
 }
 
+std::string suggested(const std::filesystem::path& folder, const std::string& name) {
+  try {
+    scenario_file(folder, name);
+  } catch (const InputError& error) {
+    return error.problems()[0].expected;
+  }
+  return "found";
+}
+
 TEST_F(ScenarioFile, BlueprintsAreFoundByIdUnlessAScenarioWasMadeOfThem) {
-  folder.write("town/hall.place.json", R"({"ground": {}, "people": {}})");
+  folder.write("town/hall.blueprint.json", R"({"ground": {}, "people": {}})");
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
-  EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.place.json");
-  EXPECT_EQ(id_from_file("town/hall.place.json"), "hall");
+  EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.blueprint.json");
+  EXPECT_EQ(id_from_file("town/hall.blueprint.json"), "hall");
   EXPECT_TRUE(has_scenario(folder.path(), "town/hall"));
   EXPECT_FALSE(has_scenario(folder.path(), "town/nothing"));
   EXPECT_FALSE(has_scenario(folder.path(), "../town/hall"));
   folder.write("town/hall.json", valid_scenario().dump());
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
   EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.json");
+}
+
+TEST_F(ScenarioFile, BlueprintsWithTheFormerEndingAreFound) {
+  folder.write("town/hall.place.json", R"({"ground": {}, "people": {}})");
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("town/hall"));
+  EXPECT_EQ(scenario_file(folder.path(), "town/hall"), folder.path() / "town/hall.place.json");
+  EXPECT_EQ(suggested(folder.path(), "hall.place.json"), "\"town/hall\"");
 }
 
 TEST_F(ScenarioFile, OtherFilesInTheFolderAreNoScenarios) {
@@ -346,20 +362,11 @@ TEST_F(ScenarioFile, OtherFilesInTheFolderAreNoScenarios) {
   EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("broken", "yard"));
 }
 
-std::string suggested(const std::filesystem::path& folder, const std::string& name) {
-  try {
-    scenario_file(folder, name);
-  } catch (const InputError& error) {
-    return error.problems()[0].expected;
-  }
-  return "found";
-}
-
 TEST_F(ScenarioFile, PathsFoldersAndLastPartsFindTheirIds) {
   for (const char* id : {"park/day", "park/night", "town/day"}) {
     folder.write(std::string(id) + ".json", R"({"ground": {}})");
   }
-  for (const char* name : {"scenarios/park/day.json", "./park/day", "/a/b/park/day.place.json",
+  for (const char* name : {"scenarios/park/day.json", "./park/day", "/a/b/park/day.blueprint.json",
                            "park/day.json", "park/dya"}) {
     EXPECT_EQ(suggested(folder.path(), name), "\"park/day\"") << name;
   }
@@ -373,7 +380,7 @@ TEST_F(ScenarioFile, FaultsAreOfTheFileThatHoldsThem) {
   json base = valid_scenario();
   base["exits"][0]["from"] = 5;
   folder.write("base.json", base.dump());
-  const std::vector<Problem> problems = problems_of(R"({"extends": "base.json", "name": 7})");
+  const std::vector<Problem> problems = list_problems(R"({"extends": "base.json", "name": 7})");
   std::map<std::string, std::string> sources;
   for (const Problem& problem : problems) sources[problem.where] = problem.source;
   EXPECT_EQ(sources["/name"], (folder.path() / "yard.json").string());
@@ -383,7 +390,7 @@ TEST_F(ScenarioFile, FaultsAreOfTheFileThatHoldsThem) {
 TEST_F(ScenarioFile, AScenarioHasAnExit) {
   json scenario = valid_scenario();
   scenario["exits"] = json::array();
-  const std::vector<Problem> problems = problems_of(scenario.dump());
+  const std::vector<Problem> problems = list_problems(scenario.dump());
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/exits");
   EXPECT_EQ(problems[0].found, "[]");

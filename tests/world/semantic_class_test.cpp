@@ -24,7 +24,8 @@ TEST(SemanticClass, NamesAndColorsAreDistinctAndFound) {
 
 TEST(SemanticClass, EveryKindOfPropHasTheClassOfItsName) {
   for (std::size_t kind = 0; kind < kPropKinds; ++kind) {
-    const SemanticClassInfo& info = info_of(class_of(static_cast<PropKind>(kind)));
+    const SemanticClassInfo& info =
+        semantic_class_info(semantic_class(static_cast<PropKind>(kind)));
     EXPECT_EQ(info.name, prop_types().at(kind).name);
     EXPECT_EQ(info.group, SemanticGroup::prop);
   }

@@ -56,8 +56,8 @@ TEST(TraceEvent, EachKindHasItsRow) {
     const TraceEvent read = from_row(example.row, "run.h5");
     EXPECT_EQ(read.kind.index(), example.kind.index());
     EXPECT_EQ(columns(to_row(read)), columns(example.row));
-    EXPECT_EQ(name_of(example.kind), example.row.type);
-    EXPECT_EQ(drone_of(example.kind).value_or(-1), example.row.drone);
+    EXPECT_EQ(to_string(example.kind), example.row.type);
+    EXPECT_EQ(drone_of_event(example.kind).value_or(-1), example.row.drone);
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<EventKind>) << "an example of each";
 }

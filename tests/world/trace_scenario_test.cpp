@@ -17,11 +17,11 @@ Scenario shipped(const std::string& id) {
   return load_scenario(source_folder() / "scenarios" / (id + ".json"), id);
 }
 
-TraceHeader header_of(const Scenario& scenario) {
+TraceHeader make_header(const Scenario& scenario) {
   TraceHeader header;
   header.scenario_id = scenario.id;
   header.scenario_document = scenario.document;
-  header.alarm = alarm_of(scenario);
+  header.alarm = find_alarm(scenario);
   return header;
 }
 
@@ -29,7 +29,7 @@ TEST(ScenarioInTrace, IsTheScenarioWithoutItsCrowd) {
   for (const char* id : {"city_square/nearest_exit", "city_square/side_exit_blocked",
                          "city_square/huang2016/nearest_exit"}) {
     const Scenario scenario = shipped(id);
-    const auto kept = scenario_in_trace(header_of(scenario), "run.h5", TraceMeshes::needed);
+    const auto kept = scenario_in_trace(make_header(scenario), "run.h5", TraceMeshes::needed);
     ASSERT_TRUE(kept) << id;
     EXPECT_FALSE(kept->has_crowd());
     EXPECT_EQ(kept->id, id);
@@ -37,13 +37,13 @@ TEST(ScenarioInTrace, IsTheScenarioWithoutItsCrowd) {
     ASSERT_EQ(kept->exits.size(), scenario.exits.size());
     EXPECT_EQ(kept->exits.back().goals, scenario.exits.back().goals);
     EXPECT_EQ(kept->props.size(), scenario.props.size());
-    EXPECT_EQ(alarm_of(*kept), alarm_of(scenario));
+    EXPECT_EQ(find_alarm(*kept), find_alarm(scenario));
   }
 }
 
 TEST(ScenarioInTrace, SurvivesTheFile) {
   const throng::testing::TemporaryFolder folder;
-  TraceHeader header = header_of(shipped("city_square/nearest_exit"));
+  TraceHeader header = make_header(shipped("city_square/nearest_exit"));
   header.dt_s = 0.1;
   {
     TraceWriter writer(folder.path() / "run.h5", header);
@@ -60,7 +60,7 @@ TEST(ScenarioInTrace, TracesOfEarlierVersionsHaveNone) {
 }
 
 TEST(ScenarioInTrace, MeshesAreNotInIt) {
-  TraceHeader header = header_of(shipped("city_square/nearest_exit"));
+  TraceHeader header = make_header(shipped("city_square/nearest_exit"));
   nlohmann::json document = nlohmann::json::parse(header.scenario_document);
   document["meshes"] = {{{"file", "statue.glb"}, {"position", {0, 0, 0}}}};
   header.scenario_document = document.dump();
@@ -69,7 +69,7 @@ TEST(ScenarioInTrace, MeshesAreNotInIt) {
 }
 
 TEST(ScenarioInTrace, ADamagedOneIsNamed) {
-  TraceHeader header = header_of(shipped("city_square/nearest_exit"));
+  TraceHeader header = make_header(shipped("city_square/nearest_exit"));
   header.scenario_document[0] = '?';
   EXPECT_THROW(scenario_in_trace(header, "run.h5", TraceMeshes::needed), InputError);
   header.scenario_document = "[]";

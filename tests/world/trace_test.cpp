@@ -22,7 +22,7 @@ constexpr std::size_t kAgents = 7;
 // More than two chunks, and not a whole number of them.
 constexpr std::size_t kSteps = 150;
 
-TraceHeader header_of(std::size_t agents) {
+TraceHeader make_header(std::size_t agents) {
   TraceHeader header;
   header.scenario_id = "town/yard";
   header.generator = "throng test";
@@ -40,7 +40,7 @@ TraceHeader header_of(std::size_t agents) {
   return header;
 }
 
-CrowdStep step_of(std::size_t step, std::size_t agents) {
+CrowdStep make_step(std::size_t step, std::size_t agents) {
   CrowdStep crowd;
   crowd.time_s = 0.1 * static_cast<double>(step);
   for (std::size_t i = 0; i < agents; ++i) {
@@ -56,7 +56,7 @@ CrowdStep step_of(std::size_t step, std::size_t agents) {
   return crowd;
 }
 
-DroneSample sample_of(double time_s) {
+DroneSample drone_sample_at(double time_s) {
   return {time_s,
           {time_s, 2 * time_s, 10},
           {1, 2, 0},
@@ -68,11 +68,11 @@ DroneSample sample_of(double time_s) {
 }
 
 void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t steps = kSteps) {
-  TraceWriter writer(path, header_of(agents));
+  TraceWriter writer(path, make_header(agents));
   for (std::size_t step = 0; step < steps; ++step) {
-    writer.add(step_of(step, agents));
+    writer.add(make_step(step, agents));
     for (int i = 0; i < 8; ++i) {
-      writer.add_drone(0, sample_of(0.1 * static_cast<double>(step) + i / 80.0));
+      writer.add_drone(0, drone_sample_at(0.1 * static_cast<double>(step) + i / 80.0));
     }
     if (step % 10 == 0 && agents > 5) {
       writer.add_event({0.1 * static_cast<double>(step), AgentEscaped{5, 1}});
@@ -85,7 +85,7 @@ void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t
   writer.finish();
 }
 
-std::string problem_of(const fs::path& path) {
+std::string caught_problem(const fs::path& path) {
   try {
     read_trace(path);
   } catch (const InputError& error) {
@@ -99,7 +99,7 @@ TEST(Trace, ReadsBackTheWrittenValues) {
   write_trace(folder.path() / "run.h5");
   const Trace trace = read_trace(folder.path() / "run.h5");
 
-  const TraceHeader expected = header_of(kAgents);
+  const TraceHeader expected = make_header(kAgents);
   EXPECT_EQ(trace.header.scenario_id, expected.scenario_id);
   EXPECT_EQ(trace.header.generator, expected.generator);
   EXPECT_EQ(trace.header.seed, expected.seed);
@@ -115,7 +115,7 @@ TEST(Trace, ReadsBackTheWrittenValues) {
   ASSERT_EQ(trace.steps(), kSteps);
   ASSERT_EQ(trace.position.size(), kSteps * kAgents);
   for (std::size_t step = 0; step < kSteps; ++step) {
-    const CrowdStep crowd = step_of(step, kAgents);
+    const CrowdStep crowd = make_step(step, kAgents);
     EXPECT_DOUBLE_EQ(trace.time_s[step], crowd.time_s);
     for (std::size_t i = 0; i < kAgents; ++i) {
       const std::size_t at = trace.at(step, i);
@@ -134,13 +134,13 @@ TEST(Trace, ReadsBackTheWrittenValues) {
   ASSERT_EQ(trace.drones[0].size(), 8 * kSteps);
   EXPECT_TRUE(trace.drones[1].empty());
   const DroneSample& sample = trace.drones[0][1000];
-  const DroneSample written = sample_of(sample.time_s);
+  const DroneSample written = drone_sample_at(sample.time_s);
   EXPECT_LT((sample.position - written.position).norm(), 1e-6);
   EXPECT_LT((sample.velocity - written.velocity).norm(), 1e-6);
   EXPECT_LT((sample.orientation.coeffs() - written.orientation.coeffs()).norm(), 2e-9);
 
   EXPECT_EQ(sample.body_rates.z(), 0.125);
-  EXPECT_EQ(sample.specific_force, sample_of(0).specific_force);
+  EXPECT_EQ(sample.specific_force, drone_sample_at(0).specific_force);
   EXPECT_NEAR(sample.air_velocity.y(), sample.time_s, 1e-4);
   EXPECT_NEAR(sample.energy_j, 100 * sample.time_s, 1e-6);
 
@@ -181,8 +181,8 @@ TEST(Trace, MayHaveNoAgentsNoStepsOrVeryMany) {
 TEST(Trace, AppearsOnlyWhenFinished) {
   const TemporaryFolder folder;
   {
-    TraceWriter writer(folder.path() / "run.h5", header_of(3));
-    writer.add(step_of(0, 3));
+    TraceWriter writer(folder.path() / "run.h5", make_header(3));
+    writer.add(make_step(0, 3));
     EXPECT_FALSE(fs::exists(folder.path() / "run.h5"));
   }
   EXPECT_EQ(folder.entries(), 0U);
@@ -190,7 +190,7 @@ TEST(Trace, AppearsOnlyWhenFinished) {
 
 TEST(Trace, FolderThatIsNotThereIsTheEnvironmentsFault) {
   const TemporaryFolder folder;
-  EXPECT_THROW(TraceWriter(folder.path() / "nowhere" / "run.h5", header_of(3)), EnvironmentError);
+  EXPECT_THROW(TraceWriter(folder.path() / "nowhere" / "run.h5", make_header(3)), EnvironmentError);
   EXPECT_THROW(read_trace(folder.path() / "nowhere.h5"), EnvironmentError);
 }
 
@@ -201,7 +201,7 @@ TEST(Trace, CutShortAnywhereIsAnInputError) {
   const fs::path cut = folder.path() / "cut.h5";
   for (std::size_t length = 0; length < bytes.size(); length += 997) {
     folder.write("cut.h5", bytes.substr(0, length));
-    EXPECT_THAT(problem_of(cut), HasSubstr("cut.h5")) << length;
+    EXPECT_THAT(caught_problem(cut), HasSubstr("cut.h5")) << length;
   }
 }
 
@@ -213,16 +213,16 @@ TEST(Trace, DamagedDataNeverCrashes) {
     std::string damaged = bytes;
     for (std::size_t i = at; i < std::min(at + 16, bytes.size()); ++i) damaged[i] ^= 0x5a;
     folder.write("damaged.h5", damaged);
-    problem_of(folder.path() / "damaged.h5");  // either read or refused
+    caught_problem(folder.path() / "damaged.h5");  // either read or refused
   }
 }
 
 TEST(Trace, ForeignFilesAreNamedAsSuch) {
   const TemporaryFolder folder;
-  EXPECT_THAT(problem_of(folder.write("text.h5", "not HDF5 at all")), HasSubstr("not HDF5"));
+  EXPECT_THAT(caught_problem(folder.write("text.h5", "not HDF5 at all")), HasSubstr("not HDF5"));
   const std::string foreign = (folder.path() / "foreign.h5").string();
   H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  EXPECT_THAT(problem_of(foreign), HasSubstr("another kind"));
+  EXPECT_THAT(caught_problem(foreign), HasSubstr("another kind"));
 }
 
 // Opens a good trace for writing and lets `change` spoil it.
@@ -234,7 +234,7 @@ std::string problem_after(const Change& change) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   change(file);
   H5Fclose(file);
-  return problem_of(path);
+  return caught_problem(path);
 }
 
 TEST(Trace, AMissingDatasetIsNamed) {
@@ -299,32 +299,32 @@ TEST(Trace, AnIndexOutOfRangeIsRefused) {
 
 TEST(Trace, DroneMovesSmoothlyBetweenItsSamples) {
   Trace trace;
-  trace.drones = {{sample_of(1), sample_of(2), sample_of(4)}};
+  trace.drones = {{drone_sample_at(1), drone_sample_at(2), drone_sample_at(4)}};
   const DroneSample between = trace.drone_at(0, 2.5);
   EXPECT_DOUBLE_EQ(between.time_s, 2.5);
-  EXPECT_TRUE(between.position.isApprox(sample_of(2.5).position));
-  EXPECT_LT(between.orientation.angularDistance(sample_of(2.5).orientation), 1e-9);
-  EXPECT_TRUE(between.air_velocity.isApprox(sample_of(2.5).air_velocity));
+  EXPECT_TRUE(between.position.isApprox(drone_sample_at(2.5).position));
+  EXPECT_LT(between.orientation.angularDistance(drone_sample_at(2.5).orientation), 1e-9);
+  EXPECT_TRUE(between.air_velocity.isApprox(drone_sample_at(2.5).air_velocity));
   EXPECT_DOUBLE_EQ(between.energy_j, 250);
-  EXPECT_EQ(trace.drone_at(0, 2).position, sample_of(2).position);
-  EXPECT_EQ(trace.drone_at(0, -5).position, sample_of(1).position);
-  EXPECT_EQ(trace.drone_at(0, 50).position, sample_of(4).position);
+  EXPECT_EQ(trace.drone_at(0, 2).position, drone_sample_at(2).position);
+  EXPECT_EQ(trace.drone_at(0, -5).position, drone_sample_at(1).position);
+  EXPECT_EQ(trace.drone_at(0, 50).position, drone_sample_at(4).position);
 }
 
 TEST(TraceDeathTest, StepsOutOfOrderAreABug) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const TemporaryFolder folder;
-  TraceWriter writer(folder.path() / "run.h5", header_of(3));
-  EXPECT_DEATH(writer.add(step_of(1, 3)), "dt apart");
+  TraceWriter writer(folder.path() / "run.h5", make_header(3));
+  EXPECT_DEATH(writer.add(make_step(1, 3)), "dt apart");
 }
 
 TEST(Trace, OlderFilesGetTheFlagOfThoseWhoseStateSaysThatTheyLie) {
   const TemporaryFolder folder;
-  TraceHeader header = header_of(3);
+  TraceHeader header = make_header(3);
   header.state_names = {"Walk", "Casualty", "Done"};
   {
     TraceWriter writer(folder.path() / "run.h5", header);
-    CrowdStep step = step_of(0, 3);
+    CrowdStep step = make_step(0, 3);
     step.state = {0, 1, 2};
     step.flags = {kPresent | kFallen, kPresent, kPresent};
     writer.add(step);
@@ -337,12 +337,12 @@ TEST(Trace, OlderFilesGetTheFlagOfThoseWhoseStateSaysThatTheyLie) {
 
 TEST(TraceFile, SaysInWhichStatesPeopleLieWhateverTheirNames) {
   const TemporaryFolder folder;
-  TraceHeader header = header_of(3);
+  TraceHeader header = make_header(3);
   header.state_names = {"Walk", "Dead_end", "Nap"};
   header.state_lying = {0, 0, 1};
   {
     TraceWriter writer(folder.path() / "run.h5", header);
-    CrowdStep step = step_of(0, 3);
+    CrowdStep step = make_step(0, 3);
     step.state = {0, 1, 2};
     step.flags = {kPresent, kPresent, kPresent};
     writer.add(step);
@@ -358,11 +358,11 @@ TEST(TraceFile, RecordsTheModelOfThePeople) {
   const TemporaryFolder folder;
   const auto read_back = [&](const TraceHeader& header) {
     TraceWriter writer(folder.path() / "run.h5", header);
-    writer.add(step_of(0, 3));
+    writer.add(make_step(0, 3));
     writer.finish();
     return read_trace(folder.path() / "run.h5").header.crowd;
   };
-  TraceHeader header = header_of(3);
+  TraceHeader header = make_header(3);
   EXPECT_EQ(read_back(header), CrowdOrigin{}) << "files of earlier versions do not say it";
   header.crowd = {"helbing", "menge", true, 0.25, true, 35};
   EXPECT_EQ(read_back(header), header.crowd);

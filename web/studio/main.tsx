@@ -3,7 +3,7 @@ import { render } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { Empty } from "./parts/elements";
 import { Lazy } from "./parts/lazy";
-import { followLinks, usePlace } from "./parts/router";
+import { followLinks, useAddress } from "./parts/router";
 import { applyTheme, KeyDialog, Shell } from "./parts/shell";
 import { Home } from "./screens/home";
 import { JobScreen } from "./screens/job";
@@ -24,7 +24,7 @@ const loadBrowser = () => import("./dataset/browser").then((module) => module.Br
 const loadCompare = () => import("./compare/compare_screen").then((module) => module.Compare);
 const loadCalibrations = () => import("./calibration/calibrations_screen").then((module) => module.CalibrationsScreen);
 const loadCalibration = () => import("./calibration/calibration_screen").then((module) => module.CalibrationScreen);
-const loadPlace = () => import("./place/place_screen").then((module) => module.PlaceScreen);
+const loadBlueprint = () => import("./blueprint/blueprint_screen").then((module) => module.BlueprintScreen);
 const loadStudies = () => import("./study/studies_screen").then((module) => module.StudiesScreen);
 const loadStudy = () => import("./study/study_screen").then((module) => module.StudyScreen);
 const loadFly = () => import("./live/fly_screen").then((module) => module.FlyScreen);
@@ -40,7 +40,8 @@ function screenOf(path: string): Screen {
   if (path === "/definitions") return { title: "Definitions", element: <Lazy load={loadDefinitions} props={{}} /> };
   if (path === "/calibrations") return { title: "Calibrations", element: <Lazy load={loadCalibrations} props={{}} /> };
   if (path === "/fly") return { title: "Live flight", element: <Lazy load={loadFly} props={{}} /> };
-  if (path === "/place") return { title: "Place", element: <Lazy load={loadPlace} props={{}} /> };
+  // The former address of the editor was /place.
+  if (path === "/blueprint" || path === "/place") return { title: "Blueprint", element: <Lazy load={loadBlueprint} props={{}} /> };
   if (path === "/studies") return { title: "Studies", element: <Lazy load={loadStudies} props={{}} /> };
   const study = /^\/studies\/([a-z0-9]+)\/?$/.exec(path);
   if (study) return { title: "Study", element: <Lazy key={path} load={loadStudy} props={{ id: study[1]! }} /> };
@@ -63,7 +64,7 @@ function screenOf(path: string): Screen {
 }
 
 function Studio() {
-  const { path } = usePlace();
+  const { path } = useAddress();
   const isFirst = useRef(true);
   const { title, element } = screenOf(path);
   useEffect(() => {

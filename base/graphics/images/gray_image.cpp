@@ -21,7 +21,7 @@ namespace {
 }
 
 // Orientation of TIFF and EXIF, 1 to 8; 1 if the file does not say.
-int orientation_of(std::string_view jpeg) {
+int exif_orientation(std::string_view jpeg) {
   const std::unique_ptr<ExifData, decltype(&exif_data_unref)> data(
       exif_data_new_from_data(reinterpret_cast<const unsigned char*>(jpeg.data()),
                               static_cast<unsigned int>(jpeg.size())),
@@ -60,7 +60,7 @@ GrayImage upright(GrayImage stored, int orientation) {
 GrayImage gray_of_jpeg(std::string_view bytes, const std::string& what) {
   const JpegFile jpeg(bytes, what);
   return upright({jpeg.width(), jpeg.height(), jpeg.decode(TJPF_GRAY, /*strict=*/false)},
-                 orientation_of(bytes));
+                 exif_orientation(bytes));
 }
 
 // libpng makes 8 bits of gray from whatever the file holds, with Rec. 601's weights.

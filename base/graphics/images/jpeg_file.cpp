@@ -11,7 +11,7 @@ namespace throng::images {
 
 namespace {
 
-const unsigned char* data_of(std::string_view bytes) {
+const unsigned char* unsigned_bytes(std::string_view bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
@@ -22,7 +22,7 @@ JpegFile::JpegFile(std::string_view bytes, std::string what)
   if (!handle_) throw EnvironmentError("cannot start the JPEG decompressor: out of memory");
   int sampling = 0;
   int colors = 0;
-  if (tjDecompressHeader3(handle_.get(), data_of(bytes_), bytes_.size(), &width_, &height_,
+  if (tjDecompressHeader3(handle_.get(), unsigned_bytes(bytes_), bytes_.size(), &width_, &height_,
                           &sampling, &colors) != 0) {
     refuse();
   }
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> JpegFile::decode(int pixel_format, bool strict) const 
   const auto bytes_per_pixel = static_cast<std::size_t>(tjPixelSize[pixel_format]);
   std::vector<std::uint8_t> pixels(bytes_per_pixel * static_cast<std::size_t>(width_) *
                                    static_cast<std::size_t>(height_));
-  if (tjDecompress2(handle_.get(), data_of(bytes_), bytes_.size(), pixels.data(), width_, 0,
+  if (tjDecompress2(handle_.get(), unsigned_bytes(bytes_), bytes_.size(), pixels.data(), width_, 0,
                     height_, pixel_format, TJFLAG_ACCURATEDCT) != 0 &&
       (strict || tjGetErrorCode(handle_.get()) != TJERR_WARNING)) {
     refuse();

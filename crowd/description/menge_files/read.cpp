@@ -25,7 +25,7 @@ std::string from_latin1(std::string_view text) {
   return utf8;
 }
 
-std::string line_of(std::string_view text, std::size_t position) {
+std::string line_text(std::string_view text, std::size_t position) {
   return fmt::format("line {}", 1 + std::count(text.begin(), text.begin() + position, '\n'));
 }
 
@@ -33,12 +33,12 @@ std::string line_of(std::string_view text, std::size_t position) {
 std::string read_text(const fs::path& file, Description& read) {
   std::string text = read_file(file);
   if (const std::size_t at = text.find('\0'); at != std::string::npos) {
-    throw InputError(Problem{read.name, line_of(text, at), "a byte of value 0", "text in UTF-8"});
+    throw InputError(Problem{read.name, line_text(text, at), "a byte of value 0", "text in UTF-8"});
   }
   const std::size_t at = find_invalid_utf8(text);
   if (at == std::string_view::npos) return text;
-  read.warnings.push_back(
-      {read.name, line_of(text, at), "text that is not UTF-8, which is read as Latin-1", "UTF-8"});
+  read.warnings.push_back({read.name, line_text(text, at),
+                           "text that is not UTF-8, which is read as Latin-1", "UTF-8"});
   return from_latin1(text);
 }
 
@@ -101,7 +101,7 @@ Description read_description(const fs::path& file, std::string_view root_name) {
   Description read{Node(std::string(root_name)), file.filename().string(), file.parent_path()};
   const std::string text = read_text(file, read);
   if (const std::size_t at = text.find("<!ENTITY"); at != std::string::npos) {
-    throw InputError(Problem{read.name, line_of(text, at), "a declaration of an entity",
+    throw InputError(Problem{read.name, line_text(text, at), "a declaration of an entity",
                              "text that is written out: entities may grow without end"});
   }
   tinyxml2::XMLDocument document;

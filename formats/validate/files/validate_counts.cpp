@@ -40,18 +40,19 @@ struct Change {
   std::vector<std::int64_t> out;
 };
 
-Vector2d place_of(const json& value) {
+Vector2d read_point(const json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>()};
 }
 
-std::vector<Area> areas_of(const json& record) {
+std::vector<Area> read_areas(const json& record) {
   std::vector<Area> areas;
   for (const json& zone : record.at("zones")) {
     Area& area = areas.emplace_back(Area{true, zone.at("id"), {}});
-    for (const json& corner : zone.at("corners")) area.corners.push_back(place_of(corner));
+    for (const json& corner : zone.at("corners")) area.corners.push_back(read_point(corner));
   }
   for (const json& line : record.at("lines")) {
-    areas.push_back({false, line.at("id"), {place_of(line.at("start")), place_of(line.at("end"))}});
+    areas.push_back(
+        {false, line.at("id"), {read_point(line.at("start")), read_point(line.at("end"))}});
   }
   return areas;
 }
@@ -70,7 +71,7 @@ void check_places(const json& of_job, const json& areas, const std::string& file
   }
 }
 
-std::vector<std::int64_t> tracks_of(const std::string& cell) {
+std::vector<std::int64_t> parse_tracks(const std::string& cell) {
   std::vector<std::int64_t> tracks;
   std::istringstream words(cell);
   for (std::int64_t track = 0; words >> track;) tracks.push_back(track);
@@ -78,7 +79,7 @@ std::vector<std::int64_t> tracks_of(const std::string& cell) {
 }
 
 /// Signed distance from the line's side that is inward, without regard to its ends.
-double side_of(const Area& line, const Vector2d& place) {
+double signed_distance(const Area& line, const Vector2d& place) {
   const Vector2d along = line.corners[1] - line.corners[0];
   return geometry::cross(along, Vector2d(place - line.corners[0])) / along.norm();
 }
@@ -91,8 +92,8 @@ std::optional<int> certain_crossing(const Area& line, const Vector2d& a, const V
   for (const Vector2d& end : line.corners) {
     if ((a - end).norm() < 2 * way_m + 0.5) return std::nullopt;
   }
-  const double before = side_of(line, a);
-  const double after = side_of(line, b);
+  const double before = signed_distance(line, a);
+  const double after = signed_distance(line, b);
   if (std::abs(before) < kCloseM || std::abs(after) < kCloseM) return std::nullopt;
   if ((before > 0) == (after > 0)) return 0;
   if (!geometry::segments_cross<double>(a, b, line.corners[0], line.corners[1])) return 0;
@@ -188,12 +189,12 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
     const double time_s = info.from_s + static_cast<double>(frame) / info.rate_hz;
     constexpr double kRoundingS = 1e-6;
     if (row[0] != std::to_string(frame) || row[2] != (area.is_zone ? "zone" : "line") ||
-        row[3] != area.id || !(std::abs(number_of(row[1]) - time_s) < kRoundingS)) {
+        row[3] != area.id || !(std::abs(parse_number(row[1]) - time_s) < kRoundingS)) {
       findings.add("zone-counts", file, fmt::format("line {}", i + 2),
                    fmt::format("not of frame {} and {}", frame, area.id));
       return;
     }
-    const Change change{tracks_of(row[7]), tracks_of(row[8])};
+    const Change change{parse_tracks(row[7]), parse_tracks(row[8])};
     if (row[5] != std::to_string(change.in.size()) || row[6] != std::to_string(change.out.size())) {
       findings.add("zone-counts", file, fmt::format("frame {}, {}", frame, area.id),
                    "flows that are not the numbers of tracks");
@@ -238,12 +239,12 @@ void CountsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings&
 
 void CountsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
-    const std::string file = file_of(GroundTruth::counts, run);
+    const std::string file = ground_truth_file(GroundTruth::counts, run);
     const std::string places = "counts/" + run + ".json";
     try {
       const json record = parse_own_json(read_file(info.root / places), places);
       check_places(info.count_areas, record, places, findings);
-      const std::vector<Area> areas = areas_of(record);
+      const std::vector<Area> areas = read_areas(record);
       const bool has_everybody = info.has(GroundTruth::trajectories);
       const auto places_of_frames = has_everybody ? places_of_everybody(info, run) : seen_[run];
       check_table(read_csv(info.root / file), areas, file, info, places_of_frames, findings);

@@ -54,7 +54,7 @@ void check_map(const DatasetInfo& info, const Image& image, Findings& findings) 
 
 }  // namespace
 
-std::uint32_t instance_of(const Person& object) {
+std::uint32_t instance_id(const Person& object) {
   const auto number = object.number_in_run();
   if (number > annotate::kFirstDroneNumber) {
     return static_cast<std::uint32_t>(kFirstDrone + number - annotate::kFirstDroneNumber - 1);
@@ -72,7 +72,7 @@ class LabeledIds {
  public:
   explicit LabeledIds(const Image& image) {
     for (const Person& object : image.objects) {
-      if (object.track->contains("vehicle")) vehicles_.insert(instance_of(object));
+      if (object.track->contains("vehicle")) vehicles_.insert(instance_id(object));
     }
   }
   bool contains(std::uint32_t id) const {
@@ -108,9 +108,9 @@ void check_instances(const DatasetInfo& /*info*/, const Image& image, const Pixe
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  for (const Person& person : objects_of(image)) {
-    const std::uint32_t id = instance_of(person);
-    const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  for (const Person& person : list_objects(image)) {
+    const std::uint32_t id = instance_id(person);
+    const Bitmap mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
     std::size_t wrong = 0;
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
@@ -155,8 +155,8 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
   }
   // Rounding of depth and boxes; a rolling shutter sees a person at several times.
   const double slack_m = is_shot_at_once(image) ? 0.03 : 1;
-  for (const Person& person : objects_of(image)) {
-    const auto found = range.find(instance_of(person));
+  for (const Person& person : list_objects(image)) {
+    const auto found = range.find(instance_id(person));
     if (found == range.end()) continue;  // a finding of another rule
     const Eigen::RowVectorXd z = corners_in_camera(image, person).row(2);
     const auto& [low, high] = found->second;

@@ -66,7 +66,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
       const fs::path file = in_a_split(folder, fs::path("annotations") / (image.stem() + ".txt"));
       std::ifstream text(file);
       compare(file.lexically_relative(info.root).string(), image, text,
-              lines_of(info, format, image), findings);
+              label_values(info, format, image), findings);
       if (std::string line; std::getline(text, line)) {
         findings.add("formats", file.lexically_relative(info.root).string(), "",
                      "more lines than the image has people");
@@ -78,7 +78,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
       const std::string name = file.lexically_relative(info.root).string();
       auto [text, is_new] = texts_.try_emplace(name);
       if (is_new) text->second.open(file);
-      compare(name, image, text->second, lines_of(info, format, image), findings);
+      compare(name, image, text->second, label_values(info, format, image), findings);
     }
   }
 }
@@ -91,9 +91,9 @@ void FormatCheck::finish(Findings& findings) {
   }
 }
 
-std::vector<std::vector<double>> FormatCheck::lines_of(const DatasetInfo& info,
-                                                       const std::string& format,
-                                                       const Image& image) {
+std::vector<std::vector<double>> FormatCheck::label_values(const DatasetInfo& info,
+                                                           const std::string& format,
+                                                           const Image& image) {
   std::vector<std::vector<double>> lines;
   const auto frame = static_cast<double>(image.frame + 1);
   const auto add = [&](const Person& person, const Box& box) {
@@ -111,7 +111,7 @@ std::vector<std::vector<double>> FormatCheck::lines_of(const DatasetInfo& info,
     add(person, format == "mot" ? person.amodal : person.box);
   if (format != "mot") {
     for (const Person& object : image.objects) {
-      if (info.surface_of(object) == world::SemanticClass::drone) continue;
+      if (info.surface_material(object) == world::SemanticClass::drone) continue;
       add(object, object.box);
     }
     return lines;

@@ -48,7 +48,7 @@ class JobOfImage {
   json drawn_;
 };
 
-std::optional<std::size_t> drone_of(const json& job, const Image& image) {
+std::optional<std::size_t> find_drone(const json& job, const Image& image) {
   const json drones = job.value("drones", json::array());
   if (!drones.is_array()) return std::nullopt;
   for (std::size_t i = 0; i < drones.size(); ++i) {
@@ -189,7 +189,7 @@ void check_job(const json& manifest, const Image& image, Findings& findings) {
   if (job == manifest.end() || !job->is_object()) return;
   const JobCheck check(*job, image, findings);
   check.check_environment();
-  if (const auto drone = drone_of(*job, image)) {
+  if (const auto drone = find_drone(*job, image)) {
     check.check_camera(*drone);
     check.check_sensor(*drone);
   }

@@ -22,7 +22,7 @@ using nlohmann::json;
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings) {
   const std::string place = fmt::format("cameras/{}/{}", image.run, image.camera);
   if (!fs::exists(info.root / (place + ".opencv.yaml"))) return;
-  const camera::Intrinsics lens = camera_of(image).intrinsics;
+  const camera::Intrinsics lens = image_camera(image).intrinsics;
   const auto compare = [&](const std::string& path, const std::string& expected) {
     if (fs::is_regular_file(info.root / path) && read_file(info.root / path) == expected) return;
     findings.add("camera", path, fmt::format("image {}", image.id),

@@ -66,14 +66,14 @@ class Differences {
 };
 
 /// The owner of a pixel: instances, or whose mask it is in.
-std::vector<std::uint32_t> labels_of(const Shot& shot) {
+std::vector<std::uint32_t> label_image(const Shot& shot) {
   if (!shot.pixels.ids.empty()) return shot.pixels.ids;
   std::vector<std::uint32_t> labels(shot.pixels.count());
-  for (const Person& person : objects_of(shot.image)) {
-    const Bitmap mask = shot.mask_of(person);
+  for (const Person& person : list_objects(shot.image)) {
+    const Bitmap mask = shot.instance_mask(person);
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
-        if (mask.at(x, y)) labels[shot.pixels.at(x, y)] = instance_of(person);
+        if (mask.at(x, y)) labels[shot.pixels.at(x, y)] = instance_id(person);
       }
     }
   }
@@ -85,7 +85,7 @@ struct Borders {
   std::size_t objects = 0;      ///< people or objects that they are of
 };
 
-Borders borders_of(const Shot& shot, const std::vector<std::uint32_t>& labels, bool of_people) {
+Borders count_borders(const Shot& shot, const std::vector<std::uint32_t>& labels, bool of_people) {
   const Pixels& pixels = shot.pixels;
   std::vector<Border> borders;
   std::map<std::uint32_t, std::size_t> count;  // by label
@@ -178,9 +178,9 @@ bool can_tell(const Image& image) {
 
 void AlignmentCheck::add(const Shot& shot) {
   if (shot.pixels.rgb.empty()) return;
-  const std::vector<std::uint32_t> labels = labels_of(shot);
+  const std::vector<std::uint32_t> labels = label_image(shot);
   for (const bool of_people : {true, false}) {
-    const auto& [borders, objects] = borders_of(shot, labels, of_people);
+    const auto& [borders, objects] = count_borders(shot, labels, of_people);
     if (borders.size() < kMinBorders || objects < kMinObjects) continue;
     const Alignment found = align(shot, borders);
     scores_[{shot.image.run, shot.image.camera, of_people}].push_back(

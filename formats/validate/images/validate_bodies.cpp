@@ -75,7 +75,7 @@ void check_hidden_by_nearer(const Shot& shot, const Person& person, const Bitmap
   const Pixels& pixels = shot.pixels;
   if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
   const double far_m = max_distance_m(shot, person) + 0.1;
-  const std::uint32_t own = instance_of(person);
+  const std::uint32_t own = instance_id(person);
   std::size_t hidden = 0;
   std::size_t open = 0;
   for (int y = whole.y; y < whole.y + whole.height; ++y) {
@@ -99,8 +99,8 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
   const auto found = person.record.find("amodal_segmentation");
   // The rows of a rolling shutter see parts of a body at other times than its box.
   if (found == person.record.end() || !shot.at_once) return;
-  const auto runs = runs_of(found->at("counts").get<std::string>(), shot.pixels.count());
-  const Bitmap whole = bitmap_of(runs, shot.image.height);
+  const auto runs = decode_runs(found->at("counts").get<std::string>(), shot.pixels.count());
+  const Bitmap whole = decode_bitmap(runs, shot.image.height);
   if (check_mask_fills_box(shot, person, whole, findings) &&
       check_joints_on_mask(person, whole, findings)) {
     check_hidden_by_nearer(shot, person, whole, findings);
@@ -183,8 +183,8 @@ const Person* Shot::find(std::int64_t track_id) const {
   return nullptr;
 }
 
-Bitmap Shot::mask_of(const Person& person) const {
-  return bitmap_of(runs_of(person.mask, pixels.count()), image.height);
+Bitmap Shot::instance_mask(const Person& person) const {
+  return decode_bitmap(decode_runs(person.mask, pixels.count()), image.height);
 }
 
 Eigen::Vector3d Shot::point_at(int x, int y, double depth_m) const {

@@ -23,13 +23,13 @@ constexpr std::uint16_t kTorso = 2;
 constexpr std::uint16_t kCarriedItem = 9;
 
 /// Redness and blueness against green, of linear light.
-Eigen::Vector2d chroma_of(const Eigen::Vector3d& rgb) {
+Eigen::Vector2d chromaticity(const Eigen::Vector3d& rgb) {
   constexpr double kDark = 0.005;
   const Eigen::Vector3d light = (rgb.array() + kDark).log();
   return {light[0] - light[1], light[2] - light[1]};
 }
 
-std::optional<Eigen::Vector3d> color_of(const nlohmann::json& track) {
+std::optional<Eigen::Vector3d> recorded_color(const nlohmann::json& track) {
   const std::string text =
       track.value("attributes", nlohmann::json::object()).value("top_colour", "");
   if (text.size() != 7 || text.find_first_not_of("0123456789abcdef", 1) != std::string::npos) {
@@ -38,7 +38,7 @@ std::optional<Eigen::Vector3d> color_of(const nlohmann::json& track) {
   Eigen::Vector3d rgb;
   for (int c = 0; c < 3; ++c) {
     const std::string byte = text.substr(1 + 2 * static_cast<std::size_t>(c), 2);
-    rgb[c] = linear_of_srgb(static_cast<std::uint8_t>(std::stoi(byte, nullptr, 16)));
+    rgb[c] = linear_from_srgb(static_cast<std::uint8_t>(std::stoi(byte, nullptr, 16)));
   }
   return rgb;
 }
@@ -106,7 +106,7 @@ void ClothesCheck::add(const Shot& shot) {
   const Pixels& pixels = shot.pixels;
   if (pixels.rgb.empty() || pixels.parts.empty() || pixels.ids.empty()) return;
   std::map<std::uint32_t, const Person*> people;
-  for (const Person& person : shot.image.people) people[instance_of(person)] = &person;
+  for (const Person& person : shot.image.people) people[instance_id(person)] = &person;
   for (std::size_t i = 0; i < pixels.parts.size(); ++i) {
     if (pixels.parts[i] != kTorso && pixels.parts[i] != kCarriedItem) continue;
     const auto person = people.find(pixels.ids[i]);
@@ -121,9 +121,9 @@ void ClothesCheck::add(const Shot& shot) {
       continue;
     }
     Shirt& shirt = runs_[shot.image.run][person->second->track_id];
-    if (shirt.pixels++ == 0) shirt.label = color_of(*person->second->track);
+    if (shirt.pixels++ == 0) shirt.label = recorded_color(*person->second->track);
     for (int c = 0; c < 3; ++c) {
-      shirt.sum[c] += linear_of_srgb(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
+      shirt.sum[c] += linear_from_srgb(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
     }
   }
 }
@@ -143,8 +143,8 @@ void ClothesCheck::finish(Findings& findings) const {
     std::vector<Top> tops;
     for (const auto& [track, shirt] : shirts) {
       if (shirt.pixels < kMinPixels || !shirt.label) continue;
-      pairs.emplace_back(chroma_of(*shirt.label),
-                         chroma_of(shirt.sum / static_cast<double>(shirt.pixels)));
+      pairs.emplace_back(chromaticity(*shirt.label),
+                         chromaticity(shirt.sum / static_cast<double>(shirt.pixels)));
       if (shirt.pixels >= kManyPixels) {
         tops.push_back({track, pairs.back().first, pairs.back().second});
       }

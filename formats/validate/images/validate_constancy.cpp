@@ -54,12 +54,12 @@ std::optional<std::array<std::uint8_t, 3>> rgb_of_hex(const std::string& text) {
 }
 
 /// Direction of the sun: Spencer's declination, solar time. Azimuth counter-clockwise from east.
-struct SunPlace {
+struct SunPosition {
   double azimuth_deg;
   double elevation_deg;
 };
 
-SunPlace sun_of(double hours, double latitude_deg, double day_of_year) {
+SunPosition sun_position(double hours, double latitude_deg, double day_of_year) {
   const double day = 2 * EIGEN_PI * (day_of_year - 1) / 365;
   const double declination = 0.006918 - 0.399912 * std::cos(day) + 0.070257 * std::sin(day) -
                              0.006758 * std::cos(2 * day) + 0.000907 * std::sin(2 * day) -
@@ -74,7 +74,7 @@ SunPlace sun_of(double hours, double latitude_deg, double day_of_year) {
   return {std::atan2(north, east) / kDegree, std::asin(std::clamp(up, -1.0, 1.0)) / kDegree};
 }
 
-const char* age_band_of(double years) {
+const char* age_band(double years) {
   return years < 13 ? "child" : years < 18 ? "teenager" : years < 65 ? "adult" : "senior";
 }
 
@@ -128,8 +128,8 @@ void check_clothes(const json& attributes, const std::function<void(const std::s
   const std::string wears = attributes.at("wears");
   std::string known;
   for (const skinning::Clothing& clothing : skinning::clothes_in(wears)) {
-    known +=
-        (known.empty() ? "" : ", ") + fmt::format("{} ({})", clothing.type, name_of(clothing.slot));
+    known += (known.empty() ? "" : ", ") +
+             fmt::format("{} ({})", clothing.type, to_string(clothing.slot));
   }
   if (worn != known) fault(fmt::format("clothes are {}, but wears is {}", worn, known));
 }
@@ -157,8 +157,8 @@ void ConstancyCheck::check_environment(const Image& image, Findings& findings) {
   const std::string clock = environment->at("time_of_day");
   if (clock.size() != 5) return;
   const double hours = std::atoi(clock.c_str()) + std::atoi(clock.c_str() + 3) / 60.0;
-  const SunPlace sun = sun_of(hours, environment->at("latitude_deg").get<double>(),
-                              environment->at("day_of_year").get<double>());
+  const SunPosition sun = sun_position(hours, environment->at("latitude_deg").get<double>(),
+                                       environment->at("day_of_year").get<double>());
   const double azimuth_off =
       std::remainder(environment->at("sun_azimuth_deg").get<double>() - sun.azimuth_deg, 360);
   const double elevation_off =
@@ -232,7 +232,7 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
     findings.add("attributes", kCocoFile, fmt::format("track {}", person.track_id), what);
   };
   const double years = attributes->at("age_years").get<double>();
-  if (attributes->at("age_band") != age_band_of(years)) {
+  if (attributes->at("age_band") != age_band(years)) {
     fault(fmt::format("age_band {} at {} years", attributes->at("age_band").dump(), years));
   }
   const double stature_m = attributes->at("stature_m").get<double>();

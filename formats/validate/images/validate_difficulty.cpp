@@ -24,8 +24,8 @@ void check_contrast(const Shot& shot, const Person& person, const json& difficul
   constexpr double kMinAreaPx = 150;
   if (shot.pixels.rgb.empty() || person.area < kMinAreaPx) return;
   const annotate::Contrast seen =
-      annotate::contrast_of({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
-                            pixel_mask_of(shot.mask_of(person)));
+      annotate::measure_contrast({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
+                                 to_pixel_mask(shot.instance_mask(person)));
   const double slack = compression_slack(shot.image);
   const auto compare = [&](const char* key, double expected, double high_share) {
     constexpr double kLowShare = 0.15;
@@ -85,9 +85,9 @@ void check_visible_keypoints(const Person& person, int visible, Findings& findin
 /// Shares of the amodal area by instance.
 std::map<std::uint32_t, double> hidden_shares(const Shot& shot, const Person& person,
                                               const json& segmentation, double area_px) {
-  const auto runs = runs_of(segmentation.at("counts").get<std::string>(), shot.pixels.count());
-  const Bitmap whole = bitmap_of(runs, shot.image.height);
-  const std::uint32_t own = instance_of(person);
+  const auto runs = decode_runs(segmentation.at("counts").get<std::string>(), shot.pixels.count());
+  const Bitmap whole = decode_bitmap(runs, shot.image.height);
+  const std::uint32_t own = instance_id(person);
   std::map<std::uint32_t, double> shares;
   for (int y = whole.y; y < whole.y + whole.height; ++y) {
     for (int x = whole.x; x < whole.x + whole.width; ++x) {
@@ -112,7 +112,7 @@ void check_occluders(const Shot& shot, const Person& person, const json& occlude
     last = share;
     sum += share;
   }
-  if (listed.contains(instance_of(person))) fault("occluded_by has the person");
+  if (listed.contains(instance_id(person))) fault("occluded_by has the person");
   constexpr double kRounding = 0.0011;
   const double hidden = 1 - person.visibility;
   const bool is_cut = person.truncation > 0;

@@ -33,7 +33,7 @@ constexpr FlowPlane kBackward{"flow_backward", &Pixels::flow_backward};
 
 std::optional<Eigen::Vector2d> flow_at(const FlowPlane& plane, const Pixels& pixels,
                                        std::size_t pixel) {
-  return flow_of(&(pixels.*plane.samples)[3 * pixel]);
+  return decode_flow(&(pixels.*plane.samples)[3 * pixel]);
 }
 
 /// Counts of the pixels that show still surfaces or sky.
@@ -121,7 +121,7 @@ struct Led {
 Led lead(const FlowPlane& plane, const Shot& before, const Person& person, const Bitmap& body) {
   Led led;
   const Pixels& pixels = before.pixels;
-  const Bitmap mask = before.mask_of(person);
+  const Bitmap mask = before.instance_mask(person);
   for (int y = mask.y; y < mask.y + mask.height; ++y) {
     for (int x = mask.x; x < mask.x + mask.width; ++x) {
       if (!mask.at(x, y)) continue;
@@ -156,12 +156,12 @@ Bitmap whole_mask(const Shot& shot, const Person& person) {
                          box.y + box.height <= shot.image.height;
   if (!is_inside) return {};
   if (amodal != person.record.end()) {
-    return bitmap_of(runs_of(amodal->at("counts").get<std::string>(), shot.pixels.count()),
-                     shot.image.height);
+    return decode_bitmap(decode_runs(amodal->at("counts").get<std::string>(), shot.pixels.count()),
+                         shot.image.height);
   }
   constexpr double kWhole = 0.99;
   if (person.visibility < kWhole) return {};
-  return shot.mask_of(person);
+  return shot.instance_mask(person);
 }
 
 void check_person_flow(const FlowPlane& plane, const Shot& before, const Shot& after,
@@ -261,7 +261,8 @@ void check_keypoint_flow(const FlowPlane& plane, const Shot& before, const Shot&
 }
 
 /// Flow of `from` that leads to `to`, a frame of the same camera.
-void check_flow_of(const FlowPlane& plane, const Shot& from, const Shot& to, Findings& findings) {
+void check_flow_between(const FlowPlane& plane, const Shot& from, const Shot& to,
+                        Findings& findings) {
   if ((from.pixels.*plane.samples).empty() || !from.at_once || !to.at_once) return;
   if (!from.pixels.ids.empty() && !from.pixels.depth_cm.empty()) {
     check_still_flow(plane, from, to, findings);
@@ -287,8 +288,8 @@ void check_no_flow(const FlowPlane& plane, const Shot& shot, Findings& findings)
 }  // namespace
 
 void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
-  check_flow_of(kForward, before, after, findings);
-  check_flow_of(kBackward, after, before, findings);
+  check_flow_between(kForward, before, after, findings);
+  check_flow_between(kBackward, after, before, findings);
   check_scene_flow(before, after, findings);
   check_flow_occlusion(before, after, findings);
 }

@@ -64,8 +64,8 @@ struct Makers {
   }
 };
 
-Makers makers_of(const camera::Camera& camera, const Matter& matter,
-                 const nlohmann::json& hazards) {
+Makers find_makers(const camera::Camera& camera, const Matter& matter,
+                   const nlohmann::json& hazards) {
   Makers makers;
   for (const nlohmann::json& hazard : hazards) {
     const auto kind = hazard.at("kind").get<std::string>();
@@ -85,10 +85,10 @@ void HazardOpacityCheck::add_pixels(const DatasetInfo& /*info*/, const Image& im
   const auto hazards = image.record.find("hazards");
   if (pixels.hazard_opacity.empty() || hazards == image.record.end()) return;
   if (!hazards->empty()) runs_with_hazards_.insert(image.run);
-  const camera::Camera camera = camera_of(image);
+  const camera::Camera camera = image_camera(image);
   for (std::size_t channel = 0; channel < kMatters.size(); ++channel) {
     const Matter& matter = kMatters.at(channel);
-    const Makers makers = makers_of(camera, matter, *hazards);
+    const Makers makers = find_makers(camera, matter, *hazards);
     std::size_t shown = 0;
     std::size_t beside = 0;
     for (int y = 0; y < pixels.height; ++y) {

@@ -18,8 +18,8 @@ namespace {
 
 /// Pixels of a mask of the image whose middles are in a box.
 std::uint64_t pixels_in(const json& segmentation, const Shot& shot, const Box& box) {
-  const auto runs = runs_of(segmentation.at("counts").get<std::string>(), shot.pixels.count());
-  const Bitmap mask = bitmap_of(runs, shot.image.height);
+  const auto runs = decode_runs(segmentation.at("counts").get<std::string>(), shot.pixels.count());
+  const Bitmap mask = decode_bitmap(runs, shot.image.height);
   const auto first = [](double edge) { return static_cast<int>(std::ceil(edge - 0.5)); };
   const int left = std::max(first(box.x), mask.x);
   const int top = std::max(first(box.y), mask.y);

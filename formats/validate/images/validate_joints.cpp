@@ -23,8 +23,8 @@ class SkeletonCheck {
       : shot_(shot),
         person_(person),
         findings_(findings),
-        joints_(joints_of(person.record)),
-        in_world_(joints_3d_of(person.record)) {}
+        joints_(read_joints(person.record)),
+        in_world_(read_joints_3d(person.record)) {}
 
   void run() {
     if (!person_.keypoints.empty()) check_keypoints();
@@ -41,7 +41,7 @@ class SkeletonCheck {
     return skinning::joint_names().at(joint);
   }
 
-  const Eigen::Vector3d& at(Joint joint) const { return in_world_.at(index_of(joint)); }
+  const Eigen::Vector3d& at(Joint joint) const { return in_world_.at(index_from(joint)); }
 
   void check_keypoints() const {
     for (std::size_t i = 0; i < person_.keypoints.size(); ++i) {
@@ -84,7 +84,7 @@ class SkeletonCheck {
 
   void check_states() const {
     const Pixels& pixels = shot_.pixels;
-    const std::uint32_t own = instance_of(person_);
+    const std::uint32_t own = instance_id(person_);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const JointInImage& joint = joints_[i];
       if (!joint.is_inside()) continue;
@@ -153,7 +153,7 @@ class SkeletonCheck {
       const double share = (at(size.a) - at(size.b)).norm() / stature_m;
       if (share >= size.low && share <= size.high) continue;
       return fault(fmt::format("{} and {} are {:.3f} statures apart, expected {} to {}",
-                               name_of_joint(index_of(size.a)), name_of_joint(index_of(size.b)),
+                               name_of_joint(index_from(size.a)), name_of_joint(index_from(size.b)),
                                share, size.low, size.high));
     }
   }

@@ -34,12 +34,12 @@ void check_symmetry(const Shot& shot, const Listed& listed, Findings& findings) 
   }
 }
 
-annotate::PersonLook look_of(const Shot& shot, const Person& person) {
+annotate::PersonLook describe_look(const Shot& shot, const Person& person) {
   const Box& box = person.amodal;
   return {{box.x + box.width / 2, box.y + box.height / 2},
           box.height,
-          annotate::look_of({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
-                            pixel_mask_of(shot.mask_of(person)))};
+          annotate::describe_look({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
+                                  to_pixel_mask(shot.instance_mask(person)))};
 }
 
 double heights_between(const annotate::PersonLook& a, const annotate::PersonLook& b) {
@@ -84,7 +84,7 @@ void check_colors(const Shot& shot, const std::vector<annotate::PersonLook>& loo
 void check_existence(const Shot& shot, const std::vector<annotate::PersonLook>& looks,
                      const Listed& listed, Findings& findings) {
   constexpr std::ptrdiff_t kMinExpected = 8;
-  const auto expected = annotate::lookalikes_of(looks);
+  const auto expected = annotate::group_lookalikes(looks);
   const auto has_any = [](const auto& others) { return !others.empty(); };
   const std::ptrdiff_t expected_people = std::count_if(expected.begin(), expected.end(), has_any);
   const std::ptrdiff_t listed_people = std::count_if(
@@ -109,7 +109,7 @@ void check_lookalikes(const Shot& shot, Findings& findings) {
   check_symmetry(shot, listed, findings);
   if (shot.pixels.rgb.empty()) return;
   std::vector<annotate::PersonLook> looks;
-  for (const Person& person : shot.image.people) looks.push_back(look_of(shot, person));
+  for (const Person& person : shot.image.people) looks.push_back(describe_look(shot, person));
   check_colors(shot, looks, listed, findings);
   check_existence(shot, looks, listed, findings);
 }

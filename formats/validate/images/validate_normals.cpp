@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/geometry/angle.h"
 #include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"
@@ -20,7 +21,7 @@ namespace {
 enum class Kind : std::uint8_t { ground, building, prop, person };
 constexpr std::array kKindNames = {"the ground", "buildings", "props", "people"};
 
-std::optional<Kind> kind_of(std::uint32_t id) {
+std::optional<Kind> surface_kind(std::uint32_t id) {
   if (id == kGround) return Kind::ground;
   if (is_building(id)) return Kind::building;
   if (id >= kFirstProp && id < kFirstDrone) return Kind::prop;
@@ -98,7 +99,7 @@ std::map<Kind, NormalTally> tally_normals(const Shot& shot) {
   for (int y = 1; y < pixels.height; y += step) {
     for (int x = 1 + y % step; x < pixels.width; x += step) {
       const std::size_t pixel = pixels.at(x, y);
-      const std::optional<Kind> kind = kind_of(pixels.ids[pixel]);
+      const std::optional<Kind> kind = surface_kind(pixels.ids[pixel]);
       if (!kind || pixels.depth_cm[pixel] == 0) continue;
       const Eigen::Vector3d ray = shot.point_at(x, y, 1) - center;
       if (!ray.allFinite()) continue;
@@ -152,7 +153,7 @@ void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& fi
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
                              "shows (median of {})",
-                             name, angle_rad * 180 / EIGEN_PI, tally.angles_rad.size()));
+                             name, angle_rad / kDegree, tally.angles_rad.size()));
   }
 }
 

@@ -36,7 +36,7 @@ bool check_mask(const Image& image, const Person& person, Findings& findings) {
   }
   Bitmap mask;
   try {
-    mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+    mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
   } catch (const InputError& error) {
     findings.add("mask-runs", person, error.problems().front().expected);
     return false;
@@ -64,12 +64,13 @@ void check_whole_mask(const Image& image, const Person& person, Findings& findin
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   Bitmap whole;
   try {
-    whole = bitmap_of(runs_of(found->at("counts").get<std::string>(), pixels), image.height);
+    whole =
+        decode_bitmap(decode_runs(found->at("counts").get<std::string>(), pixels), image.height);
   } catch (const InputError& error) {
     findings.add("mask-runs", person, error.problems().front().expected);
     return;
   }
-  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  const Bitmap mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
   for (int y = mask.y; y < mask.y + mask.height; ++y) {
     for (int x = mask.x; x < mask.x + mask.width; ++x) {
       if (!mask.at(x, y) || whole.at(x, y)) continue;
@@ -163,7 +164,7 @@ void check_visible_keypoints(const Image& image, const Person& person, Findings&
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  const Bitmap mask = decode_bitmap(decode_runs(person.mask, pixels), image.height);
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility != 2 || shows_near(mask, point)) continue;
     findings.add("keypoints", person, "a visible keypoint away from the mask");
@@ -179,7 +180,7 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
   constexpr double kForearmM = 0.5;
   const double size_px = std::max(person.amodal.width, person.amodal.height);
   const double limb_px =
-      size_px < kSmallPx ? pixels_across(camera_of(image), person.box_middle, kForearmM) : 0;
+      size_px < kSmallPx ? pixels_across(image_camera(image), person.box_middle, kForearmM) : 0;
   const double slack_px = kBoxSlackPx + std::max(kCoarseShare * size_px, limb_px);
   int labeled = 0;
   for (const Keypoint& point : person.keypoints) {
@@ -270,7 +271,7 @@ void check_truncation(const Image& image, const Person& person, Findings& findin
   size.width = image.width;
   size.height = image.height;
   constexpr double kRounding = 0.01;  // of boxes a few pixels small
-  const double expected = annotate::truncation_of(bounds, size);
+  const double expected = annotate::measure_truncation(bounds, size);
   if (!(std::abs(person.truncation - expected) <= kRounding)) {
     findings.add(
         "truncation", person,
@@ -313,8 +314,8 @@ Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& 
 void check_bodies(const Image& image, Findings& findings) {
   const bool plain = is_plain(image);
   const bool at_once = is_shot_at_once(image);
-  const camera::Camera camera = camera_of(image);
-  for (const Person& person : objects_of(image)) {
+  const camera::Camera camera = image_camera(image);
+  for (const Person& person : list_objects(image)) {
     check_position(person, findings);
     check_state(person, findings);
     check_truncation(image, person, findings);
@@ -333,7 +334,7 @@ bool is_shot_at_once(const Image& image) {
 }
 
 void check_people(const Image& image, Findings& findings) {
-  for (const Person& person : objects_of(image)) {
+  for (const Person& person : list_objects(image)) {
     check_box(image, person, findings);
     const bool is_whole = check_mask(image, person, findings);
     check_visibility(person, findings);

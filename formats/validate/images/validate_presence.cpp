@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-const Person* person_of(const Image& image, std::int64_t track_id) {
+const Person* find_person(const Image& image, std::int64_t track_id) {
   const auto found =
       std::find_if(image.people.begin(), image.people.end(),
                    [&](const Person& person) { return person.track_id == track_id; });
@@ -22,10 +22,10 @@ const Person* person_of(const Image& image, std::int64_t track_id) {
 
 void check_between(const Image& before, const Image& image, const Image& after,
                    Findings& findings) {
-  const camera::Camera camera = camera_of(image);
+  const camera::Camera camera = image_camera(image);
   for (const Person& then : before.people) {
-    const Person* later = person_of(after, then.track_id);
-    if (later == nullptr || person_of(image, then.track_id) != nullptr) continue;
+    const Person* later = find_person(after, then.track_id);
+    if (later == nullptr || find_person(image, then.track_id) != nullptr) continue;
     const Vector3d middle = 0.5 * (then.box_middle + later->box_middle);
     const auto seen = camera.project(middle);
     if (!seen.visible || !(seen.depth_m > 1)) continue;
@@ -76,7 +76,7 @@ void PresenceCheck::add(const Image& image, Findings& findings) {
     const Box& box = hidden.amodal;
     const bool is_inside = box.x < image.width && box.y < image.height && box.x + box.width > 0 &&
                            box.y + box.height > 0;
-    if (person_of(image, hidden.track_id) != nullptr || !is_inside) {
+    if (find_person(image, hidden.track_id) != nullptr || !is_inside) {
       findings.add("hidden-box", kCocoFile, fmt::format("image {}", image.id),
                    fmt::format("hidden track {} has an annotation or is outside of the image",
                                hidden.track_id));

@@ -71,7 +71,7 @@ std::optional<bool> leads_like_flow(const Shot& before, const Shot& after, int x
   const Pixels& pixels = before.pixels;
   const std::size_t pixel = pixels.at(x, y);
   if (pixels.flow.empty() || pixels.depth_cm.empty() || pixels.depth_cm[pixel] == 0) return {};
-  const auto flow = flow_of(&pixels.flow[3 * pixel]);
+  const auto flow = decode_flow(&pixels.flow[3 * pixel]);
   if (!flow) return {};
   const Eigen::Vector3d from = before.point_at(x, y, pixels.depth_m(pixel));
   const auto seen = after.camera.project(from + motion);
@@ -104,7 +104,7 @@ void check_people_move(const Shot& before, const Shot& after, Findings& findings
   }
   for (const Person& then : before.image.people) {
     const Person* now = after.find(then.track_id);
-    const auto sum = sums.find(instance_of(then));
+    const auto sum = sums.find(instance_id(then));
     constexpr std::size_t kMinPixels = 12;
     constexpr double kMinVisibility = 0.5;  // else a foot on the ground may be all that shows
     if (then.visibility < kMinVisibility || then.truncation > 1 - kMinVisibility) continue;
@@ -228,7 +228,7 @@ void check_flow_occlusion(const Shot& before, const Shot& after, Findings& findi
   Verdict not_visible{.max_wrong_share = 0.15};  // found or expected: few pixels of most images
   for_samples(pixels, [&](int x, int y, std::size_t pixel) {
     const auto found = static_cast<FlowTarget>(pixels.flow_occlusion[pixel]);
-    const auto flow = flow_of(&pixels.flow[3 * pixel]);
+    const auto flow = decode_flow(&pixels.flow[3 * pixel]);
     // Flow that is too far for its file is not unknown.
     if (!flow) return;
     if (found == FlowTarget::unknown) return verdict.add(false, x, y);

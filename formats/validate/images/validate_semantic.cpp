@@ -53,7 +53,7 @@ std::vector<std::uint8_t> covered_by(const std::vector<Person>& objects, const I
   const auto width = static_cast<std::size_t>(image.width);
   std::vector<std::uint8_t> covered(width * static_cast<std::size_t>(image.height), 0);
   for (const Person& object : objects) {
-    const Bitmap mask = bitmap_of(runs_of(object.mask, covered.size()), image.height);
+    const Bitmap mask = decode_bitmap(decode_runs(object.mask, covered.size()), image.height);
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
         if (mask.at(x, y))
@@ -93,7 +93,8 @@ void check_semantic(const DatasetInfo& info, const Image& image, const Pixels& p
   // Drones show whether or not the job has several; vehicles have labels only if it asks for them.
   std::map<SemanticClass, std::vector<Person>> objects = {{SemanticClass::drone, {}}};
   for (const annotate::ObjectCategory& known : info.object_categories) objects[known.surface];
-  for (const Person& object : image.objects) objects[info.surface_of(object)].push_back(object);
+  for (const Person& object : image.objects)
+    objects[info.surface_material(object)].push_back(object);
   for (const auto& [surface, shown] : objects) {
     compare(shown, surface, "are of a drone or vehicle, but in no mask, or the reverse");
   }

@@ -35,7 +35,7 @@ double angle_between(double a_rad, double b_rad) {
 }
 
 /// Facing direction of a body, from its left side to its right one.
-double facing_of(const Eigen::Vector3d& right_to_left) {
+double facing_angle(const Eigen::Vector3d& right_to_left) {
   return std::atan2(-right_to_left.x(), right_to_left.y());
 }
 
@@ -67,7 +67,7 @@ void check_facing(const Person& person, Findings& findings) {
         keypoint_at(person, pair.left) - keypoint_at(person, pair.left + 1);
     constexpr double kMinSizeM = 0.06;
     if (across.head<2>().norm() < kMinSizeM) continue;
-    const double off = angle_between(facing_of(across), person.heading_rad);
+    const double off = angle_between(facing_angle(across), person.heading_rad);
     if (off <= pair.max_rad) continue;
     findings.add("heading-is-body", person,
                  fmt::format("the {} face {:.2f} rad away from heading", pair.name, off));
@@ -85,9 +85,9 @@ struct Sides {
   std::size_t no_limb = 0;  ///< of these, without any limb within a pixel
 };
 
-Sides sides_of(const Pixels& pixels, const Person& person) {
+Sides find_sides(const Pixels& pixels, const Person& person) {
   Sides sides;
-  const std::uint32_t id = instance_of(person);
+  const std::uint32_t id = instance_id(person);
   for (const Limb& limb : kLimbs) {
     for (std::uint16_t side = 0; side < 2; ++side) {
       const Keypoint& point = person.keypoints[limb.left_keypoint + side];
@@ -136,7 +136,7 @@ void check_sides(const Shot& shot, Findings& findings) {
   constexpr int kMinCount = 4;
   for (const Person& person : shot.image.people) {
     if (person.keypoints.size() <= kLimbs.back().left_keypoint + 1 || is_small(person)) continue;
-    const Sides sides = sides_of(shot.pixels, person);
+    const Sides sides = find_sides(shot.pixels, person);
     all.own += sides.own;
     all.opposite += sides.opposite;
     all.kind += sides.kind;
@@ -170,7 +170,7 @@ void check_sides(const Shot& shot, Findings& findings) {
 /// Keypoints are visible where the depth shows the person's surface at them, and hidden where not.
 void check_visibility_of_keypoints(const Shot& shot, const Person& person, Findings& findings) {
   const Pixels& pixels = shot.pixels;
-  const std::uint32_t id = instance_of(person);
+  const std::uint32_t id = instance_id(person);
   int contradictions = 0;
   for (std::size_t i = 0; i < person.keypoints.size(); ++i) {
     const Keypoint& point = person.keypoints[i];
@@ -212,7 +212,7 @@ void check_heads_are_heads(const Shot& shot, Findings& findings) {
     if (!person.head || is_small(person)) continue;
     const int x = static_cast<int>(person.head->x());
     const int y = static_cast<int>(person.head->y());
-    if (!pixels.holds(x, y, 1) || pixels.ids[pixels.at(x, y)] != instance_of(person)) continue;
+    if (!pixels.holds(x, y, 1) || pixels.ids[pixels.at(x, y)] != instance_id(person)) continue;
     ++looked_at;
     bool has_head = false;
     for (int dy = -1; dy <= 1; ++dy) {

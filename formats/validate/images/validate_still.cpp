@@ -192,8 +192,8 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
 
 /// The luminance of an sRGB pixel, in linear light.
 double luminance(const std::uint8_t* rgb) {
-  return 0.2126 * linear_of_srgb(rgb[0]) + 0.7152 * linear_of_srgb(rgb[1]) +
-         0.0722 * linear_of_srgb(rgb[2]);
+  return 0.2126 * linear_from_srgb(rgb[0]) + 0.7152 * linear_from_srgb(rgb[1]) +
+         0.0722 * linear_from_srgb(rgb[2]);
 }
 
 /// Equal exposure, and no vignette that makes it a matter of the place. Metered exposures of what

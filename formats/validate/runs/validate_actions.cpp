@@ -108,7 +108,7 @@ void ActionsCheck::check_together(const Person& person,
 
 void ActionsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
-    const std::string file = file_of(GroundTruth::actions, run);
+    const std::string file = ground_truth_file(GroundTruth::actions, run);
     try {
       check_table(read_csv(info.root / file), file, seen_[run], findings);
     } catch (const InputError& error) {
@@ -131,7 +131,7 @@ void ActionsCheck::check_table(const CsvTable& table, const std::string& file,
   };
   std::map<std::int64_t, std::vector<Stretch>> stretches;
   for (const std::vector<std::string>& row : table.rows) {
-    const Stretch stretch{row[1], number_of(row[3]), number_of(row[4])};
+    const Stretch stretch{row[1], parse_number(row[3]), parse_number(row[4])};
     if (!(stretch.from_s <= stretch.to_s)) {
       return findings.add("actions", file, row[0], "ends before it begins");
     }

@@ -32,7 +32,7 @@ using Frames = EventsCheck::Frames;
 /// Times of frames, ascending, with their numbers.
 using FrameTimes = std::vector<std::pair<double, std::int64_t>>;
 
-FrameTimes times_of(const Frames& frames) {
+FrameTimes frame_times(const Frames& frames) {
   FrameTimes times;
   times.reserve(frames.size());
   for (const auto& [number, frame] : frames) times.emplace_back(frame.time_s, number);
@@ -65,7 +65,7 @@ std::string fault_of_place(const RunEvent& event, const EventsCheck::Frame& fram
 
 template <typename Report>
 void check_order(const std::vector<RunEvent>& events, const Frames& frames, const Report& report) {
-  const FrameTimes times = times_of(frames);
+  const FrameTimes times = frame_times(frames);
   double before_s = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const RunEvent& event = events[i];
@@ -133,7 +133,7 @@ void EventsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings&
 
 void EventsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
-    const std::string file = file_of(annotate::GroundTruth::events, run);
+    const std::string file = ground_truth_file(annotate::GroundTruth::events, run);
     try {
       const std::vector<RunEvent> events = read_run_events(info.root, run);
       const auto report = [&](std::size_t event, const std::string& fault) {
@@ -141,7 +141,7 @@ void EventsCheck::finish(const DatasetInfo& info, Findings& findings) {
         findings.add(kRule, file, line, fault);
       };
       check_event_records(events, report);
-      check_events_against_figures(events, run_figures(info.root, run), first_track_of(info, run),
+      check_events_against_figures(events, run_figures(info.root, run), first_track(info, run),
                                    report);
       if (info.has(annotate::GroundTruth::trajectories)) {
         check_events_against_trajectories(events, read_run_trajectories(info.root, run), report);

@@ -33,7 +33,7 @@ class ExitTable {
       ExitRow row;
       row.line = i + 2;
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        row.value[table.columns[c]] = number_of(table.rows[i][c]);
+        row.value[table.columns[c]] = parse_number(table.rows[i][c]);
       }
       rows_[table.rows[i][exit]].push_back(std::move(row));
     }

@@ -52,7 +52,7 @@ Vector2d point_at(const json& point) {
 
 /// Empty where the ground is nowhere near, or the polygon is cut off by the camera's plane or the
 /// end of its lens.
-ExitsCheck::Outline ExitsCheck::outline_of(const camera::Camera& camera, const json& polygon) {
+ExitsCheck::Outline ExitsCheck::exit_outline(const camera::Camera& camera, const json& polygon) {
   Outline outline;
   for (const json& written : polygon) {
     const Vector2d point = point_at(written);
@@ -123,14 +123,14 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
     const std::vector<std::string>& cells = table.rows[i];
     ExitRow row{i + 2, {}, cells[state], cells[offline]};
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const double value = number_of(cells[c]);
+      const double value = parse_number(cells[c]);
       if (c != exit && c != state && c != offline && !std::isfinite(value)) {
         findings.add("exits", file, fmt::format("line {}", i + 2),
                      fmt::format("{} is no number: {}", table.columns[c], cells[c]));
       }
       row.value[table.columns[c]] = value;
     }
-    const auto number = static_cast<std::int64_t>(number_of(cells[frame]));
+    const auto number = static_cast<std::int64_t>(parse_number(cells[frame]));
     if (!run.exits.contains(cells[exit])) run.order.push_back(cells[exit]);
     const double time_s = info.from_s + static_cast<double>(number) / info.rate_hz;
     if (!(std::abs(row["time_s"] - time_s) <= 1e-6)) {
@@ -191,13 +191,13 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
 
 void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& findings) {
   const auto id = exit.at("id").get<std::string>();
-  const camera::Camera camera = camera_of(image);
+  const camera::Camera camera = image_camera(image);
   ExitOutlines& place = places_[{image.scenario(), id}];
   for (const char* key : {"door", "zone"}) {
     const json& polygon = exit.at(key);
     if (polygon.empty()) continue;
     Outline& known = key[0] == 'd' ? place.door : place.zone;
-    Outline outline = outline_of(camera, polygon);
+    Outline outline = exit_outline(camera, polygon);
     if (outline.corners.empty()) continue;
     const bool is_new = known.corners.empty();
     const double off_px = is_new || known.corners.size() != polygon.size()
@@ -311,7 +311,7 @@ void ExitsCheck::count_everybody(const DatasetInfo& info, const std::string& nam
         may_be += !is_seen || records->at(recorded.tracks[i]) == id ? 1 : 0;
       }
       if (row["in_zone"] <= may_be) continue;
-      findings.add("exits", file_of(annotate::GroundTruth::exits, name),
+      findings.add("exits", ground_truth_file(annotate::GroundTruth::exits, name),
                    fmt::format("line {}", row.line),
                    fmt::format("{}: in_zone {}, but {} people are there who may head for it", id,
                                row["in_zone"], may_be));
@@ -321,7 +321,7 @@ void ExitsCheck::count_everybody(const DatasetInfo& info, const std::string& nam
 }
 
 void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
-  const std::string file = file_of(annotate::GroundTruth::exits, image.run);
+  const std::string file = ground_truth_file(annotate::GroundTruth::exits, image.run);
   Run& run = read(info, image.run, findings);
   const auto exits = image.record.find("exits");
   if (exits == image.record.end()) return;
@@ -342,7 +342,8 @@ void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
       try {
         count_everybody(info, name, run, findings);
       } catch (const std::exception& error) {
-        findings.add("exits", file_of(annotate::GroundTruth::trajectories, name), "", error.what());
+        findings.add("exits", ground_truth_file(annotate::GroundTruth::trajectories, name), "",
+                     error.what());
       }
     }
     const std::filesystem::path file = info.root / "metrics" / (name + ".json");

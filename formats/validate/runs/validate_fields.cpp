@@ -84,7 +84,7 @@ struct Share {
 };
 
 template <typename People>
-Share share_of(const People& people, const Grid& grid) {
+Share smoothed_share(const People& people, const Grid& grid) {
   Share share{std::vector<double>(grid.cells()),
               std::vector<Vector2d>(grid.cells(), Vector2d::Zero())};
   constexpr double kReach = 3;
@@ -162,7 +162,7 @@ class FieldFile {
   /// have none.
   template <typename People>
   void check_everybody(const People& people, double count) const {
-    const Share share = share_of(people, grid_);
+    const Share share = smoothed_share(people, grid_);
     std::size_t on_grid = 0;
     for (const auto& [track, person] : people) {
       const Vector2d at = (person.position - grid_.origin_m) / grid_.cell_m;
@@ -183,7 +183,7 @@ class FieldFile {
   template <typename People>
   void check_people(const People& people) const {
     if (people.empty()) return;
-    const Share share = share_of(people, grid_);
+    const Share share = smoothed_share(people, grid_);
     double expected = 0;
     double missing = 0;
     double dot = 0;
@@ -273,7 +273,7 @@ std::set<std::int64_t> tracks_of_figures(const DatasetInfo& info, const std::str
   std::set<std::int64_t> tracks;
   const json people = run_figures(info.root, run).value("by_person", json::object());
   for (const json& agent : people.value("agent", json::array())) {
-    tracks.insert(first_track_of(info, run) + agent.get<std::int64_t>());
+    tracks.insert(first_track(info, run) + agent.get<std::int64_t>());
   }
   return tracks;
 }
@@ -291,7 +291,7 @@ std::map<std::int64_t, Standing> people_at(const RunTrajectories& recorded, std:
   return people;
 }
 
-std::vector<Level> levels_of(const json& record, const Grid& grid) {
+std::vector<Level> read_levels(const json& record, const Grid& grid) {
   std::vector<Level> levels;
   for (const json& level : record.value("levels", json::array())) {
     levels.push_back({{grid.origin_m, level.at("cell_m").get<double>(), grid.kernel_m,
@@ -323,7 +323,7 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
           record.at("rows").get<int>(),
           record.at("columns").get<int>()};
       const json& people = record.at("people");
-      const std::vector<Level> levels = levels_of(record, grid);
+      const std::vector<Level> levels = read_levels(record, grid);
       if (!std::equal(
               levels.begin(), levels.end(), info.field_cells_m.begin(), info.field_cells_m.end(),
               [](const Level& level, double cell_m) { return level.grid.cell_m == cell_m; })) {
@@ -338,8 +338,8 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
         everybody = read_run_trajectories(info.root, run);
       }
       for (std::size_t frame = 0; frame < people.size(); ++frame) {
-        const std::string path =
-            file_of(annotate::GroundTruth::fields, run, "", static_cast<std::int64_t>(frame));
+        const std::string path = ground_truth_file(annotate::GroundTruth::fields, run, "",
+                                                   static_cast<std::int64_t>(frame));
         const Field field = read_field(info.root / path, grid);
         const FieldFile file(path, grid, field, findings);
         file.check_sums(people.at(frame).get<double>());

@@ -50,7 +50,7 @@ bool are_alike(double a, double b, double slack) { return std::abs(a - b) <= sla
 /// World to camera, of a camera that looks at a heading and an angle above the horizon and is
 /// turned clockwise about that. Angles are not compared: close to straight down there are two sets
 /// of them for one view, a pitch beyond -90 degrees among these.
-Eigen::Matrix3d rotation_of(const json& gimbal) {
+Eigen::Matrix3d read_rotation(const json& gimbal) {
   const auto angle = [&](const char* key) { return gimbal.at(key).get<double>() * kDegree; };
   const double yaw = angle("yaw_deg");
   const double pitch = angle("pitch_deg");
@@ -135,7 +135,7 @@ class FlightRecord {
 
   void check_gimbal() const {
     const auto off = [&](const json& gimbal) {
-      return angle_between(rotation_of(gimbal), image_.R);
+      return angle_between(read_rotation(gimbal), image_.R);
     };
     const double truth = off(flight_.at("true").at("gimbal"));
     if (truth > 0.01) {

@@ -34,7 +34,7 @@ std::optional<Eigen::Vector2d> ground_at(const camera::Camera& camera, const Eig
 /// Corners of the area lie on the circle, but for those where the camera's view ends.
 bool is_circle(const Image& image, const json& hazard) {
   constexpr double kMaxOffShare = 0.25;
-  const camera::Camera camera = camera_of(image);
+  const camera::Camera camera = image_camera(image);
   const Eigen::Vector2d center = numbers_at<2>(hazard.at("position"));
   const double radius_m = hazard.at("radius_m").get<double>();
   const double height_m = camera.pose.center().z();

@@ -50,14 +50,14 @@ Vector3d at(const Row& row, std::size_t first) {
   return {row[first], row[first + 1], row[first + 2]};
 }
 
-Quaterniond orientation_of(const Row& row) {
+Quaterniond read_orientation(const Row& row) {
   return {row[kOrientation], row[kOrientation + 1], row[kOrientation + 2], row[kOrientation + 3]};
 }
 
 SensorSample sample_of_row(const Row& row) {
   return {at(row, kPosition),
           at(row, kVelocity),
-          orientation_of(row),
+          read_orientation(row),
           at(row, kRates),
           at(row, kForce),
           at(row, kGyro),
@@ -83,15 +83,15 @@ std::string break_of_motion(const Row& a, const Row& b) {
     return fmt::format("moved by {:.4f} m more or less than its velocity says", off_m);
   }
   constexpr double kGravity = 9.81;
-  const Vector3d force = orientation_of(a) * at(a, kForce);
-  const Vector3d force_then = orientation_of(b) * at(b, kForce);
+  const Vector3d force = read_orientation(a) * at(a, kForce);
+  const Vector3d force_then = read_orientation(b) * at(b, kForce);
   const Vector3d expected = 0.5 * (force + force_then) - Vector3d(0, 0, kGravity);
   const Vector3d acceleration = (at(b, kVelocity) - at(a, kVelocity)) / dt_s;
   const double off_mps2 = (acceleration - expected).norm();
   if (off_mps2 > 1.5 + (force - force_then).norm() + 0.2 * expected.norm()) {
     return fmt::format("velocity changes by {:.2f} m/s2 other than true_f says", off_mps2);
   }
-  const Eigen::AngleAxisd turn(orientation_of(a).conjugate() * orientation_of(b));
+  const Eigen::AngleAxisd turn(read_orientation(a).conjugate() * read_orientation(b));
   const Vector3d turned = std::remainder(turn.angle(), 2 * EIGEN_PI) * turn.axis();
   const Vector3d rates = 0.5 * (at(a, kRates) + at(b, kRates));
   const double off_rad_s = (turned / dt_s - rates).norm();
@@ -128,7 +128,8 @@ std::string break_between(const Row& a, const Row& b, bool in_contact) {
 }
 
 /// The drone's figures in metrics/RUN.json; an empty object without.
-json figures_of(const DatasetInfo& info, const std::string& run, const std::string& drone) {
+json read_flight_figures(const DatasetInfo& info, const std::string& run,
+                         const std::string& drone) {
   const std::filesystem::path file = info.root / "metrics" / (run + ".json");
   if (!std::filesystem::is_regular_file(file)) return json::object();
   const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
@@ -250,7 +251,7 @@ std::string other_truth(const json& truth, const Row& a, const Row& b) {
         at(a, value.column) + share * (at(b, value.column) - at(a, value.column));
     if (!are_equal(numbers_at<3>(truth.at(value.name)), expected, 1e-5)) return value.name;
   }
-  const Quaterniond expected = orientation_of(a).slerp(share, orientation_of(b));
+  const Quaterniond expected = read_orientation(a).slerp(share, read_orientation(b));
   if (expected.angularDistance(quaternion_at(truth.at("orientation_wxyz"))) > 1e-4) {
     return "orientation_wxyz";
   }
@@ -265,14 +266,15 @@ std::string other_truth(const json& truth, const Row& a, const Row& b) {
 }  // namespace
 
 bool may_have_touched(const DatasetInfo& info, const std::string& run, const std::string& drone) {
-  const json figures = figures_of(info, run, drone);
+  const json figures = read_flight_figures(info, run, drone);
   return !figures.value("collisions", json::object()).empty() ||
          figures.value("near_misses", 0) > 0 || figures.value("landed_s", json()).is_number();
 }
 
 void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
   if (!image.record.contains("flight")) return;
-  const std::string name = file_of(annotate::GroundTruth::sensors, image.run, image.camera);
+  const std::string name =
+      ground_truth_file(annotate::GroundTruth::sensors, image.run, image.camera);
   Table& table = tables_[name];
   if (!table.is_read) {
     table.is_read = true;
@@ -283,7 +285,7 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     }
     for (std::size_t i = 0; i < csv.rows.size(); ++i) {
       Row row;
-      for (const std::string& cell : csv.rows[i]) row.push_back(number_of(cell));
+      for (const std::string& cell : csv.rows[i]) row.push_back(parse_number(cell));
       if (row.size() != kColumns ||
           !std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) {
         findings.add("sensors", name, fmt::format("line {}", i + 2), "not 39 numbers");
@@ -294,7 +296,7 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     }
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
-    const json figures = figures_of(info, image.run, image.camera);
+    const json figures = read_flight_figures(info, image.run, image.camera);
     const bool may_touch = may_have_touched(info, image.run, image.camera);
     const double end_s =
         info.from_s + static_cast<double>(info.frames_per_camera - 1) / info.rate_hz;

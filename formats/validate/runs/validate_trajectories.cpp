@@ -151,11 +151,11 @@ void TrajectoriesCheck::add(const DatasetInfo& /*info*/, const Image& image,
 
 void TrajectoriesCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
-    const std::string file = file_of(annotate::GroundTruth::trajectories, run);
+    const std::string file = ground_truth_file(annotate::GroundTruth::trajectories, run);
     try {
       const Recorded recorded = read_run_trajectories(info.root, run);
       const std::string wrong_people =
-          fault_of_people(recorded, run_figures(info.root, run), first_track_of(info, run));
+          fault_of_people(recorded, run_figures(info.root, run), first_track(info, run));
       if (!wrong_people.empty()) findings.add(kRule, file, "", wrong_people);
       const std::string wrong_times = fault_of_times(recorded, info);
       if (!wrong_times.empty()) findings.add(kRule, file, "", wrong_times);

@@ -37,7 +37,7 @@ json format_list() {
     for (const annotate::GroundTruth kind : {format.needs, format.needs_also}) {
       if (kind == annotate::GroundTruth::coco) continue;
       if (!needs.empty()) needs += ", ";
-      needs += annotate::kind_of(kind).name;
+      needs += annotate::ground_truth_kind(kind).name;
     }
     list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", needs}});
   }

@@ -21,7 +21,7 @@ namespace {
 void check_kinds(const OutputSpec& outputs, std::vector<Problem>& problems) {
   const auto needs = [&](bool is_given, GroundTruth kind, const char* pointer) {
     if (!is_given || holds(outputs.annotations, kind)) return;
-    const std::string_view name = annotate::kind_of(kind).name;
+    const std::string_view name = annotate::ground_truth_kind(kind).name;
     problems.push_back({"", pointer, fmt::format("no annotation {}", name),
                         fmt::format("\"{}\" among outputs.annotations, too", name)});
   };

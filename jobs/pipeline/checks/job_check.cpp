@@ -67,7 +67,7 @@ struct InPlace {
 
 /// People who come while the run lasts: sources of blueprints bring people for ten minutes if
 /// nothing else is said.
-double arrivals_of(double all, double at_start, double duration_s) {
+double expected_arrivals(double all, double at_start, double duration_s) {
   constexpr double kArrivalsS = 600;
   return std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
 }
@@ -95,7 +95,7 @@ InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int 
   const double taking_part = static_cast<double>(checked.expected.people) / all;
   const double at_start = taking_part * static_cast<double>(crowd.places.size());
   const double arrivals =
-      arrivals_of(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
+      expected_arrivals(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
   checked.taking_part = at_start + arrivals;
   // Others leave meanwhile.
   constexpr double kShareThere = 0.45;
@@ -106,7 +106,7 @@ InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int 
                                             : std::nullopt);
     if (view) checked.views.push_back(std::move(*view));
   }
-  checked.warnings = warnings_of_place(job, scenario, crowd, run);
+  checked.warnings = scenario_warnings(job, scenario, crowd, run);
   for (Problem& warning : figure_warnings(scenario)) checked.warnings.push_back(std::move(warning));
   for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {
     checked.warnings.push_back(std::move(warning));
@@ -128,7 +128,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
   for (const int run : first_runs(job)) {
     const JobSpec one = in_scenario_of_run(job, run);
-    InPlace place = check_in_place(one, scenario_of(one, scenarios, source), run);
+    InPlace place = check_in_place(one, load_job_scenario(one, scenarios, source), run);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
     people_of_runs += static_cast<double>(runs) * place.taking_part;

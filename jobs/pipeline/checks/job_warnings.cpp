@@ -78,15 +78,15 @@ void check_splits(const JobSpec& job, std::vector<Problem>& warnings) {
     const auto split = static_cast<formats::Split>(i);
     if (!(info.options.splits.share[i] > 0)) continue;
     if (std::find(used.begin(), used.end(), split) != used.end()) continue;
-    warnings.push_back({"", fmt::format("/outputs/splits/{}", formats::name_of(split)),
+    warnings.push_back({"", fmt::format("/outputs/splits/{}", formats::to_string(split)),
                         fmt::format("a share of {:g}, which is no run of {}",
                                     info.options.splits.share[i], job.runs),
                         "more runs, or a larger share: runs are not divided"});
   }
 }
 
-double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& place) {
-  const Eigen::Vector2d on_ground = place.head<2>();
+double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d on_ground = point.head<2>();
   return (on_ground - area.nearest_point(on_ground, 0)).norm();
 }
 
@@ -97,8 +97,8 @@ void check_distances(const JobSpec& job, const world::Scenario& scenario, int ru
   const auto paths = sim::planned_paths(scenario, run_spec(job, run));
   for (std::size_t i = 0; i < paths.size(); ++i) {
     double max_distance_m = 0;
-    for (const Eigen::Vector3d& place : paths[i].places) {
-      max_distance_m = std::max(max_distance_m, ground_distance_m(area, place));
+    for (const Eigen::Vector3d& point : paths[i].points) {
+      max_distance_m = std::max(max_distance_m, ground_distance_m(area, point));
     }
     if (max_distance_m <= kFarM) continue;
     warnings.push_back(
@@ -132,7 +132,7 @@ std::vector<Problem> warnings_of_settings(const JobSpec& job) {
   return warnings;
 }
 
-std::vector<Problem> warnings_of_place(const JobSpec& job, const world::Scenario& scenario,
+std::vector<Problem> scenario_warnings(const JobSpec& job, const world::Scenario& scenario,
                                        const StartingCrowd& crowd, int first_run) {
   std::vector<Problem> warnings;
   check_smoke(job, scenario, warnings);

@@ -16,7 +16,7 @@ std::vector<Problem> warnings_of_settings(const JobSpec& job);
 
 /// A job in one of its scenarios: smoke without hazards, drones far away, and cameras that show
 /// nobody, or people of a few pixels, in any image. Looks at a few runs from `first_run` on.
-std::vector<Problem> warnings_of_place(const JobSpec& job, const world::Scenario& scenario,
+std::vector<Problem> scenario_warnings(const JobSpec& job, const world::Scenario& scenario,
                                        const StartingCrowd& crowd, int first_run);
 
 }  // namespace throng::jobs

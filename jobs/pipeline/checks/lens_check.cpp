@@ -23,7 +23,7 @@ int max_rendered_px(int wanted_px) {
 
 void check_rendered_size(const Eigen::Vector2i& size, render::Quality quality,
                          const std::string& pointer, std::vector<Problem>& problems) {
-  const render::QualitySettings& settings = render::settings_of(quality);
+  const render::QualitySettings& settings = render::quality_settings(quality);
   const Eigen::Vector2i rendered = size * settings.supersampling;
   const int limit = max_rendered_px(rendered.maxCoeff());
   if (rendered.maxCoeff() <= limit) return;

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "jobs/pipeline/pipeline.h"
-#include "places/check/check.h"
 #include "sim/people/people_watch.h"
 #include "sim/run.h"
 #include "world/alarm.h"
+#include "world/scenarios/check/check.h"
 
 namespace throng::jobs {
 
@@ -43,7 +43,7 @@ class Rehearsal : public sim::RunObserver {
 
 std::vector<Problem> figure_warnings(const world::Scenario& scenario) {
   std::vector<Problem> warnings;
-  for (const places::Finding& finding : places::check_figures(scenario, scenario.id)) {
+  for (const scenarios::Finding& finding : scenarios::check_figures(scenario, scenario.id)) {
     warnings.push_back({"", "/scenario",
                         fmt::format("{} in {}", finding.problem.found, scenario.id),
                         finding.problem.expected});
@@ -59,7 +59,7 @@ std::vector<Problem> with_figure_warnings(std::vector<Problem> warnings,
 
 std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenario, int run,
                               std::int64_t people) {
-  const std::optional<double> alarm_s = world::alarm_of(scenario).at_s;
+  const std::optional<double> alarm_s = world::find_alarm(scenario).at_s;
   if (!alarm_s || job.recorded || job.agents == 0) return {};
   sim::RunSpec spec = run_spec(job, run);
   if (*alarm_s > spec.duration_s) {

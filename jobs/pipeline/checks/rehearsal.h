@@ -10,7 +10,7 @@
 
 namespace throng::jobs {
 
-/// Findings of places::check_figures() about a job's scenario, as warnings about the job.
+/// Findings of scenarios::check_figures() about a job's scenario, as warnings about the job.
 std::vector<Problem> figure_warnings(const world::Scenario& scenario);
 
 /// A run's warnings with those of its scenario behind them.

@@ -204,7 +204,7 @@ std::vector<Eigen::Vector2d> people_in(const ScenarioRuns& place) {
 void check_flight(const ScenarioRuns& place, const JobSpec& run_job, int run,
                   std::vector<Problem>& problems) {
   const std::uint64_t seed = plan_runs(run_job).at(static_cast<std::size_t>(run)).seed;
-  std::vector<sim::DroneMission> missions = missions_of(run_job, seed);
+  std::vector<sim::DroneMission> missions = make_missions(run_job, seed);
   sim::aim_drones(place.scenario, place.people, seed, missions, problems);
   sim::plan_drones(place.scenario, missions, run_job.capture.to_s, problems);
 }
@@ -223,7 +223,7 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
   }
   if (job.recorded) return check_recording(job, problems);
   if (is_of_trace(scenario)) return;
-  const std::vector<sim::DroneMission> missions = missions_of(job, job.seed);
+  const std::vector<sim::DroneMission> missions = make_missions(job, job.seed);
   const bool moves_goals = std::any_of(
       missions.begin(), missions.end(),
       [&](const sim::DroneMission& mission) { return sim::has_own_goal(mission, scenario); });
@@ -237,7 +237,7 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
 
 /// That the scenario has if the job does not say how many; 0 where they cannot be counted, which
 /// the simulation will explain.
-int people_of(const JobSpec& job, const world::Scenario& scenario) {
+int count_people(const JobSpec& job, const world::Scenario& scenario) {
   if (job.agents || job.recorded || is_of_trace(scenario)) return 0;
   try {
     return static_cast<int>(sim::load_crowd(scenario, job.seed, job.crowd).agent_count());
@@ -347,7 +347,7 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
   if (problems.empty()) {
     const std::vector<int> first = first_runs(job);
     for (std::size_t i = 0; i < first.size(); ++i) {
-      const int here = people_of(in_scenario_of_run(job, first[i]), scenarios[i]);
+      const int here = count_people(in_scenario_of_run(job, first[i]), scenarios[i]);
       check_ids(job, scenarios[i], std::max(here, job.agents.value_or(0)), problems);
       people = std::max(people, here);
     }
@@ -382,7 +382,7 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
     is_named = is_named && (!one.scenario.empty() || one.generate);
     if (!is_named) continue;  // a problem of the share, which is known
     try {
-      places.push_back(scenario_of(one, scenarios, source, pointer));
+      places.push_back(load_job_scenario(one, scenarios, source, pointer));
     } catch (const InputError& error) {
       add(error, of_places);
     }

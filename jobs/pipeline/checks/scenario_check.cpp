@@ -5,12 +5,12 @@
 #include "base/error.h"
 #include "base/files/confine.h"
 #include "crowd/simulation.h"
-#include "places/blueprint/load_scenario.h"
-#include "places/check/check.h"
 #include "render/props/mesh_file.h"
 #include "sim/run.h"
-#include "spec/places/scenario_summary.h"
+#include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
+#include "world/scenarios/check/check.h"
 
 namespace throng::jobs {
 
@@ -75,16 +75,16 @@ CheckedScenarios check_scenarios(const fs::path& folder) {
   for (const std::string& id : checked.ids) {
     world::Scenario scenario;
     const fs::path file = world::scenario_file(folder, id);
-    const auto load = [&] { scenario = places::load_scenario(file, id); };
+    const auto load = [&] { scenario = scenarios::load_scenario(file, id); };
     if (!findings.has_done(load)) continue;
     const auto load_people = [&] {
       // A place for recorded people has no crowd of its own.
       if (scenario.has_crowd()) static_cast<void>(sim::load_crowd(scenario, 1, {}));
     };
     if (findings.has_done(load_people)) {
-      for (places::Finding& finding :
-           places::check(scenario, file.lexically_relative(folder).string())) {
-        checked.findings.push_back({finding.severity == places::Severity::error,
+      for (scenarios::Finding& finding :
+           scenarios::check(scenario, file.lexically_relative(folder).string())) {
+        checked.findings.push_back({finding.severity == scenarios::Severity::error,
                                     std::move(finding.problem), std::move(finding.remedy)});
       }
     }

@@ -42,7 +42,7 @@ double reached_s(const Vector2d& place, const StartingCrowd& crowd, double half_
   return std::max(0.0, nearest_m - half_cell_m) / std::max(crowd.max_speed_mps * kSpeedFactor, 0.1);
 }
 
-std::vector<Cell> cells_of(const world::Scenario& scenario, const StartingCrowd& crowd) {
+std::vector<Cell> occupied_cells(const world::Scenario& scenario, const StartingCrowd& crowd) {
   world::Rectangle area = scenario.ground;
   area.extend(scenario.inside);
   const Vector2d size = (area.max - area.min) / kCellsPerSide;
@@ -85,7 +85,7 @@ void add_image(const camera::Camera& camera, double time_s, const std::vector<Ce
   if (inside > 0) view.max_area_share = std::max(view.max_area_share, 1.0 * shown / inside);
 }
 
-std::vector<double> times_of(const JobSpec& job) {
+std::vector<double> sample_times(const JobSpec& job) {
   const std::int64_t frames = job.frames_per_camera();
   const std::int64_t count = std::min(frames, kMaxFrames);
   std::vector<double> times;
@@ -101,10 +101,10 @@ std::vector<std::optional<CameraView>> views_of_run(const JobSpec& whole_job,
                                                     const world::Scenario& scenario,
                                                     const StartingCrowd& crowd, int run) {
   const JobSpec job = job_of_run(whole_job, run);
-  const std::vector<double> times = times_of(job);
+  const std::vector<double> times = sample_times(job);
   const sim::RunSpec spec = run_spec(whole_job, run);
   const auto poses = sim::planned_poses(scenario, spec, times);
-  const std::vector<Cell> cells = cells_of(scenario, crowd);
+  const std::vector<Cell> cells = occupied_cells(scenario, crowd);
   std::vector<std::optional<CameraView>> views;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     std::optional<CameraView>& view = views.emplace_back();

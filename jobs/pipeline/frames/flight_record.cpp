@@ -29,8 +29,8 @@ json angles_json(const sim::ViewAngles& angles) {
 
 }  // namespace
 
-sim::SensorLog sensors_of(const JobSpec& job, std::uint64_t run_seed,
-                          const std::vector<world::DroneSample>& truth, std::size_t drone) {
+sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
+                              const std::vector<world::DroneSample>& truth, std::size_t drone) {
   const double latitude_deg = environment_of_run(job.environment, run_seed).latitude_deg;
   return {truth, run_seed, drone, latitude_deg * kDegree};
 }

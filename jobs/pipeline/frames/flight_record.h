@@ -14,8 +14,8 @@
 namespace throng::jobs {
 
 /// The sensors of one of the job's drones in a run.
-sim::SensorLog sensors_of(const JobSpec& job, std::uint64_t run_seed,
-                          const std::vector<world::DroneSample>& truth, std::size_t drone);
+sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
+                              const std::vector<world::DroneSample>& truth, std::size_t drone);
 
 /// A drone and its camera at one time, and what is said of them then.
 struct FlightMoment {

@@ -28,7 +28,7 @@ std::size_t drone_index(const world::Trace& trace, const std::string& id) {
   return static_cast<std::size_t>(found - ids.begin());
 }
 
-render::AirframeShape shape_of(const sim::DroneMission& mission) {
+render::AirframeShape airframe_shape(const sim::DroneMission& mission) {
   sim::Airframe airframe;
   if (mission.own_airframe) {
     airframe = *mission.own_airframe;
@@ -59,10 +59,10 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
-    shapes_.push_back(shape_of(job.drones[i].mission));
+    shapes_.push_back(airframe_shape(job.drones[i].mission));
     const std::vector<world::DroneSample>& samples = trace.drones[drones_[i]];
     gimbals_.emplace_back(samples, cameras_[i], run_seed, i);
-    sensors_.push_back(sensors_of(job, run_seed, samples, i));
+    sensors_.push_back(record_sensors(job, run_seed, samples, i));
   }
 }
 

@@ -39,8 +39,8 @@ struct RunViews {
   std::optional<std::vector<annotate::CountZone>> zones = std::nullopt;
 };
 
-RunViews views_of(const JobSpec& job, const world::Scenario& scenario, const world::Trace& trace,
-                  const skinning::Population& population) {
+RunViews make_run_views(const JobSpec& job, const world::Scenario& scenario,
+                        const world::Trace& trace, const skinning::Population& population) {
   using annotate::GroundTruth;
   RunViews views{annotate::PersonFacts(trace, population, job.styling)};
   if (!wants(job, GroundTruth::coco)) return views;
@@ -208,7 +208,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = samples_of_run(whole_job, shard.run);
-  RunViews views = views_of(job, scenario, trace, population);
+  RunViews views = make_run_views(job, scenario, trace, population);
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, views,
                      trace.header.drone_ids, options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *

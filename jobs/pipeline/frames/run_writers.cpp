@@ -32,7 +32,7 @@ void write_exits_table(RunOutput& output) {
   for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
     frames.push_back({frame, output.job.frame_time_s(frame)});
   }
-  output.publication.add(file_of(GroundTruth::exits, run_name(output.run)),
+  output.publication.add(ground_truth_file(GroundTruth::exits, run_name(output.run)),
                          annotate::exits_csv(output.exits, output.trace.time_s, frames));
 }
 
@@ -47,7 +47,7 @@ void write_fields(RunOutput& output) {
   }
   for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
     const auto field = annotate::ground_field(output.trace, ground, output.job.frame_time_s(frame));
-    output.publication.add(file_of(GroundTruth::fields, run, "", frame),
+    output.publication.add(ground_truth_file(GroundTruth::fields, run, "", frame),
                            annotate::npy_bytes(ground, field));
     for (const annotate::FieldLevel& level : levels) {
       output.publication.add(
@@ -84,7 +84,7 @@ void write_counts_table(RunOutput& output) {
       annotate::count_areas(output.scenario, output.job.outputs.counts);
   const std::string run = run_name(output.run);
   output.publication.add(
-      file_of(GroundTruth::counts, run),
+      ground_truth_file(GroundTruth::counts, run),
       annotate::counts_csv(output.trace, areas, frame_times_s(output.job), output.run));
   output.publication.add("counts/" + run + ".json", annotate::counts_json(areas));
 }
@@ -98,7 +98,7 @@ void write_actions_table(RunOutput& output) {
   const render::Animator animator(output.trace, population, styling);
   const annotate::ActionFacts facts(output.trace, population, styling);
   output.publication.add(
-      file_of(GroundTruth::actions, run_name(output.run)),
+      ground_truth_file(GroundTruth::actions, run_name(output.run)),
       annotate::actions_csv(output.trace, animator, facts, output.job.capture.from_s,
                             output.job.capture.to_s, output.run));
 }
@@ -111,7 +111,8 @@ void write_trajectories(RunOutput& output) {
     tracks.push_back(annotate::track_id(output.run, agent));
   }
   const std::string run = run_name(output.run);
-  output.publication.add(file_of(GroundTruth::trajectories, run), annotate::npy_bytes(found));
+  output.publication.add(ground_truth_file(GroundTruth::trajectories, run),
+                         annotate::npy_bytes(found));
   const nlohmann::json description = {{"times_s", times_s},
                                       {"track_ids", std::move(tracks)},
                                       {"states", output.trace.header.state_names}};
@@ -120,7 +121,7 @@ void write_trajectories(RunOutput& output) {
 
 void write_events(RunOutput& output) {
   output.publication.add(
-      file_of(GroundTruth::events, run_name(output.run)),
+      ground_truth_file(GroundTruth::events, run_name(output.run)),
       annotate::events_jsonl(output.trace, output.scenario, output.run, frame_times_s(output.job)));
 }
 
@@ -133,8 +134,8 @@ void write_sensors(RunOutput& output) {
         static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
     check(drone < ids.size(), "a trace holds the drones of its job");
     const std::vector<world::DroneSample>& truth = output.trace.drones[drone];
-    output.publication.add(file_of(GroundTruth::sensors, run_name(output.run), id),
-                           sensors_csv(truth, sensors_of(output.job, seed, truth, i)));
+    output.publication.add(ground_truth_file(GroundTruth::sensors, run_name(output.run), id),
+                           sensors_csv(truth, record_sensors(output.job, seed, truth, i)));
   }
 }
 

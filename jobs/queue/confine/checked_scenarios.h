@@ -19,7 +19,7 @@ struct ScenarioFinding {
 struct CheckedScenarios {
   std::vector<std::string> ids;                ///< below the folder
   std::vector<ScenarioFinding> findings = {};  ///< of all
-  /// Summary of each for clients (spec/places/scenario_summary.h), in the order of the ids.
+  /// Summary of each for clients (spec/scenarios/scenario_summary.h), in the order of the ids.
   std::vector<nlohmann::json> summaries = {};
 };
 

@@ -139,7 +139,7 @@ void fence_this_task(const fs::path& work, const json& request) {
 }
 
 /// The status of a child; SIGALRM when it took too long and was killed.
-ExitStatus end_of(ChildProcess& child) {
+ExitStatus wait_for_end(ChildProcess& child) {
   const auto end = std::chrono::steady_clock::now() + kMaxTime;
   while (!child.has_ended()) {
     if (std::chrono::steady_clock::now() > end) return {0, SIGALRM};  // it ends with its object
@@ -153,7 +153,7 @@ ExitStatus end_of(ChildProcess& child) {
   return child.wait();
 }
 
-json answer_of(const ExitStatus& status, const json& request, const fs::path& work) {
+json parse_answer(const ExitStatus& status, const json& request, const fs::path& work) {
   const std::string subject = request.value("subject", "scenarios");
   if (status.signal == SIGALRM) {
     throw InputError(
@@ -180,7 +180,7 @@ ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
     // The request may hold any bytes that a client sent.
     write_temporary_file(work / kRequestName,
                          request.dump(-1, ' ', false, json::error_handler_t::replace));
-    return answer_of(run(work), request, work);
+    return parse_answer(run(work), request, work);
   };
 }
 
@@ -191,7 +191,7 @@ ConfinedTask confined_task_in_child(std::vector<std::string> command) {
     std::vector<std::string> words = command;
     words.push_back(work.string());
     ChildProcess child(words, {}, work / "log.txt");
-    return end_of(child);
+    return wait_for_end(child);
   });
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::int64_t padding_of(std::int64_t bytes) { return (kTarBlock - bytes % kTarBlock) % kTarBlock; }
+std::int64_t tar_padding(std::int64_t bytes) { return (kTarBlock - bytes % kTarBlock) % kTarBlock; }
 
 void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buffer) {
   if (ReadOnlyFile(path).read_at(offset, buffer) < buffer.size()) {
@@ -79,7 +79,7 @@ void Archive::lay_out_tar() {
     members_[i].offset = size_;
     add_part(PartKind::header, i, kTarBlock);
     add_part(PartKind::content, i, members_[i].bytes);
-    add_part(PartKind::zeros, i, padding_of(members_[i].bytes));
+    add_part(PartKind::zeros, i, tar_padding(members_[i].bytes));
   }
   add_part(PartKind::zeros, 0, kTarEndBytes);
 }

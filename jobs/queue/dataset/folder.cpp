@@ -28,16 +28,16 @@ bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
   });
 }
 
-std::string text_of(const JobSpec& job) { return to_json(job).dump(kJsonIndent) + "\n"; }
+std::string job_text(const JobSpec& job) { return to_json(job).dump(kJsonIndent) + "\n"; }
 
 /// Whether the text of a job file is this job, whatever it says of publishing. The file may be of
 /// an earlier version, whose names of fields are deprecated now.
 bool is_same_job(const std::string& written, const JobSpec& job, const fs::path& file) {
-  if (written == text_of(job)) return true;
+  if (written == job_text(job)) return true;
   try {
     JobSpec other = read_resolved_job(written, file.string()).spec();
     other.outputs.publish = job.outputs.publish;
-    return text_of(other) == text_of(job);
+    return job_text(other) == job_text(job);
   } catch (const std::exception&) {
     return false;  // damaged, or of another version: another job
   }
@@ -53,7 +53,7 @@ void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
 JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
   const JobSpec& job = resolved.spec();
   JobFolder folder(std::move(path));
-  const std::string text = text_of(job);
+  const std::string text = job_text(job);
   if (!fs::exists(folder.job_file())) {
     if (fs::exists(folder.path()) && !is_as_good_as_empty(folder.path(), folder.job_file())) {
       throw InputError(
@@ -79,7 +79,7 @@ JobFolder JobFolder::restore(fs::path path, const ResolvedJob& resolved) {
   JobFolder folder(std::move(path));
   const fs::path file = folder.job_file();
   if (!fs::exists(file) || !is_same_job(read_file(file), resolved.spec(), file)) {
-    write_file_atomically(file, text_of(resolved.spec()));
+    write_file_atomically(file, job_text(resolved.spec()));
   }
   return create(folder.path(), resolved);
 }
@@ -95,13 +95,13 @@ fs::path JobFolder::output_of(const Task& task) const {
   if (task.kind == Task::Kind::report) return path_ / "report.html";
   if (task.kind == Task::Kind::study_report) return path_ / study::kSummaryName;
   check(task.kind != Task::Kind::study_run, "results of a study's runs are named by the study");
-  const fs::path output = path_ / "work" / name_of(task);
+  const fs::path output = path_ / "work" / to_string(task);
   return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
 }
 
-fs::path JobFolder::log_of(const Task& task) const { return log_of(name_of(task)); }
+fs::path JobFolder::log_file(const Task& task) const { return log_file(to_string(task)); }
 
-fs::path JobFolder::log_of(std::string name) const {
+fs::path JobFolder::log_file(std::string name) const {
   std::replace(name.begin(), name.end(), '/', '_');
   return path_ / "logs" / (name + ".log");
 }

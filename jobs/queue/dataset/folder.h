@@ -47,9 +47,9 @@ class JobFolder {
   /// Output of the task: a file for a simulation, a calibration and a report, else a folder. Not
   /// for a study's runs (spec/study/study_files.h).
   std::filesystem::path output_of(const Task& task) const;
-  std::filesystem::path log_of(const Task& task) const;
+  std::filesystem::path log_file(const Task& task) const;
   /// Likewise by the task's name.
-  std::filesystem::path log_of(std::string task_name) const;
+  std::filesystem::path log_file(std::string task_name) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }
   std::filesystem::path dataset() const { return path_ / "dataset"; }
 

@@ -28,9 +28,8 @@ Manifest read_manifest(const std::filesystem::path& dataset) {
   const std::filesystem::path file = dataset / kManifestName;
   const std::string text = read_file(file);
   try {
-    return {
-        files_in(text, file.string()),
-        {kManifestName, static_cast<std::int64_t>(text.size()), sha256_hex(text), crc32_of(text)}};
+    return {files_in(text, file.string()),
+            {kManifestName, static_cast<std::int64_t>(text.size()), sha256_hex(text), crc32(text)}};
   } catch (const json::exception& error) {
     throw EnvironmentError(fmt::format("{} is damaged: {}", file.string(), error.what()));
   }

@@ -22,7 +22,7 @@ constexpr const char* kFiles = "files";
 constexpr const char* kRecord = "record.json";
 constexpr const char* kOthers = "others";
 
-FileEntry entry_of(const fs::path& file, std::string path) {
+FileEntry make_entry(const fs::path& file, std::string path) {
   FileHashes hashes = hashes_of_file(file);
   return {std::move(path), static_cast<std::int64_t>(fs::file_size(file)),
           std::move(hashes.sha256_hex), hashes.crc32};
@@ -34,7 +34,7 @@ std::vector<FileEntry> other_files(const fs::path& folder) {
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
     if (entry->path() == folder / kFiles) entry.disable_recursion_pending();
     if (!entry->is_regular_file()) continue;
-    others.push_back(entry_of(entry->path(), entry->path().lexically_relative(folder).string()));
+    others.push_back(make_entry(entry->path(), entry->path().lexically_relative(folder).string()));
   }
   std::sort(others.begin(), others.end(),
             [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
@@ -89,8 +89,8 @@ Publication::Publication(const fs::path& output) : staging_(output) {}
 
 void Publication::add(std::string path, std::string_view bytes) {
   write_new_file(published_file(staging_.path(), path), bytes);
-  files_.push_back({std::move(path), static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes),
-                    crc32_of(bytes)});
+  files_.push_back(
+      {std::move(path), static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes), crc32(bytes)});
 }
 
 void Publication::publish(json record) {

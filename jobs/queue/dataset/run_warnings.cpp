@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path file_of(const fs::path& output) { return output.string() + ".warnings.json"; }
+fs::path warnings_file(const fs::path& output) { return output.string() + ".warnings.json"; }
 
 nlohmann::json read_kept(const fs::path& file) {
   try {
@@ -29,7 +29,7 @@ nlohmann::json read_kept(const fs::path& file) {
 }  // namespace
 
 void keep_warnings(const fs::path& output, const std::vector<std::string>& texts) {
-  write_file_atomically(file_of(output), nlohmann::json(texts).dump(1) + "\n");
+  write_file_atomically(warnings_file(output), nlohmann::json(texts).dump(1) + "\n");
 }
 
 std::vector<std::string> kept_warnings(const JobFolder& folder, int runs) {
@@ -37,7 +37,7 @@ std::vector<std::string> kept_warnings(const JobFolder& folder, int runs) {
   std::set<std::string> seen;
   for (int run = 0; run < runs; ++run) {
     for (const Task::Kind kind : {Task::Kind::simulate, Task::Kind::measure}) {
-      const nlohmann::json kept = read_kept(file_of(folder.output_of({kind, run})));
+      const nlohmann::json kept = read_kept(warnings_file(folder.output_of({kind, run})));
       if (!kept.is_array()) continue;
       for (const nlohmann::json& text : kept) {
         if (!text.is_string() || !seen.insert(text.get<std::string>()).second) continue;

@@ -30,7 +30,7 @@ std::optional<int> run_in(std::string_view segment) {
 }
 
 /// The run that a file belongs to, if its path says so.
-std::optional<int> run_of(std::string_view path) {
+std::optional<int> parse_run(std::string_view path) {
   while (true) {
     const std::size_t slash = path.find('/');
     if (const auto run = run_in(path.substr(0, slash))) return run;
@@ -44,7 +44,8 @@ bool is_below(std::string_view path, std::string_view folder) {
 }
 
 bool includes(const std::string& name, std::string_view path) {
-  if (const auto* kind = annotate::find_kind(name)) return is_below(path, folder_of(*kind));
+  if (const auto* kind = annotate::find_kind(name))
+    return is_below(path, ground_truth_folder(*kind));
   return is_below(path, name) || is_below(path, "formats/" + name);
 }
 
@@ -56,7 +57,7 @@ bool Selection::holds(std::string_view path) const {
     return false;
   }
   if (runs.empty()) return true;
-  const std::optional<int> run = run_of(path);
+  const std::optional<int> run = parse_run(path);
   return !run || std::binary_search(runs.begin(), runs.end(), *run);
 }
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-fs::path file_of(const JobFolder& folder) { return folder.path() / "logs" / "nodes.jsonl"; }
+fs::path records_file(const JobFolder& folder) { return folder.path() / "logs" / "nodes.jsonl"; }
 
 constexpr const char* kSucceeded = "succeeded";
 
@@ -29,7 +29,7 @@ NodeWork& work_at(std::map<std::string, NodeWork>& totals, const std::string& no
   return work;
 }
 
-std::vector<NodeWork> list_of(const std::map<std::string, NodeWork>& totals) {
+std::vector<NodeWork> sorted_nodes(const std::map<std::string, NodeWork>& totals) {
   std::vector<NodeWork> list;
   list.reserve(totals.size());
   for (const auto& [name, work] : totals) list.push_back(work);
@@ -54,7 +54,7 @@ std::map<std::string, NodeWork> read_totals(const fs::path& path) {
 
 }  // namespace
 
-std::string name_of(Outcome outcome) {
+std::string to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::succeeded:
       return kSucceeded;
@@ -74,34 +74,34 @@ std::string name_of(Outcome outcome) {
   return "cancelled";
 }
 
-NodeRecords::Totals& NodeRecords::totals_of(const JobFolder& folder) const {
+NodeRecords::Totals& NodeRecords::job_totals(const JobFolder& folder) const {
   const auto known = jobs_.find(folder.path());
   if (known != jobs_.end()) return known->second;
-  return jobs_[folder.path()] = read_totals(file_of(folder));
+  return jobs_[folder.path()] = read_totals(records_file(folder));
 }
 
 void NodeRecords::begin(const JobFolder& folder, const std::string& node) {
   const std::lock_guard lock(mutex_);
-  ++work_at(totals_of(folder), node).running;
+  ++work_at(job_totals(folder), node).running;
   ++work_at(all_, node).running;
 }
 
 void NodeRecords::leave(const JobFolder& folder, const std::string& node) {
   const std::lock_guard lock(mutex_);
-  --work_at(totals_of(folder), node).running;
+  --work_at(job_totals(folder), node).running;
   --work_at(all_, node).running;
 }
 
 void NodeRecords::end(const JobFolder& folder, const NodeRecord& record) {
   const std::lock_guard lock(mutex_);
   // Also where its beginning was not seen: begin() and end() need not pair.
-  add(work_at(totals_of(folder), record.node), record.outcome, record.seconds);
+  add(work_at(job_totals(folder), record.node), record.outcome, record.seconds);
   add(work_at(all_, record.node), record.outcome, record.seconds);
-  std::ofstream file(file_of(folder), std::ios::app);
+  std::ofstream file(records_file(folder), std::ios::app);
   if (!file) {  // no worker has made the folder yet
     std::error_code ignored;
-    fs::create_directories(file_of(folder).parent_path(), ignored);
-    file.open(file_of(folder), std::ios::app);
+    fs::create_directories(records_file(folder).parent_path(), ignored);
+    file.open(records_file(folder), std::ios::app);
   }
   file << json{{"task", record.task},       {"attempt", record.attempt},
                {"node", record.node},       {"slurm_job", record.slurm_job},
@@ -113,7 +113,7 @@ void NodeRecords::end(const JobFolder& folder, const NodeRecord& record) {
 
 std::vector<NodeWork> NodeRecords::of(const JobFolder& folder) const {
   const std::lock_guard lock(mutex_);
-  return list_of(totals_of(folder));
+  return sorted_nodes(job_totals(folder));
 }
 
 int NodeRecords::running() const {
@@ -125,7 +125,7 @@ int NodeRecords::running() const {
 
 std::vector<NodeWork> NodeRecords::all() const {
   const std::lock_guard lock(mutex_);
-  return list_of(all_);
+  return sorted_nodes(all_);
 }
 
 }  // namespace throng::jobs

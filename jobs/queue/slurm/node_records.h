@@ -21,13 +21,13 @@ struct NodeRecord {
   int attempt = 1;
   std::string node;
   std::string slurm_job;  ///< "17_3"
-  std::string outcome;    ///< "succeeded", "lost", or name_of(Outcome)
+  std::string outcome;    ///< "succeeded", "lost", or to_string(Outcome)
   double seconds = 0;     ///< by its worker, or from when it was first seen running
   std::string message = {};
 };
 
 /// "succeeded", "out_of_memory"
-std::string name_of(Outcome outcome);
+std::string to_string(Outcome outcome);
 
 /// Safe to use from many threads.
 class NodeRecords {
@@ -48,7 +48,7 @@ class NodeRecords {
  private:
   using Totals = std::map<std::string, NodeWork>;
 
-  Totals& totals_of(const JobFolder& folder) const;
+  Totals& job_totals(const JobFolder& folder) const;
 
   mutable std::mutex mutex_;
   mutable std::map<std::filesystem::path, Totals> jobs_;

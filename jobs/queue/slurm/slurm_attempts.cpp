@@ -32,7 +32,7 @@ void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
     if (!entry.is_open) continue;
     const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
     // Numbers of jobs come again when a controller has lost its state.
-    if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) {
+    if (found == queue.tasks.end() || found->second.name != slurm_job_name(array.name)) {
       look_for_absent(array, entry, queue);
     } else {
       entry.absent.reset();
@@ -42,7 +42,7 @@ void SlurmBatch::look_at(Array& array, const SlurmQueue& queue) {
 }
 
 void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
-  const SlurmFate fate = fate_of(state);
+  const SlurmFate fate = interpret_fate(state);
   if (fate == SlurmFate::waiting) {
     if (!entry.node.empty() && is_requeued(state)) return begin_again(array, entry, state);
     entry.heard = options_.now();  // also one that was suspended
@@ -57,7 +57,7 @@ void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
         fate != SlurmFate::completed && (fate != SlurmFate::failed || state.status.signal != 0);
     if (!is_silent && options_.now() < *entry.ended + kLastWords) return;
     TaskResult result =
-        result_of_slurm(state, entry.messages.error(), folder_.log_of(tasks_[entry.task]));
+        result_of_slurm(state, entry.messages.error(), folder_.log_file(tasks_[entry.task]));
     if (result.outcome == Outcome::succeeded) {
       result = {Outcome::environment_error,
                 0,
@@ -80,7 +80,8 @@ void SlurmBatch::look_at(Array& array, Entry& entry, const SlurmTask& state) {
   if (timeout.empty()) return;
   array.to_cancel.push_back(entry.index);
   end_attempt(array, entry, state,
-              result_of({{}, std::nullopt, timeout}, folder_.log_of(tasks_[entry.task])), false);
+              task_result({{}, std::nullopt, timeout}, folder_.log_file(tasks_[entry.task])),
+              false);
 }
 
 // Slurm forgets tasks some minutes after their end (MinJobAge), and all of them with its state.
@@ -110,7 +111,7 @@ void SlurmBatch::take_accounting(Array& array, const SlurmQueue& queue) {
   const SlurmAnswer answer = array.accounting->get();
   array.accounting.reset();
   std::map<int, SlurmTask> known;
-  if (answer.is_ok) known = read_accounting(answer.text, job_name_of(array.name));
+  if (answer.is_ok) known = read_accounting(answer.text, slurm_job_name(array.name));
   for (Entry& entry : array.entries) {
     if (!entry.is_open || !entry.is_in_accounting) continue;
     entry.is_in_accounting = false;
@@ -124,7 +125,7 @@ void SlurmBatch::take_account(Array& array, Entry& entry, const std::optional<Sl
   SlurmTask gone = account.value_or(SlurmTask{});
   if (gone.node.empty()) gone.node = entry.node;
   if (account) {
-    const SlurmFate fate = fate_of(gone);
+    const SlurmFate fate = interpret_fate(gone);
     if (fate != SlurmFate::running && fate != SlurmFate::waiting) look_at(array, entry, gone);
     return;
   }
@@ -162,7 +163,7 @@ void SlurmBatch::follow(Entry& entry, const SlurmTask& state) {
     shared_.book.begin(folder_, entry.node);
   }
   // An end is seen at the next look; steps and signs of life are not worth a file system's time.
-  if (are_messages_due_ || fate_of(state) != SlurmFate::running) read_messages(entry);
+  if (are_messages_due_ || interpret_fate(state) != SlurmFate::running) read_messages(entry);
 }
 
 // However many tasks run, their files are opened at a bounded rate, and often enough that none is
@@ -195,7 +196,7 @@ bool SlurmBatch::take_end(Array& array, Entry& entry, const SlurmTask& state) {
     said.state = "FAILED";
     said.status = {end->code, 0};
     end_attempt(array, entry, said,
-                result_of_slurm(said, entry.messages.error(), folder_.log_of(tasks_[entry.task])),
+                result_of_slurm(said, entry.messages.error(), folder_.log_file(tasks_[entry.task])),
                 false);
     return true;
   }
@@ -242,13 +243,13 @@ void SlurmBatch::note_end(const Array& array, const Entry& entry, const std::str
                              : std::chrono::duration<double>(options_.now() - entry.begun).count();
   shared_.book.leave(folder_, entry.node);
   shared_.book.end(folder_,
-                   {name_of(tasks_[entry.task]), results_[entry.task].attempts, entry.node,
+                   {to_string(tasks_[entry.task]), results_[entry.task].attempts, entry.node,
                     fmt::format("{}_{}", array.job, entry.index), outcome, seconds, message});
 }
 
 void SlurmBatch::succeed(Array& array, Entry& entry, const std::string& node) {
   if (entry.node.empty() && !node.empty()) entry.node = node;
-  close(array, entry, name_of(Outcome::succeeded), "");
+  close(array, entry, to_string(Outcome::succeeded), "");
   // Now rather than with all others at the end of the stage, which would wait for it.
   revoke_attempt(folder_, array.name, entry.index);
 }
@@ -257,7 +258,7 @@ void SlurmBatch::end_attempt(Array& array, Entry& entry, const SlurmTask& state,
                              bool is_blameless) {
   // From here on it cannot publish: only then may another attempt begin.
   revoke_attempt(folder_, array.name, entry.index);
-  close(array, entry, is_blameless ? "lost" : name_of(result.outcome), result.message);
+  close(array, entry, is_blameless ? "lost" : to_string(result.outcome), result.message);
   if (is_blameless) {
     array.to_cancel.push_back(entry.index);  // Slurm may hold it
     return lose(entry.task, std::move(result), state);
@@ -284,7 +285,7 @@ void SlurmBatch::fail(std::size_t task, TaskResult result) {
 
 // The attempt counts for nothing, unless that happens all the time.
 void SlurmBatch::lose(std::size_t task, TaskResult result, const SlurmTask& state) {
-  const bool is_preempted = fate_of(state) == SlurmFate::preempted;
+  const bool is_preempted = interpret_fate(state) == SlurmFate::preempted;
   if (!is_preempted && ++ledgers_[task].losses >= options_.max_losses) {
     return fail(task, std::move(result));
   }
@@ -298,7 +299,8 @@ void SlurmBatch::cancel_ended() {
   for (Array& array : arrays_) {
     if (array.to_cancel.empty()) continue;
     // The number alone may be another's by now.
-    std::vector<std::string> command = {"scancel", "--quiet", "--name=" + job_name_of(array.name)};
+    std::vector<std::string> command = {"scancel", "--quiet",
+                                        "--name=" + slurm_job_name(array.name)};
     for (const std::size_t index : array.to_cancel) {
       command.push_back(fmt::format("{}_{}", array.job, index));
     }
@@ -324,13 +326,13 @@ void SlurmBatch::end_others(const std::function<bool(const Task&)>& condition) {
         cancelled_.emplace_back(array.job, static_cast<int>(entry.index));
       }
       results_[entry.task].outcome = Outcome::cancelled;
-      close(array, entry, name_of(Outcome::cancelled), "");
+      close(array, entry, to_string(Outcome::cancelled), "");
     }
     if (ended.empty()) continue;
     // By name also where the number is not known yet: those that begin find no right to publish.
     if (!array.is_open()) ended.clear();
     if (array.is_open() && array.job.empty()) continue;
-    ended.insert(ended.begin(), {"scancel", "--quiet", "--name=" + job_name_of(array.name)});
+    ended.insert(ended.begin(), {"scancel", "--quiet", "--name=" + slurm_job_name(array.name)});
     shared_.controller.run_until_answered(std::move(ended));
     shared_.controller.poll_next();
   }

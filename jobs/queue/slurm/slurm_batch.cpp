@@ -82,7 +82,7 @@ void SlurmBatch::look(const SlurmQueue& queue) {
 
 std::optional<std::size_t> SlurmBatch::task_named(const std::string& name) const {
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
-    if (name_of(tasks_[i]) == name) return i;
+    if (to_string(tasks_[i]) == name) return i;
   }
   return std::nullopt;
 }
@@ -105,7 +105,7 @@ void SlurmBatch::adopt(const AttemptArray& found) {
   Array& array = arrays_.emplace_back();
   array.name = found.name;
   array.job = noted_array_job(folder_, found.name);
-  array.nice = nice_of(share_.priority());
+  array.nice = nice_value(share_.priority());
   for (std::size_t i = 0; i < found.attempts.size(); ++i) {
     const fs::path own = attempt_folder(folder_, found.name, i);
     std::error_code none;
@@ -143,7 +143,7 @@ void SlurmBatch::submit_ready() {
       continue;
     }
     const Task& task = tasks_[waiting.task];
-    ready[need_of(task, share_.memory_mib(task), ledgers_[waiting.task].exhaustions, options_)]
+    ready[slurm_need(task, share_.memory_mib(task), ledgers_[waiting.task].exhaustions, options_)]
         .push_back(waiting.task);
   }
   waiting_ = std::move(later);
@@ -177,9 +177,9 @@ std::size_t SlurmBatch::max_tasks() const {
 void SlurmBatch::submit(const SlurmNeed& need, const std::vector<std::size_t>& tasks) {
   AttemptArray made;
   for (const std::size_t task : tasks) {
-    made.attempts.push_back({name_of(tasks_[task]), ++results_[task].attempts});
+    made.attempts.push_back({to_string(tasks_[task]), ++results_[task].attempts});
   }
-  made.variables = variables_of(need, options_);
+  made.variables = task_variables(need, options_);
   try {
     create_attempts(folder_, made);
   } catch (const EnvironmentError& error) {  // the shared disk is full, or gone
@@ -193,12 +193,12 @@ void SlurmBatch::submit(const SlurmNeed& need, const std::vector<std::size_t>& t
   next_submission_ = Clock::now() + steady_seconds(options_.poll_s);
   Array& array = arrays_.emplace_back();
   array.name = made.name;
-  array.nice = nice_of(share_.priority());
+  array.nice = nice_value(share_.priority());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     array.entries.emplace_back(tasks[i], i, attempt_folder(folder_, made.name, i) / "messages");
   }
   array.submission = shared_.controller.run(
-      submission_of(folder_, made.name, tasks.size(), need, array.nice, options_));
+      submission_words(folder_, made.name, tasks.size(), need, array.nice, options_));
 }
 
 void SlurmBatch::finish_submission(Array& array) {
@@ -217,7 +217,7 @@ void SlurmBatch::finish_submission(Array& array) {
   }
   // It may have been accepted although the answer got lost: then its tasks find no folder.
   shared_.controller.run_until_answered(
-      {"scancel", "--quiet", "--name=" + job_name_of(array.name)});
+      {"scancel", "--quiet", "--name=" + slurm_job_name(array.name)});
   take_refusal(array, answer);
   abandon(array);
 }
@@ -242,7 +242,7 @@ void SlurmBatch::take_refusal(const Array& array, const SlurmAnswer& answer) {
 void SlurmBatch::find_number(Array& array, const SlurmQueue& queue) {
   if (array.submission || queue.asked <= array.since || queue.asked == array.last_look) return;
   array.last_look = queue.asked;
-  const auto found = queue.jobs.find(job_name_of(array.name));
+  const auto found = queue.jobs.find(slurm_job_name(array.name));
   if (found != queue.jobs.end()) {
     array.job = found->second;
     note_array_job(folder_, array.name, array.job);
@@ -264,7 +264,7 @@ void SlurmBatch::abandon(Array& array) {
 }
 
 void SlurmBatch::update_nice(Array& array) const {
-  const int nice = nice_of(share_.priority());
+  const int nice = nice_value(share_.priority());
   if (nice == array.nice || array.job.empty()) return;
   array.nice = nice;
   shared_.controller.run_until_answered(
@@ -278,8 +278,8 @@ std::string SlurmBatch::reason_to_wait(const SlurmQueue& queue) const {
     for (const Entry& entry : array.entries) {
       if (!entry.is_open) continue;
       const auto found = queue.tasks.find({array.job, static_cast<int>(entry.index)});
-      if (found == queue.tasks.end() || found->second.name != job_name_of(array.name)) continue;
-      if (fate_of(found->second) != SlurmFate::waiting) return "";
+      if (found == queue.tasks.end() || found->second.name != slurm_job_name(array.name)) continue;
+      if (interpret_fate(found->second) != SlurmFate::waiting) return "";
       if (reason.empty()) reason = found->second.reason;
     }
   }
@@ -340,7 +340,8 @@ void SlurmBatch::wait_for_cancelled() {
       const bool is_one_running =
           std::any_of(cancelled_.begin(), cancelled_.end(), [&](const SlurmQueue::Key& key) {
             const auto found = queue->tasks.find(key);
-            return found != queue->tasks.end() && fate_of(found->second) == SlurmFate::running;
+            return found != queue->tasks.end() &&
+                   interpret_fate(found->second) == SlurmFate::running;
           });
       if (!is_one_running) return;
     }

@@ -50,7 +50,7 @@ std::vector<int> indices_in(const std::string& job) {
 }
 
 /// As wait() gives it: the signal in the lowest seven bits, the exit code in the next eight.
-ExitStatus status_of(int raw) {
+ExitStatus to_exit_status(int raw) {
   constexpr int kSignalBits = 0x7f;
   constexpr int kCodeShift = 8;
   constexpr int kCodeBits = 0xff;
@@ -99,7 +99,7 @@ std::vector<SlurmTask> read_queue(const std::string& text, std::string_view pref
     const std::optional<int> index = number_in(fields[1]);
     if (!index || !number_in(fields[0])) continue;
     SlurmTask task{fields[0], *index, fields[6], fields[2], fields[3], fields[4]};
-    task.status = status_of(number_in(fields[5]).value_or(0));
+    task.status = to_exit_status(number_in(fields[5]).value_or(0));
     tasks.push_back(std::move(task));
   }
   return tasks;
@@ -167,7 +167,7 @@ bool is_controller_away(std::string_view output) {
   });
 }
 
-SlurmFate fate_of(const SlurmTask& task) {
+SlurmFate interpret_fate(const SlurmTask& task) {
   for (const auto& [state, fate] : kFates) {
     if (state != task.state) continue;
     // A node refused it, and Slurm does not try again by itself.
@@ -196,7 +196,7 @@ bool is_blameless(SlurmFate fate) {
 TaskResult result_of_slurm(const SlurmTask& task, const std::optional<WorkerError>& error,
                            const std::filesystem::path& log) {
   const std::string place = task.node.empty() ? "" : " on node " + task.node;
-  switch (fate_of(task)) {
+  switch (interpret_fate(task)) {
     case SlurmFate::out_of_memory:
       return {Outcome::out_of_memory,
               0,
@@ -225,7 +225,7 @@ TaskResult result_of_slurm(const SlurmTask& task, const std::optional<WorkerErro
     case SlurmFate::running:
       break;
   }
-  return result_of({task.status, error, "", false}, log);
+  return task_result({task.status, error, "", false}, log);
 }
 
 }  // namespace throng::jobs

@@ -63,7 +63,7 @@ enum class SlurmFate {
   cancelled,      ///< by somebody
 };
 
-SlurmFate fate_of(const SlurmTask& task);
+SlurmFate interpret_fate(const SlurmTask& task);
 
 /// Whether a task that was running waits to be begun again under its number: by `--requeue`, or an
 /// administrator. One that is suspended goes on.

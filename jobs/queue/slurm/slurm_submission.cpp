@@ -34,8 +34,8 @@ void add_resources(std::vector<std::string>& command, const SlurmNeed& need,
 
 }  // namespace
 
-SlurmNeed need_of(const Task& task, std::int64_t estimate_mib, int doublings,
-                  const SlurmOptions& options) {
+SlurmNeed slurm_need(const Task& task, std::int64_t estimate_mib, int doublings,
+                     const SlurmOptions& options) {
   // Threads' stacks, the driver and pages of files, which count where cgroups limit memory.
   constexpr std::int64_t kMoreMib = 512;
   constexpr int kMaxDoublings = 4;
@@ -48,8 +48,8 @@ SlurmNeed need_of(const Task& task, std::int64_t estimate_mib, int doublings,
   return need;
 }
 
-std::vector<std::pair<std::string, std::string>> variables_of(const SlurmNeed& need,
-                                                              const SlurmOptions& options) {
+std::vector<std::pair<std::string, std::string>> task_variables(const SlurmNeed& need,
+                                                                const SlurmOptions& options) {
   // Mesa's software renderer would start a thread per core of the node.
   std::vector<std::pair<std::string, std::string>> variables = {
       {"LP_NUM_THREADS", options.cpus > 1 ? std::to_string(options.cpus) : "0"}};
@@ -63,12 +63,12 @@ std::vector<std::pair<std::string, std::string>> variables_of(const SlurmNeed& n
   return variables;
 }
 
-int nice_of(int priority) {
+int nice_value(int priority) {
   constexpr int kMaxPriority = 100;
   return std::max(0, kMaxPriority - priority);
 }
 
-std::string job_name_of(const std::string& array) { return kSlurmPrefix + array; }
+std::string slurm_job_name(const std::string& array) { return kSlurmPrefix + array; }
 
 std::string quoted_for_shell(const std::string& text) {
   std::string quoted = "'";
@@ -82,9 +82,9 @@ std::string quoted_for_shell(const std::string& text) {
   return quoted + "'";
 }
 
-std::vector<std::string> submission_of(const JobFolder& folder, const std::string& array,
-                                       std::size_t count, const SlurmNeed& need, int nice,
-                                       const SlurmOptions& options) {
+std::vector<std::string> submission_words(const JobFolder& folder, const std::string& array,
+                                          std::size_t count, const SlurmNeed& need, int nice,
+                                          const SlurmOptions& options) {
   std::string indices = fmt::format("0-{}", count - 1);
   if (options.at_once > 0) indices += fmt::format("%{}", options.at_once);
   std::string script = "exec";
@@ -99,7 +99,7 @@ std::vector<std::string> submission_of(const JobFolder& folder, const std::strin
   std::vector<std::string> command = {"sbatch",
                                       "--parsable",
                                       "--no-requeue",
-                                      "--job-name=" + job_name_of(array),
+                                      "--job-name=" + slurm_job_name(array),
                                       "--array=" + indices,
                                       fmt::format("--nice={}", nice),
                                       "--chdir=" + folder.path().string(),

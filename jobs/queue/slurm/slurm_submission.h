@@ -25,24 +25,24 @@ struct SlurmNeed {
 };
 
 /// `estimate_mib` as of Share::memory_mib; `doublings` of memory, one per time that it ran out.
-SlurmNeed need_of(const Task& task, std::int64_t estimate_mib, int doublings,
-                  const SlurmOptions& options);
+SlurmNeed slurm_need(const Task& task, std::int64_t estimate_mib, int doublings,
+                     const SlurmOptions& options);
 
 /// Environment variables of workers with this need.
-std::vector<std::pair<std::string, std::string>> variables_of(const SlurmNeed& need,
-                                                              const SlurmOptions& options);
+std::vector<std::pair<std::string, std::string>> task_variables(const SlurmNeed& need,
+                                                                const SlurmOptions& options);
 
 /// For a priority of -100 to 100: higher ones are less nice. Only administrators may be less nice
 /// than 0.
-int nice_of(int priority);
+int nice_value(int priority);
 
 /// "throng-0f3a…": the array job's name.
-std::string job_name_of(const std::string& array);
+std::string slurm_job_name(const std::string& array);
 
 /// sbatch with its arguments, for `count` tasks.
-std::vector<std::string> submission_of(const JobFolder& folder, const std::string& array,
-                                       std::size_t count, const SlurmNeed& need, int nice,
-                                       const SlurmOptions& options);
+std::vector<std::string> submission_words(const JobFolder& folder, const std::string& array,
+                                          std::size_t count, const SlurmNeed& need, int nice,
+                                          const SlurmOptions& options);
 
 /// sbatch that only asks whether such a job could run: partition, account and limits.
 std::vector<std::string> test_submission(const SlurmOptions& options);

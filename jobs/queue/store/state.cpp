@@ -38,7 +38,7 @@ bool has_dataset(JobState state) {
   return state == JobState::succeeded || state == JobState::partial;
 }
 
-std::string_view name_of(JobState state) {
+std::string_view to_string(JobState state) {
   switch (state) {
     case JobState::queued:
       return "queued";
@@ -56,7 +56,7 @@ std::string_view name_of(JobState state) {
   return "cancelled";
 }
 
-std::string_view name_of(JobEvent event) {
+std::string_view to_string(JobEvent event) {
   switch (event) {
     case JobEvent::start:
       return "started";
@@ -78,7 +78,7 @@ std::string_view name_of(JobEvent event) {
 
 std::optional<JobState> job_state_named(std::string_view name) {
   for (const JobState state : kJobStates) {
-    if (name_of(state) == name) return state;
+    if (to_string(state) == name) return state;
   }
   return std::nullopt;
 }

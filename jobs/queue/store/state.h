@@ -41,9 +41,9 @@ bool is_active(JobState state);
 /// Whether there is a dataset to be had.
 bool has_dataset(JobState state);
 
-std::string_view name_of(JobState state);
+std::string_view to_string(JobState state);
 /// Name of the event: "started", "failed".
-std::string_view name_of(JobEvent event);
+std::string_view to_string(JobEvent event);
 /// The state of this name; nothing for any other word.
 std::optional<JobState> job_state_named(std::string_view name);
 

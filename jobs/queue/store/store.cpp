@@ -35,7 +35,7 @@ Store::Store(const std::filesystem::path& folder, Clock clock, Clock steady)
 
 Store::~Store() = default;
 
-std::string_view name_of(JobKind kind) {
+std::string_view to_string(JobKind kind) {
   switch (kind) {
     case JobKind::calibration:
       return "calibration";
@@ -146,7 +146,7 @@ void Store::save_progress(const JobRow& row, const std::string& progress_json) {
         "UPDATE job SET progress = ? WHERE id = ? AND state = ? AND attempt = ?");
     update.bind(1, progress_json);
     update.bind(2, row.id);
-    update.bind(3, std::string(name_of(row.state)));
+    update.bind(3, std::string(to_string(row.state)));
     update.bind(4, row.attempt);
     update.exec();
   });

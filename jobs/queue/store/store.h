@@ -21,7 +21,7 @@ enum class JobKind { dataset, calibration, study };
 
 inline constexpr std::array kJobKinds = {JobKind::dataset, JobKind::calibration, JobKind::study};
 
-std::string_view name_of(JobKind kind);
+std::string_view to_string(JobKind kind);
 
 /// One job as stored.
 struct JobRow {
@@ -110,7 +110,7 @@ struct EventRow {
   std::int64_t seq = 0;
   std::string job;
   std::int64_t at_ms = 0;  ///< Unix time
-  std::string type;  ///< "submitted", name_of(JobEvent), "changed", "removed" or record_event()'s
+  std::string type;  ///< "submitted", to_string(JobEvent), "changed", "removed" or record_event()'s
   std::string data_json;
 };
 

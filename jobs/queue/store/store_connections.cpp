@@ -26,7 +26,7 @@ void prepare(SQLite::Database& database) {
 }
 
 /// Device and number of a file; nothing when there is none.
-std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file) {
+std::optional<std::pair<dev_t, ino_t>> file_identity(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return std::nullopt;
   return std::pair(status.st_dev, status.st_ino);
@@ -45,11 +45,11 @@ Store::Connections::Connections(const fs::path& folder, const Clock& wall, Clock
   SQLite::Statement newest(writer, "SELECT max(id) FROM job");
   newest.executeStep();
   last_id = newest.getColumn(0).getString();
-  identity = identity_of(file);
+  identity = file_identity(file);
 }
 
 void Store::Connections::require_files() const {
-  if (identity_of(file) == identity && lock.is_in_place()) return;
+  if (file_identity(file) == identity && lock.is_in_place()) return;
   throw EnvironmentError(
       "job store: its file or its lock was removed while the service ran; nothing is accepted "
       "until they are put back and the service is started again");

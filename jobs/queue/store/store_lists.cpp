@@ -19,7 +19,7 @@ bool has_indexed_part(const JobFilter& filter) {
 }
 
 /// A text as a phrase of SQLite's full-text search.
-std::string phrase_of(const std::string& text) {
+std::string fts_phrase(const std::string& text) {
   std::string phrase = "\"";
   for (const char c : text) phrase += c == '"' ? std::string("\"\"") : std::string(1, c);
   return phrase + '"';
@@ -32,7 +32,7 @@ struct Source {
   std::string where;
 };
 
-Source source_of(const JobFilter& filter) {
+Source filter_source(const JobFilter& filter) {
   const bool has_label = !filter.label.empty();
   const char* compared = filter.oldest_first ? ">" : "<";
   if (!filter.name_part.empty()) {
@@ -66,7 +66,7 @@ Source source_of(const JobFilter& filter) {
 }  // namespace
 
 std::string list_query(const JobFilter& filter) {
-  const Source source = source_of(filter);
+  const Source source = filter_source(filter);
   std::string where = "job.kind = :kind" + source.where;
   if (filter.visible_to) {
     where += fmt::format(
@@ -76,7 +76,8 @@ std::string list_query(const JobFilter& filter) {
   }
   if (!filter.states.empty()) {
     std::vector<std::string> names;
-    for (const JobState state : filter.states) names.push_back(fmt::format("'{}'", name_of(state)));
+    for (const JobState state : filter.states)
+      names.push_back(fmt::format("'{}'", to_string(state)));
     // An index has the order of one state's jobs, but not of several states'.
     where += names.size() == 1
                  ? fmt::format(" AND job.state = {}", names[0])
@@ -92,24 +93,24 @@ std::optional<JobRow> Store::get(const std::string& id) const {
   return connections_->read([&](SQLite::Database& database) {
     SQLite::Statement query(database, fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
     query.bind(1, id);
-    return first_of(query);
+    return read_first_row(query);
   });
 }
 
 std::vector<JobRow> Store::list(const JobFilter& filter) const {
   return connections_->read([&](SQLite::Database& database) {
     SQLite::Statement query(database, list_query(filter));
-    query.bind(":kind", std::string(name_of(filter.kind)));
+    query.bind(":kind", std::string(to_string(filter.kind)));
     if (!filter.after.empty()) query.bind(":after", filter.after);
     if (!filter.label.empty()) query.bind(":label", filter.label);
     if (has_indexed_part(filter)) {
-      query.bind(":name", phrase_of(filter.name_part));
+      query.bind(":name", fts_phrase(filter.name_part));
     } else if (!filter.name_part.empty()) {
       query.bind(":name", filter.name_part);
     }
     if (filter.visible_to) query.bind(":viewer", *filter.visible_to);
     query.bind(":limit", filter.limit);
-    return rows_of(query);
+    return read_rows(query);
   });
 }
 
@@ -130,14 +131,14 @@ std::vector<JobRow> Store::startable() const {
   return connections_->read([&](SQLite::Database& database) {
     SQLite::Statement running(
         database, fmt::format("SELECT {} FROM job WHERE state = 'running' ORDER BY id", kColumns));
-    std::vector<JobRow> rows = rows_of(running);
+    std::vector<JobRow> rows = read_rows(running);
     SQLite::Statement queued(
         database,
         fmt::format("SELECT {} FROM job WHERE id IN (SELECT id FROM (SELECT id, row_number() OVER "
                     "(PARTITION BY owner ORDER BY priority DESC, id) AS place FROM job WHERE state "
                     "= 'queued') WHERE place = 1) ORDER BY priority DESC, id",
                     kColumns));
-    for (JobRow& row : rows_of(queued)) rows.push_back(std::move(row));
+    for (JobRow& row : read_rows(queued)) rows.push_back(std::move(row));
     return rows;
   });
 }
@@ -149,7 +150,7 @@ std::vector<JobRow> Store::ended(int limit) const {
                                         "ORDER BY kept_from_ms LIMIT ?",
                                         kColumns));
     query.bind(1, limit);
-    return rows_of(query);
+    return read_rows(query);
   });
 }
 

@@ -12,7 +12,7 @@ namespace throng::jobs {
 namespace {
 
 /// None where the text is no list of texts: labels only serve to find a job.
-std::vector<std::string> labels_of(const std::string& text) {
+std::vector<std::string> parse_labels(const std::string& text) {
   const nlohmann::json labels = parse_json_or_discard(text);
   if (!labels.is_array()) return {};
   std::vector<std::string> known;
@@ -25,7 +25,7 @@ std::vector<std::string> labels_of(const std::string& text) {
 }  // namespace
 
 // A damaged row must not hide the others.
-JobRow row_of(SQLite::Statement& query) {
+JobRow read_row(SQLite::Statement& query) {
   JobRow row;
   row.id = query.getColumn(0).getString();
   row.name = query.getColumn(1).getString();
@@ -41,10 +41,10 @@ JobRow row_of(SQLite::Statement& query) {
   row.ended_ms = query.getColumn(9);
   const std::string kind = query.getColumn(10).getString();
   for (const JobKind known : kJobKinds) {
-    if (kind == name_of(known)) row.kind = known;
+    if (kind == to_string(known)) row.kind = known;
   }
   row.priority = query.getColumn(11);
-  row.labels = labels_of(query.getColumn(12).getString());
+  row.labels = parse_labels(query.getColumn(12).getString());
   row.owner = query.getColumn(13).getString();
   row.bytes = query.getColumn(14);
   row.keep = query.getColumn(15).getInt() != 0;
@@ -60,21 +60,21 @@ JobRow row_of(SQLite::Statement& query) {
   return row;
 }
 
-std::vector<JobRow> rows_of(SQLite::Statement& query) {
+std::vector<JobRow> read_rows(SQLite::Statement& query) {
   std::vector<JobRow> rows;
-  while (query.executeStep()) rows.push_back(row_of(query));
+  while (query.executeStep()) rows.push_back(read_row(query));
   return rows;
 }
 
-std::optional<JobRow> first_of(SQLite::Statement& query) {
+std::optional<JobRow> read_first_row(SQLite::Statement& query) {
   if (!query.executeStep()) return std::nullopt;
-  return row_of(query);
+  return read_row(query);
 }
 
 std::optional<JobRow> find_job(SQLite::Database& database, const std::string& id) {
   SQLite::Statement query(database, fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
   query.bind(1, id);
-  return first_of(query);
+  return read_first_row(query);
 }
 
 std::optional<JobRow> find_submission(SQLite::Database& database, const std::string& owner,
@@ -83,7 +83,7 @@ std::optional<JobRow> find_submission(SQLite::Database& database, const std::str
       database, fmt::format("SELECT {} FROM job WHERE owner = ? AND submission_key = ?", kColumns));
   query.bind(1, owner);
   query.bind(2, key);
-  return first_of(query);
+  return read_first_row(query);
 }
 
 void write_event(SQLite::Database& database, const std::string& job, std::int64_t at_ms,
@@ -110,18 +110,18 @@ std::optional<JobRow> move_to(SQLite::Database& database, JobState next, const J
                            "UPDATE job SET state = ?, attempt = ?, error = ?, started_ms = ?, "
                            "ended_ms = ?, kept_from_ms = ? WHERE id = ? AND state = ? AND "
                            "attempt = ?");
-  update.bind(1, std::string(name_of(changed.state)));
+  update.bind(1, std::string(to_string(changed.state)));
   update.bind(2, changed.attempt);
   update.bind(3, changed.error_json);
   update.bind(4, changed.started_ms);
   update.bind(5, changed.ended_ms);
   update.bind(6, changed.kept_from_ms);
   update.bind(7, row.id);
-  update.bind(8, std::string(name_of(row.state)));
+  update.bind(8, std::string(to_string(row.state)));
   update.bind(9, row.attempt);
   if (update.exec() == 0) return std::nullopt;
-  const nlohmann::json data = {{"state", name_of(next)}, {"attempt", changed.attempt}};
-  write_event(database, row.id, now.wall_ms, std::string(name_of(event)), data.dump());
+  const nlohmann::json data = {{"state", to_string(next)}, {"attempt", changed.attempt}};
+  write_event(database, row.id, now.wall_ms, std::string(to_string(event)), data.dump());
   return changed;
 }
 
@@ -147,7 +147,7 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
   insert.bind(4, row.created_ms);
-  insert.bind(5, std::string(name_of(row.kind)));
+  insert.bind(5, std::string(to_string(row.kind)));
   insert.bind(6, row.priority);
   insert.bind(7, nlohmann::json(row.labels).dump());
   if (!job.key.empty()) insert.bind(8, job.key);

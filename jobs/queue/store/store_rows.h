@@ -12,18 +12,18 @@
 
 namespace throng::jobs {
 
-/// Columns of the table job that a query has to select for row_of().
+/// Columns of the table job that a query has to select for read_row().
 inline constexpr const char* kColumns =
     "job.id, job.name, job.state, job.attempt, job.spec, job.progress, job.error, job.created_ms, "
     "job.started_ms, job.ended_ms, job.kind, job.priority, job.labels, job.owner, job.bytes, "
     "job.keep, job.kept_from_ms, job.people";
 
 /// The job in the query's current row.
-JobRow row_of(SQLite::Statement& query);
+JobRow read_row(SQLite::Statement& query);
 /// All rows of a query.
-std::vector<JobRow> rows_of(SQLite::Statement& query);
+std::vector<JobRow> read_rows(SQLite::Statement& query);
 /// The first row of a query, if there is any.
-std::optional<JobRow> first_of(SQLite::Statement& query);
+std::optional<JobRow> read_first_row(SQLite::Statement& query);
 
 /// The job of this id, in the transaction's view.
 std::optional<JobRow> find_job(SQLite::Database& database, const std::string& id);

@@ -129,8 +129,8 @@ void remove_attempts(const JobFolder& folder, const std::string& array) {
   fs::remove(attempts_folder(folder), ignored);  // unless there are others
 }
 
-std::optional<AttemptClaim> claim_of(const JobFolder& folder, const std::string& array,
-                                     std::size_t index) {
+std::optional<AttemptClaim> find_claim(const JobFolder& folder, const std::string& array,
+                                       std::size_t index) {
   const fs::path file = attempt_folder(folder, array, index) / "claim";
   std::error_code none;
   if (!fs::exists(file, none)) return std::nullopt;

@@ -25,7 +25,7 @@ namespace throng::jobs {
 
 /// One attempt at a task.
 struct Attempt {
-  std::string task;  ///< name_of(Task)
+  std::string task;  ///< to_string(Task)
   int number = 1;    ///< how often the task has been begun, this time included
 };
 
@@ -71,8 +71,8 @@ struct AttemptClaim {
 };
 
 /// Nothing as long as nobody has.
-std::optional<AttemptClaim> claim_of(const JobFolder& folder, const std::string& array,
-                                     std::size_t index);
+std::optional<AttemptClaim> find_claim(const JobFolder& folder, const std::string& array,
+                                       std::size_t index);
 
 /// How an attempt ended, as its worker says.
 struct AttemptEnd {

@@ -11,7 +11,7 @@
 // PLACE is a task's name, or * for any. For die, fail, grow and hang AMOUNT is at how many attempts
 // it happens (default: at each). The server's own places are server/EVENT/before and
 // server/EVENT/after: around the moment at which a job's change of state is written, with EVENT a
-// name_of(JobEvent).
+// to_string(JobEvent).
 #pragma once
 
 #include <optional>

@@ -106,11 +106,11 @@ class Batch {
     const int attempt = ++results_[task].attempts;
     std::vector<std::string> command = options_.command;
     command.insert(command.end(),
-                   {"--job", folder_.path().string(), "--task", name_of(tasks_[task])});
+                   {"--job", folder_.path().string(), "--task", to_string(tasks_[task])});
     try {
       running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
-                                                  variables_of(tasks_[task], attempt, memory_mib),
-                                                  folder_.log_of(tasks_[task]), options_.now));
+                                                  task_variables(tasks_[task], attempt, memory_mib),
+                                                  folder_.log_file(tasks_[task]), options_.now));
       exhausted_.clear();
     } catch (const ResourcesExhausted& error) {
       // Nothing that the job could have caused: it waits for as long as it takes.
@@ -133,8 +133,8 @@ class Batch {
     share_.on_wait(reason);
   }
 
-  ChildProcess::Variables variables_of(const Task& task, int attempt,
-                                       std::int64_t memory_mib) const {
+  ChildProcess::Variables task_variables(const Task& task, int attempt,
+                                         std::int64_t memory_mib) const {
     ChildProcess::Variables variables = {{kSupervisorVariable, std::to_string(::getpid())},
                                          {kAttemptVariable, std::to_string(attempt)}};
     if (task.kind == Task::Kind::publish) {
@@ -206,8 +206,8 @@ class Batch {
       read_messages(*worker);
       const ExitStatus status = worker->process.wait();
       const bool memory_ran_out = kills_for_memory() > worker->kills_before;
-      TaskResult result = result_of({status, worker->error, worker->timeout, memory_ran_out},
-                                    folder_.log_of(tasks_[worker->task]));
+      TaskResult result = task_result({status, worker->error, worker->timeout, memory_ran_out},
+                                      folder_.log_file(tasks_[worker->task]));
       if (result.outcome == Outcome::succeeded) continue;
       if (worker->kill_at) {
         results_[worker->task].outcome = Outcome::cancelled;

@@ -80,7 +80,7 @@ std::string begin_attempt(const fs::path& job_folder, const std::string& array, 
   }
   ::setenv(kAttemptVariable, std::to_string(task.at("attempt").get<int>()).c_str(), 1);
   ::unsetenv(kSupervisorVariable);
-  const fs::path log = folder.log_of(name);
+  const fs::path log = folder.log_file(name);
   make_folders(log.parent_path());
   const int log_descriptor = opened(log);
   ::dup2(log_descriptor, STDERR_FILENO);

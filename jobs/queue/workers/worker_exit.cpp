@@ -14,7 +14,7 @@ namespace throng::jobs {
 
 namespace {
 
-std::string tail_of(const std::filesystem::path& log) {
+std::string read_tail(const std::filesystem::path& log) {
   constexpr std::streamoff kMaxTailBytes = 400;
   std::ifstream file(log, std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
@@ -25,7 +25,7 @@ std::string tail_of(const std::filesystem::path& log) {
   return text;
 }
 
-Outcome outcome_of(const EndedWorker& end) {
+Outcome classify_end(const EndedWorker& end) {
   if (!end.timeout.empty()) return Outcome::timed_out;
   if (end.status.signal == SIGKILL && end.memory_ran_out) return Outcome::out_of_memory;
   if (end.status.signal != 0) return Outcome::crashed;
@@ -43,7 +43,7 @@ Outcome outcome_of(const EndedWorker& end) {
   }
 }
 
-std::string message_of(const EndedWorker& end, Outcome outcome) {
+std::string describe_end(const EndedWorker& end, Outcome outcome) {
   if (outcome == Outcome::timed_out) return "timed out: " + end.timeout;
   if (end.error) return end.error->message;
   if (outcome == Outcome::out_of_memory) return "out of memory: the kernel killed the worker";
@@ -56,14 +56,14 @@ std::string message_of(const EndedWorker& end, Outcome outcome) {
 
 }  // namespace
 
-TaskResult result_of(const EndedWorker& end, const std::filesystem::path& log) {
+TaskResult task_result(const EndedWorker& end, const std::filesystem::path& log) {
   TaskResult result;
-  result.outcome = outcome_of(end);
+  result.outcome = classify_end(end);
   if (result.outcome == Outcome::succeeded) return result;
-  result.message = message_of(end, result.outcome);
+  result.message = describe_end(end, result.outcome);
   if (end.error) {
     result.problems = end.error->problems;
-  } else if (const std::string tail = tail_of(log); !tail.empty()) {
+  } else if (const std::string tail = read_tail(log); !tail.empty()) {
     result.message += ":\n" + tail;
   }
   return result;

@@ -20,6 +20,6 @@ struct EndedWorker {
 
 /// Its outcome and message (attempts are not filled in); the message of a worker that died without
 /// a word ends with the last lines of its log.
-TaskResult result_of(const EndedWorker& end, const std::filesystem::path& log);
+TaskResult task_result(const EndedWorker& end, const std::filesystem::path& log);
 
 }  // namespace throng::jobs

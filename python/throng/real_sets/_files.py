@@ -51,7 +51,7 @@ def images_in(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.suffix.lower() in IMAGES)
 
 
-def image_of(folder: Path, stem: str, label: Path) -> Path:
+def find_image(folder: Path, stem: str, label: Path) -> Path:
     """The image of this name without its suffix; label names the file that asks for it."""
     for suffix in (*IMAGES, *(suffix.upper() for suffix in IMAGES)):
         path = folder / (stem + suffix)
@@ -71,7 +71,7 @@ def numbered(folder: Path) -> dict[int, Path]:
     return by_number
 
 
-def heads_of_mat(path: Path) -> NDArray[np.float64]:
+def read_heads(path: Path) -> NDArray[np.float64]:
     """(N, 2) heads in box coordinates of a GT_*.mat of ShanghaiTech, whose pixels count from 1 at their centers.
 
     Needs scipy.

@@ -88,7 +88,7 @@ def table(rows: Sequence[Sequence[float]], columns: int) -> FloatArray:
     return np.array(rows, dtype=np.float64).reshape(len(rows), columns)
 
 
-def boxes_of(rows: Sequence[Sequence[float]]) -> FloatArray:
+def read_boxes(rows: Sequence[Sequence[float]]) -> FloatArray:
     """x0, y0, x1, y1 of rows of left, top, width and height; those without a size are dropped."""
     boxes = table(rows, 4)
     boxes = boxes[(boxes[:, 2] > 0) & (boxes[:, 3] > 0)]

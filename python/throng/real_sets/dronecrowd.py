@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import DatasetError
-from ._files import below, frame_number, heads_of_mat, image_of, images_in, number_lines, numbered, wrong_layout
+from ._files import below, frame_number, read_heads, find_image, images_in, number_lines, numbered, wrong_layout
 from ._images import RealImage, RealSet, table
 
 _COLUMNS = "frame, id, left, top, width, height, out, occluded, ..."
@@ -21,24 +21,24 @@ def read_dronecrowd(folder: Path) -> RealSet:
     images = [
         image
         for part in below(folder, "images")
-        for image in (_of_tracks(part) if (part / "annotations").is_dir() else _of_mats(part))
+        for image in (_read_tracks(part) if (part / "annotations").is_dir() else _read_mats(part))
     ]
     if not images:
         raise wrong_layout(folder, "images/ with annotations/ or ground_truth/, or folders that have them")
     return RealSet("dronecrowd", folder, images)
 
 
-def _of_mats(folder: Path) -> list[RealImage]:
+def _read_mats(folder: Path) -> list[RealImage]:
     images = []
     for path in sorted((folder / "ground_truth").glob("GT_*.mat")):
         stem = path.stem.removeprefix("GT_")
         sequence = stem.removeprefix("img")[:_SEQUENCE_DIGITS]
-        picture = image_of(folder / "images", stem, path)
-        images.append(RealImage(picture, sequence, None, table([], 4), heads_of_mat(path)))
+        picture = find_image(folder / "images", stem, path)
+        images.append(RealImage(picture, sequence, None, table([], 4), read_heads(path)))
     return images
 
 
-def _of_tracks(folder: Path) -> list[RealImage]:
+def _read_tracks(folder: Path) -> list[RealImage]:
     images = []
     for path in sorted((folder / "annotations").glob("*.txt")):
         pictures = _pictures(folder / "images", path)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..errors import DatasetError
 from ._files import below, frame_number, number_lines, numbered, wrong_layout
-from ._images import RealImage, RealSet, boxes_of
+from ._images import RealImage, RealSet, read_boxes
 
 _PEDESTRIAN = 1
 # Benchmarks neither reward nor punish these: on a vehicle, static person, distractor, reflection, crowd.
@@ -48,6 +48,6 @@ def _sequence(folder: Path) -> list[RealImage]:
         elif person_class in (_PEDESTRIAN, *_NOT_SCORED):
             ignored[number].append(box)
     return [
-        RealImage(pictures[number], folder.name, boxes_of(people[number]), boxes_of(ignored[number]), None)
+        RealImage(pictures[number], folder.name, read_boxes(people[number]), read_boxes(ignored[number]), None)
         for number in pictures
     ]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DatasetError
-from ._files import below, image_of, read_text, wrong_layout
+from ._files import below, find_image, read_text, wrong_layout
 from ._images import FloatArray, RealImage, RealSet, table
 
 
@@ -24,7 +24,7 @@ def read_nwpu(folder: Path) -> RealSet:
     images = []
     for part in parts:
         for path in _label_files(part):
-            picture = image_of(part / "images", path.stem, path)
+            picture = find_image(part / "images", path.stem, path)
             images.append(RealImage(picture, "", None, table([], 4), _points(path)))
     return RealSet("nwpu", folder, images)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ._files import heads_of_mat, image_of, wrong_layout
+from ._files import read_heads, find_image, wrong_layout
 from ._images import RealImage, RealSet, table
 
 _LABELS = ("ground-truth", "ground_truth")
@@ -19,8 +19,8 @@ def read_shanghaitech(folder: Path) -> RealSet:
         if labels is None or not (part / "images").is_dir():
             continue
         for path in sorted(labels.glob("GT_*.mat")):
-            picture = image_of(part / "images", path.stem.removeprefix("GT_"), path)
-            images.append(RealImage(picture, "", None, table([], 4), heads_of_mat(path)))
+            picture = find_image(part / "images", path.stem.removeprefix("GT_"), path)
+            images.append(RealImage(picture, "", None, table([], 4), read_heads(path)))
     if not images:
         raise wrong_layout(folder, "images/ and ground-truth/GT_*.mat, or folders that have them (train_data/)")
     return RealSet("shanghaitech", folder, images)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..errors import DatasetError
 from ._files import below, frame_number, number_lines, numbered, wrong_layout
-from ._images import RealImage, RealSet, boxes_of
+from ._images import RealImage, RealSet, read_boxes
 
 _CAR, _TRUCK, _BUS, _PERSON = 1, 2, 3, 4
 _WHOLE = "frame, id, left, top, width, height, out of view, occlusion, category"
@@ -54,6 +54,6 @@ def _sequence(folder: Path, path: Path) -> list[RealImage]:
         for line, values in number_lines(ignore, _IGNORE, 6):
             add(ignored, ignore, line, values)
     return [
-        RealImage(pictures[number], name, boxes_of(people[number]), boxes_of(ignored[number]), None)
+        RealImage(pictures[number], name, read_boxes(people[number]), read_boxes(ignored[number]), None)
         for number in pictures
     ]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import DatasetError
-from ._files import below, frame_number, image_of, images_in, number_lines, numbered, wrong_layout
-from ._images import RealImage, RealSet, boxes_of, table
+from ._files import below, frame_number, find_image, images_in, number_lines, numbered, wrong_layout
+from ._images import RealImage, RealSet, read_boxes, table
 
 _IGNORED, _PEDESTRIAN, _PERSON = 0, 1, 2
 _IMAGE = "left, top, width, height, score, category, truncation, occlusion"
@@ -20,9 +20,9 @@ def read_visdrone(folder: Path) -> RealSet:
     """
     images: list[RealImage] = []
     for part in below(folder, "images", "annotations"):
-        images += _of_images(part)
+        images += _read_images(part)
     for part in below(folder, "sequences", "annotations"):
-        images += _of_videos(part)
+        images += _read_videos(part)
     if not images:
         raise wrong_layout(folder, "annotations/ with images/ or sequences/")
     return RealSet("visdrone", folder, images)
@@ -41,16 +41,16 @@ def _label(path: Path, line: int, values: list[float]) -> tuple[list[float], boo
 
 
 def _image(path: Path, sequence: str, labels: list[tuple[list[float], bool]]) -> RealImage:
-    people = boxes_of([box for box, is_person in labels if is_person])
-    ignored = boxes_of([box for box, is_person in labels if not is_person])
+    people = read_boxes([box for box, is_person in labels if is_person])
+    ignored = read_boxes([box for box, is_person in labels if not is_person])
     return RealImage(path, sequence, people, ignored if len(ignored) else table([], 4), None)
 
 
-def _of_images(folder: Path) -> list[RealImage]:
+def _read_images(folder: Path) -> list[RealImage]:
     images = []
     for path in sorted((folder / "annotations").glob("*.txt")):
         labels = [_label(path, line, values) for line, values in number_lines(path, _IMAGE, 8)]
-        images.append(_image(image_of(folder / "images", path.stem, path), "", [one for one in labels if one]))
+        images.append(_image(find_image(folder / "images", path.stem, path), "", [one for one in labels if one]))
     labeled = {image.path for image in images}
     for picture in images_in(folder / "images"):
         if picture not in labeled:
@@ -58,7 +58,7 @@ def _of_images(folder: Path) -> list[RealImage]:
     return images
 
 
-def _of_videos(folder: Path) -> list[RealImage]:
+def _read_videos(folder: Path) -> list[RealImage]:
     images = []
     for path in sorted((folder / "annotations").glob("*.txt")):
         frames = folder / "sequences" / path.stem

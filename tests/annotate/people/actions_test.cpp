@@ -47,7 +47,7 @@ struct ActionRow {
   double to_s = 0;
 };
 
-std::vector<ActionRow> rows_of(const std::string& csv) {
+std::vector<ActionRow> read_rows(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
@@ -72,7 +72,7 @@ std::vector<ActionRow> rows_of(const std::string& csv) {
 class ActionsTest : public ::testing::Test {
  protected:
   std::vector<ActionRow> rows(double from_s, double to_s) const {
-    return rows_of(actions_csv(trace_, animator_, facts_, from_s, to_s, 2));
+    return read_rows(actions_csv(trace_, animator_, facts_, from_s, to_s, 2));
   }
 
   static skinning::Population people_with_clips() {

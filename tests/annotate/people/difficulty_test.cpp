@@ -40,7 +40,7 @@ class TestImage {
   }
   void fill_object(const Rgb& color) { fill(20, 15, 40, 45, color); }
 
-  Contrast contrast() const { return contrast_of({kSize, kSize, rgb_}, mask_); }
+  Contrast contrast() const { return measure_contrast({kSize, kSize, rgb_}, mask_); }
 
  private:
   std::vector<std::uint8_t> rgb_;
@@ -92,8 +92,8 @@ TEST(Contrast, OfAnObjectThatFillsTheImageIsZero) {
   const std::vector<std::uint8_t> rgb(12, 50);
   render::PixelMask mask(Eigen::AlignedBox2i(Eigen::Vector2i(0, 0), Eigen::Vector2i(2, 2)));
   mask.set.assign(4, 1);
-  EXPECT_EQ(contrast_of({2, 2, rgb}, mask).region, 0);
-  EXPECT_EQ(contrast_of({2, 2, rgb}, {}).edge, 0);
+  EXPECT_EQ(measure_contrast({2, 2, rgb}, mask).region, 0);
+  EXPECT_EQ(measure_contrast({2, 2, rgb}, {}).edge, 0);
 }
 
 class Occluders : public testing::Test {
@@ -152,7 +152,7 @@ TEST(Lookalikes, AreNearAndOfNearlyTheSameColorsAboveAndBelow) {
       {{100, 100}, 50, blue_gray}, {{180, 100}, 50, nearly},    {{120, 100}, 50, same_above},
       {{240, 100}, 50, blue_gray}, {{251, 100}, 50, blue_gray}, {{100, 110}, 50, std::nullopt},
   };
-  const auto found = lookalikes_of(people);
+  const auto found = group_lookalikes(people);
   EXPECT_EQ(found[0], (std::vector<std::size_t>{1, 3})) << "151 px are more than 3 heights";
   EXPECT_EQ(found[1], (std::vector<std::size_t>{3, 4, 0})) << "the nearest first";
   EXPECT_TRUE(found[2].empty());
@@ -170,13 +170,13 @@ TEST(Look, IsTheMeanColorOfEachHalf) {
   }
   render::PixelMask mask(Eigen::AlignedBox2i(Eigen::Vector2i(2, 4), Eigen::Vector2i(8, 20)));
   mask.set.assign(mask.set.size(), 1);
-  const auto look = look_of({10, 20, rgb}, mask);
+  const auto look = describe_look({10, 20, rgb}, mask);
   ASSERT_TRUE(look.has_value());
   EXPECT_NEAR((look->upper - Eigen::Vector3d(53.24, 80.09, 67.20)).norm(), 0, 0.1);
   EXPECT_NEAR((look->lower - Eigen::Vector3d(87.73, -86.18, 83.18)).norm(), 0, 0.1);
   render::PixelMask small(Eigen::AlignedBox2i(Eigen::Vector2i(2, 4), Eigen::Vector2i(6, 10)));
   small.set.assign(small.set.size(), 1);
-  EXPECT_FALSE(look_of({10, 20, rgb}, small).has_value()) << "12 pixels in each half";
+  EXPECT_FALSE(describe_look({10, 20, rgb}, small).has_value()) << "12 pixels in each half";
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace {
 
 enum Point : std::uint8_t { nose, left_shoulder = 5, right_shoulder = 6, left_knee = 13 };
 
-FrameLabels labels_of(const render::Frame& frame) {
+FrameLabels label_frame(const render::Frame& frame) {
   FrameLabels labels = label_people(frame);
   add_keypoints(frame, labels);
   return labels;
 }
 
-const PersonLabel& label_of(const FrameLabels& labels, std::uint32_t agent) {
+const PersonLabel& find_label(const FrameLabels& labels, std::uint32_t agent) {
   return *std::find_if(labels.people.begin(), labels.people.end(),
                        [&](const PersonLabel& label) { return label.agent == agent; });
 }
@@ -43,7 +43,7 @@ TEST(Keypoints, LieInTheBoxesOfImageAndWorldFromAnySide) {
   const auto crowd = scattered(stage, 40);
   for (const double pitch_deg : {-89.0, -50.0, -20.0}) {
     const render::Frame frame = stage.draw(render::camera_at({-1, 0, 11}, 0, pitch_deg), crowd);
-    for (const PersonLabel& label : labels_of(frame).people) {
+    for (const PersonLabel& label : label_frame(frame).people) {
       const render::PersonInView& person = label.person;
       Eigen::AlignedBox2d box = person.amodal_box;
       box.extend(Eigen::Vector2d(box.min().array() - 0.5));
@@ -72,9 +72,9 @@ TEST(Keypoints, LeftIsThePersonsOwn) {
       stage.draw(render::camera_at({5, 0, 1.5}, 180, 0), {stage.standing(0, 0, 0)});
   const render::Frame back =
       stage.draw(render::camera_at({-5, 0, 1.5}, 0, 0), {stage.standing(0, 0, 0)});
-  const auto facing = labels_of(front).people.at(0).keypoints;
+  const auto facing = label_frame(front).people.at(0).keypoints;
   EXPECT_GT(facing[left_shoulder].x, facing[right_shoulder].x + 20);
-  const auto turned = labels_of(back).people.at(0).keypoints;
+  const auto turned = label_frame(back).people.at(0).keypoints;
   EXPECT_LT(turned[left_shoulder].x, turned[right_shoulder].x - 20);
 }
 
@@ -83,12 +83,12 @@ TEST(Keypoints, AreVisibleWhereTheImageShowsThem) {
   const render::Frame frame = stage.draw(
       render::camera_at({6, 0, 1.7}, 180, -5),
       {stage.standing(0, 0, 0), stage.standing(1, 0, 1, 3.14159), stage.standing(2, -1, 0.02)});
-  const FrameLabels labels = labels_of(frame);
-  const auto& facing = label_of(labels, 0).keypoints;
+  const FrameLabels labels = label_frame(frame);
+  const auto& facing = find_label(labels, 0).keypoints;
   EXPECT_EQ(facing[nose].visibility, 2);
   EXPECT_EQ(facing[left_shoulder].visibility, 2);
   EXPECT_EQ(facing[left_knee].visibility, 1) << "behind the wall";
-  const auto& turned = label_of(labels, 1).keypoints;
+  const auto& turned = find_label(labels, 1).keypoints;
   EXPECT_EQ(turned[nose].visibility, 1) << "on the head's other side";
   EXPECT_EQ(turned[left_shoulder].visibility, 2);
   for (const PersonLabel& label : labels.people) {
@@ -103,7 +103,7 @@ TEST(Keypoints, AgreeWithDepth) {
       stage.draw(render::camera_at({-9, 0, 6}, 0, -30, 640, 480), scattered(stage, 60));
   int visible = 0;
   int hidden = 0;
-  for (const PersonLabel& label : labels_of(frame).people) {
+  for (const PersonLabel& label : label_frame(frame).people) {
     const skinning::Keypoints seen = render::keypoints_in(label.person, frame.camera);
     for (std::size_t k = 0; k < label.keypoints.size(); ++k) {
       const Keypoint& point = label.keypoints[k];
@@ -113,7 +113,7 @@ TEST(Keypoints, AgreeWithDepth) {
       for (int i = 0; i < 9; ++i) {
         const int x = std::clamp(static_cast<int>(point.x) + i % 3 - 1, 0, frame.width() - 1);
         const int y = std::clamp(static_cast<int>(point.y) + i / 3 - 1, 0, frame.height() - 1);
-        const std::size_t pixel = render::index_of(frame, x, y);
+        const std::size_t pixel = render::index_from(frame, x, y);
         if (frame.id[pixel] != render::id_of_agent(label.agent)) continue;
         const float here = seen[k].z() - frame.depth_m[pixel];
         if (std::abs(here) < std::abs(in_front)) in_front = here;
@@ -143,7 +143,7 @@ TEST(Joints, SayWhetherTheOwnBodyHidesThem) {
   add_keypoints(frame, labels);
   add_joints(frame, labels);
   const auto state = [&](std::uint32_t agent, Joint joint) {
-    return label_of(labels, agent).joints.at(skinning::index_of(joint)).state;
+    return find_label(labels, agent).joints.at(skinning::index_from(joint)).state;
   };
   EXPECT_EQ(state(0, Joint::nose), State::visible);
   EXPECT_EQ(state(1, Joint::nose), State::self_hidden);
@@ -195,7 +195,7 @@ TEST(Keypoints, OutsideOfTheImageAreNotLabeled) {
   render::Stage stage(render::open_ground());
   const render::Frame frame =
       stage.draw(render::camera_at({2, 0, 2.2}, 180, -5), {stage.standing(0, 0, 0)});
-  const FrameLabels labels = labels_of(frame);
+  const FrameLabels labels = label_frame(frame);
   CocoImage image;
   image.file_name = "a.jpg";
   image.run = "run000";
@@ -224,17 +224,19 @@ TEST(PersonFacts, ActivityFollowsFromStateFlagsAndSpeed) {
   constexpr std::uint8_t kFell = world::kPresent | world::kFallen;
   using skinning::Action;
   const skinning::Actions none;
-  EXPECT_EQ(activity_of("Walk", kFell, none, 0), Activity::lying);
-  EXPECT_EQ(activity_of("Flee", kFell | world::kPanicked, none, 1), Activity::lying);
-  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::fall), 1), Activity::falling);
-  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::lie), 0), Activity::lying);
-  EXPECT_EQ(activity_of("Walk", kFell, skinning::Actions(Action::get_up), 0), Activity::getting_up);
-  EXPECT_EQ(activity_of("Walk", kCalm | world::kPanicked, none, 3), Activity::panicking);
-  EXPECT_EQ(activity_of("FollowDrone", kCalm, none, 1), Activity::following);
-  EXPECT_EQ(activity_of("FollowDrone", kCalm, none, 0.1), Activity::waiting);
-  EXPECT_EQ(activity_of("Walk", kCalm, none, 1.3), Activity::walking);
-  EXPECT_EQ(activity_of("Walk", kCalm, none, 2.5), Activity::running);
-  EXPECT_EQ(name_of(Activity::running), "running");
+  EXPECT_EQ(classify_activity("Walk", kFell, none, 0), Activity::lying);
+  EXPECT_EQ(classify_activity("Flee", kFell | world::kPanicked, none, 1), Activity::lying);
+  EXPECT_EQ(classify_activity("Walk", kFell, skinning::Actions(Action::fall), 1),
+            Activity::falling);
+  EXPECT_EQ(classify_activity("Walk", kFell, skinning::Actions(Action::lie), 0), Activity::lying);
+  EXPECT_EQ(classify_activity("Walk", kFell, skinning::Actions(Action::get_up), 0),
+            Activity::getting_up);
+  EXPECT_EQ(classify_activity("Walk", kCalm | world::kPanicked, none, 3), Activity::panicking);
+  EXPECT_EQ(classify_activity("FollowDrone", kCalm, none, 1), Activity::following);
+  EXPECT_EQ(classify_activity("FollowDrone", kCalm, none, 0.1), Activity::waiting);
+  EXPECT_EQ(classify_activity("Walk", kCalm, none, 1.3), Activity::walking);
+  EXPECT_EQ(classify_activity("Walk", kCalm, none, 2.5), Activity::running);
+  EXPECT_EQ(to_string(Activity::running), "running");
 }
 
 }  // namespace

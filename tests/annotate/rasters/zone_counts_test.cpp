@@ -37,7 +37,7 @@ world::Trace three_people() {
 }
 
 /// Cells after the time, of the row of a frame and an area.
-std::string row_of(const std::string& csv, int frame, const std::string& id) {
+std::string find_row(const std::string& csv, int frame, const std::string& id) {
   std::istringstream lines(csv);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(std::to_string(frame) + ",")) continue;
@@ -54,26 +54,26 @@ TEST(ZoneCounts, ListPeopleInsideAndChanges) {
   const std::string csv = counts_csv(three_people(), kAreas, std::vector<double>{0, 1, 2}, 3);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "frame,time_s,kind,id,inside,inflow,outflow,entered,left");
-  EXPECT_EQ(row_of(csv, 0, "east"), "1,1,0,3000004,");
-  EXPECT_EQ(row_of(csv, 1, "east"), "1,1,1,3000001,3000004");
-  EXPECT_EQ(row_of(csv, 2, "east"), "2,1,0,3000003,");
+  EXPECT_EQ(find_row(csv, 0, "east"), "1,1,0,3000004,");
+  EXPECT_EQ(find_row(csv, 1, "east"), "1,1,1,3000001,3000004");
+  EXPECT_EQ(find_row(csv, 2, "east"), "2,1,0,3000003,");
 }
 
 TEST(ZoneCounts, OfLinesAreEachCrossing) {
   const std::string csv = counts_csv(three_people(), kAreas, std::vector<double>{0, 1, 2}, 3);
   // West of the way north is inward. To and fro within a frame are two crossings.
-  EXPECT_EQ(row_of(csv, 0, "axis"), ",0,0,,");
-  EXPECT_EQ(row_of(csv, 1, "axis"), ",1,2,3000003,3000003 3000001");
-  EXPECT_EQ(row_of(csv, 2, "axis"), ",0,1,,3000003");
-  EXPECT_EQ(row_of(csv, 1, "short"), ",1,1,3000003,3000003") << "agent 0 goes beside it";
+  EXPECT_EQ(find_row(csv, 0, "axis"), ",0,0,,");
+  EXPECT_EQ(find_row(csv, 1, "axis"), ",1,2,3000003,3000003 3000001");
+  EXPECT_EQ(find_row(csv, 2, "axis"), ",0,1,,3000003");
+  EXPECT_EQ(find_row(csv, 1, "short"), ",1,1,3000003,3000003") << "agent 0 goes beside it";
 }
 
 TEST(ZoneCounts, OfLinesAreInTheFrameAfterTheMoment) {
   const std::vector<double> times_s = {0.2, 0.3, 0.8, 5};
   const std::string csv = counts_csv(three_people(), kAreas, times_s, 0);
-  EXPECT_EQ(row_of(csv, 1, "axis"), ",0,1,,3") << "at 0.25 s";
-  EXPECT_EQ(row_of(csv, 2, "axis"), ",1,1,3,1") << "both at 0.75 s";
-  EXPECT_EQ(row_of(csv, 3, "axis"), ",0,1,,3");
+  EXPECT_EQ(find_row(csv, 1, "axis"), ",0,1,,3") << "at 0.25 s";
+  EXPECT_EQ(find_row(csv, 2, "axis"), ",1,1,3,1") << "both at 0.75 s";
+  EXPECT_EQ(find_row(csv, 3, "axis"), ",0,1,,3");
 }
 
 TEST(ZoneCounts, ComeWithTheGroundAndDoors) {

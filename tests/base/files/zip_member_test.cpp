@@ -23,19 +23,19 @@ std::string noise(std::size_t count) {
 TEST(ZipMember, ComesBackWhole) {
   for (const std::string& bytes :
        {std::string(), std::string("a"), std::string(3'000'000, '\0'), noise(700'000)}) {
-    const std::string zip = zip_of("density.npy", bytes);
+    const std::string zip = make_zip("density.npy", bytes);
     EXPECT_EQ(zip_member(zip, "density.npy", bytes.size()), bytes);
-    EXPECT_EQ(zip, zip_of("density.npy", bytes));
+    EXPECT_EQ(zip, make_zip("density.npy", bytes));
     EXPECT_EQ(zip.substr(0, 2), "PK");
   }
 }
 
 TEST(ZipMember, TakesLittleRoomForZeros) {
-  EXPECT_LT(zip_of("a", std::string(4'000'000, '\0')).size(), 40'000U);
+  EXPECT_LT(make_zip("a", std::string(4'000'000, '\0')).size(), 40'000U);
 }
 
 TEST(ZipMember, IsRefusedIfItIsMissingOrTooLarge) {
-  const std::string zip = zip_of("a.npy", std::string(1000, 'x'));
+  const std::string zip = make_zip("a.npy", std::string(1000, 'x'));
   EXPECT_THROW(zip_member(zip, "b.npy", 2000), InputError);
   EXPECT_THROW(zip_member(zip, "a.npy", 999), InputError);
   EXPECT_THROW(zip_member("no zip", "a.npy", 2000), InputError);
@@ -44,7 +44,7 @@ TEST(ZipMember, IsRefusedIfItIsMissingOrTooLarge) {
 
 TEST(ZipMember, DamagedDataAreRefused) {
   const std::string bytes = noise(5000);
-  const std::string zip = zip_of("a.npy", bytes);
+  const std::string zip = make_zip("a.npy", bytes);
   for (std::size_t at = 100; at < 5000; at += 7) {
     std::string damaged = zip;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x41);
@@ -54,7 +54,7 @@ TEST(ZipMember, DamagedDataAreRefused) {
 
 TEST(ZipMember, DamagedHeadersGiveAnErrorOrNoMoreThanIsAllowed) {
   const std::string bytes = noise(5000);
-  const std::string zip = zip_of("a.npy", bytes);
+  const std::string zip = make_zip("a.npy", bytes);
   const auto read = [&](const std::string& damaged) {
     try {
       EXPECT_LE(zip_member(damaged, "a.npy", 2 * bytes.size()).size(), 2 * bytes.size());

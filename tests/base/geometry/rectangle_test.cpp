@@ -23,12 +23,12 @@ TEST(Rectangle, BordersBelongToIt) {
 
 TEST(Rectangle, BoundsAreTheLeastAndGreatestCoordinates) {
   const std::vector<Vector2d> points{{3, -1}, {-2, 5}, {0, 0}};
-  const Rectangle bounds = bounds_of(points);
+  const Rectangle bounds = bounding_box(points);
   EXPECT_EQ(bounds.min, Vector2d(-2, -1));
   EXPECT_EQ(bounds.max, Vector2d(3, 5));
   EXPECT_EQ(bounds.center(), Vector2d(0.5, 2));
   const std::vector<Eigen::Vector2f> one{{4, 4}};
-  EXPECT_EQ(bounds_of(one).min, bounds_of(one).max);
+  EXPECT_EQ(bounding_box(one).min, bounding_box(one).max);
 }
 
 TEST(Rectangle, NearestPointKeepsAMarginWhereThereIsRoom) {

@@ -25,7 +25,8 @@ struct Lamp {
 
 FieldTable<Lamp> lamp_fields() {
   FieldTable<Lamp> table;
-  table.add("kind", "Kind", "", one_of(std::array{"street", "house"}), at(&Lamp::kind), "Kind.");
+  table.add("kind", "Kind", "", one_of_words(std::array{"street", "house"}), at(&Lamp::kind),
+            "Kind.");
   table.group("size", "Size", "");
   table.add("size/height_m", "Height", "m", numbers(1, 12), at(&Lamp::height_m), "Height.");
   table.add("watt", "Power", "W", raw({{"type", "number"}, {"exclusiveMinimum", 0}}),

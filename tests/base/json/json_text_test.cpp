@@ -25,7 +25,7 @@ std::string nested_arrays(std::size_t depth) {
   return std::string(depth, '[') + std::string(depth, ']');
 }
 
-Problem problem_of(const std::string& text, const JsonLimits& limits = {}) {
+Problem caught_problem(const std::string& text, const JsonLimits& limits = {}) {
   try {
     static_cast<void>(parse_json(text, "file", limits));
   } catch (const InputError& error) {
@@ -50,10 +50,10 @@ TEST(JsonText, ReadsTheSameTextsAsTheLibrary) {
 
 TEST(JsonText, DepthIsLimitedBeforeAnythingIsBuilt) {
   EXPECT_EQ(parse_json(nested_arrays(64), "").size(), 1U);
-  EXPECT_THAT(problem_of(nested_arrays(65)).found, HasSubstr("more than 64"));
-  EXPECT_THAT(problem_of(std::string(50'000'000, '[')).found, HasSubstr("more than 64"));
-  EXPECT_THAT(problem_of(repeated("{\"a\":", 30'000'000)).found, HasSubstr("more than 64"));
-  EXPECT_THAT(problem_of(repeated("[{\"a\":", 33)).where, HasSubstr("/0/a/0/a"));
+  EXPECT_THAT(caught_problem(nested_arrays(65)).found, HasSubstr("more than 64"));
+  EXPECT_THAT(caught_problem(std::string(50'000'000, '[')).found, HasSubstr("more than 64"));
+  EXPECT_THAT(caught_problem(repeated("{\"a\":", 30'000'000)).found, HasSubstr("more than 64"));
+  EXPECT_THAT(caught_problem(repeated("[{\"a\":", 33)).where, HasSubstr("/0/a/0/a"));
   // Depth counts what is open, not what has been.
   EXPECT_EQ(parse_json("[" + repeated("[[]],", 1000) + "[]]", "").size(), 1001U);
 }
@@ -65,27 +65,28 @@ TEST(JsonText, SizesAreLimited) {
                             .max_object_keys = 3,
                             .max_key_bytes = 5,
                             .max_number_chars = 30};
-  EXPECT_THAT(problem_of(std::string(101, ' '), small).found, HasSubstr("101 bytes"));
+  EXPECT_THAT(caught_problem(std::string(101, ' '), small).found, HasSubstr("101 bytes"));
   EXPECT_NO_THROW(static_cast<void>(parse_json("[1,2,3,4,5,6,7,8,9]", "", small)));
-  EXPECT_THAT(problem_of("[1,2,3,4,5,6,7,8,9,0]", small).found, HasSubstr("10 values"));
-  EXPECT_THAT(problem_of("[[],[],[],[],[],[],[],[],[],[]]", small).found, HasSubstr("10 values"));
-  EXPECT_THAT(problem_of(R"({"a":1,"b":1,"c":1,"d":1})", small).found, HasSubstr("3 keys"));
-  EXPECT_THAT(problem_of(R"({"a":{"123456":1}})", small).found, HasSubstr("a key of 6 bytes"));
-  EXPECT_EQ(problem_of(R"({"a":{"123456":1}})", small).where, "/a");
-  EXPECT_THAT(problem_of(std::string(31, '9'), small).found, HasSubstr("31 characters"));
+  EXPECT_THAT(caught_problem("[1,2,3,4,5,6,7,8,9,0]", small).found, HasSubstr("10 values"));
+  EXPECT_THAT(caught_problem("[[],[],[],[],[],[],[],[],[],[]]", small).found,
+              HasSubstr("10 values"));
+  EXPECT_THAT(caught_problem(R"({"a":1,"b":1,"c":1,"d":1})", small).found, HasSubstr("3 keys"));
+  EXPECT_THAT(caught_problem(R"({"a":{"123456":1}})", small).found, HasSubstr("a key of 6 bytes"));
+  EXPECT_EQ(caught_problem(R"({"a":{"123456":1}})", small).where, "/a");
+  EXPECT_THAT(caught_problem(std::string(31, '9'), small).found, HasSubstr("31 characters"));
 }
 
 TEST(JsonText, NumbersFitADouble) {
   for (const char* text : {"1e999", "-1e999", "[1e400]"}) {
-    EXPECT_THAT(problem_of(text).found, HasSubstr("the number ")) << text;
-    EXPECT_THAT(problem_of(text).expected, HasSubstr("within the range of a double")) << text;
+    EXPECT_THAT(caught_problem(text).found, HasSubstr("the number ")) << text;
+    EXPECT_THAT(caught_problem(text).expected, HasSubstr("within the range of a double")) << text;
   }
-  EXPECT_THAT(problem_of("1" + std::string(1'000'000, '0')).found, HasSubstr("number"));
-  EXPECT_LE(problem_of("1" + std::string(1'000'000, '0')).found.size(), 400U);
-  EXPECT_THAT(problem_of("0." + std::string(1'000'000, '1')).found, HasSubstr("number"));
+  EXPECT_THAT(caught_problem("1" + std::string(1'000'000, '0')).found, HasSubstr("number"));
+  EXPECT_LE(caught_problem("1" + std::string(1'000'000, '0')).found.size(), 400U);
+  EXPECT_THAT(caught_problem("0." + std::string(1'000'000, '1')).found, HasSubstr("number"));
   for (const char* text : {"NaN", "Infinity", "-Infinity", "nan", "01", "+1", ".5", "1.", "0x1"}) {
-    EXPECT_EQ(problem_of(text).found, text);
-    EXPECT_THAT(problem_of(text).expected, HasSubstr("a number")) << text;
+    EXPECT_EQ(caught_problem(text).found, text);
+    EXPECT_THAT(caught_problem(text).expected, HasSubstr("a number")) << text;
   }
 }
 
@@ -93,10 +94,10 @@ TEST(JsonText, RefusesOtherTexts) {
   for (const std::string& text :
        {std::string("\"\xff\""), std::string("\"\xc0\x80\""), std::string("\"\xed\xa0\x80\""),
         std::string("\"\\ud800\""), std::string("\"\\udc00\\ud800\""), std::string("[1\0]", 4)}) {
-    EXPECT_FALSE(problem_of(text).found.empty()) << text;
-    EXPECT_FALSE(problem_of(text).expected.empty()) << text;
+    EXPECT_FALSE(caught_problem(text).found.empty()) << text;
+    EXPECT_FALSE(caught_problem(text).expected.empty()) << text;
   }
-  EXPECT_THAT(problem_of(R"({"b": {"a": 1, "\u0061": 2}})").found, HasSubstr("\"a\" twice"));
+  EXPECT_THAT(caught_problem(R"({"b": {"a": 1, "\u0061": 2}})").found, HasSubstr("\"a\" twice"));
 }
 
 struct Fault {
@@ -157,7 +158,7 @@ TEST(JsonText, FaultsAreSaidInWordsWithLineAndColumn) {
       {"\"\xff\"", "line 1, column 1", "not UTF-8", "UTF-8"},
   };
   for (const Fault& fault : faults) {
-    const Problem problem = problem_of(fault.text);
+    const Problem problem = caught_problem(fault.text);
     EXPECT_EQ(problem.where, fault.where) << fault.text;
     EXPECT_THAT(problem.found, HasSubstr(fault.found)) << fault.text;
     EXPECT_THAT(problem.expected, HasSubstr(fault.expected)) << fault.text;
@@ -165,15 +166,15 @@ TEST(JsonText, FaultsAreSaidInWordsWithLineAndColumn) {
 }
 
 TEST(JsonText, FilesThatAreEmptyOrNoTextAreRecognized) {
-  EXPECT_EQ(problem_of("").text(), "file: found an empty file, expected valid JSON");
-  EXPECT_EQ(problem_of(" \r\n\t").found, "an empty file");
-  EXPECT_EQ(problem_of("\xef\xbb\xbf").found, "an empty file");
-  EXPECT_EQ(problem_of(std::string("\xff\xfe{\0}\0", 6)).found, "a file in UTF-16");
-  EXPECT_EQ(problem_of(std::string("\0{\0}", 4)).found, "a file in UTF-16");
-  EXPECT_EQ(problem_of(std::string("{\0}\0", 4)).found, "a file in UTF-16");
-  EXPECT_EQ(problem_of("PK\x03\x04").found, "a file in zip");
+  EXPECT_EQ(caught_problem("").text(), "file: found an empty file, expected valid JSON");
+  EXPECT_EQ(caught_problem(" \r\n\t").found, "an empty file");
+  EXPECT_EQ(caught_problem("\xef\xbb\xbf").found, "an empty file");
+  EXPECT_EQ(caught_problem(std::string("\xff\xfe{\0}\0", 6)).found, "a file in UTF-16");
+  EXPECT_EQ(caught_problem(std::string("\0{\0}", 4)).found, "a file in UTF-16");
+  EXPECT_EQ(caught_problem(std::string("{\0}\0", 4)).found, "a file in UTF-16");
+  EXPECT_EQ(caught_problem("PK\x03\x04").found, "a file in zip");
   EXPECT_EQ(parse_json("\xef\xbb\xbf{}", ""), json::object());  // the mark of UTF-8 is taken
-  EXPECT_EQ(problem_of("\xef\xbb\xbf[1,]").where, "line 1, column 3");
+  EXPECT_EQ(caught_problem("\xef\xbb\xbf[1,]").where, "line 1, column 3");
   try {
     static_cast<void>(parse_json("", ""));
   } catch (const InputError& error) {

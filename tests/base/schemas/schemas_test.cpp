@@ -37,13 +37,13 @@ TEST(Schemas, AreTheFilesOfTheFolder) {
     const std::string file =
         source_folder().string() + "/base/schemas/" + std::string(entry.name) + ".schema.json";
     EXPECT_EQ(read_file(file), entry.text) << entry.name;
-    EXPECT_EQ(schema_of(entry.kind).document()["title"], "throng " + std::string(entry.name));
+    EXPECT_EQ(schema_for(entry.kind).document()["title"], "throng " + std::string(entry.name));
   }
 }
 
 TEST(Schemas, EveryFieldIsDescribed) {
   for (const Entry& entry : entries()) {
-    const json& schema = schema_of(entry.kind).document();
+    const json& schema = schema_for(entry.kind).document();
     visit(schema, "", [&](const json& rules, const std::string& place) {
       if (!rules.contains("properties")) return;
       for (const auto& [name, part] : rules["properties"].items()) {
@@ -59,7 +59,7 @@ TEST(Schemas, EveryFieldIsDescribed) {
 
 TEST(Schemas, ReferencesAndRequiredFieldsExist) {
   for (const Entry& entry : entries()) {
-    const json& schema = schema_of(entry.kind).document();
+    const json& schema = schema_for(entry.kind).document();
     std::set<std::string> used;
     visit(schema, "", [&](const json& rules, const std::string& place) {
       if (rules.contains("$ref")) {

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-images::GrayImage gray_of(const cv::Mat& image) {
+images::GrayImage to_gray(const cv::Mat& image) {
   return {image.cols, image.rows, {image.datastart, image.dataend}};
 }
 
@@ -47,7 +47,7 @@ Askew askew(const cv::Mat& flat, double shift = 0) {
   cv::warpPerspective(flat, large, result.homography, cv::Size(900, 700), cv::INTER_AREA,
                       cv::BORDER_CONSTANT, cv::Scalar(255));
   cv::GaussianBlur(large, large, cv::Size(5, 5), 0.8);
-  result.image = gray_of(large.clone());
+  result.image = to_gray(large.clone());
   return result;
 }
 

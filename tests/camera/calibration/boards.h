@@ -61,7 +61,7 @@ inline SyntheticViews synthetic_views(const SyntheticCamera& camera, int views, 
             .toRotationMatrix();
     const double z = random.uniform(0.25, 0.6);
     const Eigen::Vector3d at(z * random.uniform(-0.8, 0.8), z * random.uniform(-0.45, 0.45), z);
-    const ViewPose pose = view_pose_of({turn, at});
+    const ViewPose pose = to_view_pose({turn, at});
     View view{"view" + std::to_string(result.poses.size()), {}, {}};
     bool whole = true;
     for (const Eigen::Vector3d& corner : board_corners()) {

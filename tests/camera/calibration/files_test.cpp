@@ -94,7 +94,7 @@ TEST_F(Files, TablesThatAreNoneAreRefused) {
               }),
               HasSubstr("2 of 2 images have points outside"));
   EXPECT_THROW(read_correspondences(base_ / "none.csv", {9, 9}), EnvironmentError);
-  EXPECT_THAT(error_of([&] { image_size_of("640", "--size"); }), HasSubstr("WIDTHxHEIGHT"));
+  EXPECT_THAT(error_of([&] { parse_image_size("640", "--size"); }), HasSubstr("WIDTHxHEIGHT"));
 }
 
 TEST_F(Files, ACameraNeedsOnlyItsParameters) {

@@ -29,13 +29,13 @@ TEST(Intrinsics, ExactPointsGiveTheExactCamera) {
     IntrinsicsOptions options;
     options.lens = lens;
     const Calibration found = calibrate_intrinsics(views.all, options);
-    EXPECT_LT(found.rms_px, 1e-6) << name_of(lens);
+    EXPECT_LT(found.rms_px, 1e-6) << to_string(lens);
     EXPECT_EQ(found.rejected, 0U);
     for (std::size_t i = 0; i < kParameters; ++i) {
       // Numerator and denominator of brown8 nearly do the same: only their quotient is sharp.
       const double tolerance = i < kCoefficients ? 1e-4 : lens == Lens::brown8 ? 0.02 : 1e-6;
       EXPECT_NEAR(found.parameters[i], camera.parameters[i], tolerance)
-          << name_of(lens) << ' ' << parameter_name(lens, i);
+          << to_string(lens) << ' ' << parameter_name(lens, i);
     }
   }
 }
@@ -135,7 +135,7 @@ TEST(Intrinsics, TheBicFindsTheLensThatWasThere) {
     options.choose_lens = true;
     options.wishes.fixed["k6"] = 0;  // only some of the lenses have it
     const Calibration found = calibrate_intrinsics(views.all, options);
-    EXPECT_EQ(name_of(found.lens), name_of(lens));
+    EXPECT_EQ(to_string(found.lens), to_string(lens));
     ASSERT_FALSE(found.models.empty());
     EXPECT_EQ(found.models.front().lens, found.lens);
   }
@@ -153,7 +153,7 @@ TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
   Correspondences all;
   all.size = camera.size;
   for (int i = 0; i < 4; ++i) {
-    const ViewPose pose = view_pose_of({Eigen::Matrix3d::Identity(), {0.02 * i, 0, 0.4}});
+    const ViewPose pose = to_view_pose({Eigen::Matrix3d::Identity(), {0.02 * i, 0, 0.4}});
     View view{"flat" + std::to_string(i), board_corners(), {}};
     for (const auto& corner : view.points) view.pixels.push_back(camera.pixel_of(pose, corner));
     all.views.push_back(std::move(view));
@@ -184,7 +184,7 @@ TEST(Intrinsics, RefuseTooFewViews) {
   EXPECT_NEAR(calibrate_intrinsics(views.all, options).parameters[kFx], 1200, 100);
 }
 
-std::string refusal_of(const Correspondences& all, const IntrinsicsOptions& options = {}) {
+std::string refusal_message(const Correspondences& all, const IntrinsicsOptions& options = {}) {
   try {
     calibrate_intrinsics(all, options);
   } catch (const InputError& error) {
@@ -206,7 +206,7 @@ TEST(Intrinsics, RefuseOneViewGivenManyTimes) {
         view.pixels[i].y() += random.normal(0, noise_px);
       }
     }
-    EXPECT_THAT(refusal_of(all), HasSubstr("different ones")) << noise_px;
+    EXPECT_THAT(refusal_message(all), HasSubstr("different ones")) << noise_px;
   }
 }
 
@@ -229,7 +229,7 @@ TEST(Intrinsics, RefuseAPrincipalPointOutsideTheImage) {
   for (View& view : all.views) {
     for (Eigen::Vector2d& pixel : view.pixels) pixel.x() += 1000;
   }
-  EXPECT_THAT(refusal_of(all), HasSubstr("principal point"));
+  EXPECT_THAT(refusal_message(all), HasSubstr("principal point"));
   camera.parameters[kCx] = 1400;
   EXPECT_THAT(calibrate_intrinsics(synthetic_views(camera, 12, 0.1, 3).all, {}).warnings,
               Contains(HasSubstr("far from the middle")));

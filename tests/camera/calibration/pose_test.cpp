@@ -44,7 +44,7 @@ Eigen::Vector3d ground_point(const CameraFile& file, const camera::Pose& pose, R
 }
 
 /// Position of an image's camera in the calibration.
-Eigen::Vector3d center_of(const Calibration& calibration, const std::string& image) {
+Eigen::Vector3d camera_center(const Calibration& calibration, const std::string& image) {
   for (const ViewResult& view : calibration.views) {
     if (view.name == image) return view.pose.pose().center();
   }
@@ -190,7 +190,8 @@ TEST(Bundle, FindsPosesPointsAndTheLensTogether) {
   EXPECT_NEAR(found.parameters[kFx], 1200, 3 * found.sd[kFx]);
   EXPECT_LT(found.sd[kFx], 3);
   for (std::size_t i = 0; i < all.poses.size(); ++i) {
-    EXPECT_LT((center_of(found, "frame" + std::to_string(i)) - all.poses[i].center()).norm(), 0.15);
+    EXPECT_LT((camera_center(found, "frame" + std::to_string(i)) - all.poses[i].center()).norm(),
+              0.15);
   }
 }
 
@@ -213,7 +214,7 @@ TEST(Bundle, PlacesImagesThatSeeNoControlPoints) {
   options.fix_lens = true;
   const Calibration found = adjust_bundle(drone_camera(), all.control, all.pixels, options);
   EXPECT_EQ(found.views.size(), 6U);
-  EXPECT_LT((center_of(found, "frame5") - all.poses[5].center()).norm(), 0.15);
+  EXPECT_LT((camera_center(found, "frame5") - all.poses[5].center()).norm(), 0.15);
 }
 
 }  // namespace

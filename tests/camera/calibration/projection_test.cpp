@@ -18,8 +18,8 @@ TEST(Projection, IsThatOfTheCamerasThatRender) {
     for (std::size_t i = kCoefficients; i < kParameters; ++i) {
       if (!parameter_name(lens, i).empty()) p[i] = 0.5 * values[i];
     }
-    const camera::Intrinsics k = intrinsics_of(lens, p, 640, 480);
-    EXPECT_EQ(parameters_of(k), p);
+    const camera::Intrinsics k = to_intrinsics(lens, p, 640, 480);
+    EXPECT_EQ(to_parameters(k), p);
     for (double x = -0.45; x < 0.5; x += 0.15) {
       for (double y = -0.3; y < 0.35; y += 0.15) {
         const Eigen::Vector3d point(2 * x, 2 * y, 2);
@@ -27,7 +27,7 @@ TEST(Projection, IsThatOfTheCamerasThatRender) {
         ASSERT_TRUE(project(lens == Lens::fisheye, p.data(), point.data(), pixel.data()));
         const auto wanted = k.pixel_of({x, y});
         ASSERT_TRUE(wanted.has_value());
-        EXPECT_LT((pixel - *wanted).norm(), 1e-9) << name_of(lens) << ' ' << x << ' ' << y;
+        EXPECT_LT((pixel - *wanted).norm(), 1e-9) << to_string(lens) << ' ' << x << ' ' << y;
         const auto back = k.direction_of(pixel);
         ASSERT_TRUE(back.has_value());
         EXPECT_LT((*back - Eigen::Vector2d(x, y)).norm(), 1e-9);
@@ -43,9 +43,9 @@ TEST(Projection, IsThatOfOpenCv) {
     Parameters p{900, 897, 642.3, 356.1, 0, -0.25, 0.08, 0.0006, -0.0004, -0.01};
     if (lens == Lens::brown8) p[10] = 0.03;
     if (lens == Lens::fisheye) p = {500, 501, 640, 360, 0, -0.02, 0.004, -0.001, 0.0002};
-    const camera::Camera camera{intrinsics_of(lens, p, 1280, 720),
+    const camera::Camera camera{to_intrinsics(lens, p, 1280, 720),
                                 camera::pose_looking({1, 2, 30}, 0.4, -1.1)};
-    const ViewPose pose = view_pose_of(camera.pose);
+    const ViewPose pose = to_view_pose(camera.pose);
     const cv::Vec3d rotation(pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
     const cv::Vec3d translation(pose.translation.x(), pose.translation.y(), pose.translation.z());
     const cv::Matx33d matrix(p[kFx], 0, p[kCx], 0, p[kFy], p[kCy], 0, 0, 1);
@@ -63,7 +63,7 @@ TEST(Projection, IsThatOfOpenCv) {
         } else {
           cv::projectPoints(world, rotation, translation, matrix, coefficients, theirs);
         }
-        EXPECT_NEAR(ours.pixel.x(), theirs[0].x, 1e-6) << name_of(lens) << ' ' << x << ' ' << y;
+        EXPECT_NEAR(ours.pixel.x(), theirs[0].x, 1e-6) << to_string(lens) << ' ' << x << ' ' << y;
         EXPECT_NEAR(ours.pixel.y(), theirs[0].y, 1e-6);
         EXPECT_LT((camera.unproject(ours.pixel, ours.depth_m) - point).norm(), 1e-6);
       }
@@ -81,19 +81,19 @@ TEST(Projection, ShowsNothingBehindTheCamera) {
 TEST(Rules, RefuseContradictions) {
   Wishes wishes;
   wishes.fixed["k9"] = 0;
-  EXPECT_THROW(rules_of(Lens::brown5, wishes, "--fix"), InputError);
+  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
   wishes = {};
   wishes.fixed["k3"] = 0;
-  EXPECT_THROW(rules_of(Lens::brown4, wishes, "--fix"), InputError);
+  EXPECT_THROW(calibration_rules(Lens::brown4, wishes, "--fix"), InputError);
   wishes.priors["k3"] = {0, 0.1};
-  EXPECT_THROW(rules_of(Lens::brown5, wishes, "--fix"), InputError);
+  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
   wishes = {};
   wishes.tied["fx"] = {"fy", 1};
   wishes.tied["fy"] = {"fx", 1};
-  EXPECT_THROW(rules_of(Lens::brown5, wishes, "--tie"), InputError);
+  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--tie"), InputError);
   wishes = {};
   wishes.fixed["fx"] = std::nullopt;
-  EXPECT_THROW(rules_of(Lens::brown5, wishes, "--fix"), InputError);
+  EXPECT_THROW(calibration_rules(Lens::brown5, wishes, "--fix"), InputError);
 }
 
 }  // namespace

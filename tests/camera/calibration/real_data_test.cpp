@@ -110,7 +110,7 @@ TEST_F(RealData, CollapsedCornersAreFound) {
   EXPECT_NEAR(found.parameters[kFx], reference("left_full").at("fx").get<double>(), 2);
 }
 
-std::vector<double> numbers_of(const fs::path& file) {
+std::vector<double> parse_numbers(const fs::path& file) {
   std::ifstream text(file);
   std::vector<double> numbers;
   for (double number = 0; text >> number;) numbers.push_back(number);
@@ -118,13 +118,13 @@ std::vector<double> numbers_of(const fs::path& file) {
 }
 
 TEST_F(RealData, ZhangsPointsGiveHisCameraWithSkew) {
-  const std::vector<double> model = numbers_of(folder() / "zhang" / "Model.txt");
+  const std::vector<double> model = parse_numbers(folder() / "zhang" / "Model.txt");
   ASSERT_EQ(model.size(), 512U);
   Correspondences all;
   all.size = {640, 480};
   for (int i = 1; i <= 5; ++i) {
     const std::string name = "data" + std::to_string(i) + ".txt";
-    const std::vector<double> data = numbers_of(folder() / "zhang" / name);
+    const std::vector<double> data = parse_numbers(folder() / "zhang" / name);
     ASSERT_EQ(data.size(), model.size());
     View view{name, {}, {}};
     for (std::size_t k = 0; k < model.size(); k += 2) {

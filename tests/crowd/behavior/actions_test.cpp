@@ -9,7 +9,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 /// Agents alternate between Start and Other every second; Start has the action.
 Simulation alternating(const std::string& action, const std::string& agents,
@@ -40,7 +40,7 @@ std::vector<float> radii(const std::string& attributes, Compat compat = Compat::
   std::vector<float> all;
   for (const double time_s : {0.15, 2.25, 4.25, 6.25}) {
     while (crowd.time_s() < time_s) crowd.step();
-    EXPECT_EQ(state_of(crowd, 0), "Start");
+    EXPECT_EQ(state_name(crowd, 0), "Start");
     all.push_back(crowd.radii_m()[0]);
   }
   return all;
@@ -94,7 +94,7 @@ TEST(Conditions, ClearBoxes) {
         load(scene_with(agent_at(0, 0) + agent_at(3, 0), R"(class="5")"),
              test::condition_behavior(R"(<Condition type="clear_AABB" )" + attributes + "/>"));
     crowd.step();
-    return std::pair(state_of(crowd, 0) == "End", state_of(crowd, 1) == "End");
+    return std::pair(state_name(crowd, 0) == "End", state_name(crowd, 1) == "End");
   };
   const std::string ahead = R"(min_x="1" max_x="4" min_y="-1" max_y="1" )";
   EXPECT_EQ(goes_on(ahead + R"(relative="1")"), std::pair(false, true));
@@ -117,7 +117,7 @@ TEST(Timers, OnesForAllAreTheSameInAllStatesOfAList) {
     </Transition></BFSM>)");
   while (!crowd.all_final() && crowd.time_s() < 10) {
     crowd.step();
-    EXPECT_EQ(state_of(crowd, 0) == "End", state_of(crowd, 1) == "End") << crowd.time_s();
+    EXPECT_EQ(state_name(crowd, 0) == "End", state_name(crowd, 1) == "End") << crowd.time_s();
   }
   EXPECT_TRUE(crowd.all_final());
 }

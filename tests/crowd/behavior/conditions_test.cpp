@@ -10,14 +10,14 @@ using test::agent_at;
 using test::condition_behavior;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 /// Whether an agent standing at (x, y) goes on in its first step.
 bool holds(const std::string& condition, double x, double y, const std::string& goals = "") {
   Simulation crowd =
       load(scene_with(agent_at(x, y), R"(r="0.2")"), condition_behavior(condition, goals));
   crowd.step();
-  return state_of(crowd, 0) == "End";
+  return state_name(crowd, 0) == "End";
 }
 
 /// When each agent goes on.
@@ -27,7 +27,7 @@ std::vector<double> end_times(Simulation crowd, double until_s) {
     const double now = crowd.time_s();
     crowd.step();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (times[i] < 0 && state_of(crowd, i) == "End") times[i] = now;
+      if (times[i] < 0 && state_name(crowd, i) == "End") times[i] = now;
     }
   }
   return times;
@@ -117,7 +117,7 @@ TEST(Conditions, GoalReachedMeasuresToTheRegion) {
            <Condition type="goal_reached" distance=")" + std::to_string(distance) +
                                                             R"("/></Transition></BFSM>)");
     crowd.step();
-    return state_of(crowd, 0) == "End";
+    return state_name(crowd, 0) == "End";
   };
   const std::string circle = R"(type="circle" x="0" y="0" radius="2")";
   EXPECT_TRUE(reached(circle, 0, 0, 0)) << "the middle of a disc is in the disc";
@@ -249,14 +249,14 @@ TEST(Conditions, TimeWithinCountsInAllStatesAndAfterAPause) {
   double within_s = 0;
   int visits = 0;
   bool was_within = false;
-  while (state_of(crowd, 1) != "Hurt" && crowd.time_s() < 60) {
+  while (state_name(crowd, 1) != "Hurt" && crowd.time_s() < 60) {
     crowd.step();
     const bool within = crowd.positions()[1].x() < 3.2F;
     if (within) within_s += crowd.dt_s();
     if (within && !was_within) ++visits;
     was_within = within;
   }
-  EXPECT_EQ(state_of(crowd, 1), "Hurt");
+  EXPECT_EQ(state_name(crowd, 1), "Hurt");
   EXPECT_NEAR(within_s, 5, 0.21);
   EXPECT_GE(visits, 2);
 }

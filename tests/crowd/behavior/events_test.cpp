@@ -11,7 +11,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 const std::string kAll =
     R"(<Target name="all" type="named_state_member" state="Nobody" is_member="0"/>)";
@@ -122,8 +122,8 @@ TEST(Events, ChangeStatesAndReenterThemOnlyIfToldTo) {
     while (crowd.time_s() < 0.55) crowd.step();
     crowd.fire("call");
     while (crowd.time_s() < time_s) crowd.step();
-    EXPECT_EQ(state_of(crowd, 0), time_s > 1.1 ? "End" : "Start");
-    return state_of(crowd, 1);
+    EXPECT_EQ(state_name(crowd, 0), time_s > 1.1 ? "End" : "Start");
+    return state_name(crowd, 1);
   };
   EXPECT_EQ(state_at(R"(type="change_state" state="Nobody"/>)", 0.75), "Nobody");
   EXPECT_EQ(
@@ -141,7 +141,7 @@ TEST(Events, ChangeStatesAndReenterThemOnlyIfToldTo) {
       "Start");
 }
 
-std::string problem_of(const std::string& events, const std::string& attributes = "") {
+std::string caught_problem(const std::string& events, const std::string& attributes = "") {
   try {
     crowd_with(events, attributes);
   } catch (const InputError& error) {
@@ -153,9 +153,9 @@ std::string problem_of(const std::string& events, const std::string& attributes 
 TEST(Events, ConservativeSystemsRejectMistakes) {
   const std::string good = kStarters + kFaster;
   const auto rejected = [&](const std::string& events, const std::string& text) {
-    EXPECT_NE(problem_of(events).find(text), std::string::npos) << problem_of(events);
+    EXPECT_NE(caught_problem(events).find(text), std::string::npos) << caught_problem(events);
   };
-  EXPECT_EQ(problem_of(good + event(kCall, response("faster", "starters"))), "accepted");
+  EXPECT_EQ(caught_problem(good + event(kCall, response("faster", "starters"))), "accepted");
   rejected(good + event(kCall, response("slower", "starters")), "\"slower\"");
   rejected(good + event(kCall, response("faster", "nobody")), "\"nobody\"");
   rejected(good + event(kCall, ""), "no <Response>");
@@ -173,7 +173,7 @@ TEST(Events, OthersLeaveItOutWithAWarning) {
   const std::string events =
       R"(<Target name="bad" type="agent_id" id="4"/>)" + kStarters + kFaster +
       event(kCall, response("faster", "bad") + response("faster", "starters"));
-  EXPECT_NE(problem_of(events, R"(conservative="1")"), "accepted");
+  EXPECT_NE(caught_problem(events, R"(conservative="1")"), "accepted");
   Simulation crowd = crowd_with(events, R"(conservative="0")");
   ASSERT_GE(crowd.warnings().size(), 2U);
   EXPECT_NE(crowd.warnings()[0].text().find("left out"), std::string::npos);

@@ -10,7 +10,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 const std::string kLine = R"(<GoalSet id="0">
   <Goal id="5" type="point" x="30" y="0" weight="0"/>
@@ -95,7 +95,7 @@ TEST(GoalSelectors, LeavingAStateFreesItsGoal) {
   EXPECT_EQ(crowd.goals()[0].goal, 1);
   EXPECT_EQ(crowd.goals()[1].goal, -1);
   crowd.step();
-  EXPECT_EQ(state_of(crowd, 0), "Other");
+  EXPECT_EQ(state_name(crowd, 0), "Other");
   EXPECT_EQ(crowd.goals()[0].goal, -1);
 }
 

@@ -10,7 +10,7 @@ namespace {
 using test::agent_at;
 using test::load;
 using test::scene_with;
-using test::state_of;
+using test::state_name;
 
 const std::vector<Eigen::Vector2d> kSquare = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
 
@@ -218,7 +218,7 @@ bool reached(const std::string& goal, double distance, double x, double y, Compa
                               std::to_string(distance) + R"("/></Transition></BFSM>)",
                           {.compat = compat});
   crowd.step();
-  return state_of(crowd, 0) == "End";
+  return state_name(crowd, 0) == "End";
 }
 
 TEST(Goals, CompatibleRunsMeasureAsMengeDoes) {

@@ -77,7 +77,7 @@ TEST(Panic, MakesPeopleHurryAndLeadsOutOfStates) {
   const Simulation crowd = after(R"(rate="5" speed_factor="1.8")", 10);
   bool any = false;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
-    if (test::state_of(crowd, i) != "Run") continue;
+    if (test::state_name(crowd, i) != "Run") continue;
     any = true;
     EXPECT_EQ(crowd.panicked()[i], 1);
   }

@@ -40,7 +40,7 @@ std::vector<Eigen::Vector2f> positions_after(Simulation crowd, int steps) {
   return {crowd.positions().begin(), crowd.positions().end()};
 }
 
-Problem problem_of(const SceneDescription& scene, const BehaviorDescription& behavior) {
+Problem caught_problem(const SceneDescription& scene, const BehaviorDescription& behavior) {
   try {
     const Simulation crowd(scene, behavior, {});
   } catch (const InputError& error) {
@@ -183,7 +183,7 @@ TEST(Builders, ReplaceAnAttributeThatIsSetAgain) {
 TEST(Errors, NameTheBuiltElement) {
   SceneBuilder scene = two_people();
   scene.add_group({.profile = "child", .state = "Walk", .generator = agents_at({{5, 5}})});
-  Problem problem = problem_of(scene.build(), walk_right().build());
+  Problem problem = caught_problem(scene.build(), walk_right().build());
   EXPECT_EQ(problem.source, "scene");
   EXPECT_THAT(problem.where, HasSubstr("built in code"));
   EXPECT_THAT(problem.where, HasSubstr(R"(<ProfileSelector type="const" name="child">)"));
@@ -191,20 +191,21 @@ TEST(Errors, NameTheBuiltElement) {
 
   BehaviorBuilder behavior = walk_right();
   behavior.add_transition("Walk", "Gone", goal_reached());
-  problem = problem_of(two_people().build(), behavior.build());
+  problem = caught_problem(two_people().build(), behavior.build());
   EXPECT_EQ(problem.source, "behavior");
   EXPECT_THAT(problem.where,
               HasSubstr(R"(built in code, element <Transition from="Walk" to="Gone">)"));
 
   behavior = walk_right();
   behavior.add_goal_set(1, {Node("Goal", {{"id", 0}, {"x", 1}, {"x", 2}})});
-  problem = problem_of(two_people().build(), behavior.build());
+  problem = caught_problem(two_people().build(), behavior.build());
   EXPECT_THAT(problem.where, HasSubstr(R"(attribute "x")"));
   EXPECT_THAT(problem.found, HasSubstr("twice"));
 
   SceneDescription other = two_people().build();
   other.root.name = "Experimnt";
-  EXPECT_THAT(problem_of(other, walk_right().build()).found, HasSubstr("did you mean Experiment?"));
+  EXPECT_THAT(caught_problem(other, walk_right().build()).found,
+              HasSubstr("did you mean Experiment?"));
 }
 
 TEST(Errors, OfAFileThatWasChangedInCodeTellThemApart) {
@@ -212,12 +213,12 @@ TEST(Errors, OfAFileThatWasChangedInCodeTellThemApart) {
   SceneDescription scene = read_scene(folder.write("scene.xml", to_xml(two_people().build())));
   BehaviorDescription behavior = walk_right().build();
   scene.root.children[2].children[0].set({"r", "wide"});
-  Problem problem = problem_of(scene, behavior);
+  Problem problem = caught_problem(scene, behavior);
   EXPECT_EQ(problem.source, "scene.xml");
   EXPECT_THAT(problem.where, HasSubstr("line 6, element <Common>"));
   scene.root.children[2].children[0].set({"r", 0.2});
   scene.root.add(Node("Wall", {{"p_x", 1}}));
-  problem = problem_of(scene, behavior);
+  problem = caught_problem(scene, behavior);
   EXPECT_EQ(problem.source, "scene.xml");
   EXPECT_THAT(problem.where, HasSubstr(R"(built in code, element <Wall p_x="1">)"));
 }
@@ -238,7 +239,7 @@ TEST(Descriptions, NameFilesOfTheirFolderOrInMemory) {
   description.files = {{"field.txt", "1 1\n10\n0 0\n0 1\n"}};
   EXPECT_EQ(positions_after(Simulation(two_people().build(), description, {}), 10), there);
   description.files = {{"field.txt", "1 1\n10\n0 0\n0 north\n"}};
-  EXPECT_EQ(problem_of(two_people().build(), description).source, "field.txt");
+  EXPECT_EQ(caught_problem(two_people().build(), description).source, "field.txt");
 }
 
 TEST(Descriptions, CanBeSimulatedSeveralTimesAtOnce) {

@@ -116,7 +116,7 @@ std::vector<double> leave_times(const std::string& distribution, int count,
     const double now_s = crowd.time_s();
     crowd.step();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (times[i] < 0 && test::state_of(crowd, i) == "End") times[i] = now_s;
+      if (times[i] < 0 && test::state_name(crowd, i) == "End") times[i] = now_s;
     }
   }
   return times;
@@ -136,7 +136,7 @@ TEST(Distribution, PremovementTimesCanHaveAnyOfThem) {
   }
 }
 
-Problem problem_of(const std::string& distribution) {
+Problem caught_problem(const std::string& distribution) {
   try {
     leave_times(distribution, 1);
   } catch (const InputError& error) {
@@ -146,18 +146,19 @@ Problem problem_of(const std::string& distribution) {
 }
 
 TEST(Distribution, ReportsMistakes) {
-  EXPECT_NE(problem_of(R"(dist="lognromal")").found.find("did you mean lognormal"),
+  EXPECT_NE(caught_problem(R"(dist="lognromal")").found.find("did you mean lognormal"),
             std::string::npos)
-      << problem_of(R"(dist="lognromal")").found;
-  EXPECT_NE(problem_of(R"(dist="weibull" shape="0" scale="2")").where.find("shape"),
+      << caught_problem(R"(dist="lognromal")").found;
+  EXPECT_NE(caught_problem(R"(dist="weibull" shape="0" scale="2")").where.find("shape"),
             std::string::npos);
-  EXPECT_EQ(problem_of(R"(dist="gamma" shape="2")").found, "nothing");
-  EXPECT_NE(
-      problem_of(R"(dist="n" mean="10" stddev="1" at_least="20")").found.find("one in a million"),
-      std::string::npos);
+  EXPECT_EQ(caught_problem(R"(dist="gamma" shape="2")").found, "nothing");
+  EXPECT_NE(caught_problem(R"(dist="n" mean="10" stddev="1" at_least="20")")
+                .found.find("one in a million"),
+            std::string::npos);
   EXPECT_FALSE(
-      problem_of(R"(dist="exponential" mean="10" at_least="5" at_most="4")").found.empty());
-  EXPECT_TRUE(problem_of(R"(dist="exponential" mean="10" at_least="5" at_most="6")").found.empty());
+      caught_problem(R"(dist="exponential" mean="10" at_least="5" at_most="4")").found.empty());
+  EXPECT_TRUE(
+      caught_problem(R"(dist="exponential" mean="10" at_least="5" at_most="6")").found.empty());
 }
 
 }  // namespace

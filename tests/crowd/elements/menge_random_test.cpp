@@ -154,7 +154,7 @@ TEST(MengeSequences, GoOnThroughTheBehavior) {
   crowd.step();
   MengeRandom target(53);
   for (std::size_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(test::state_of(crowd, i), target.uniform() < 0.5 ? "Left" : "Right") << i;
+    EXPECT_EQ(test::state_name(crowd, i), target.uniform() < 0.5 ? "Left" : "Right") << i;
   }
 }
 

@@ -38,8 +38,8 @@ const std::string kWait = R"(<BFSM>
   <Transition from="Wait" to="Go"><Condition type="timer" dist="c" value="20" per_agent="0"/></Transition>
 </BFSM>)";
 
-Simulation crowd_of(const std::string& facing, std::uint64_t seed = 1,
-                    Compat compat = Compat::none) {
+Simulation crowd_with_facing(const std::string& facing, std::uint64_t seed = 1,
+                             Compat compat = Compat::none) {
   LoadOptions options;
   options.seed = seed;
   options.compat = compat;
@@ -77,7 +77,7 @@ std::vector<double> quarters(const Simulation& crowd) {
 }
 
 TEST(Facing, AnAudienceLooksAtItsStageAllTheTime) {
-  Simulation crowd = crowd_of(R"(<Facing type="towards" x="4" y="40"/>)");
+  Simulation crowd = crowd_with_facing(R"(<Facing type="towards" x="4" y="40"/>)");
   const auto to_stage = [](const Eigen::Vector2f& at) {
     return std::atan2(40.0 - static_cast<double>(at.y()), 4.0 - static_cast<double>(at.x()));
   };
@@ -94,21 +94,21 @@ TEST(Facing, AnAudienceLooksAtItsStageAllTheTime) {
 }
 
 TEST(Facing, DirectionAndSpread) {
-  const Simulation crowd = crowd_of(R"(<Facing type="direction" angle="90" spread="0"/>)");
+  const Simulation crowd = crowd_with_facing(R"(<Facing type="direction" angle="90" spread="0"/>)");
   EXPECT_LT(off_by(crowd, [](const Eigen::Vector2f&) { return kPi / 2; }).second, 1e-5);
 }
 
 TEST(Facing, OthersLookAnywhereOtherForEverySeed) {
   for (const std::string facing : {"", R"(<Facing type="random"/>)"}) {
-    Simulation crowd = crowd_of(facing);
+    Simulation crowd = crowd_with_facing(facing);
     for (const double share : quarters(crowd)) EXPECT_NEAR(share, 0.25, 0.08);
     watch_until(crowd, 10);
     for (const double share : quarters(crowd)) EXPECT_NEAR(share, 0.25, 0.08);
-    const Simulation other = crowd_of(facing, 2);
-    const Simulation again = crowd_of(facing, 1);
+    const Simulation other = crowd_with_facing(facing, 2);
+    const Simulation again = crowd_with_facing(facing, 1);
     int equal = 0;
     for (std::size_t i = 0; i < 400; ++i) {
-      EXPECT_NEAR(again.yaws_rad()[i], crowd_of(facing, 1).yaws_rad()[i], 0);
+      EXPECT_NEAR(again.yaws_rad()[i], crowd_with_facing(facing, 1).yaws_rad()[i], 0);
       equal += std::abs(other.yaws_rad()[i] - again.yaws_rad()[i]) < 0.01F ? 1 : 0;
       if (i > 20) break;
     }
@@ -117,7 +117,7 @@ TEST(Facing, OthersLookAnywhereOtherForEverySeed) {
 }
 
 TEST(Facing, CompatibleRunsFaceTheWayAsMengeDoes) {
-  const Simulation crowd = crowd_of("", 1, Compat::menge);
+  const Simulation crowd = crowd_with_facing("", 1, Compat::menge);
   EXPECT_LT(off_by(crowd, [](const Eigen::Vector2f&) { return 0.0; }).second, 1e-6);
 }
 
@@ -133,9 +133,9 @@ TEST(Facing, AgentsThatWalkFromTheStartFaceTheirDirection) {
 }
 
 TEST(Facing, IsCheckedLikeEverythingElse) {
-  EXPECT_THROW(crowd_of(R"(<Facing type="up"/>)"), InputError);
-  EXPECT_THROW(crowd_of(R"(<Facing type="towards" x="4"/>)"), InputError);
-  EXPECT_THROW(crowd_of(R"(<Facing type="random"/><Facing type="random"/>)"), InputError);
+  EXPECT_THROW(crowd_with_facing(R"(<Facing type="up"/>)"), InputError);
+  EXPECT_THROW(crowd_with_facing(R"(<Facing type="towards" x="4"/>)"), InputError);
+  EXPECT_THROW(crowd_with_facing(R"(<Facing type="random"/><Facing type="random"/>)"), InputError);
 }
 
 }  // namespace

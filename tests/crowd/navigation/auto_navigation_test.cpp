@@ -66,7 +66,7 @@ TEST(AutoNavigation, WaysAreShortAndNeverCrossWalls) {
     std::vector<Box> tight;
     std::vector<Box> wide;
     for (const Box& box : boxes) {
-      walls.add_polygon(test::corners_of(box), 1);
+      walls.add_polygon(test::box_corners(box), 1);
       tight.push_back(test::grown(box, 0.3F * kRadius));
       wide.push_back(test::grown(box, 1.4F * kRadius));
     }
@@ -154,7 +154,7 @@ TEST(AutoNavigation, SharesMeshesAmongPeopleOfSimilarSize) {
   Crowd crowd;
   for (int wall = 0; wall < 3; ++wall) {
     const float y = 4.0F * static_cast<float>(wall);
-    crowd.obstacles.add_polygon(test::corners_of({{-10, y}, {10, y + 1}}), 1U << wall);
+    crowd.obstacles.add_polygon(test::box_corners({{-10, y}, {10, y + 1}}), 1U << wall);
   }
   crowd.obstacles.build();
   AutoNavigation navigation(crowd, {});

@@ -72,7 +72,7 @@ std::string walk_to(double x, double y, const std::string& attributes = "") {
 
 const std::string kWalls = R"(<ObstacleSet type="nav_mesh" class="1" file_name="m.nav"/>)";
 
-Problem problem_of(const std::string& mesh) {
+Problem caught_problem(const std::string& mesh) {
   const test::TemporaryFolder folder;
   try {
     load_nav_mesh(folder.write("m.nav", mesh));
@@ -100,18 +100,18 @@ TEST(NavMesh, IsReadFromAFile) {
 }
 
 TEST(NavMesh, ReportsMistakesWithTheirLine) {
-  EXPECT_EQ(problem_of("").found, "the end of the file");
-  EXPECT_NE(problem_of("99999999 0 0").expected.find("no more than follow"), std::string::npos);
-  EXPECT_EQ(problem_of("3\n0 0\n1 x\n").where, "line 3");
+  EXPECT_EQ(caught_problem("").found, "the end of the file");
+  EXPECT_NE(caught_problem("99999999 0 0").expected.find("no more than follow"), std::string::npos);
+  EXPECT_EQ(caught_problem("3\n0 0\n1 x\n").where, "line 3");
   std::string mesh = corner_mesh();
   mesh.replace(mesh.find("6 0 1 2 3 6 7"), 13, "6 0 1 2 3 6 9");
-  EXPECT_EQ(problem_of(mesh).found, "\"9\"");
+  EXPECT_EQ(caught_problem(mesh).found, "\"9\"");
   mesh = corner_mesh();
   mesh.replace(mesh.find("3 6 0 1"), 7, "3 6 0 8");
-  EXPECT_FALSE(problem_of(mesh).found.empty());
+  EXPECT_FALSE(caught_problem(mesh).found.empty());
   mesh = corner_mesh();
   mesh.replace(mesh.find("7 0 0 0"), 7, "7 0 0 3");
-  EXPECT_NE(problem_of(mesh).found.find("does not close"), std::string::npos);
+  EXPECT_NE(caught_problem(mesh).found.find("does not close"), std::string::npos);
 }
 
 TEST(NavMesh, AgentsWalkAroundTheCorner) {
@@ -175,7 +175,7 @@ TEST(NavMesh, StraightWaysAreKnownToBeClear) {
   std::vector<Box> tight;
   std::vector<Box> wide;
   for (const Box& box : boxes) {
-    walls.add_polygon(test::corners_of(box), 1);
+    walls.add_polygon(test::box_corners(box), 1);
     tight.push_back(test::grown(box, 0.2F));
     wide.push_back(test::grown(box, 0.6F));
   }

@@ -29,7 +29,7 @@ Simulation two_agents() {
 </BFSM>)");
 }
 
-std::string bytes_of(std::string_view version) {
+std::string record_bytes(std::string_view version) {
   const test::TemporaryFolder folder;
   const auto path = folder.write("old.scb", "an older file");
   Simulation crowd = two_agents();
@@ -62,7 +62,7 @@ class Scb : public testing::TestWithParam<Layout> {};
 
 TEST_P(Scb, HasItsHeaderAndEveryFrame) {
   const auto [version, header, floats] = GetParam();
-  const std::string bytes = bytes_of(version);
+  const std::string bytes = record_bytes(version);
   ASSERT_EQ(bytes.size(), header + kFrames * 2 * floats * sizeof(float));
   EXPECT_EQ(bytes.substr(0, 3), version);
   EXPECT_EQ(bytes[3], '\0');
@@ -80,7 +80,7 @@ TEST_P(Scb, HasItsHeaderAndEveryFrame) {
 
 TEST_P(Scb, IsReadBack) {
   const auto [version, header, floats] = GetParam();
-  const std::string bytes = bytes_of(version);
+  const std::string bytes = record_bytes(version);
   const test::TemporaryFolder folder;
   ScbReader reader(folder.write("a.scb", bytes));
   EXPECT_EQ(reader.version(), version);
@@ -107,21 +107,21 @@ TEST(Scb, WritesTheFieldsOfEachVersion) {
   };
   // The second agent heads for (50, 2) from (-3, 40).
   const auto yaw_rad = static_cast<float>(std::atan2(-38.0, 53.0));
-  const std::string v20 = bytes_of("2.0");
+  const std::string v20 = record_bytes("2.0");
   EXPECT_NEAR(value(v20, 3, 0, 1, 2), yaw_rad, 1e-5);
   EXPECT_NEAR(value(v20, 3, 4, 0, 1), 2, 1e-4);
-  const std::string v21 = bytes_of("2.1");
+  const std::string v21 = record_bytes("2.1");
   EXPECT_NEAR(value(v21, 4, 0, 1, 2), yaw_rad, 1e-5);
   EXPECT_EQ(value(v21, 4, 0, 1, 3), 1.0F) << "the second state of the file";
-  const std::string v22 = bytes_of("2.2");
+  const std::string v22 = record_bytes("2.2");
   EXPECT_NEAR(value(v22, 8, 0, 0, 4), 1, 1e-5) << "preferred velocity";
   EXPECT_NEAR(value(v22, 8, 0, 0, 5), 0, 1e-5);
   EXPECT_EQ(value(v22, 8, 0, 0, 6), 0.0F) << "velocity at the beginning";
   EXPECT_GT(value(v22, 8, 4, 0, 6), 0.5F);
-  const std::string v23 = bytes_of("2.3");
+  const std::string v23 = record_bytes("2.3");
   EXPECT_NEAR(value(v23, 4, 0, 1, 2), std::cos(yaw_rad), 1e-5);
   EXPECT_NEAR(value(v23, 4, 0, 1, 3), std::sin(yaw_rad), 1e-5);
-  const std::string v24 = bytes_of("2.4");
+  const std::string v24 = record_bytes("2.4");
   EXPECT_EQ(value(v24, 4, 0, 1, 1), 0.0F) << "flat ground";
   EXPECT_EQ(value(v24, 4, 0, 1, 2), 40.0F);
   EXPECT_NEAR(value(v24, 4, 0, 1, 3), yaw_rad, 1e-5);
@@ -154,7 +154,7 @@ TEST(Scb, ThatIsNotFinishedLeavesNothing) {
 
 TEST(Scb, LeavesOutAFrameThatIsCutOff) {
   const test::TemporaryFolder folder;
-  const std::string bytes = bytes_of("2.1");
+  const std::string bytes = record_bytes("2.1");
   EXPECT_EQ(ScbReader(folder.write("a.scb", bytes.substr(0, bytes.size() - 1))).frame_count(),
             kFrames - 1);
 }

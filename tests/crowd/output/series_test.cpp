@@ -20,14 +20,14 @@ using test::agent_at;
 using testing::ElementsAre;
 using testing::StartsWith;
 
-std::vector<std::string> lines_of(const std::filesystem::path& path) {
+std::vector<std::string> read_lines(const std::filesystem::path& path) {
   std::istringstream in(read_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
+std::vector<std::string> split_fields(const std::string& line) {
   std::istringstream in(line);
   std::vector<std::string> fields;
   for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
@@ -47,7 +47,7 @@ Simulation four_agents(double time_step_s = 0.1) {
 </BFSM>)");
 }
 
-std::vector<std::string> series_of(Simulation crowd, int steps) {
+std::vector<std::string> record_series(Simulation crowd, int steps) {
   const test::TemporaryFolder folder;
   const auto path = folder.write("series.csv", "");
   SeriesWriter series(path, crowd);
@@ -57,11 +57,11 @@ std::vector<std::string> series_of(Simulation crowd, int steps) {
     series.record(crowd);
   }
   series.finish(crowd);
-  return lines_of(path);
+  return read_lines(path);
 }
 
 TEST(Series, HasTheColumnsOfTheReferenceFiles) {
-  const std::vector<std::string> lines = series_of(four_agents(), 0);
+  const std::vector<std::string> lines = record_series(four_agents(), 0);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0],
             "time,frac_final_state,frac_terminal_state,mean_speed,max_speed,min_pair_dist,"
@@ -72,39 +72,40 @@ TEST(Series, HasTheColumnsOfTheReferenceFiles) {
 }
 
 TEST(Series, HasALineForEverySecondAndOneForTheEnd) {
-  const std::vector<std::string> lines = series_of(four_agents(), 15);
+  const std::vector<std::string> lines = record_series(four_agents(), 15);
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_THAT(lines[1], StartsWith("0.0000,0.0000,"));
   EXPECT_THAT(lines[2], StartsWith("1.0000,0.0000,0.0000,"));
   EXPECT_THAT(lines[3], StartsWith("1.5000,1.0000,1.0000,"));
-  EXPECT_EQ(fields_of(lines[3])[12], "4");
+  EXPECT_EQ(split_fields(lines[3])[12], "4");
   // The end may be a whole second, too.
-  EXPECT_EQ(series_of(four_agents(), 20).size(), 4U);
+  EXPECT_EQ(record_series(four_agents(), 20).size(), 4U);
 }
 
 TEST(Series, TakesTheFrameNearestToASecond) {
-  const std::vector<std::string> lines = series_of(four_agents(0.3), 10);
+  const std::vector<std::string> lines = record_series(four_agents(0.3), 10);
   std::vector<std::string> times;
-  for (const std::string& line : lines) times.push_back(fields_of(line)[0]);
+  for (const std::string& line : lines) times.push_back(split_fields(line)[0]);
   EXPECT_THAT(times, ElementsAre("time", "0.0000", "0.9000", "2.1000", "3.0000"));
-  EXPECT_EQ(series_of(four_agents(2.5), 3).size(), 5U);
+  EXPECT_EQ(record_series(four_agents(2.5), 3).size(), 5U);
 }
 
 TEST(Series, LeavesOutAbsentAgents) {
   Simulation crowd = four_agents();
   crowd.set_present(3, false);
-  const std::vector<std::string> fields = fields_of(series_of(std::move(crowd), 0)[1]);
+  const std::vector<std::string> fields = split_fields(record_series(std::move(crowd), 0)[1]);
   EXPECT_EQ(fields[5], "3.1623");
   EXPECT_EQ(fields[6], "0");
   EXPECT_EQ(fields[11], "3");
 
   Simulation nobody = four_agents();
   for (std::size_t i = 0; i < 4; ++i) nobody.set_present(i, false);
-  EXPECT_THAT(series_of(std::move(nobody), 0)[1], StartsWith("0.0000,nan,nan,nan,nan,nan,0,nan"));
+  EXPECT_THAT(record_series(std::move(nobody), 0)[1],
+              StartsWith("0.0000,nan,nan,nan,nan,nan,0,nan"));
 }
 
-std::vector<std::string> positions_of(int steps,
-                                      const std::optional<std::vector<double>>& times_s) {
+std::vector<std::string> recorded_positions(int steps,
+                                            const std::optional<std::vector<double>>& times_s) {
   const test::TemporaryFolder folder;
   const auto path = folder.write("positions.csv", "");
   Simulation crowd = four_agents();
@@ -119,22 +120,22 @@ std::vector<std::string> positions_of(int steps,
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1)
       << "what was kept meanwhile is gone";
-  return lines_of(path);
+  return read_lines(path);
 }
 
-std::vector<std::string> times_of(const std::vector<std::string>& lines) {
+std::vector<std::string> time_column(const std::vector<std::string>& lines) {
   std::vector<std::string> times;
   for (const std::string& line : lines) {
-    const std::string time = fields_of(line)[0];
+    const std::string time = split_fields(line)[0];
     if (times.empty() || times.back() != time) times.push_back(time);
   }
   return times;
 }
 
 TEST(Positions, AreThoseOfSharesOfTheRun) {
-  const std::vector<std::string> lines = positions_of(318, std::nullopt);
+  const std::vector<std::string> lines = recorded_positions(318, std::nullopt);
   // As in the reference files: halves of frames go to the even one.
-  EXPECT_THAT(times_of(lines),
+  EXPECT_THAT(time_column(lines),
               ElementsAre("time", "0.0000", "3.2000", "8.0000", "15.9000", "23.8000", "31.8000"));
   ASSERT_EQ(lines.size(), 1 + 6 * 4U);
   EXPECT_EQ(lines[0], "time,agent,class,state,x,y,orient_rad,vpref_x,vpref_y,vx,vy");
@@ -143,9 +144,9 @@ TEST(Positions, AreThoseOfSharesOfTheRun) {
 }
 
 TEST(Positions, AreThoseOfGivenTimes) {
-  EXPECT_THAT(times_of(positions_of(20, {{1.5, 0.52, 1.5, 100}})),
+  EXPECT_THAT(time_column(recorded_positions(20, {{1.5, 0.52, 1.5, 100}})),
               ElementsAre("time", "0.5000", "1.5000"));
-  EXPECT_THAT(times_of(positions_of(0, std::nullopt)), ElementsAre("time", "0.0000"));
+  EXPECT_THAT(time_column(recorded_positions(0, std::nullopt)), ElementsAre("time", "0.0000"));
 }
 
 TEST(PairDistances, AreThoseOfAllPairs) {

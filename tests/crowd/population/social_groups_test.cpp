@@ -28,7 +28,7 @@ std::string street(const std::string& groups, int people, double spacing_m = 1.5
 const std::string kEastwards = R"(<BFSM>
   <State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State></BFSM>)";
 
-std::map<int, std::vector<std::size_t>> groups_of(const Simulation& crowd) {
+std::map<int, std::vector<std::size_t>> list_groups(const Simulation& crowd) {
   std::map<int, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
     if (crowd.social_groups()[i] >= 0) groups[crowd.social_groups()[i]].push_back(i);
@@ -55,7 +55,7 @@ double mean_extent_m(const Simulation& crowd,
 TEST(SocialGroups, HaveTheShareAndSizesAsked) {
   const Simulation crowd = test::load(
       street(R"(<SocialGroups share="0.5" pairs="1" threes="1" fours="0"/>)", 400), kEastwards);
-  const auto groups = groups_of(crowd);
+  const auto groups = list_groups(crowd);
   std::size_t grouped = 0;
   std::map<std::size_t, int> sizes;
   for (const auto& [number, members] : groups) {
@@ -84,7 +84,7 @@ TEST(SocialGroups, AreTheSameForEqualSeedsOnly) {
 }
 
 TEST(SocialGroups, NobodyIsInOneUnlessAsked) {
-  EXPECT_TRUE(groups_of(test::load(street("", 100), kEastwards)).empty());
+  EXPECT_TRUE(list_groups(test::load(street("", 100), kEastwards)).empty());
 }
 
 TEST(SocialGroups, FindEachOtherAndStayTogetherThroughACrowd) {
@@ -102,7 +102,7 @@ TEST(SocialGroups, FindEachOtherAndStayTogetherThroughACrowd) {
     Simulation crowd = test::load(scene, R"(<BFSM>
       <State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State>
       <State name="Back" final="0"><VelComponent type="const_dir" x="-1" y="0"/></State></BFSM>)");
-    const auto members = groups_of(crowd);
+    const auto members = list_groups(crowd);
     while (crowd.time_s() < 40) crowd.step();
     extent_m[groups] = mean_extent_m(crowd, members);
   }
@@ -120,7 +120,7 @@ TEST(SocialGroups, PairsWalkAbreast) {
       <Generator type="explicit"><Agent p_x="0" p_y="0"/><Agent p_x="2" p_y="0.2"/></Generator>
     </AgentGroup></Experiment>)",
                                 kEastwards);
-  ASSERT_EQ(groups_of(crowd).size(), 1);
+  ASSERT_EQ(list_groups(crowd).size(), 1);
   while (crowd.time_s() < 30) crowd.step();
   const Eigen::Vector2f apart = crowd.positions()[1] - crowd.positions()[0];
   EXPECT_LT(std::abs(apart.x()), 0.4F);
@@ -140,11 +140,11 @@ std::map<int, std::vector<double>> starts_of_groups(const std::string& timer) {
   while (!crowd.all_final()) {
     crowd.step();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (times[i] < 0 && test::state_of(crowd, i) == "Go") times[i] = crowd.time_s();
+      if (times[i] < 0 && test::state_name(crowd, i) == "Go") times[i] = crowd.time_s();
     }
   }
   std::map<int, std::vector<double>> starts;
-  for (const auto& [number, members] : groups_of(crowd)) {
+  for (const auto& [number, members] : list_groups(crowd)) {
     for (const std::size_t member : members) starts[number].push_back(times[member]);
   }
   return starts;
@@ -172,7 +172,7 @@ TEST(SocialGroups, ShareTheirGoals) {
       <State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/>
         <VelComponent type="goal"/></State></BFSM>)",
                                                   goals));
-  for (const auto& [number, members] : groups_of(crowd)) {
+  for (const auto& [number, members] : list_groups(crowd)) {
     for (const std::size_t member : members) {
       EXPECT_EQ(crowd.goals()[member].goal, crowd.goals()[members[0]].goal);
     }

@@ -98,13 +98,13 @@ TEST(Selection, KeepsTheOrderGivenAndCountsProgress) {
 }
 
 /// No test is computed: the run is stopped before the first.
-std::vector<std::string> models_of(const std::vector<std::string>& names) {
+std::vector<std::string> rows_of_models(const std::vector<std::string>& names) {
   Results seen = run_suite(names, {"nist_2_1"}, Effort::reduced, 2);
   return seen.models;
 }
 
 TEST(Selection, TakesAllModelsButDummyWithTheDefaultFirst) {
-  const std::vector<std::string> models = models_of({});
+  const std::vector<std::string> models = rows_of_models({});
   std::multiset<std::string> expected;
   for (const crowd::ModelEntry& entry : crowd::models()) expected.emplace(entry.name);
   expected.erase("dummy");

@@ -16,7 +16,7 @@ namespace {
 
 using PolygonExports = SmallDataset;
 
-Bitmap pixels_of(const cv::Mat& image) {
+Bitmap to_bitmap(const cv::Mat& image) {
   Bitmap mask{0, 0, image.cols, image.rows, {}};
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) mask.set.push_back(image.at<std::uint8_t>(y, x) != 0);
@@ -32,7 +32,7 @@ cv::Mat filled(const std::vector<cv::Point>& polygon, const cv::Size& size) {
 
 cv::Mat filled_again(const cv::Mat& image) {
   std::vector<cv::Point> polygon;
-  for (const auto& [x, y] : polygon_of(pixels_of(image))) polygon.emplace_back(x, y);
+  for (const auto& [x, y] : trace_polygon(to_bitmap(image))) polygon.emplace_back(x, y);
   EXPECT_GE(polygon.size(), 3U);
   return filled(polygon, image.size());
 }
@@ -124,7 +124,7 @@ TEST(Polygon, SaysHowWellItFitsAMaskOfSeveralPieces) {
     }
     PolygonFit fit;
     std::vector<cv::Point> polygon;
-    for (const auto& [x, y] : polygon_of(pixels_of(image), &fit)) polygon.emplace_back(x, y);
+    for (const auto& [x, y] : trace_polygon(to_bitmap(image), &fit)) polygon.emplace_back(x, y);
     const cv::Mat again = filled(polygon, image.size());
     cv::Mat labels;
     EXPECT_EQ(fit.pieces, cv::connectedComponents(image, labels) - 1);
@@ -136,7 +136,7 @@ TEST(Polygon, SaysHowWellItFitsAMaskOfSeveralPieces) {
   }
 }
 
-TEST(Polygon, NoMaskNoPolygon) { EXPECT_TRUE(polygon_of(Bitmap{}).empty()); }
+TEST(Polygon, NoMaskNoPolygon) { EXPECT_TRUE(trace_polygon(Bitmap{}).empty()); }
 
 // As Ultralytics does: shares times the image's size, cut off to whole numbers; others round.
 TEST_F(PolygonExports, YoloLabelsFillToTheMasks) {
@@ -145,10 +145,10 @@ TEST_F(PolygonExports, YoloLabelsFillToTheMasks) {
   int all = 0;
   double sum = 0;
   for (const auto& [stem, people] : people_by_stem(coco())) {
-    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    const auto lines = read_lines(out / "labels/train" / (stem + ".txt"));
     ASSERT_EQ(lines.size(), people.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const std::vector<double> line = numbers_of(lines[i]);
+      const std::vector<double> line = parse_numbers(lines[i]);
       ASSERT_GE(line.size(), 7U);
       ASSERT_EQ(line.size() % 2, 1U);
       std::vector<cv::Point> cut;

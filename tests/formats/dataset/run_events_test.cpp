@@ -19,19 +19,19 @@ RunEvent event(double time_s, const std::string& type, const json& more) {
 }
 
 template <typename Check>
-std::vector<std::string> faults_of(const Check& check) {
+std::vector<std::string> list_faults(const Check& check) {
   std::vector<std::string> faults;
   check([&](std::size_t /*event*/, const std::string& what) { faults.push_back(what); });
   return faults;
 }
 
 std::vector<std::string> faults_of_records(const std::vector<RunEvent>& events) {
-  return faults_of([&](const EventReport& report) { check_event_records(events, report); });
+  return list_faults([&](const EventReport& report) { check_event_records(events, report); });
 }
 
 std::vector<std::string> faults_of_figures(const std::vector<RunEvent>& events,
                                            const json& figures) {
-  return faults_of(
+  return list_faults(
       [&](const EventReport& report) { check_events_against_figures(events, figures, 1, report); });
 }
 
@@ -99,7 +99,7 @@ TEST(RunEvents, TrajectoriesShowPresentPeople) {
                                     2,      1,      0,      0,      1, 2, 0, 0,  //
                                     3,      1,      0,      0,      1, 3, 0, 0}};
   const auto faults = [&](const std::vector<RunEvent>& events) {
-    return faults_of([&](const EventReport& report) {
+    return list_faults([&](const EventReport& report) {
       check_events_against_trajectories(events, there, report);
     });
   };

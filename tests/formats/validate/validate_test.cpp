@@ -338,7 +338,7 @@ TEST_F(Validate, WholeMasksThatLackVisiblePixels) {
   // Nobody is set apart: the mask is empty, of the visible pixels, or of one more than there are.
   change_person([](json& r) {
     r["amodal_segmentation"] = r["segmentation"];
-    r["amodal_segmentation"]["counts"] = counts_of({160 * 120});
+    r["amodal_segmentation"]["counts"] = encode_counts({160 * 120});
   });
   expect("visible-in-amodal", kCocoFile, "annotation ");
   write_file_atomically(root_ / kCocoFile, whole);
@@ -351,7 +351,7 @@ TEST_F(Validate, WholeMasksThatLackVisiblePixels) {
   write_file_atomically(root_ / kCocoFile, whole);
   change_person([](json& r) {
     r["amodal_segmentation"] = r["segmentation"];
-    r["amodal_segmentation"]["counts"] = counts_of({0, 160 * 120});
+    r["amodal_segmentation"]["counts"] = encode_counts({0, 160 * 120});
   });
   expect("area-is-mask", kCocoFile, "annotation ");
 }
@@ -409,7 +409,7 @@ TEST_F(Validate, DepthThatIsScaled) {
 TEST_F(Validate, MasksThatAreAPixelWider) {
   change_person([](json& r) {
     const Bitmap mask =
-        bitmap_of(runs_of(r["segmentation"]["counts"].get<std::string>(), 160 * 120), 120);
+        decode_bitmap(decode_runs(r["segmentation"]["counts"].get<std::string>(), 160 * 120), 120);
     Bitmap wide = mask;
     wide.x = std::max(0, mask.x - 1);
     wide.width = std::min(160, mask.x + mask.width + 1) - wide.x;
@@ -419,7 +419,7 @@ TEST_F(Validate, MasksThatAreAPixelWider) {
         wide.set.push_back(mask.at(x - 1, y) || mask.at(x, y) || mask.at(x + 1, y) ? 1 : 0);
       }
     }
-    r["segmentation"]["counts"] = counts_of(runs_of({wide}, 160, 120));
+    r["segmentation"]["counts"] = encode_counts(decode_runs({wide}, 160, 120));
     r["bbox"] = {wide.x, wide.y, wide.width, wide.height};
     r["bbox_amodal"] = {0, 0, 160, 120};
     r["area"] = wide.area();

@@ -16,20 +16,20 @@ constexpr const char* kSha256OfAbc =
 constexpr const char* kMd5OfAbc = "900150983cd24fb0d6963f7d28e17f72";
 
 TEST(Digests, OfBytes) {
-  const Digest digest = digest_of("abc");
+  const Digest digest = compute_digest("abc");
   EXPECT_EQ(digest.sha256_hex, kSha256OfAbc);
-  EXPECT_EQ(hex_of(digest.md5), kMd5OfAbc);
-  EXPECT_EQ(base64_of(digest.md5), "kAFQmDzST7DWlj99KOF/cg==");
+  EXPECT_EQ(encode_hex(digest.md5), kMd5OfAbc);
+  EXPECT_EQ(encode_base64(digest.md5), "kAFQmDzST7DWlj99KOF/cg==");
 }
 
 TEST(Digests, OfAFileAndItsParts) {
   const jobs::TemporaryFolder folder;
   write_file_atomically(folder.path() / "file", "abcabcab");
   const FileDigest digest = digest_of_file(folder.path() / "file", 3);
-  EXPECT_EQ(digest.whole.sha256_hex, digest_of("abcabcab").sha256_hex);
+  EXPECT_EQ(digest.whole.sha256_hex, compute_digest("abcabcab").sha256_hex);
   ASSERT_EQ(digest.parts.size(), 3U);
-  EXPECT_EQ(hex_of(digest.parts[1].md5), kMd5OfAbc);
-  EXPECT_EQ(digest.parts[2].sha256_hex, digest_of("ab").sha256_hex);
+  EXPECT_EQ(encode_hex(digest.parts[1].md5), kMd5OfAbc);
+  EXPECT_EQ(digest.parts[2].sha256_hex, compute_digest("ab").sha256_hex);
   // By Python's hashlib: the MD5 of the three MD5, one after the other.
   EXPECT_EQ(tag_of_parts(digest.parts), "1111f10614445dd5553a128d5dd7e830-3");
 }
@@ -40,8 +40,8 @@ TEST(Digests, OneOfTheSizeOfAPartIsWhole) {
     write_file_atomically(folder.path() / "file", text);
     const FileDigest digest = digest_of_file(folder.path() / "file", 3);
     ASSERT_EQ(digest.parts.size(), 1U);
-    EXPECT_EQ(digest.parts[0].sha256_hex, digest_of(text).sha256_hex);
-    EXPECT_EQ(digest.whole.md5, digest_of(text).md5);
+    EXPECT_EQ(digest.parts[0].sha256_hex, compute_digest(text).sha256_hex);
+    EXPECT_EQ(digest.whole.md5, compute_digest(text).md5);
   }
   EXPECT_THROW(digest_of_file(folder.path() / "none", 3), EnvironmentError);
 }

@@ -61,8 +61,8 @@ TEST(Listing, AnErrorIsItsCodeAndItsMessage) {
       "<?xml version=\"1.0\"?>\n<Error><Code>SignatureDoesNotMatch</Code>"
       "<Message>It does not match.\nAKID secret</Message><AWSAccessKeyId>AKID</AWSAccessKeyId>"
       "<StringToSign>AWS4</StringToSign></Error>");
-  EXPECT_EQ(text_of(error, 403), "SignatureDoesNotMatch: It does not match.");
-  EXPECT_EQ(text_of(read_error("<html>"), 502), "the object store answered with status 502");
+  EXPECT_EQ(error_text(error, 403), "SignatureDoesNotMatch: It does not match.");
+  EXPECT_EQ(error_text(read_error("<html>"), 502), "the object store answered with status 502");
   EXPECT_LE(first_line(std::string(100'000, 'x')).size(), 300U);
   EXPECT_EQ(first_line("a\x1b[31mb"), "a?[31mb");
   EXPECT_EQ(read_value("<InitiateMultipartUploadResult><UploadId>x</UploadId>"

@@ -43,7 +43,7 @@ TEST(GroundTruthTables, EveryKindIsWritten) {
 TEST(GroundTruthTables, EveryKindWithFilesOfItsOwnIsChecked) {
   const auto checked = kinds_in(formats::ground_truth_checkers());
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
-    const bool is_record = kind.file == kind_of(GroundTruth::coco).file;
+    const bool is_record = kind.file == ground_truth_kind(GroundTruth::coco).file;
     EXPECT_EQ(checked.count(kind.kind), is_record ? 0U : 1U) << kind.name;
   }
 }
@@ -67,20 +67,21 @@ TEST(GroundTruthTables, NamesAndFoldersAreUnique) {
   std::map<std::string_view, std::string_view> folders;
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
-    EXPECT_EQ(annotate::find_kind(kind.name), &kind_of(kind.kind));
-    const auto [folder, is_new] = folders.emplace(folder_of(kind), kind.file);
+    EXPECT_EQ(annotate::find_kind(kind.name), &ground_truth_kind(kind.kind));
+    const auto [folder, is_new] = folders.emplace(ground_truth_folder(kind), kind.file);
     EXPECT_TRUE(is_new || folder->second == kind.file) << kind.name;
   }
   EXPECT_EQ(annotate::find_kind("cocoa"), nullptr);
 }
 
 TEST(GroundTruthTables, FilesAreNamedByRunCameraAndFrame) {
-  EXPECT_EQ(file_of(GroundTruth::depth, "run007", "d1", 12), "depth/run007/d1/000012.png");
-  EXPECT_EQ(file_of(GroundTruth::fields, "run007", "d1", 12), "fields/run007/000012.npy");
-  EXPECT_EQ(file_of(GroundTruth::exits, "run007"), "exits/run007.csv");
-  EXPECT_EQ(file_of(GroundTruth::coco, "run007"), "annotations/instances.json");
+  EXPECT_EQ(ground_truth_file(GroundTruth::depth, "run007", "d1", 12),
+            "depth/run007/d1/000012.png");
+  EXPECT_EQ(ground_truth_file(GroundTruth::fields, "run007", "d1", 12), "fields/run007/000012.npy");
+  EXPECT_EQ(ground_truth_file(GroundTruth::exits, "run007"), "exits/run007.csv");
+  EXPECT_EQ(ground_truth_file(GroundTruth::coco, "run007"), "annotations/instances.json");
   // Ids of drones are letters, digits, '_' and '-': also such words.
-  EXPECT_EQ(file_of(GroundTruth::flow, "run000", "RUN-CAMERA_FRAME", 3),
+  EXPECT_EQ(ground_truth_file(GroundTruth::flow, "run000", "RUN-CAMERA_FRAME", 3),
             "flow/run000/RUN-CAMERA_FRAME/000003.png");
 }
 

@@ -1,4 +1,4 @@
-// The ready jobs of the library: every place has one for every day and one for its emergency.
+// The ready jobs of the library: every folder has one for every day and one for its emergency.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include "base/files/files.h"
 #include "base/files/resources.h"
 #include "jobs/pipeline/checks/resolve.h"
-#include "places/blueprint/load_scenario.h"
 #include "spec/job/spec.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {
@@ -21,15 +21,15 @@ using ::testing::IsSupersetOf;
 
 const fs::path kLibrary = source_folder() / "scenarios";
 
-/// The scenarios that the ready jobs of a place are for.
-std::set<std::string> scenarios_of_jobs(const fs::path& place) {
+/// The scenarios that the ready jobs of a folder are for.
+std::set<std::string> scenarios_of_jobs(const fs::path& folder) {
   std::set<std::string> scenarios;
-  for (const auto& entry : fs::directory_iterator(place)) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.path().filename().string().ends_with(".job.json")) continue;
     const JobSpec job =
         resolve_job(read_file(entry.path()), entry.path().string(), kLibrary).spec();
     EXPECT_FALSE(job.drones.empty()) << entry.path();
-    EXPECT_NO_THROW(places::find_scenario(kLibrary, job.scenario)) << entry.path();
+    EXPECT_NO_THROW(scenarios::find_scenario(kLibrary, job.scenario)) << entry.path();
     scenarios.insert(fs::path(job.scenario).filename().string());
   }
   return scenarios;
@@ -55,12 +55,12 @@ TEST(Library, PresetsAreJobsOfAllPlaces) {
     std::set<std::string> places;
     for (const ScenarioShare& share : job.mix) {
       if (share.generate) continue;
-      EXPECT_NO_THROW(places::find_scenario(kLibrary, share.scenario)) << entry.path();
+      EXPECT_NO_THROW(scenarios::find_scenario(kLibrary, share.scenario)) << entry.path();
       places.insert(fs::path(share.scenario).parent_path().string());
     }
     EXPECT_EQ(places.size(), 8U) << entry.path();
     EXPECT_TRUE(job.drones.at(0).mission.aim) << entry.path();
-    EXPECT_FALSE(job.outputs.exports.splits.runs.empty()) << entry.path() << " tests a place";
+    EXPECT_FALSE(job.outputs.exports.splits.runs.empty()) << entry.path() << " tests a scenario";
   }
   EXPECT_EQ(presets, 6U);
 }

@@ -14,10 +14,10 @@
 #include "jobs/queue/dataset/folder.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits/exits.h"
-#include "places/blueprint/load_scenario.h"
 #include "spec/job/spec.h"
 #include "tests/jobs/yard.h"
 #include "world/scenario.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {
@@ -56,7 +56,7 @@ class RecordedJob : public testing::Test {
     return resolve_job(value.dump(), (folder.path() / "job.json").string(), folder.path());
   }
 
-  std::string pointer_of(const json& value) const {
+  std::string problem_pointer(const json& value) const {
     try {
       resolve(value);
     } catch (const InputError& error) {
@@ -90,7 +90,7 @@ TEST_F(RecordedJob, TheMetricsOfItsRunAreThoseOfTheFile) {
   const world::Trace run = world::read_trace(made.output_of({Task::Kind::simulate, 1}));
   EXPECT_EQ(run.header.drone_ids.size(), 1U);
   const world::Trace file = read_recording(*spec.recorded);
-  const world::Scenario yard = places::find_scenario(folder.path(), "yard");
+  const world::Scenario yard = scenarios::find_scenario(folder.path(), "yard");
   const auto figures = [&](const world::Trace& trace) {
     return metrics::to_json(metrics::run_metrics(trace, yard, metrics::exit_series(trace, yard)));
   };
@@ -121,16 +121,17 @@ TEST_F(RecordedJob, ReportsMistakes) {
     asked[json::json_pointer(pointer)] = value;
     return asked;
   };
-  EXPECT_EQ(pointer_of(job()), "nothing is wrong");
-  EXPECT_EQ(pointer_of(with("/crowd/recorded/file", "none.csv")), "/crowd/recorded/file");
-  EXPECT_EQ(pointer_of(with("/crowd/recorded/sha256", std::string(64, '0'))),
+  EXPECT_EQ(problem_pointer(job()), "nothing is wrong");
+  EXPECT_EQ(problem_pointer(with("/crowd/recorded/file", "none.csv")), "/crowd/recorded/file");
+  EXPECT_EQ(problem_pointer(with("/crowd/recorded/sha256", std::string(64, '0'))),
             "/crowd/recorded/sha256");
-  EXPECT_EQ(pointer_of(with("/crowd/recorded/columns/time", "t")), "/crowd/recorded/columns/frame");
-  EXPECT_EQ(pointer_of(with("/crowd/recorded/unit", "yards")), "/crowd/recorded/unit");
-  EXPECT_EQ(pointer_of(with("/crowd/recorded/columns/x", "west")), "line 1");
-  EXPECT_EQ(pointer_of(with("/crowd/agents", 13)), "/crowd/agents");
-  EXPECT_EQ(pointer_of(with("/crowd/physical", true)), "/crowd/physical");
-  EXPECT_EQ(pointer_of(with("/capture/to_s", 60)), "/capture/to_s");
+  EXPECT_EQ(problem_pointer(with("/crowd/recorded/columns/time", "t")),
+            "/crowd/recorded/columns/frame");
+  EXPECT_EQ(problem_pointer(with("/crowd/recorded/unit", "yards")), "/crowd/recorded/unit");
+  EXPECT_EQ(problem_pointer(with("/crowd/recorded/columns/x", "west")), "line 1");
+  EXPECT_EQ(problem_pointer(with("/crowd/agents", 13)), "/crowd/agents");
+  EXPECT_EQ(problem_pointer(with("/crowd/physical", true)), "/crowd/physical");
+  EXPECT_EQ(problem_pointer(with("/capture/to_s", 60)), "/capture/to_s");
   EXPECT_THROW(resolve_job(job().dump(), "", folder.path()), InputError);  // a request
 }
 

@@ -48,7 +48,7 @@ class FakeExecutor : public Executor {
       if (results[i].outcome == Outcome::succeeded) results[i] = before_in(folder, tasks[i]);
       if (results[i].outcome != Outcome::succeeded) continue;
       const std::lock_guard lock(mutex_);
-      done_.push_back(name_of(tasks[i]));
+      done_.push_back(to_string(tasks[i]));
       if (on_progress) on_progress(tasks[i], {1, 2});
       publish(folder, tasks[i]);
     }

@@ -66,7 +66,7 @@ TEST_F(SupervisorTest, PublishesTheDatasetOnceItIsThere) {
   std::vector<std::string> stages;
   std::optional<DeliveryProgress> delivery;
   run_job(folder(), job, executor, [&](const JobProgress& progress) {
-    const std::string stage(name_of(progress.runs[0].stage));
+    const std::string stage(to_string(progress.runs[0].stage));
     if (stages.empty() || stages.back() != stage) stages.push_back(stage);
     delivery = progress.delivery;
   });
@@ -117,8 +117,8 @@ TEST_F(SupervisorTest, AnotherAddressPublishesTheSameDatasetAgain) {
 
 TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
   executor.before = [](const Task& task) {
-    return name_of(task) == "run001/shard0002" ? TaskResult{Outcome::crashed, 3, "boom", {}}
-                                               : TaskResult{};
+    return to_string(task) == "run001/shard0002" ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                                 : TaskResult{};
   };
   JobProgress last;
   const std::vector<RunFailure> failures =
@@ -143,8 +143,8 @@ TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
 
 TEST_F(SupervisorTest, ASimulationThatFailsIsNotDrawn) {
   executor.before = [](const Task& task) {
-    return name_of(task) == "run000/trace" ? TaskResult{Outcome::timed_out, 3, "slow", {}}
-                                           : TaskResult{};
+    return to_string(task) == "run000/trace" ? TaskResult{Outcome::timed_out, 3, "slow", {}}
+                                             : TaskResult{};
   };
   EXPECT_EQ(run_job(folder(), job, executor).size(), 1U);
   EXPECT_THAT(executor.done(), ElementsAre("run001/trace", "run001/metrics", "run001/shard0000",
@@ -216,7 +216,7 @@ TEST_F(SupervisorTest, DamagedOutputThatTheCollectorRemovesIsMadeAgain) {
   run_job(work, job, executor);
   EXPECT_TRUE(work.is_done({Task::Kind::collect}));
   const std::vector<std::string> done = executor.done();
-  EXPECT_EQ(std::count(done.begin(), done.end(), name_of(damaged)), 2);
+  EXPECT_EQ(std::count(done.begin(), done.end(), to_string(damaged)), 2);
 }
 
 TEST_F(SupervisorTest, AFolderHasOneSupervisorAtATime) {
@@ -268,7 +268,7 @@ TEST_F(SupervisorTest, AWorkerThatLiesIsFoundOut) {
 TEST_F(SupervisorTest, StoppingIsCancelled) {
   std::stop_source stop;
   executor.before = [&](const Task& task) {
-    if (name_of(task) == "run000/shard0000") stop.request_stop();
+    if (to_string(task) == "run000/shard0000") stop.request_stop();
     return TaskResult{};
   };
   EXPECT_THROW(run_job(folder(), job, executor, {}, stop.get_token()), Cancelled);

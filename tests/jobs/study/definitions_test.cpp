@@ -11,9 +11,9 @@
 #include "base/files/resources.h"
 #include "jobs/study/outcome.h"
 #include "metrics/evacuation.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/run.h"
 #include "tests/world/temporary_folder.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::study {
 namespace {
@@ -85,7 +85,7 @@ Counted counted(const world::Trace& trace, const world::Scenario& scenario,
 class Definitions : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Definitions, OfStudyAndMetricsAreOne) {
-  const world::Scenario scenario = places::find_scenario(kScenarioFolder, GetParam());
+  const world::Scenario scenario = scenarios::find_scenario(kScenarioFolder, GetParam());
   sim::RunSpec spec;
   spec.seed = 90210;
   const bool is_large = GetParam().rfind("concert", 0) == 0 || GetParam().rfind("stadium", 0) == 0;
@@ -104,7 +104,7 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   for (const world::Exit& exit : scenario.exits) {
     reference.capacity_per_s.push_back(1.3 * exit.width_m());
   }
-  OutcomeObserver observer(scenario, world::alarm_of(scenario), reference,
+  OutcomeObserver observer(scenario, world::find_alarm(scenario), reference,
                            sim::model_for(scenario, spec.crowd));
   sim::simulate(scenario, spec, observer);
   const Outcome outcome = observer.take();
@@ -164,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Definitions,
 
 // Many of the header's 250 people arrive after the run's end.
 TEST(CountedPeople, AreThePeopleThatArrive) {
-  const world::Scenario scenario = places::find_scenario(kScenarioFolder, "city_square/emergency");
+  const world::Scenario scenario =
+      scenarios::find_scenario(kScenarioFolder, "city_square/emergency");
   sim::RunSpec spec;
   spec.seed = 7;
   spec.duration_s = 20;
@@ -176,15 +177,15 @@ TEST(CountedPeople, AreThePeopleThatArrive) {
   ASSERT_LT(expected.people, expected.in_header);
   metrics::ReferenceSpec reference;
   reference.capacity_per_s.assign(scenario.exits.size(), 1);
-  OutcomeObserver observer(scenario, world::alarm_of(scenario), reference, "weidmann");
+  OutcomeObserver observer(scenario, world::find_alarm(scenario), reference, "weidmann");
   sim::simulate(scenario, spec, observer);
   EXPECT_EQ(observer.take().escapes.people, expected.people);
 }
 
 // Walkers who head for an exit anyway are not warned before the fire starts (at 6 s).
 TEST(NoticingPeople, KnowsOfTheAlarm) {
-  const world::Scenario scenario = places::find_scenario(kScenarioFolder, "station/emergency");
-  EXPECT_EQ(world::alarm_of(scenario).at_s, 6);
+  const world::Scenario scenario = scenarios::find_scenario(kScenarioFolder, "station/emergency");
+  EXPECT_EQ(world::find_alarm(scenario).at_s, 6);
   sim::RunSpec spec;
   spec.seed = 11;
   spec.duration_s = 30;

@@ -102,13 +102,13 @@ Example designs() {
 TEST(Report, GivesTheIntervalOfEachTime) {
   const Example example = designs();
   const auto rows = summarize(example.study, example.outcomes);
-  const EscapePercentile& t95 = percentile_of(rows[0], 95);
+  const EscapePercentile& t95 = find_percentile(rows[0], 95);
   // 40, 41, ... 47: t(7, 0.975) = 2.365, standard deviation 2.4495.
   EXPECT_DOUBLE_EQ(t95.mean_s, 43.5);
   EXPECT_NEAR(t95.mean_95.high - t95.mean_s, 2.365 * 2.4495 / std::sqrt(8), 1e-3);
   EXPECT_TRUE(std::isinf(t95.high_95.high)) << "eight runs do not bound their 95th percentile";
   EXPECT_EQ(t95.runs_for_5_percent, 8) << "the half width is 2.05 s, 4.7 % of the mean";
-  const Convergence settled = convergence_of(example.outcomes[0][0], 95);
+  const Convergence settled = find_convergence(example.outcomes[0][0], 95);
   ASSERT_EQ(settled.mean_s.size(), 7U);
   EXPECT_DOUBLE_EQ(settled.mean_s[0], 40.5);
   EXPECT_DOUBLE_EQ(settled.mean_s[6], t95.mean_s);
@@ -132,7 +132,7 @@ TEST(Report, ATimeThatSomeRunsDoNotReachHasNoInterval) {
   Example example = designs();
   example.outcomes[1][0][3] = run_with({15});
   const auto rows = summarize(example.study, example.outcomes);
-  EXPECT_TRUE(std::isinf(percentile_of(rows[1], 95).mean_s));
+  EXPECT_TRUE(std::isinf(find_percentile(rows[1], 95).mean_s));
   const auto differences = compare_cases(example.study, example.outcomes);
   EXPECT_TRUE(std::isnan(differences[2].difference_s));
   EXPECT_DOUBLE_EQ(differences[0].holm_p, 2.0 / 256) << "T90 and T95 make no test";

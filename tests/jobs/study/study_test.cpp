@@ -42,7 +42,7 @@ class StudyFile : public ::testing::Test {
   Study load(const json& document) {
     return load_study(folder.write("study.json", document.dump()), kScenarios);
   }
-  std::vector<Problem> problems_of(const json& document) {
+  std::vector<Problem> list_problems(const json& document) {
     try {
       load(document);
     } catch (const InputError& error) {
@@ -97,7 +97,7 @@ TEST_F(StudyFile, OneDesignNeedsNoPolicy) {
   document["baseline_case"] = "b";
   EXPECT_EQ(load(document).baseline_case, 1U);
   document["baseline_case"] = "c";
-  EXPECT_EQ(problems_of(document).at(0).where, "/baseline_case");
+  EXPECT_EQ(list_problems(document).at(0).where, "/baseline_case");
 }
 
 TEST_F(StudyFile, TheShippedOneIsFine) {
@@ -110,7 +110,7 @@ TEST_F(StudyFile, MistakesAreNamedWhereTheyStand) {
   const auto where = [&](const char* pointer, const json& value) {
     json document = small_study();
     document[json::json_pointer(pointer)] = value;
-    const auto problems = problems_of(document);
+    const auto problems = list_problems(document);
     return problems.empty() ? std::string("accepted") : problems[0].where;
   };
   EXPECT_EQ(where("/cases/0/scenario", "atlantis"), "/cases/0/scenario");

@@ -132,7 +132,7 @@ void expect_bounded(const world::Trace& trace, const world::Scenario& scenario) 
 
 // People who go where they like at what speed they like: through the door one behind the other with
 // no distance, beside the door, faster than they desire, arriving late, leaving before the alarm,
-// gone in the middle of the place, and with the door closed before their eyes.
+// gone in the middle of the scenario, and with the door closed before their eyes.
 TEST(LowerBound, IsBeatenByNobody) {
   Random random(17, Stream::wind);
   for (int trial = 0; trial < 40; ++trial) {
@@ -158,7 +158,7 @@ TEST(LowerBound, IsBeatenByNobody) {
     }
     CrowdOfTest crowd;
     crowd.duration_s = 25;
-    world::Trace trace = trace_of(walks, crowd);
+    world::Trace trace = make_trace(walks, crowd);
     for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
       const double arrives_s = random.uniform(0, 1) < 0.3 ? random.uniform(0, 10) : 0;
       const double vanishes_s = random.uniform(0, 1) < 0.1 ? random.uniform(10, 20) : 99;
@@ -176,7 +176,7 @@ TEST(LowerBound, IsBeatenByNobody) {
 TEST(LowerBound, IsLimitedByTheDoor) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 0);
-  const world::Trace trace = trace_of(std::vector<Walk>(200, standing({-0.1, 0})));
+  const world::Trace trace = make_trace(std::vector<Walk>(200, standing({-0.1, 0})));
   const RunMetrics run = run_metrics(trace, scenario, exit_series(trace, scenario));
   const DoorCapacity capacity = door_capacity("ttc", 2);
   ASSERT_TRUE(run.lower_bound);
@@ -192,7 +192,7 @@ TEST(LowerBound, IsThatOfTheRunsModel) {
   world::Scenario scenario = place_with_door(2);
   scenario.crowd_model = "ttc";
   add_alarm(scenario, 0);
-  world::Trace trace = trace_of(std::vector<Walk>(200, standing({-0.1, 0})));
+  world::Trace trace = make_trace(std::vector<Walk>(200, standing({-0.1, 0})));
   const auto last_s = [&] {
     return run_metrics(trace, scenario, exit_series(trace, scenario)).lower_bound->escape_s.back();
   };
@@ -212,7 +212,7 @@ TEST(LowerBound, CountsFromTheLaterOfAlarmAndArrival) {
   CrowdOfTest crowd;
   crowd.intent = -1;
   world::Trace trace =
-      trace_of({walking({-2, 0}, {1.3, 0}, 5), walking({-2, 0}, {1.3, 0}, 20)}, crowd);
+      make_trace({walking({-2, 0}, {1.3, 0}, 5), walking({-2, 0}, {1.3, 0}, 20)}, crowd);
   for (std::size_t step = 0; step < 200; ++step) trace.flags[trace.at(step, 1)] = 0;
   const RunMetrics run = run_metrics(trace, scenario, exit_series(trace, scenario));
   // Both need 12 m at 1.3 m/s, from 5 and from 20 s on.

@@ -18,13 +18,13 @@ using Eigen::Vector2d;
 
 constexpr double kDiscM2 = std::numbers::pi * kCellRadiusM * kCellRadiusM;
 
-VoronoiCell cell_of(const std::vector<Vector2d>& people, std::size_t index,
-                    const std::vector<world::Building>& buildings = {}) {
+VoronoiCell make_cell(const std::vector<Vector2d>& people, std::size_t index,
+                      const std::vector<world::Building>& buildings = {}) {
   return VoronoiCutter(buildings).cell(geometry::PointGrid(people, 0.8), index);
 }
 
 TEST(Voronoi, ALonePersonHasTheWholeDisc) {
-  EXPECT_NEAR(cell_of({{3, 4}}, 0).area_m2, kDiscM2, 1e-9);
+  EXPECT_NEAR(make_cell({{3, 4}}, 0).area_m2, kDiscM2, 1e-9);
 }
 
 TEST(Voronoi, InALatticeEverybodyHasOneMesh) {
@@ -32,7 +32,7 @@ TEST(Voronoi, InALatticeEverybodyHasOneMesh) {
   for (int row = 0; row < 9; ++row) {
     for (int column = 0; column < 9; ++column) people.emplace_back(0.5 * column, 0.8 * row);
   }
-  const VoronoiCell cell = cell_of(people, 40);
+  const VoronoiCell cell = make_cell(people, 40);
   EXPECT_NEAR(cell.area_m2, 0.4, 1e-9);
   EXPECT_NEAR(cell.density_per_m2(), 2.5, 1e-9);
 }
@@ -45,13 +45,13 @@ TEST(Voronoi, TwoLanesInACorridorShareIt) {
     people.emplace_back(i, 1.5);
   }
   const std::vector<world::Building> walls = {box({-20, -3}, {30, 0}), box({-20, 2}, {30, 5})};
-  const VoronoiCell cell = cell_of(people, 10, walls);
+  const VoronoiCell cell = make_cell(people, 10, walls);
   EXPECT_NEAR(cell.area_m2, 1, 1e-9);
   EXPECT_NEAR(area_in(cell, std::vector<Vector2d>{{5, 0}, {9, 0}, {9, 0.5}, {5, 0.5}}), 0.25, 1e-9);
 }
 
 TEST(Voronoi, GroundBehindAThinWallBelongsToNobodyHere) {
-  const VoronoiCell cell = cell_of({{-1, 0}}, 0, {box({0, -9}, {0.1, 9})});
+  const VoronoiCell cell = make_cell({{-1, 0}}, 0, {box({0, -9}, {0.1, 9})});
   // The part of the disc on this side of x = 0: a segment of half angle 120 degrees.
   const double angle = 2 * std::numbers::pi / 3;
   const double segment = kCellRadiusM * kCellRadiusM * (angle - std::sin(angle) * std::cos(angle));
@@ -59,7 +59,7 @@ TEST(Voronoi, GroundBehindAThinWallBelongsToNobodyHere) {
 }
 
 TEST(Voronoi, APillarIsAHole) {
-  const VoronoiCell cell = cell_of({{0, 0}}, 0, {box({0.5, -0.25}, {1, 0.25})});
+  const VoronoiCell cell = make_cell({{0, 0}}, 0, {box({0.5, -0.25}, {1, 0.25})});
   EXPECT_EQ(cell.rings.size(), 2U);
   EXPECT_NEAR(cell.area_m2, kDiscM2 - 0.25, 1e-9);
   const std::vector<Vector2d> right = {{0, -3}, {3, -3}, {3, 3}, {0, 3}};
@@ -68,7 +68,7 @@ TEST(Voronoi, APillarIsAHole) {
 
 TEST(Voronoi, PeopleAtOnePlaceShareACell) {
   const std::vector<Vector2d> people = {{0, 0}, {0, 0}, {30, 30}};
-  EXPECT_NEAR(cell_of(people, 0).density_per_m2(), 2 / kDiscM2, 1e-9);
+  EXPECT_NEAR(make_cell(people, 0).density_per_m2(), 2 / kDiscM2, 1e-9);
 }
 
 // Against an implementation by others, for cells that no cut-off reaches.

@@ -38,7 +38,7 @@ std::vector<Vector2d> block(int rows, int columns, double pitch_m) {
 }
 
 TEST(ExitSeries, AnEvenStreamHasItsFlow) {
-  const ExitSeries series = observe(trace_of(column(40, 0.5, 3.05)));
+  const ExitSeries series = observe(make_trace(column(40, 0.5, 3.05)));
   EXPECT_EQ(series.exit_id, "door");
   EXPECT_DOUBLE_EQ(series.width_m, 2);
   ASSERT_EQ(series.samples.size(), 601U);
@@ -60,7 +60,7 @@ TEST(ExitSeries, AnEvenStreamHasItsFlow) {
 TEST(ExitSeries, AUniformColumnHasItsFlowDensityAndEdieFigures) {
   CrowdOfTest crowd;
   crowd.duration_s = 20;
-  const world::Trace trace = trace_of(column(60, 0.5, 0.05), crowd);
+  const world::Trace trace = make_trace(column(60, 0.5, 0.05), crowd);
   const ExitSeries series = observe(trace);
   const double area = std::numbers::pi * 9 / 2;
   for (int step = 45; step <= 200; ++step) {
@@ -86,7 +86,7 @@ TEST(ExitSeries, EdieWeighsSpeedsByTimeInTheZone) {
   }
   CrowdOfTest crowd;
   crowd.duration_s = 15;
-  const EdieRegion edie = observe(trace_of(walks, crowd)).edie;
+  const EdieRegion edie = observe(make_trace(walks, crowd)).edie;
   const double area = std::numbers::pi * 9 / 2;
   const double lane = std::sqrt(9 - 0.25);
   EXPECT_NEAR(edie.density_per_m2(), (lane / 0.4 + lane / 0.8) / area, 1e-4);
@@ -98,8 +98,8 @@ TEST(ExitSeries, IsCausal) {
   const auto walks = column(20, 0.7, 2);
   CrowdOfTest half;
   half.duration_s = 9;
-  const auto all = observe(trace_of(walks)).samples;
-  const auto first = observe(trace_of(walks, half)).samples;
+  const auto all = observe(make_trace(walks)).samples;
+  const auto first = observe(make_trace(walks, half)).samples;
   for (std::size_t step = 0; step < first.size(); ++step) {
     EXPECT_EQ(first[step].net_out(), all[step].net_out());
     EXPECT_EQ(first[step].state, all[step].state);
@@ -111,7 +111,7 @@ TEST(ExitSeries, ReturningPeopleAreSubtractedAndPassersbyNotCounted) {
   std::vector<Walk> walks = column(3, 1, 2);
   walks.push_back(walking({10, 0}, {-1, 0}));
   walks.push_back(walking({-5, 4}, {1, 0}));
-  const auto samples = observe(trace_of(walks)).samples;
+  const auto samples = observe(make_trace(walks)).samples;
   EXPECT_EQ(samples[90].net_out(), 3);
   EXPECT_EQ(samples.back().net_out(), 2);
   // Coming in is no outward crossing: the last was at 4 s and counted at 4.2 s.
@@ -126,7 +126,7 @@ TEST(ExitSeries, MeasuresTheZone) {
   }
   walks.push_back(standing({-10, 0}));
   walks.push_back(standing({0.5, 0}));
-  const ExitSeries series = observe(trace_of(walks));
+  const ExitSeries series = observe(make_trace(walks));
   const ExitSample& sample = series.samples.front();
   const double area = std::numbers::pi * 9 / 2;
   EXPECT_NEAR(series.zone_area_m2, area, 1e-6);
@@ -138,7 +138,7 @@ TEST(ExitSeries, MeasuresTheZone) {
 
 TEST(ExitSeries, CountsOnlyPeopleThatIntendTheExit) {
   const std::vector<Walk> walks = {standing({-1, 0}), standing({-1, 0.5}), standing({-1, 1})};
-  world::Trace trace = trace_of(walks);
+  world::Trace trace = make_trace(walks);
   for (std::size_t step = 0; step < trace.steps(); ++step)
     trace.exit_intent[trace.at(step, 1)] = -1;
   trace.header.role[2] = world::AgentRole::disaster;
@@ -151,12 +151,12 @@ TEST(ExitSeries, CountsOnlyPeopleThatIntendTheExit) {
 
 TEST(ExitSeries, IntentsAreFoundByIdNotByPlace) {
   const std::vector<Walk> walks = {standing({-1, 0})};
-  EXPECT_EQ(observe(trace_of(walks, {}, {"other", "door"})).samples.front().in_zone, 0);
-  EXPECT_EQ(observe(trace_of(walks, {}, {"door", "other"})).samples.front().in_zone, 1);
+  EXPECT_EQ(observe(make_trace(walks, {}, {"other", "door"})).samples.front().in_zone, 0);
+  EXPECT_EQ(observe(make_trace(walks, {}, {"door", "other"})).samples.front().in_zone, 1);
 }
 
 TEST(ExitSeries, NobodyIsIdleForEver) {
-  for (const ExitSample& sample : observe(trace_of({})).samples) {
+  for (const ExitSample& sample : observe(make_trace({})).samples) {
     EXPECT_EQ(sample.state, ExitState::idle);
     EXPECT_EQ(sample.in_zone, 0);
     EXPECT_EQ(sample.clogging_index, 0);
@@ -175,7 +175,7 @@ TEST(ExitSeries, ACrowdThatStopsFlowsCongestsClogsAndRecovers) {
       return place + Vector2d(1.5 + walked_s, 0);
     });
   }
-  const auto samples = observe(trace_of(walks)).samples;
+  const auto samples = observe(make_trace(walks)).samples;
   const auto at = [&](double time_s) { return samples[std::lround(time_s * 10)]; };
 
   EXPECT_EQ(at(0).state, ExitState::idle);
@@ -210,7 +210,7 @@ TEST(ExitSeries, TheGapStartsWithTheDemand) {
     walks.emplace_back(
         [=](double time_s) -> Vector2d { return place - Vector2d(time_s < 30 ? 10 : 0, 0); });
   }
-  const auto samples = observe(trace_of(walks)).samples;
+  const auto samples = observe(make_trace(walks)).samples;
   EXPECT_EQ(samples[299].state, ExitState::idle);
   EXPECT_EQ(samples[319].state, ExitState::congested);
   EXPECT_EQ(samples[320].state, ExitState::clogged);
@@ -220,12 +220,12 @@ TEST(ExitSeries, TheGapStartsWithTheDemand) {
 TEST(ExitSeries, AStandingCrowdClogsAfterTheClogTime) {
   std::vector<Walk> walks;
   for (const Vector2d& place : block(7, 7, 0.42)) walks.push_back(standing(place));
-  const auto wide = observe(trace_of(walks)).samples;
+  const auto wide = observe(make_trace(walks)).samples;
   EXPECT_EQ(wide[0].state, ExitState::congested);
   EXPECT_EQ(wide[19].state, ExitState::congested);
   EXPECT_EQ(wide[20].state, ExitState::clogged);
   // A door of 1 m takes 1.3 people/s: three of them are 2.31 s.
-  const auto narrow = observe(trace_of(walks), 1).samples;
+  const auto narrow = observe(make_trace(walks), 1).samples;
   EXPECT_EQ(narrow[23].state, ExitState::congested);
   EXPECT_EQ(narrow[24].state, ExitState::clogged);
 }
@@ -235,7 +235,7 @@ TEST(ExitSeries, AnOutwardCrossingEndsAClog) {
   std::vector<Walk> walks;
   for (const Vector2d& place : block(7, 7, 0.42)) walks.push_back(standing(place));
   walks.push_back(walking({-0.2, 0}, {1, 0}, 10));
-  const auto samples = observe(trace_of(walks)).samples;
+  const auto samples = observe(make_trace(walks)).samples;
   EXPECT_EQ(samples[100].state, ExitState::clogged);
   EXPECT_EQ(samples[106].state, ExitState::congested);
   EXPECT_EQ(samples[106].net_out(), 1);
@@ -252,7 +252,7 @@ TEST(ExitSeries, AShortReliefDoesNotEndAJam) {
       return place + Vector2d(0.9 * moved, 0);
     });
   }
-  const auto samples = observe(trace_of(walks)).samples;
+  const auto samples = observe(make_trace(walks)).samples;
   EXPECT_GT(samples[12].approach_speed_mps, 0.4 * 1.3);
   for (int step = 0; step < 19; ++step) {
     EXPECT_EQ(samples[step].state, ExitState::congested) << step;
@@ -260,7 +260,7 @@ TEST(ExitSeries, AShortReliefDoesNotEndAJam) {
 }
 
 TEST(ExitSeries, AnExitThatCannotWorkIsTheUsersError) {
-  const world::Trace trace = trace_of({standing({-1, 0})});
+  const world::Trace trace = make_trace({standing({-1, 0})});
   world::Scenario walled = place_with_door(2);
   walled.buildings.push_back(box({-30, -30}, {0, 30}));
   world::Scenario point = place_with_door(0);

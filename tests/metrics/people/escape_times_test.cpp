@@ -24,9 +24,9 @@ TEST(EscapeTimes, RunFromTheLaterOfAlarmAndArrival) {
       return {now_s < time_s - 0.05 ? 5.0 : 15.0, 0};
     };
   };
-  world::Trace trace = trace_of({leaves_at(3), leaves_at(9), leaves_at(14), standing({0, 0}),
-                                 standing({1, 0}), standing({2, 0})},
-                                crowd);
+  world::Trace trace = make_trace({leaves_at(3), leaves_at(9), leaves_at(14), standing({0, 0}),
+                                   standing({1, 0}), standing({2, 0})},
+                                  crowd);
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (step < 80) trace.flags[trace.at(step, 2)] = 0;
     if (step < 120) trace.flags[trace.at(step, 3)] = 0;

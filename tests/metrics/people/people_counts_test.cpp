@@ -12,24 +12,24 @@ namespace throng::metrics {
 namespace {
 
 /// A place from -20 to 10 m whose door is at x = 0 and 2 m wide.
-PeopleCounts counts_of(const world::Trace& trace,
-                       const world::Scenario& scenario = place_with_door(2)) {
-  const PeopleTracker tracker = tracked(trace, scenario, world::alarm_of(scenario));
+PeopleCounts count_people_in(const world::Trace& trace,
+                             const world::Scenario& scenario = place_with_door(2)) {
+  const PeopleTracker tracker = tracked(trace, scenario, world::find_alarm(scenario));
   return count_people(tracker.records(), scenario.exits);
 }
 
 TEST(PeopleCounts, APersonLeavesByTheDoorOrByAGap) {
-  const world::Trace trace = trace_of({walking({-5, 0}, {1, 0}), walking({-5, 5}, {1, 0}),
-                                       walking({-5, -3}, {-1, 0}), standing({-1, 0})});
-  const PeopleCounts counts = counts_of(trace);
+  const world::Trace trace = make_trace({walking({-5, 0}, {1, 0}), walking({-5, 5}, {1, 0}),
+                                         walking({-5, -3}, {-1, 0}), standing({-1, 0})});
+  const PeopleCounts counts = count_people_in(trace);
   EXPECT_EQ(counts.people, 4);
   ASSERT_EQ(counts.left_by.size(), 1);
   EXPECT_EQ(counts.left_by[0].people, 1);
   EXPECT_EQ(counts.left_by_no_exit, 2);
   EXPECT_EQ(counts.inside, 1);
-  ASSERT_EQ(warnings_of(counts).size(), 1);
-  EXPECT_EQ(warnings_of(counts)[0].rfind("2 of 4 people left the place where there is no exit", 0),
-            0);
+  ASSERT_EQ(count_warnings(counts).size(), 1);
+  EXPECT_EQ(
+      count_warnings(counts)[0].rfind("2 of 4 people left the place where there is no exit", 0), 0);
 }
 
 TEST(PeopleCounts, AnExitCountsPeopleLastHeadingForIt) {
@@ -37,7 +37,7 @@ TEST(PeopleCounts, AnExitCountsPeopleLastHeadingForIt) {
   scenario.exits.push_back(door(2));
   scenario.exits[1].id = "outer";
   scenario.exits[1].from.x() = scenario.exits[1].to.x() = 5;
-  const PeopleCounts counts = counts_of(trace_of({walking({-5, 0}, {1, 0})}), scenario);
+  const PeopleCounts counts = count_people_in(make_trace({walking({-5, 0}, {1, 0})}), scenario);
   EXPECT_EQ(counts.left_by[0].people, 0);
   EXPECT_EQ(counts.left_by[1].people, 1);
 }
@@ -49,8 +49,8 @@ TEST(PeopleCounts, ThePlaceMayEndAtOrBeforeTheLineOfTheDoor) {
     CrowdOfTest crowd;
     crowd.duration_s = 7.5 + end_m;  // the run ends soon after the escape
     const world::Trace trace =
-        trace_of({walking({-7, 0}, {1, 0}), walking({-7, 3}, {1, 0})}, crowd);
-    const PeopleCounts counts = counts_of(trace, scenario);
+        make_trace({walking({-7, 0}, {1, 0}), walking({-7, 3}, {1, 0})}, crowd);
+    const PeopleCounts counts = count_people_in(trace, scenario);
     EXPECT_EQ(counts.left_by[0].people, 1) << end_m;
     EXPECT_EQ(counts.left_by_no_exit, 1) << end_m;
     if (end_m < 0) continue;
@@ -60,7 +60,7 @@ TEST(PeopleCounts, ThePlaceMayEndAtOrBeforeTheLineOfTheDoor) {
 }
 
 TEST(PeopleCounts, ARecordingThatEndsInsideIsNoEscape) {
-  world::Trace trace = trace_of({walking({-5, 0}, {1, 0}), walking({-5, 0.5}, {1, 0})});
+  world::Trace trace = make_trace({walking({-5, 0}, {1, 0}), walking({-5, 0.5}, {1, 0})});
   trace.header.crowd.model = world::kRecordedCrowd;
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     if (trace.time_s[step] > 4.5) trace.flags[trace.at(step, 0)] = 0;  // 0.5 m before the door
@@ -79,7 +79,7 @@ TEST(PeopleCounts, ARecordingThatEndsInsideIsNoEscape) {
 TEST(PeopleCounts, PeopleNeverInsideAreNoEvacuees) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 3);
-  const world::Trace trace = trace_of({standing({40, 0}), walking({-5, 0}, {1, 0})});
+  const world::Trace trace = make_trace({standing({40, 0}), walking({-5, 0}, {1, 0})});
   const RunMetrics metrics = run_metrics(trace, scenario, exit_series(trace, scenario));
   EXPECT_EQ(metrics.people, 2);
   EXPECT_EQ(metrics.counts.never_inside, 1);
@@ -95,7 +95,7 @@ TEST(PeopleCounts, TurningBackOutsideOfTheDoorIsLeavingThere) {
   const Walk comes_in_and_leaves_by_a_gap = [](double time_s) -> Eigen::Vector2d {
     return {time_s < 6 ? 3 - time_s : time_s - 9, time_s < 6 ? 0 : time_s - 6};
   };
-  const PeopleCounts counts = counts_of(trace_of({turns, comes_in_and_leaves_by_a_gap}));
+  const PeopleCounts counts = count_people_in(make_trace({turns, comes_in_and_leaves_by_a_gap}));
   EXPECT_EQ(counts.left_by[0].people, 1);
   EXPECT_EQ(counts.turned_back, 1);
   EXPECT_EQ(counts.left_by_no_exit, 1);

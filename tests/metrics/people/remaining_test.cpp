@@ -11,8 +11,9 @@ namespace {
 using Eigen::Vector2d;
 
 Remaining remaining_in(const world::Trace& trace, const world::Scenario& scenario) {
-  return remaining_of(trace, scenario, person_records(trace, scenario, world::alarm_of(scenario)),
-                      walking_distances(scenario));
+  return count_remaining(trace, scenario,
+                         person_records(trace, scenario, world::find_alarm(scenario)),
+                         walking_distances(scenario));
 }
 
 /// Sets a person's state at the last step.
@@ -31,9 +32,9 @@ CrowdOfTest two_minutes() {
 TEST(Remaining, EveryReasonOnce) {
   const Vector2d spot(-5, 0);
   // Out; casualty, guided, waiting, walking, stalled.
-  world::Trace trace = trace_of({walking({-5, 0}, {0.5, 0}), standing(spot), standing(spot),
-                                 standing(spot), walking({-19, 3}, {0.12, 0}), standing(spot)},
-                                two_minutes());
+  world::Trace trace = make_trace({walking({-5, 0}, {0.5, 0}), standing(spot), standing(spot),
+                                   standing(spot), walking({-19, 3}, {0.12, 0}), standing(spot)},
+                                  two_minutes());
   mark_end(trace, 1, world::kFallen, 0);
   mark_end(trace, 2, world::kFollowing, -1);
   mark_end(trace, 3, 0, -1);
@@ -48,7 +49,7 @@ TEST(Remaining, EveryReasonOnce) {
 }
 
 TEST(Remaining, NobodyLeavesByAShutDoorOrThroughWalls) {
-  const world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
+  const world::Trace trace = make_trace({standing({-5, 0})}, two_minutes());
   world::Scenario closed = place_with_door(2);
   closed.exits[0].closes_at_s = 30;
   EXPECT_EQ(remaining_in(trace, closed).blocked, 1);
@@ -60,13 +61,13 @@ TEST(Remaining, NobodyLeavesByAShutDoorOrThroughWalls) {
 }
 
 TEST(Remaining, RecentArrivalsAreOnTheirWay) {
-  world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
+  world::Trace trace = make_trace({standing({-5, 0})}, two_minutes());
   for (std::size_t step = 0; step < 800; ++step) trace.flags[trace.at(step, 0)] = 0;
   EXPECT_EQ(remaining_in(trace, place_with_door(2)).walking, 1);
 }
 
 TEST(Remaining, DepartedPeopleAreNotInside) {
-  world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
+  world::Trace trace = make_trace({standing({-5, 0})}, two_minutes());
   for (std::size_t step = 900; step < trace.steps(); ++step) trace.flags[trace.at(step, 0)] = 0;
   EXPECT_EQ(remaining_in(trace, place_with_door(2)).total(), 0);
 }

@@ -42,7 +42,7 @@ class TrajectoryRoundTrip : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(TrajectoryRoundTrip, KeepsTheValuesOfTheFormat) {
   std::vector<Walk> walks = {walking({-2, 0}, {1, 0}), walking({-3, 0.3}, {1, 0})};
-  world::Trace trace = trace_of(walks);
+  world::Trace trace = make_trace(walks);
   trace.header.exit_ids.clear();
   for (std::size_t step = 0; step < 5; ++step) trace.flags[trace.at(step, 1)] = 0;
   const TemporaryFolder folder;

@@ -34,9 +34,10 @@ TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   expect_problem(get(done["links"]["archive"].get<std::string>() + "?include=nothing"), 404);
   // The pretended dataset has no runs of its own.
   expect_problem(get(self + "/runs/0/metrics"), 404);
-  write_file_atomically(service.folders().dataset_of(job["id"]) / "metrics/run000.json",
+  write_file_atomically(service.folders().dataset_folder(job["id"]) / "metrics/run000.json",
                         R"({"people":3})");
-  write_file_atomically(service.folders().dataset_of(job["id"]) / "exits/run000.csv", "frame\n");
+  write_file_atomically(service.folders().dataset_folder(job["id"]) / "exits/run000.csv",
+                        "frame\n");
   EXPECT_EQ(get_json(self + "/runs/0/metrics"), json::parse(R"({"people":3})"));
   EXPECT_EQ(get(self + "/runs/0/metrics.csv")->body, "frame\n");
   expect_problem(get(self + "/runs/1/metrics.csv"), 404);

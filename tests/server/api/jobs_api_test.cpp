@@ -23,7 +23,7 @@ class JobsApi : public ApiTest {
     return post("/v1/jobs" + query, status, kJob);
   }
 
-  std::vector<std::string> types_of(const std::string& id) const {
+  std::vector<std::string> event_types(const std::string& id) const {
     std::vector<std::string> types;
     const json page = get_json("/v1/jobs/" + id + "/events");
     for (const json& event : page["events"]) types.push_back(event["type"]);
@@ -78,7 +78,7 @@ TEST_F(JobsApi, CancelEndsTheWorkAndRetryGoesOnWithIt) {
       << get("/v1/jobs/" + id)->body;
   EXPECT_EQ(get_json("/v1/jobs/" + id)["attempt"], 2);
   expect_problem(client().Post("/v1/jobs/" + id + "/retry", "", "application/json"), 409);
-  EXPECT_THAT(types_of(other), ElementsAre("submitted", "cancelled"));
+  EXPECT_THAT(event_types(other), ElementsAre("submitted", "cancelled"));
 }
 
 TEST_F(JobsApi, ACloneIsTheSameJobExceptForChanges) {
@@ -200,7 +200,7 @@ TEST_F(JobsApi, AStreamOfARunningJobTellsThePastBeforeItsProgress) {
   const std::string self = "/v1/jobs/" + id;
   // Progress is there, and so are events, before anybody looks.
   ASSERT_FALSE(get_json(self)["progress"].is_null());
-  std::vector<std::string> past = types_of(id);
+  std::vector<std::string> past = event_types(id);
   ASSERT_GE(past.size(), 2U);
   past.emplace_back("progress");
   std::vector<std::string> first;
@@ -213,7 +213,7 @@ TEST_F(JobsApi, AStreamOfARunningJobTellsThePastBeforeItsProgress) {
   const std::vector<std::string> all = streamed(self + "/events", has_ended);
   EXPECT_EQ(first, past);
   EXPECT_EQ(all.back(), "succeeded");
-  EXPECT_EQ(streamed(self + "/events", [](const auto&) { return false; }), types_of(id))
+  EXPECT_EQ(streamed(self + "/events", [](const auto&) { return false; }), event_types(id))
       << "no progress once it has ended";
 }
 

@@ -23,9 +23,9 @@ TEST(Routes, ParametersMatchTheirNames) {
 }
 
 TEST(Routes, PatternsCaptureTheParameters) {
-  EXPECT_EQ(pattern_of("/v1/jobs/{id}/runs/{n}/metrics.csv"),
+  EXPECT_EQ(route_pattern("/v1/jobs/{id}/runs/{n}/metrics.csv"),
             R"(/v1/jobs/([a-z0-9]+)/runs/([0-9]+)/metrics\.csv)");
-  EXPECT_EQ(pattern_of("/v1/jobs/{id}/files/{path}"), "/v1/jobs/([a-z0-9]+)/files/(.+)");
+  EXPECT_EQ(route_pattern("/v1/jobs/{id}/files/{path}"), "/v1/jobs/([a-z0-9]+)/files/(.+)");
 }
 
 TEST(Routes, AllowedMethodsAreThoseOfThePath) {

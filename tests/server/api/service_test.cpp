@@ -30,7 +30,7 @@ TEST_F(ServiceTest, AJobRunsToItsDataset) {
   const JobRow row = service.queue().submit({kJob}).row;
   EXPECT_EQ(row.name, "yard");
   ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
-  EXPECT_TRUE(std::filesystem::exists(service.folders().dataset_of(row.id) / "manifest.json"));
+  EXPECT_TRUE(std::filesystem::exists(service.folders().dataset_folder(row.id) / "manifest.json"));
   const json progress = json::parse(service.queue().get(row.id)->progress_json);
   EXPECT_EQ(progress["stage"], "finished");
   EXPECT_EQ(progress["frames_done"], 3);
@@ -196,7 +196,7 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
   ASSERT_EQ(error["runs"].size(), 1U);
   EXPECT_EQ(error["runs"][0]["run"], "run001");
   EXPECT_EQ(error["runs"][0]["message"], "run001/trace: no memory for x (after 3 attempts)");
-  EXPECT_TRUE(std::filesystem::exists(service.folders().dataset_of(id)));
+  EXPECT_TRUE(std::filesystem::exists(service.folders().dataset_folder(id)));
   EXPECT_GT(service.queue().get(id)->bytes, 0);
   fails = false;
   EXPECT_TRUE(service.queue().retry(id));

@@ -24,7 +24,7 @@ class RealChecks : public ServiceFixture {
     return options;
   }
 
-  std::vector<Problem> problems_of(const std::string& job, std::int64_t max_task_mib = 0) {
+  std::vector<Problem> list_problems(const std::string& job, std::int64_t max_task_mib = 0) {
     ServiceOptions really_options = really(options());
     really_options.max_task_mib = max_task_mib;
     Service service(really_options, executor);
@@ -50,25 +50,25 @@ TEST_F(RealChecks, AJobIsRefusedIfItsScenarioCannotDoIt) {
        "/drones/0/camera/distortion"},
   };
   for (const auto& [job, pointer] : cases) {
-    const std::vector<Problem> problems = problems_of(job);
+    const std::vector<Problem> problems = list_problems(job);
     ASSERT_EQ(problems.size(), 1U) << job;
     EXPECT_EQ(problems[0].where, pointer) << job;
     EXPECT_EQ(problems[0].source, "");
     EXPECT_FALSE(problems[0].found.empty());
     EXPECT_FALSE(problems[0].expected.empty());
   }
-  EXPECT_TRUE(problems_of(R"({"scenario": "yard", "crowd": {"agents": 2}})").empty());
+  EXPECT_TRUE(list_problems(R"({"scenario": "yard", "crowd": {"agents": 2}})").empty());
 }
 
 TEST_F(RealChecks, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
   SKIP_WITHOUT_PROGRAM();
   constexpr std::int64_t kMaxMib = 1000;
   const char* small = R"({"scenario": "yard", "drones": [{"id": "d1"}]})";
-  EXPECT_TRUE(problems_of(small, kMaxMib).empty());
+  EXPECT_TRUE(list_problems(small, kMaxMib).empty());
   const char* large = R"({"scenario": "yard", "drones": [{"id": "d1", "camera":
                           {"width": 7680, "height": 4320}}]})";
-  EXPECT_TRUE(problems_of(large).empty());
-  const std::vector<Problem> problems = problems_of(large, kMaxMib);
+  EXPECT_TRUE(list_problems(large).empty());
+  const std::vector<Problem> problems = list_problems(large, kMaxMib);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones");
   EXPECT_THAT(problems[0].expected, HasSubstr("1000 MiB"));
@@ -156,9 +156,9 @@ TEST_F(ServiceFixture, ASlowCheckOfAJobWithABundleLetsOthersSubmit) {
   go_on.set_value();
   const jobs::Added added = first.get();
   EXPECT_TRUE(added.is_new);
-  EXPECT_TRUE(fs::exists(data.path() / "uploads" / bundle_name_of(bundle)));
+  EXPECT_TRUE(fs::exists(data.path() / "uploads" / bundle_name(bundle)));
   EXPECT_TRUE(service.housekeeping().remove(added.row.id));
-  EXPECT_FALSE(fs::exists(data.path() / "uploads" / bundle_name_of(bundle)));
+  EXPECT_FALSE(fs::exists(data.path() / "uploads" / bundle_name(bundle)));
 }
 
 class UploadsOutside : public ApiTest {

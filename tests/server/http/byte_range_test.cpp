@@ -11,15 +11,15 @@ RangeAnswer answer(const std::string& range, const std::string& if_range = "") {
   return range_answer(range, if_range, "\"tag\"", 1000);
 }
 
-RangeAnswer part_of(std::int64_t first, std::int64_t last) { return {part, {first, last}}; }
+RangeAnswer range_answer(std::int64_t first, std::int64_t last) { return {part, {first, last}}; }
 
 TEST(ByteRange, PartsAreCutToTheFile) {
-  EXPECT_EQ(answer("bytes=0-0"), part_of(0, 0));
-  EXPECT_EQ(answer("bytes=10-19"), part_of(10, 19));
-  EXPECT_EQ(answer("bytes=10-"), part_of(10, 999));
-  EXPECT_EQ(answer("bytes=990-5000"), part_of(990, 999));
-  EXPECT_EQ(answer("bytes=-10"), part_of(990, 999));
-  EXPECT_EQ(answer("bytes=-99999999999999999999"), part_of(0, 999));
+  EXPECT_EQ(answer("bytes=0-0"), range_answer(0, 0));
+  EXPECT_EQ(answer("bytes=10-19"), range_answer(10, 19));
+  EXPECT_EQ(answer("bytes=10-"), range_answer(10, 999));
+  EXPECT_EQ(answer("bytes=990-5000"), range_answer(990, 999));
+  EXPECT_EQ(answer("bytes=-10"), range_answer(990, 999));
+  EXPECT_EQ(answer("bytes=-99999999999999999999"), range_answer(0, 999));
 }
 
 TEST(ByteRange, NothingPastTheEnd) {
@@ -38,7 +38,7 @@ TEST(ByteRange, AnythingButASingleRangeOfBytesMeansTheWhole) {
 }
 
 TEST(ByteRange, APartOfAnotherVersionIsNotGiven) {
-  EXPECT_EQ(answer("bytes=10-19", "\"tag\""), part_of(10, 19));
+  EXPECT_EQ(answer("bytes=10-19", "\"tag\""), range_answer(10, 19));
   EXPECT_EQ(answer("bytes=10-19", "\"other\"").kind, whole);
 }
 

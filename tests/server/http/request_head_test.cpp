@@ -11,18 +11,18 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-int status_of(const std::string& head) {
+int response_status(const std::string& head) {
   const auto read = parse_request_head(head);
   const auto* error = std::get_if<HeadError>(&read);
   return error == nullptr ? 200 : error->status;
 }
 
 int status_of_get(const std::string& fields) {
-  return status_of("GET /v1/jobs HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n");
+  return response_status("GET /v1/jobs HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n");
 }
 
 int status_of_post(const std::string& fields) {
-  return status_of("POST /v1/jobs HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n");
+  return response_status("POST /v1/jobs HTTP/1.1\r\nHost: a\r\n" + fields + "\r\n");
 }
 
 RequestHead taken(const std::string& head) {
@@ -44,7 +44,7 @@ TEST(RequestHead, IsReadAsSent) {
   ASSERT_EQ(head.fields.size(), 3U);
   EXPECT_EQ(head.fields[1].value, "*/*");
   EXPECT_EQ(head.fields[2].value, "");
-  EXPECT_EQ(library_text_of(head),
+  EXPECT_EQ(library_text(head),
             "POST /v1/jobs/a%20b?x=%41+1 HTTP/1.1\r\nHost: localhost:80\r\nAccept: */*\r\n"
             "X-Empty: \r\nContent-Length: 12\r\n\r\n");
 }
@@ -63,7 +63,7 @@ TEST(RequestHead, ConnectionsPersistAsTheClientWishes) {
 
 TEST(RequestHead, TheRequestLineIsStrict) {
   const auto status = [](const std::string& line) {
-    return status_of(line + "\r\nHost: a\r\n\r\n");
+    return response_status(line + "\r\nHost: a\r\n\r\n");
   };
   EXPECT_EQ(status("GET / HTTP/1.1"), 200);
   EXPECT_EQ(status("GET / HTTP/1.0"), 200);
@@ -112,8 +112,8 @@ TEST(RequestHead, FieldsAreStrict) {
     EXPECT_EQ(status_of_get(fields), 400) << fields;
   }
   EXPECT_EQ(status_of_get(std::string("X: a\0b\r\n", 8)), 400);
-  EXPECT_EQ(status_of("GET / HTTP/1.1\nHost: a\n\n"), 400);
-  EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: a\r\n\n\r\n"), 400);
+  EXPECT_EQ(response_status("GET / HTTP/1.1\nHost: a\n\n"), 400);
+  EXPECT_EQ(response_status("GET / HTTP/1.1\r\nHost: a\r\n\n\r\n"), 400);
   EXPECT_EQ(status_of_get("X: " + std::string(kMaxLineBytes, 'y') + "\r\n"), 431);
   std::string many;
   for (std::size_t i = 0; i < kMaxHeaderFields; ++i) many += "X: y\r\n";
@@ -122,7 +122,7 @@ TEST(RequestHead, FieldsAreStrict) {
 
 TEST(RequestHead, NamesOneHost) {
   const auto status = [](const std::string& fields) {
-    return status_of("GET / HTTP/1.1\r\n" + fields + "\r\n");
+    return response_status("GET / HTTP/1.1\r\n" + fields + "\r\n");
   };
   EXPECT_EQ(status(""), 400);
   EXPECT_EQ(status("Host: a\r\nhost: a\r\n"), 400);
@@ -130,7 +130,7 @@ TEST(RequestHead, NamesOneHost) {
   EXPECT_EQ(status("Host: a/b\r\n"), 400);
   EXPECT_EQ(status("Host: a@b\r\n"), 400);
   EXPECT_EQ(status("Host: [::1]:80\r\n"), 200);
-  EXPECT_EQ(status_of("GET / HTTP/1.0\r\n\r\n"), 200);
+  EXPECT_EQ(response_status("GET / HTTP/1.0\r\n\r\n"), 200);
 }
 
 TEST(RequestHead, LengthsAreOnePlainNumber) {
@@ -161,19 +161,19 @@ TEST(RequestHead, ChunkedBodiesAreRefused) {
   EXPECT_EQ(status_of_post("Transfer-Encoding: chunked\r\nContent-Length: 5\r\n"), 400);
   EXPECT_EQ(status_of_post("Content-Length: 5\r\nTRANSFER-ENCODING: x\r\n"), 400);
   EXPECT_EQ(status_of_post("Transfer-Encoding: chunked\r\nTransfer-Encoding: x\r\n"), 400);
-  EXPECT_EQ(status_of("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"), 400);
+  EXPECT_EQ(response_status("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"), 400);
 }
 
 TEST(RequestHead, OnlySomeMethodsHaveBodies) {
   for (const char* method : {"GET", "HEAD", "OPTIONS"}) {
     const std::string line = fmt::format("{} / HTTP/1.1\r\nHost: a\r\n", method);
-    EXPECT_EQ(status_of(line + "Content-Length: 0\r\n\r\n"), 200) << method;
-    EXPECT_EQ(status_of(line + "Content-Length: 1\r\n\r\n"), 400) << method;
-    EXPECT_EQ(status_of(line + "Transfer-Encoding: chunked\r\n\r\n"), 400) << method;
+    EXPECT_EQ(response_status(line + "Content-Length: 0\r\n\r\n"), 200) << method;
+    EXPECT_EQ(response_status(line + "Content-Length: 1\r\n\r\n"), 400) << method;
+    EXPECT_EQ(response_status(line + "Transfer-Encoding: chunked\r\n\r\n"), 400) << method;
   }
   for (const char* method : {"POST", "PUT", "PATCH", "DELETE"}) {
     const std::string line = fmt::format("{} / HTTP/1.1\r\nHost: a\r\n", method);
-    EXPECT_EQ(status_of(line + "Content-Length: 1\r\n\r\n"), 200) << method;
+    EXPECT_EQ(response_status(line + "Content-Length: 1\r\n\r\n"), 200) << method;
   }
 }
 
@@ -187,7 +187,7 @@ TEST(RequestHead, ContentCodingsAreRefused) {
   }
   EXPECT_EQ(status_of_post("Content-Encoding: identity\r\ncontent-encoding: br\r\n"), 415);
   EXPECT_THAT(
-      library_text_of(taken("POST / HTTP/1.1\r\nHost: a\r\nContent-Encoding: identity\r\n\r\n")),
+      library_text(taken("POST / HTTP/1.1\r\nHost: a\r\nContent-Encoding: identity\r\n\r\n")),
       Not(HasSubstr("Encoding")));
 }
 
@@ -204,7 +204,7 @@ TEST(RequestHead, FieldsThatDecideAreThereOnce) {
 }
 
 TEST(RequestHead, TheLibraryGetsTheSentBytes) {
-  const std::string text = library_text_of(
+  const std::string text = library_text(
       taken("GET / HTTP/1.0\r\nX: a%0d%0aEvil: 1\r\nREMOTE_ADDR: 1.2.3.4\r\nUpgrade: h2c\r\n"
             "Connection: keep-alive, X\r\nTrailer: Content-Length\r\n\r\n"));
   // cpp-httplib 0.11 decodes percent escapes in values.
@@ -213,7 +213,7 @@ TEST(RequestHead, TheLibraryGetsTheSentBytes) {
 
 TEST(RequestHead, GzipIsTheOnlyCodingOfAnswers) {
   const auto text_of = [](const std::string& codings) {
-    return library_text_of(taken("GET / HTTP/1.1\r\nHost: a\r\n" + codings + "\r\n"));
+    return library_text(taken("GET / HTTP/1.1\r\nHost: a\r\n" + codings + "\r\n"));
   };
   const std::string plain = "GET / HTTP/1.1\r\nHost: a\r\n\r\n";
   const std::string packed = "GET / HTTP/1.1\r\nHost: a\r\nAccept-Encoding: gzip\r\n\r\n";

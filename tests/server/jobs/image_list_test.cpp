@@ -19,8 +19,8 @@ std::vector<jobs::FileEntry> files_named(std::vector<std::string> paths) {
 }
 
 /// Some files beside the images, also below images/.
-std::vector<jobs::FileEntry> dataset_of(int runs, const std::vector<std::string>& cameras,
-                                        int frames) {
+std::vector<jobs::FileEntry> make_file_list(int runs, const std::vector<std::string>& cameras,
+                                            int frames) {
   std::vector<std::string> paths = {"README.md",
                                     "annotations/instances.json",
                                     "images.txt",
@@ -39,7 +39,7 @@ std::vector<jobs::FileEntry> dataset_of(int runs, const std::vector<std::string>
 }
 
 TEST(ImageList, PagesHoldEachImageOnce) {
-  const auto files = dataset_of(2, {"d1", "view"}, 5);
+  const auto files = make_file_list(2, {"d1", "view"}, 5);
   std::vector<std::string> seen;
   for (std::int64_t offset = 0; offset < 21; offset += 3) {
     const ImageList page = list_images(files, {"", "", offset, 3});
@@ -56,7 +56,7 @@ TEST(ImageList, PagesHoldEachImageOnce) {
 }
 
 TEST(ImageList, FiltersAndSummary) {
-  const auto files = dataset_of(3, {"d1", "d2"}, 4);
+  const auto files = make_file_list(3, {"d1", "d2"}, 4);
   const ImageList list = list_images(files, {"run001", "d2", 1, 2});
   EXPECT_EQ(list.total, 4);
   ASSERT_EQ(list.images.size(), 2U);
@@ -79,7 +79,7 @@ TEST(ImageList, FramesNeedNotBeginAtZero) {
 }
 
 TEST(ImageList, AHundredThousandImagesTakeAMoment) {
-  const auto files = dataset_of(100, {"d1", "d2"}, 500);
+  const auto files = make_file_list(100, {"d1", "d2"}, 500);
   // CPU time, with sanitizers too: a search per image would take minutes.
   const std::clock_t start = std::clock();
   EXPECT_EQ(list_images(files, {"", "", 50'000, 48}).total, 100'000);

@@ -52,7 +52,7 @@ class Receiver {
   std::thread thread_;
 };
 
-std::vector<std::string> types_of(const std::vector<httplib::Request>& requests) {
+std::vector<std::string> event_types(const std::vector<httplib::Request>& requests) {
   std::vector<std::string> types;
   for (const httplib::Request& request : requests) {
     types.push_back(request.get_header_value("Throng-Event"));
@@ -83,8 +83,8 @@ TEST_F(WebhooksTest, TellHowJobsEndSignedAndInOrder) {
   EXPECT_EQ(body["links"]["job"], "/v1/jobs/" + id);
   const std::string signature = first.get_header_value("Throng-Signature");
   const std::int64_t unix_s = std::stoll(signature.substr(2));
-  EXPECT_EQ(signature, signature_of("s3cret", unix_s, first.body));
-  EXPECT_NE(signature, signature_of("other", unix_s, first.body));
+  EXPECT_EQ(signature, sign_body("s3cret", unix_s, first.body));
+  EXPECT_NE(signature, sign_body("other", unix_s, first.body));
   EXPECT_LT(body["seq"], json::parse(receiver.requests()[1].body)["seq"]);
   const std::string self = hook["links"]["self"];
   ASSERT_TRUE(wait_until([&] { return get_json(self + "/deliveries")["deliveries"].size() == 2; }));
@@ -97,7 +97,7 @@ TEST_F(WebhooksTest, TellHowJobsEndSignedAndInOrder) {
 
 TEST_F(WebhooksTest, TheSignatureIsThatOfRfc2104) {
   // Computed with: printf 1700000000.{} | openssl dgst -sha256 -hmac key
-  EXPECT_EQ(signature_of("key", 1700000000, "{}"),
+  EXPECT_EQ(sign_body("key", 1700000000, "{}"),
             "t=1700000000,v1="
             "9d713ed406bb7076d4123f0dc2c39d2df5c654ed4b0cd56b52c8b4c940bd63ae");
 }
@@ -107,7 +107,7 @@ TEST_F(WebhooksTest, ChosenEventsOnly) {
   const std::string id = submit_and_wait();
   client().Delete("/v1/jobs/" + id);
   ASSERT_TRUE(wait_until([&] { return receiver.requests().size() == 2; }));
-  EXPECT_THAT(types_of(receiver.requests()), ElementsAre("submitted", "removed"));
+  EXPECT_THAT(event_types(receiver.requests()), ElementsAre("submitted", "removed"));
 }
 
 TEST_F(WebhooksTest, RefusedDeliveriesAreSentAgain) {
@@ -145,7 +145,7 @@ TEST_F(WebhooksTest, AnyStatusOf200To299TakesAnEvent) {
   const std::string id = submit_and_wait();
   client().Delete("/v1/jobs/" + id);
   ASSERT_TRUE(wait_until([&] {
-    return !receiver.requests().empty() && types_of(receiver.requests()).back() == "removed";
+    return !receiver.requests().empty() && event_types(receiver.requests()).back() == "removed";
   }));
   const json deliveries = get_json(self + "/deliveries")["deliveries"];
   for (const json& delivery : deliveries) {

@@ -11,16 +11,18 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-Address address_of(std::string_view text) { return parse_address(text, "", "/outputs/publish"); }
+Address parse_publish_address(std::string_view text) {
+  return parse_address(text, "", "/outputs/publish");
+}
 
 TEST(BucketAddress, BucketPrefixAndKeys) {
-  const Address address = address_of("s3://my-data.2/crowds/day=1/a_b.c/");
+  const Address address = parse_publish_address("s3://my-data.2/crowds/day=1/a_b.c/");
   EXPECT_EQ(address.bucket, "my-data.2");
   EXPECT_EQ(address.prefix, "crowds/day=1/a_b.c");
   EXPECT_EQ(address.text(), "s3://my-data.2/crowds/day=1/a_b.c");
   EXPECT_EQ(address.key_of("images/1.jpg"), "crowds/day=1/a_b.c/images/1.jpg");
-  EXPECT_EQ(address_of("s3://data").key_of("manifest.json"), "manifest.json");
-  EXPECT_EQ(address_of("s3://data/").text(), "s3://data");
+  EXPECT_EQ(parse_publish_address("s3://data").key_of("manifest.json"), "manifest.json");
+  EXPECT_EQ(parse_publish_address("s3://data/").text(), "s3://data");
 }
 
 TEST(BucketAddress, AddressesThatCannotBeSignedOrLackABucketAreRefused) {
@@ -46,16 +48,16 @@ TEST(BucketAddress, AddressesThatCannotBeSignedOrLackABucketAreRefused) {
                             "s3://data/x%2Fy",
                             "s3://data/\n",
                             "s3://data/\xC3\xA9"}) {
-    EXPECT_THROW(address_of(wrong), InputError) << wrong;
+    EXPECT_THROW(parse_publish_address(wrong), InputError) << wrong;
   }
-  EXPECT_THROW(address_of("s3://" + std::string(64, 'a')), InputError);
-  EXPECT_THROW(address_of("s3://data/" + std::string(513, 'a')), InputError);
-  EXPECT_NO_THROW(address_of("s3://data/" + std::string(512, 'a')));
+  EXPECT_THROW(parse_publish_address("s3://" + std::string(64, 'a')), InputError);
+  EXPECT_THROW(parse_publish_address("s3://data/" + std::string(513, 'a')), InputError);
+  EXPECT_NO_THROW(parse_publish_address("s3://data/" + std::string(512, 'a')));
 }
 
 TEST(BucketAddress, APasswordIsNotRepeated) {
   try {
-    address_of("s3://me:hunter2@data/x");
+    parse_publish_address("s3://me:hunter2@data/x");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/outputs/publish: found an address with a user"));
@@ -65,7 +67,7 @@ TEST(BucketAddress, APasswordIsNotRepeated) {
 
 TEST(BucketAddress, WithinAnotherByWholeSegments) {
   const auto is_within = [](const char* a, const char* b) {
-    return address_of(a).is_within(address_of(b));
+    return parse_publish_address(a).is_within(parse_publish_address(b));
   };
   EXPECT_TRUE(is_within("s3://data/a", "s3://data/a"));
   EXPECT_TRUE(is_within("s3://data/a/b", "s3://data/a"));

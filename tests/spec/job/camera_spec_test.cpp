@@ -27,7 +27,7 @@ CameraSpec parsed(const char* text) {
   return spec;
 }
 
-std::vector<std::string> pointers_of(const char* text) {
+std::vector<std::string> problem_pointers(const char* text) {
   std::vector<Problem> problems;
   read_camera(json::parse(text), kPlace, problems);
   std::vector<std::string> pointers;
@@ -84,12 +84,13 @@ TEST(CameraSpec, ACalibrationStandsAlone) {
   json both = json::parse(kCalibration);
   both["hfov_deg"] = 70;
   both["width"] = 640;
-  EXPECT_THAT(pointers_of(both.dump().c_str()),
+  EXPECT_THAT(problem_pointers(both.dump().c_str()),
               ElementsAre("/drones/0/camera/width", "/drones/0/camera/hfov_deg"));
   json bad = json::parse(kCalibration);
   bad["calibration"]["fx"] = 0;
-  EXPECT_THAT(pointers_of(bad.dump().c_str()), ElementsAre("/drones/0/camera/calibration/fx"));
-  EXPECT_THAT(pointers_of(R"({"calibration": "c1"})"), ElementsAre("/drones/0/camera/calibration"));
+  EXPECT_THAT(problem_pointers(bad.dump().c_str()), ElementsAre("/drones/0/camera/calibration/fx"));
+  EXPECT_THAT(problem_pointers(R"({"calibration": "c1"})"),
+              ElementsAre("/drones/0/camera/calibration"));
 }
 
 TEST(CameraSpec, CalibrationsAreFoundByTheirNames) {
@@ -150,7 +151,7 @@ TEST(CameraSpec, MetersImagesAndChoosesIsoUnlessGiven) {
 TEST(CameraSpec, PresetsFillInMissingFields) {
   for (const std::string& name : camera_presets()) {
     const std::string text = R"({"preset": ")" + name + R"("})";
-    EXPECT_TRUE(pointers_of(text.c_str()).empty()) << name;
+    EXPECT_TRUE(problem_pointers(text.c_str()).empty()) << name;
   }
   const CameraSpec spec = parsed(R"({"preset": "dji_phantom_4_pro"})");
   EXPECT_EQ(spec.width, 4864);
@@ -201,7 +202,7 @@ TEST(CameraSpec, EachMistakeIsNamedByItsPointer) {
       {R"({"sensor": {"white_balance_k": 1000}})", "/drones/0/camera/sensor/white_balance_k"},
   };
   for (const auto& [text, pointer] : cases) {
-    const std::vector<std::string> pointers = pointers_of(text);
+    const std::vector<std::string> pointers = problem_pointers(text);
     EXPECT_FALSE(pointers.empty()) << text;
     EXPECT_EQ(pointers.empty() ? "" : pointers.front(), pointer) << text;
   }

@@ -112,8 +112,8 @@ TEST(Plan, TaskNamesAreUniqueAndReadBack) {
   }
   std::set<std::string> names;
   for (const Task& task : tasks) {
-    names.insert(name_of(task));
-    EXPECT_EQ(task_named(job, name_of(task)), task);
+    names.insert(to_string(task));
+    EXPECT_EQ(task_named(job, to_string(task)), task);
   }
   EXPECT_EQ(names.size(), tasks.size());
   for (const char* unknown : {"", "run002/trace", "run000/shard0099", "../dataset", "run000"}) {

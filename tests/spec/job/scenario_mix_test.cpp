@@ -34,7 +34,7 @@ std::string complaint(const json& scenarios, const json& more = json::object()) 
   return "";
 }
 
-std::map<std::string, int> counts_of(const JobSpec& job, int first, int end) {
+std::map<std::string, int> count_scenarios(const JobSpec& job, int first, int end) {
   std::map<std::string, int> counts;
   for (int run = first; run < end; ++run) ++counts[in_scenario_of_run(job, run).scenario];
   return counts;
@@ -43,13 +43,14 @@ std::map<std::string, int> counts_of(const JobSpec& job, int first, int end) {
 TEST(ScenarioMix, RunsAreSharedOutByWeight) {
   const JobSpec job =
       mixed({"a", {{"id", "b"}, {"weight", 3}}, {{"id", "c"}, {"weight", 0.5}}}, 90);
-  EXPECT_EQ(counts_of(job, 0, 90), (std::map<std::string, int>{{"a", 20}, {"b", 60}, {"c", 10}}));
+  EXPECT_EQ(count_scenarios(job, 0, 90),
+            (std::map<std::string, int>{{"a", 20}, {"b", 60}, {"c", 10}}));
 }
 
 TEST(ScenarioMix, ConsecutiveRunsHoldEveryScenario) {
   const JobSpec job = mixed({"a", "b", "c"}, 30);
   for (int first = 0; first < 30; first += 3)
-    EXPECT_EQ(counts_of(job, first, first + 3).size(), 3U);
+    EXPECT_EQ(count_scenarios(job, first, first + 3).size(), 3U);
 }
 
 TEST(ScenarioMix, MoreRunsBeginAsFewer) {

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-json left_of(const char* text) {
+json text_left(const char* text) {
   const std::optional<std::string> left = SchemaProblems(text, "").text_without();
   return left ? json::parse(*left) : json();
 }
@@ -20,20 +20,20 @@ json left_of(const char* text) {
 TEST(SchemaProblems, AGoodTextStays) {
   const char* text = R"({"scenario": "yard", "runs": 2})";
   EXPECT_TRUE(SchemaProblems(text, "").problems().empty());
-  EXPECT_EQ(left_of(text), json::parse(text));
+  EXPECT_EQ(text_left(text), json::parse(text));
 }
 
 TEST(SchemaProblems, BadMembersGo) {
   EXPECT_EQ(
-      left_of(
+      text_left(
           R"({"scenario": "yard", "runs": 0, "drone": [], "capture": {"to_s": "x", "rate_hz": 2}})"),
       json::parse(R"({"scenario": "yard", "capture": {"rate_hz": 2}})"));
 }
 
 TEST(SchemaProblems, AnArrayGoesWithABadElement) {
-  EXPECT_EQ(left_of(R"({"scenario": "yard", "drones": [{"id": "a"}, 7]})"),
+  EXPECT_EQ(text_left(R"({"scenario": "yard", "drones": [{"id": "a"}, 7]})"),
             json::parse(R"({"scenario": "yard"})"));
-  EXPECT_EQ(left_of(R"({"scenario": "yard", "drones": [{"idd": "a"}]})"),
+  EXPECT_EQ(text_left(R"({"scenario": "yard", "drones": [{"idd": "a"}]})"),
             json::parse(R"({"scenario": "yard"})"));
 }
 
@@ -48,9 +48,9 @@ TEST(SchemaProblems, DeprecatedNamesAreWarnedOf) {
 }
 
 TEST(SchemaProblems, NothingIsLeftWithoutAScenario) {
-  EXPECT_TRUE(left_of(R"({"runs": 2})").is_null());
-  EXPECT_TRUE(left_of(R"({"scenario": 3})").is_null());
-  EXPECT_TRUE(left_of("[]").is_null());
+  EXPECT_TRUE(text_left(R"({"runs": 2})").is_null());
+  EXPECT_TRUE(text_left(R"({"scenario": 3})").is_null());
+  EXPECT_TRUE(text_left("[]").is_null());
   EXPECT_THROW(SchemaProblems("{", ""), InputError);
 }
 

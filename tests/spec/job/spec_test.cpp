@@ -19,7 +19,7 @@ class Spec : public testing::Test {
  protected:
   static JobSpec parse(const std::string& text) { return parse_job(text, "test.job.json"); }
 
-  static std::vector<Problem> problems_of(const std::string& text) {
+  static std::vector<Problem> list_problems(const std::string& text) {
     try {
       parse(text);
     } catch (const InputError& error) {
@@ -30,7 +30,7 @@ class Spec : public testing::Test {
 
   static std::vector<std::string> pointers_of(const std::string& text) {
     std::vector<std::string> pointers;
-    for (const Problem& problem : problems_of(text)) {
+    for (const Problem& problem : list_problems(text)) {
       EXPECT_EQ(problem.source, "test.job.json");
       EXPECT_FALSE(problem.found.empty());
       EXPECT_FALSE(problem.expected.empty());
@@ -276,7 +276,8 @@ TEST_F(Spec, AUsersOwnAirframeIsReadAndChecked) {
 
   airframe["mass_kg"] = 90;
   EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre("/drones/0/airframe"));
-  EXPECT_THAT(problems_of(job.dump().c_str())[0].text(), testing::HasSubstr("to hover and steer"));
+  EXPECT_THAT(list_problems(job.dump().c_str())[0].text(),
+              testing::HasSubstr("to hover and steer"));
   airframe["mass_kg"] = "heavy";
   airframe.erase("arm_m");
   EXPECT_THAT(pointers_of(job.dump().c_str()),
@@ -290,9 +291,9 @@ TEST_F(Spec, AllProblemsOfTheSchemaComeAtOnce) {
 }
 
 TEST_F(Spec, NamesTheExpectedValue) {
-  EXPECT_EQ(problems_of(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
+  EXPECT_EQ(list_problems(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
             "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 1000000");
-  EXPECT_EQ(problems_of(R"({"scenario": "yard", "captur": {}})")[0].text(),
+  EXPECT_EQ(list_problems(R"({"scenario": "yard", "captur": {}})")[0].text(),
             "test.job.json: /captur: unknown field \"captur\"; did you mean \"capture\"?");
 }
 
@@ -306,8 +307,8 @@ TEST_F(Spec, UmbrellasAreUpInTheRain) {
 
 TEST_F(Spec, SyntaxErrorsNameLineAndColumn) {
   EXPECT_EQ(pointers_of("{\n  \"scenario\": yard}"), std::vector<std::string>{"line 2, column 15"});
-  EXPECT_EQ(problems_of("").size(), 1U);
-  EXPECT_EQ(problems_of(R"({"scenario": "yard", "scenario": "yard"})").size(), 1U);
+  EXPECT_EQ(list_problems("").size(), 1U);
+  EXPECT_EQ(list_problems(R"({"scenario": "yard", "scenario": "yard"})").size(), 1U);
 }
 
 TEST_F(Spec, HostileTextsAreRefusedAndNothingElse) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Task kShard{Task::Kind::render};
 
-JobSpec job_of(const std::string& camera, const std::string& rest = "") {
+JobSpec make_job(const std::string& camera, const std::string& rest = "") {
   return parse_job(
       R"({"scenario": "yard", "drones": [{"id": "d1", "start": [0, 0, 9], "camera": )" + camera +
           "}]" + rest + "}",
@@ -18,7 +18,7 @@ JobSpec job_of(const std::string& camera, const std::string& rest = "") {
 }
 
 std::int64_t shard_mib(const std::string& camera, const std::string& rest = "") {
-  return TaskMemory(job_of(camera, rest)).mib_of(kShard);
+  return TaskMemory(make_job(camera, rest)).mib_of(kShard);
 }
 
 constexpr const char* kAllTruth =
@@ -50,8 +50,8 @@ TEST(TaskMemory, IsAboveTheMeasuredOneByAtMostHalf) {
 
 TEST(TaskMemory, RunsThatAreSampledCountAsTheyAre) {
   const JobSpec job =
-      job_of(R"({"width": 3840, "height": 2160})",
-             R"(, "runs": 20, "randomize": {"quality": {"choice": ["draft", "high"]}})");
+      make_job(R"({"width": 3840, "height": 2160})",
+               R"(, "runs": 20, "randomize": {"quality": {"choice": ["draft", "high"]}})");
   const TaskMemory memory(job);
   for (int run = 0; run < job.runs; ++run) {
     const bool is_high = job_of_run(job, run).quality == render::Quality::high;
@@ -62,13 +62,13 @@ TEST(TaskMemory, RunsThatAreSampledCountAsTheyAre) {
 
 TEST(TaskMemory, PeopleCount) {
   const std::string job_text = R"(, "seed": 1)";
-  EXPECT_GT(TaskMemory(job_of("{}", job_text), 20'000).max_mib(),
-            TaskMemory(job_of("{}", job_text)).max_mib() + 100);
+  EXPECT_GT(TaskMemory(make_job("{}", job_text), 20'000).max_mib(),
+            TaskMemory(make_job("{}", job_text)).max_mib() + 100);
   // A dry run announces the memory by which submission and admission decide.
-  const JobSpec large = job_of("{}", job_text);
+  const JobSpec large = make_job("{}", job_text);
   EXPECT_EQ(estimate_cost(large, 20'000).memory_mib, TaskMemory(large, 20'000).max_mib());
-  const std::int64_t few = TaskMemory(job_of("{}", R"(, "crowd": {"agents": 10})")).max_mib();
-  const TaskMemory many(job_of("{}", R"(, "crowd": {"agents": 1000000})"));
+  const std::int64_t few = TaskMemory(make_job("{}", R"(, "crowd": {"agents": 10})")).max_mib();
+  const TaskMemory many(make_job("{}", R"(, "crowd": {"agents": 1000000})"));
   EXPECT_GT(many.max_mib(), few + 5000);
   EXPECT_GT(many.mib_of({Task::Kind::simulate}), 5000);
 }

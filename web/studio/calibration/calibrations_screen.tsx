@@ -6,7 +6,7 @@ import type { Calibration, CalibrationList } from "../api/types";
 import type { Schema } from "../form/schema";
 import { Confirmation, Empty, ErrorBox, type Question, StateBadge, Tabs } from "../parts/elements";
 import { agoText, countText } from "../parts/format";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { BoardFields } from "./board_fields";
 import { ImageChoice } from "./image_choice";
 import { PoseForm } from "./pose_form";
@@ -39,7 +39,7 @@ function imagesText(calibration: Calibration): string {
 
 /** With `?from=ID`, the settings and images of another calibration, to be changed. */
 function NewCalibration({ schema }: { schema: Schema }) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const from = query.get("from");
   const [settings, setSettings] = useState<Settings>(storedSettings);
   const [images, setImages] = useState<ChosenImage[]>([]);
@@ -144,7 +144,7 @@ function CalibrationTable({ list, onRemove }: TableProps) {
 }
 
 export function CalibrationsScreen() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const after = query.get("after");
   const form = query.get("form") === "poses" ? "poses" : "lens";
   const list = useJson<CalibrationList>(`/v1/calibrations?limit=20${after ? `&after=${encodeURIComponent(after)}` : ""}`);

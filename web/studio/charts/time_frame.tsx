@@ -89,7 +89,7 @@ export function TimeFrame({ time_s, end_s, onTime, height, label, children }: Fr
   );
 }
 
-/** Places of shares from 0 to 1 in a chart of a height. */
+/** Positions of shares from 0 to 1 in a chart of a height. */
 export const shareToY = (height: number) => (share: number) => kTop + (height - kTop) * (1 - share);
 
 export function ShareAxis({ width, toY }: { width: number; toY: (share: number) => number }) {

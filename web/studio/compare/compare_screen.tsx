@@ -7,7 +7,7 @@ import type { Job, JobList } from "../api/types";
 import { Swatch } from "../charts/share_curves";
 import type { Json } from "../form/json";
 import { Empty, ErrorBox } from "../parts/elements";
-import { navigate, usePlace } from "../parts/router";
+import { navigate, useAddress } from "../parts/router";
 import type { Metrics } from "../run/metrics";
 import { type Difference, differencesOf } from "./differences";
 import { FigureTable } from "./figures";
@@ -182,7 +182,7 @@ function SwipePair({ subjects, time_s }: { subjects: Subject[]; time_s: number }
 }
 
 function Comparison({ subjects }: { subjects: Subject[] }) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const differences = useMemo(() => differencesOf(subjects.map(({ job }) => job.job as Json)), [subjects]);
   const end_s = Math.max(1, ...subjects.flatMap(({ runs }) => runs.map((run) => run.duration_s)));
   const time_s = Math.min(end_s, Math.max(0, Number(query.get("t") ?? 0) || 0));
@@ -230,7 +230,7 @@ function Comparison({ subjects }: { subjects: Subject[] }) {
 }
 
 export function Compare() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const choices = choicesOf(query);
   const { compared, error } = useSubjects(choices);
   return (

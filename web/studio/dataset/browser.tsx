@@ -6,7 +6,7 @@ import type { ImageList, Job } from "../api/types";
 import { Empty, ErrorBox } from "../parts/elements";
 import { countText } from "../parts/format";
 import { GoneJob } from "../parts/gone";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { type ImageName, imageOf } from "./coco";
 import { choiceOf, chosenImages, type Facet, facetsOf } from "./facets";
 import { Filters, useIndex } from "./filters";
@@ -215,7 +215,7 @@ function Selected({ id, image, query }: { id: string; image: ImageName; query: U
 }
 
 export function Browser({ id }: { id: string }) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const job = useJson<Job>(`/v1/jobs/${id}`);
   const path = query.get("image");
   const image = path === null ? null : imageOf(path);

@@ -7,7 +7,7 @@ import type { Job } from "../api/types";
 import { Empty, ErrorBox } from "../parts/elements";
 import { bytesText } from "../parts/format";
 import { GoneJob } from "../parts/gone";
-import { navigate, usePlace } from "../parts/router";
+import { navigate, useAddress } from "../parts/router";
 import { CodeBlock } from "../parts/snippet";
 import { type FormatEntry, FormatList } from "./format_list";
 import { archiveOf, downloadSnippets, queryOf, type Selection, selectionOf } from "./selection";
@@ -121,7 +121,7 @@ function Chooser({ job, card, selection, onChange }: { job: Job; card: Card; sel
 }
 
 function Content({ job, card, formats }: { job: Job; card: Card; formats: FormatEntry[] }) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const { needsKey } = useSession();
   const [tool, setTool] = useState("throng");
   const selection = selectionOf(query);

@@ -118,7 +118,7 @@ export function Basic({ form, schema }: BasicProps) {
     <div class="basic">
       <div class="basic-fields">
         <fieldset>
-          <legend>Place</legend>
+          <legend>Scenario</legend>
           <ScenarioField form={form} schema={schema} scenarios={scenarios} />
           {scenario?.description && <p class="field-note">{scenario.description}</p>}
         </fieldset>

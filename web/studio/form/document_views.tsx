@@ -3,7 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { FileButton, Tabs } from "../parts/elements";
 import { Lazy } from "../parts/lazy";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { type Check, changedDraft, type Draft, draftOf, type Form } from "./draft";
 import { idOf } from "./field";
 import type { JsonEditorProps } from "./json_editor";
@@ -27,7 +27,7 @@ interface DocumentViewsProps<Plan> {
 
 /** The address names the view. */
 export function DocumentViews<Plan>({ what, views, draft, check, onDraft, bar }: DocumentViewsProps<Plan>) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const [focus, setFocus] = useState<string | null>(null);
   const first = views[0]!.id;
   const tab = query.get("tab") ?? first;

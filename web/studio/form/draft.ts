@@ -51,12 +51,12 @@ export interface Check<Plan = DryRun> {
 }
 
 /** Where drafts are checked, and what keeps them for this tab's life. */
-export interface DraftPlace {
+export interface DraftTarget {
   path: string;
   storage: string;
 }
 
-const kJobs: DraftPlace = { path: "/v1/jobs?dry_run", storage: kStorage };
+const kJobs: DraftTarget = { path: "/v1/jobs?dry_run", storage: kStorage };
 
 /** Has the service check the draft (of a job, where nothing else is said) a moment after each change and after each sign-in, and keeps it for this tab's life. */
 export function useCheck<Plan = DryRun>(draft: Draft | null, place = kJobs): Check<Plan> {

@@ -28,12 +28,12 @@ export function dronesOf(form: Form, scenario: Scenario): Drone[] {
   const list: Json[] = Array.isArray(listed) ? listed : defaults.map((drone) => ({ id: drone.id }));
   return list.filter(isObject).map((drone) => {
     const own = drone["start"];
-    const isPlace = Array.isArray(own) && own.length === 3 && own.every((value) => typeof value === "number");
+    const isPosition = Array.isArray(own) && own.length === 3 && own.every((value) => typeof value === "number");
     const known = defaults.find((entry) => entry.id === drone["id"]);
     const camera = (path: string, value: number) => numberAt(valueAt(drone, ["camera", path]), value);
     return {
       id: String(drone["id"] ?? ""),
-      start: isPlace ? (own as [number, number, number]) : (known?.start_m ?? [0, 0, 30]),
+      start: isPosition ? (own as [number, number, number]) : (known?.start_m ?? [0, 0, 30]),
       // The camera turns with the drone, which heads as the scenario's of this name.
       yawDeg: (known?.yaw_deg ?? 0) + camera("yaw_deg", 0),
       pitchDeg: camera("pitch_deg", -50),

@@ -4,7 +4,7 @@ import { type ApiError, asApiError } from "../api/client";
 import type { LiveResult } from "../api/types";
 import { ErrorBox, Figures } from "../parts/elements";
 import { Lazy } from "../parts/lazy";
-import { usePlace } from "../parts/router";
+import { useAddress } from "../parts/router";
 import { type Action, Controls } from "./controls";
 import { Connection, hovering, stopFlight } from "./flight";
 import type { FlightEvent, Hello, World } from "./messages";
@@ -298,7 +298,7 @@ function Flight({ id }: { id: string }) {
 }
 
 export function FlyScreen() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const id = query.get("flight");
   return id && /^[a-z0-9]+$/.test(id) ? <Flight key={id} id={id} /> : <StartFlight />;
 }

@@ -35,7 +35,7 @@ function polygon(context: CanvasRenderingContext2D, sheet: Sheet, points: [numbe
   context.closePath();
 }
 
-function drawPlace(context: CanvasRenderingContext2D, sheet: Sheet, hello: Hello): void {
+function drawScenario(context: CanvasRenderingContext2D, sheet: Sheet, hello: Hello): void {
   context.fillStyle = "#e6e8e6";
   context.fillRect(0, 0, context.canvas.width, context.canvas.height);
   context.fillStyle = "#9aa5ab";
@@ -123,7 +123,7 @@ export function PlanView({ hello, world, drone }: PlanViewProps) {
       drawn = world.current;
       if (isResized) [element.width, element.height] = [width, height];
       const sheet = sheetOf(hello, world.current, width, height);
-      drawPlace(context, sheet, hello);
+      drawScenario(context, sheet, hello);
       if (!world.current) return;
       drawPeople(context, sheet, hello, world.current);
       drawDrones(context, sheet, hello, world.current, drone);

@@ -17,7 +17,7 @@ const kAboveM = 6;
 const kManyPeople = 1000;
 const kFollow = 0.12; ///< share of the way that the view goes in a frame
 
-function placeOf(hello: Hello): any {
+function modelOfScenario(hello: Hello): any {
   const group = new THREE.Group();
   const { min, max } = hello.ground;
   const ground = new THREE.Mesh(
@@ -108,7 +108,7 @@ export function SceneView({ hello, world, drone }: SceneViewProps) {
     scene.fog = new THREE.Fog("#c9dbe6", 150, 600);
     const sun = new THREE.DirectionalLight("#ffffff", 2.2);
     sun.position.set(60, -40, 120);
-    scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f86", 1.6), sun, placeOf(hello));
+    scene.add(new THREE.HemisphereLight("#ffffff", "#8a8f86", 1.6), sun, modelOfScenario(hello));
     const people = new Walkers(hello);
     const smoke = new Smoke(hello);
     scene.add(people.group, smoke.group);

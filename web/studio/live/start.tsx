@@ -8,7 +8,7 @@ import { storedDraft } from "../form/draft";
 import type { Json, JsonObject } from "../form/json";
 import { ErrorBox } from "../parts/elements";
 import { durationText } from "../parts/format";
-import { navigate, usePlace } from "../parts/router";
+import { navigate, useAddress } from "../parts/router";
 
 const kPresets = presets as { file: string; job: JsonObject }[];
 const kDraft = "draft";
@@ -30,7 +30,7 @@ function sourceIn(query: URLSearchParams): string {
 }
 
 export function StartFlight() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const [source, setSource] = useState(() => sourceIn(query));
   const [error, setError] = useState<ApiError | null>(null);
   const [isBusy, setBusy] = useState(false);

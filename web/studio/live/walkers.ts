@@ -27,7 +27,7 @@ vec3 turnedAsPerson(vec3 at) {
 }`;
 
 // Part: -1 and 1 legs, 0 body, 2 head.
-const kVertexPlace = /* glsl */ `
+const kVertexPosition = /* glsl */ `
 vec3 transformed = vec3(position);
 float leg = abs(aPart) == 1.0 ? aPart : 0.0;
 float swing = leg * sin(mix(aFrom.w, aTo.w, uShare)) * max(0.0, aLook.w);
@@ -122,7 +122,7 @@ export class Walkers {
       shader.uniforms["uShare"] = this.share;
       shader.vertexShader = `${kVertexHead}\n${shader.vertexShader}`
         .replace("#include <beginnormal_vertex>", "vec3 objectNormal = turnedAsPerson(normal) - turnedAsPerson(vec3(0.0));")
-        .replace("#include <begin_vertex>", kVertexPlace);
+        .replace("#include <begin_vertex>", kVertexPosition);
       shader.fragmentShader = `varying vec3 vShade;\n${shader.fragmentShader}`.replace(
         "#include <color_fragment>",
         "diffuseColor.rgb *= vShade;",

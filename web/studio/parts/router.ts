@@ -28,12 +28,12 @@ export function followLinks(event: MouseEvent): void {
   navigate(link.pathname + link.search);
 }
 
-export interface Place {
+export interface Address {
   path: string;
   query: URLSearchParams;
 }
 
-export function usePlace(): Place {
+export function useAddress(): Address {
   const read = () => location.pathname + location.search;
   const [address, setAddress] = useState(read);
   useEffect(() => {

@@ -1,6 +1,6 @@
-// Places of the world in the drawing of a floor plan.
+// Positions of the world in the drawing of a floor plan.
 
-// As places/plan/plan_drawing.cpp draws it: the longer side, and where the ground begins in the drawing.
+// As world/scenarios/plan/plan_drawing.cpp draws it: the longer side, and where the ground begins in the drawing.
 const kPlanPx = 1200;
 const kBorderPx = 20;
 const kTitlePx = 30;

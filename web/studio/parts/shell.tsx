@@ -5,7 +5,7 @@ import { getJson, messageOf, sendJson } from "../api/client";
 import { useLost } from "../api/reach";
 import { demandKey, noteSession, noteSignIn, useSession } from "../api/session";
 import type { Session } from "../api/types";
-import { usePlace } from "./router";
+import { useAddress } from "./router";
 
 const kThemes = ["system", "light", "dark"] as const;
 type Theme = (typeof kThemes)[number];
@@ -40,13 +40,13 @@ const kScreens = [
   { address: "/jobs", label: "Jobs" },
   { address: "/new", label: "New job" },
   { address: "/fly", label: "Fly" },
-  { address: "/place", label: "Place" },
+  { address: "/blueprint", label: "Blueprint" },
   { address: "/studies", label: "Studies" },
   { address: "/calibrations", label: "Calibration" },
 ];
 
 export function Shell({ children }: { children: ComponentChildren }) {
-  const { path } = usePlace();
+  const { path } = useAddress();
   const { needsKey, demand } = useSession();
   useEffect(() => void getJson<Session>("/v1/session").then(noteSession, () => {}), []);
   const signOut = () =>

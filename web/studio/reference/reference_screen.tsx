@@ -5,7 +5,7 @@ import { useJson } from "../api/resource";
 import { useSession } from "../api/session";
 import { Empty, ErrorBox } from "../parts/elements";
 import { countText } from "../parts/format";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { CodeBlock } from "../parts/snippet";
 import {
   addressOf,
@@ -168,7 +168,7 @@ function OperationBody({ operation, document }: { operation: Operation; document
 
 export function ReferenceScreen() {
   const document = useJson<Document>("/openapi.json");
-  const { query } = usePlace();
+  const { query } = useAddress();
   const text = query.get("q") ?? "";
   const selected = query.get("operation");
   const operations = document.value ? operationsOf(document.value).filter((operation) => isMatch(operation, text)) : [];

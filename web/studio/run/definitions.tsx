@@ -2,7 +2,7 @@
 import definitions from "definitions";
 import type { ComponentChildren } from "preact";
 import { useEffect } from "preact/hooks";
-import { usePlace } from "../parts/router";
+import { useAddress } from "../parts/router";
 
 /** The name of a figure, which leads to its definition and shows it when pointed at. */
 export function Defined({ anchor, children }: { anchor: string; children: ComponentChildren }) {
@@ -16,7 +16,7 @@ export function Defined({ anchor, children }: { anchor: string; children: Compon
 }
 
 export function DefinitionsScreen() {
-  const chosen = usePlace().query.get("of");
+  const chosen = useAddress().query.get("of");
   useEffect(() => {
     if (chosen) document.getElementById(`definition-${chosen}`)?.scrollIntoView({ block: "center" });
   }, [chosen]);

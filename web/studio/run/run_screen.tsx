@@ -11,7 +11,7 @@ import type { Drawing } from "../dataset/overlay";
 import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
 import { GoneJob } from "../parts/gone";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import { Defined } from "./definitions";
 import { EventChart } from "./event_chart";
@@ -102,7 +102,7 @@ interface TimelineProps {
 }
 
 function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const cameras = dataset.camerasOf(run);
   const first = Math.min(...cameras.map((camera) => camera.first));
   const last = Math.max(...cameras.map((camera) => camera.last));

@@ -6,7 +6,7 @@ import type { Annotation, Labels } from "../dataset/coco";
 import { colorOf } from "../dataset/overlay";
 import { countText } from "../parts/format";
 import { sheetOf } from "../parts/sheet";
-import { type FramePlaces, unseenAt } from "./trajectories";
+import { type FramePositions, unseenAt } from "./trajectories";
 
 const kPerson = 1; ///< category
 
@@ -23,25 +23,25 @@ interface TopViewProps {
   scenario: Scenario;
   labels: (Labels | null)[];
   run: number;
-  trajectories: FramePlaces | null;
+  trajectories: FramePositions | null;
 }
 
 /** Thousands of circles are slow as elements. */
-function Dots({ places, width, height }: { places: [number, number][]; width: number; height: number }) {
+function Dots({ positions, width, height }: { positions: [number, number][]; width: number; height: number }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const context = canvas.current!.getContext("2d")!;
     context.clearRect(0, 0, width, height);
     Object.assign(context, { fillStyle: "#fff", strokeStyle: "#555", lineWidth: 2 });
     context.beginPath();
-    for (const [x, y] of places) {
+    for (const [x, y] of positions) {
       context.moveTo(x + 5, y);
       context.arc(x, y, 5, 0, 2 * Math.PI);
     }
     context.fill();
     context.stroke();
-  }, [places, width, height]);
-  return <canvas ref={canvas} class="unseen" width={width} height={height} data-count={places.length} aria-hidden="true" />;
+  }, [positions, width, height]);
+  return <canvas ref={canvas} class="unseen" width={width} height={height} data-count={positions.length} aria-hidden="true" />;
 }
 
 export function TopView({ scenario, run, labels, trajectories }: TopViewProps) {
@@ -49,13 +49,13 @@ export function TopView({ scenario, run, labels, trajectories }: TopViewProps) {
   const sheet = sheetOf(scenario.ground_m as [number, number, number, number]);
   const people = peopleOf(labels);
   const unseen = trajectories
-    ? unseenAt(trajectories.places, trajectories.index, run, new Set(people.map((person) => person.track_id)))
+    ? unseenAt(trajectories.positions, trajectories.index, run, new Set(people.map((person) => person.track_id)))
     : [];
   return (
     <figure>
       <div class="plan-sheet">
         {source && <img src={source} alt={`floor plan of ${scenario.name ?? scenario.id}`} width={sheet.width} height={sheet.height} />}
-        <Dots places={unseen.map(([x, y]) => sheet.toPx(x, y))} width={sheet.width} height={sheet.height} />
+        <Dots positions={unseen.map(([x, y]) => sheet.toPx(x, y))} width={sheet.width} height={sheet.height} />
         <svg
           viewBox={`0 0 ${sheet.width} ${sheet.height}`}
           role="img"

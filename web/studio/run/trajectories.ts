@@ -5,22 +5,22 @@ import { type Capture, timeOf } from "./capture";
 
 const kBlockFrames = 32;
 const kHeadBytes = 24;
-const kPlaceBytes = 6;
+const kPositionBytes = 6;
 const kAbsent = 0xffff;
 const kPersonRole = 0;
 const kAttackerRole = 3; ///< a person, too
 const kTracksPerRun = 1_000_000;
 
-/** Everybody's places at some times. */
-export interface Places {
+/** Everybody's positions at some times. */
+export interface Positions {
   times: number;
   roles: Uint8Array; ///< per agent
-  view: DataView; ///< of the places
+  view: DataView; ///< of the positions
   origin: [number, number];
   step: number; ///< m
 }
 
-export function placesOf(buffer: ArrayBuffer): Places {
+export function readPositions(buffer: ArrayBuffer): Positions {
   const head = new DataView(buffer);
   const [times, people] = [head.getUint32(4, true), head.getUint32(8, true)];
   const first = kHeadBytes + 8 * times + people;
@@ -35,30 +35,30 @@ export function placesOf(buffer: ArrayBuffer): Places {
 
 /** Positions (m) of the people at a time of the block who are not among the tracks that are `seen`. */
 export function unseenAt(
-  { times, roles, view, origin, step }: Places,
+  { times, roles, view, origin, step }: Positions,
   time: number,
   run: number,
   seen: ReadonlySet<number>,
 ): [number, number][] {
-  const places: [number, number][] = [];
-  if (time >= times) return places;
+  const positions: [number, number][] = [];
+  if (time >= times) return positions;
   roles.forEach((role, agent) => {
-    const at = (time * roles.length + agent) * kPlaceBytes;
+    const at = (time * roles.length + agent) * kPositionBytes;
     const x = view.getUint16(at, true);
     if (x === kAbsent || (role !== kPersonRole && role !== kAttackerRole) || seen.has(agent + 1 + run * kTracksPerRun)) return;
-    places.push([origin[0] + step * x, origin[1] + step * view.getUint16(at + 2, true)]);
+    positions.push([origin[0] + step * x, origin[1] + step * view.getUint16(at + 2, true)]);
   });
-  return places;
+  return positions;
 }
 
-export interface FramePlaces {
-  places: Places;
-  index: number; ///< of the frame's time among those of the places
+export interface FramePositions {
+  positions: Positions;
+  index: number; ///< of the frame's time among those of the positions
 }
 
 /** Null until they are there, and where the run has no trace any more. */
-export function useTrajectories(job: string, run: number, capture: Capture, frame: number): FramePlaces | null {
-  const blocks = useRef(new Map<string, Places>());
+export function useTrajectories(job: string, run: number, capture: Capture, frame: number): FramePositions | null {
+  const blocks = useRef(new Map<string, Positions>());
   const [, setCount] = useState(0);
   const first = Math.floor(frame / kBlockFrames) * kBlockFrames;
   const keyOf = (start: number) => `${job} ${run} ${start}`;
@@ -69,7 +69,7 @@ export function useTrajectories(job: string, run: number, capture: Capture, fram
       if (blocks.current.has(keyOf(start))) return;
       const times = `from_s=${timeOf(capture, start)}&to_s=${timeOf(capture, start + kBlockFrames - 1)}&every_s=${1 / capture.rate_hz}`;
       const answer = await request(`/v1/jobs/${job}/runs/${run}/trajectories?${times}`, { signal: controller.signal });
-      blocks.current.set(keyOf(start), placesOf(await answer.arrayBuffer()));
+      blocks.current.set(keyOf(start), readPositions(await answer.arrayBuffer()));
       setCount(blocks.current.size);
     };
     fetchBlock(first)
@@ -77,6 +77,6 @@ export function useTrajectories(job: string, run: number, capture: Capture, fram
       .catch(() => {});
     return () => controller.abort();
   }, [key]);
-  const places = blocks.current.get(key);
-  return places ? { places, index: frame - first } : null;
+  const positions = blocks.current.get(key);
+  return positions ? { positions, index: frame - first } : null;
 }

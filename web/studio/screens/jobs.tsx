@@ -8,7 +8,7 @@ import type { Job, JobList } from "../api/types";
 import { ConnectionNote } from "../parts/connection";
 import { Confirmation, Empty, ErrorBox, Progress, type Question, StateBadge } from "../parts/elements";
 import { agoText, bytesText, countText, timeText } from "../parts/format";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 
 const kPage = 25;
 const kPollMs = 2000;
@@ -190,7 +190,7 @@ function listAddress(query: URLSearchParams): string {
 }
 
 export function Jobs() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const address = listAddress(query);
   const list = useJson<JobList>(address);
   const [selected, setSelected] = useState<Set<string>>(new Set());

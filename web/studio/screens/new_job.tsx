@@ -13,14 +13,14 @@ import { type JsonObject, textOf } from "../form/json";
 import { type Schema, withoutDefaults } from "../form/schema";
 import { ErrorBox, Mistakes } from "../parts/elements";
 import { bytesText, countText, durationText, secondsBetween } from "../parts/format";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 
 const kPresets = presets as { file: string; job: JsonObject }[];
 const kSources = ["clone", "preset", "calibration", "scenario"];
 const kFirstPreset = "city_square/demo.job.json";
 
 /** What belongs to the place of the draft: drones fly where the next one has its own. */
-function withoutPlace(draft: Draft): Draft {
+function withoutScenario(draft: Draft): Draft {
   return ["drones", "crowd"].reduce((next, key) => changedDraft(next, [key], undefined), draft);
 }
 
@@ -36,7 +36,7 @@ async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft
   const draft = storedDraft() ?? draftOf(textOf(kPresets.find((entry) => entry.file === kFirstPreset)!.job));
   const calibration = query.get("calibration");
   const scenario = query.get("scenario");
-  if (scenario) return changedDraft(withoutPlace(draft), ["scenario"], scenario);
+  if (scenario) return changedDraft(withoutScenario(draft), ["scenario"], scenario);
   return calibration ? calibratedDraft(draft, calibration) : draft;
 }
 
@@ -164,7 +164,7 @@ function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
 }
 
 export function NewJob() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const schema = useJson<Schema>("/v1/schema");
   const [draft, setDraft] = useState<Draft | null>(null);
   const [error, setError] = useState<ApiError | null>(null);

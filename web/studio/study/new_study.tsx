@@ -4,17 +4,17 @@ import { type ApiError, asApiError, getJson } from "../api/client";
 import { useJson } from "../api/resource";
 import type { Study, StudyPlan } from "../api/types";
 import { DocumentViews, OpenDraft } from "../form/document_views";
-import { type Check, type Draft, type DraftPlace, draftOf, type Form, storedDraft, useCheck } from "../form/draft";
+import { type Check, type Draft, type DraftTarget, draftOf, type Form, storedDraft, useCheck } from "../form/draft";
 import { type Json, textOf } from "../form/json";
 import type { Schema } from "../form/schema";
 import { ErrorBox } from "../parts/elements";
-import { navigate, usePlace, withQuery } from "../parts/router";
+import { navigate, useAddress, withQuery } from "../parts/router";
 import { kPresets } from "./presets";
 import { StartBar } from "./start_bar";
 import { StudyForm } from "./study_form";
 import { type StudySchema, withJobParts } from "./study_schema";
 
-const kPlace: DraftPlace = { path: "/v1/studies?dry_run", storage: "throng.study" };
+const kPlace: DraftTarget = { path: "/v1/studies?dry_run", storage: "throng.study" };
 
 const firstDraft = () => storedDraft(kPlace.storage) ?? draftOf(textOf(kPresets[0]!.study));
 
@@ -82,7 +82,7 @@ function Editor({ draft, check, onDraft }: EditorProps) {
 
 /** With `?from=ID` the document of another study, to be changed. `studies`: those that can be copied. */
 export function NewStudy({ studies }: { studies: Study[] }) {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const from = query.get("from");
   const [draft, setDraft] = useState<Draft>(firstDraft);
   const [error, setError] = useState<ApiError | null>(null);

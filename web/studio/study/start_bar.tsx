@@ -3,7 +3,7 @@ import { useState } from "preact/hooks";
 import { type ApiError, asApiError, sendJson } from "../api/client";
 import { useJson } from "../api/resource";
 import type { Study, StudyList, StudyPlan } from "../api/types";
-import { type Check, type Draft, type DraftPlace, forgetDraft } from "../form/draft";
+import { type Check, type Draft, type DraftTarget, forgetDraft } from "../form/draft";
 import { ErrorBox, Mistakes } from "../parts/elements";
 import { bytesText, countText, durationText, secondsBetween } from "../parts/format";
 import { navigate } from "../parts/router";
@@ -32,7 +32,7 @@ function Forecast({ plan }: { plan: StudyPlan }) {
 
 interface StartBarProps {
   draft: Draft;
-  place: DraftPlace;
+  place: DraftTarget;
   check: Check<StudyPlan>;
   onErrors: (pointer: string) => void;
 }

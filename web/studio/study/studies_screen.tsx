@@ -7,7 +7,7 @@ import type { Study, StudyList } from "../api/types";
 import { ConnectionNote } from "../parts/connection";
 import { Confirmation, Empty, ErrorBox, Progress, type Question, StateBadge } from "../parts/elements";
 import { agoText } from "../parts/format";
-import { usePlace, withQuery } from "../parts/router";
+import { useAddress, withQuery } from "../parts/router";
 import { NewStudy } from "./new_study";
 
 const kPollMs = 2000;
@@ -76,7 +76,7 @@ function StudyTable({ list, onRemove }: { list: Study[]; onRemove: (study: Study
 }
 
 export function StudiesScreen() {
-  const { query } = usePlace();
+  const { query } = useAddress();
   const after = query.get("after");
   const list = useJson<StudyList>(`/v1/studies?limit=20${after ? `&after=${encodeURIComponent(after)}` : ""}`);
   const [question, setQuestion] = useState<Question | null>(null);

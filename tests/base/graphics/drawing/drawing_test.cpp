@@ -27,7 +27,7 @@ Shape square(double min_px, double max_px, const Color& fill) {
   return shape;
 }
 
-Drawing drawing_of(std::vector<Shape> shapes) { return {100, 60, "Test", std::move(shapes)}; }
+Drawing make_drawing(std::vector<Shape> shapes) { return {100, 60, "Test", std::move(shapes)}; }
 
 /// The pixels as another library decodes them, BGR.
 cv::Mat pixels(const Drawing& drawing) {
@@ -40,13 +40,13 @@ cv::Mat pixels(const Drawing& drawing) {
 cv::Vec3b at(const cv::Mat& image, int x, int y) { return image.at<cv::Vec3b>(y, x); }
 
 TEST(Drawing, HasTheSizeAndAWhiteBackground) {
-  const cv::Mat image = pixels(drawing_of({}));
+  const cv::Mat image = pixels(make_drawing({}));
   EXPECT_EQ(image.size(), cv::Size(100, 60));
   EXPECT_EQ(at(image, 50, 30), cv::Vec3b(255, 255, 255));
 }
 
 TEST(Drawing, FillsPolygonsInOrder) {
-  const cv::Mat image = pixels(drawing_of({square(10, 40, kRed), square(20, 30, kBlue)}));
+  const cv::Mat image = pixels(make_drawing({square(10, 40, kRed), square(20, 30, kBlue)}));
   EXPECT_EQ(at(image, 15, 15), cv::Vec3b(0, 0, 255));
   EXPECT_EQ(at(image, 25, 25), cv::Vec3b(255, 0, 0));
   EXPECT_EQ(at(image, 9, 15), cv::Vec3b(255, 255, 255));
@@ -54,7 +54,7 @@ TEST(Drawing, FillsPolygonsInOrder) {
 }
 
 TEST(Drawing, BlendsByOpacity) {
-  const cv::Mat image = pixels(drawing_of({square(10, 40, {{255, 0, 0}, 0.5})}));
+  const cv::Mat image = pixels(make_drawing({square(10, 40, {{255, 0, 0}, 0.5})}));
   EXPECT_NEAR(at(image, 20, 20)[0], 128, 1);
   EXPECT_EQ(at(image, 20, 20)[2], 255);
 }
@@ -66,7 +66,7 @@ TEST(Drawing, StrokesCirclesAtTheirRadius) {
   circle.radius_px = 20;
   circle.width_px = 2;
   circle.stroke = kBlue;
-  const cv::Mat image = pixels(drawing_of({circle}));
+  const cv::Mat image = pixels(make_drawing({circle}));
   EXPECT_EQ(at(image, 50, 30), cv::Vec3b(255, 255, 255)) << "not filled";
   EXPECT_EQ(at(image, 69, 29), cv::Vec3b(255, 0, 0));
   EXPECT_EQ(at(image, 74, 29), cv::Vec3b(255, 255, 255));
@@ -79,10 +79,10 @@ TEST(Drawing, EndsArrowsWithAHead) {
   line.stroke = kRed;
   line.width_px = 2;
   const cv::Vec3b white(255, 255, 255);
-  EXPECT_EQ(at(pixels(drawing_of({line})), 71, 33), white);
+  EXPECT_EQ(at(pixels(make_drawing({line})), 71, 33), white);
   line.arrow = true;
-  EXPECT_EQ(at(pixels(drawing_of({line})), 71, 33), cv::Vec3b(0, 0, 255));
-  EXPECT_EQ(at(pixels(drawing_of({line})), 60, 33), white);
+  EXPECT_EQ(at(pixels(make_drawing({line})), 71, 33), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(at(pixels(make_drawing({line})), 60, 33), white);
 }
 
 TEST(Drawing, WritesTextOnItsBaseline) {
@@ -93,7 +93,7 @@ TEST(Drawing, WritesTextOnItsBaseline) {
   text.font_px = 20;
   text.fill = kRed;
   cv::Mat ink;
-  cv::inRange(pixels(drawing_of({text})), cv::Scalar(0, 0, 0), cv::Scalar(254, 254, 255), ink);
+  cv::inRange(pixels(make_drawing({text})), cv::Scalar(0, 0, 0), cv::Scalar(254, 254, 255), ink);
   cv::Mat places;
   cv::findNonZero(ink, places);
   ASSERT_FALSE(places.empty());
@@ -111,8 +111,8 @@ TEST(Drawing, SurvivesTextOfAnyBytes) {
   for (const char* bytes :
        {"", "<&>\"'", "caf\xC3\xA9", "broken \xC3", "\xFF\xFE", "\xE6\x97\xA5"}) {
     text.text = bytes;
-    EXPECT_THAT(to_svg(drawing_of({text})), HasSubstr("</svg>")) << bytes;
-    EXPECT_THAT(to_pdf(drawing_of({text})), HasSubstr("%%EOF")) << bytes;
+    EXPECT_THAT(to_svg(make_drawing({text})), HasSubstr("</svg>")) << bytes;
+    EXPECT_THAT(to_pdf(make_drawing({text})), HasSubstr("%%EOF")) << bytes;
   }
 }
 
@@ -125,11 +125,11 @@ TEST(Drawing, IgnoresShapesWithoutPoints) {
   text.kind = Shape::Kind::text;
   Shape dot = line;
   dot.points = {{5, 5}};
-  EXPECT_EQ(to_png(drawing_of({line, text, Shape{}, dot})).substr(0, 4), "\x89PNG");
+  EXPECT_EQ(to_png(make_drawing({line, text, Shape{}, dot})).substr(0, 4), "\x89PNG");
 }
 
 TEST(Drawing, EqualDrawingsHaveEqualBytes) {
-  const Drawing drawing = drawing_of({square(10, 40, kRed)});
+  const Drawing drawing = make_drawing({square(10, 40, kRed)});
   EXPECT_EQ(to_svg(drawing), to_svg(drawing));
   EXPECT_THAT(to_svg(drawing), HasSubstr("width=\"100px\" height=\"60px\""));
   EXPECT_EQ(to_png(drawing), to_png(drawing));
@@ -149,7 +149,7 @@ TEST(Drawing, HuesAreThoseOfCss) {
 
 TEST(Drawing, IsWrittenInTheFormatOfTheSuffix) {
   const throng::testing::TemporaryFolder folder;
-  const Drawing drawing = drawing_of({square(10, 40, kRed)});
+  const Drawing drawing = make_drawing({square(10, 40, kRed)});
   for (const auto& [name, head] :
        {std::pair{"a.svg", "<?xml"}, std::pair{"a.png", "\x89PNG"}, std::pair{"a.pdf", "%PDF"}}) {
     write_drawing(drawing, folder.path() / name);

@@ -27,8 +27,8 @@ CameraSpec camera_parsed(const char* text) {
   return spec;
 }
 
-std::vector<std::string> lens_problems_of(const char* text,
-                                          render::Quality quality = render::Quality::standard) {
+std::vector<std::string> lens_problems(const char* text,
+                                       render::Quality quality = render::Quality::standard) {
   std::vector<Problem> problems;
   check_lens(camera_of_run(camera_parsed(text), 1, kCameraPlace), quality, kCameraPlace, problems);
   std::vector<std::string> pointers;
@@ -45,12 +45,12 @@ double width_deg(const camera::Intrinsics& k) {
 TEST(Lens, ImagesThatTheDeviceCannotRenderAreRefused) {
   const char* wide = R"({"width": 7680, "height": 4320})";
   const char* fisheye = R"({"model": "fisheye", "hfov_deg": 120, "width": 3840, "height": 2160})";
-  EXPECT_THAT(lens_problems_of(wide), ElementsAre());
-  EXPECT_THAT(lens_problems_of(fisheye), ElementsAre());
+  EXPECT_THAT(lens_problems(wide), ElementsAre());
+  EXPECT_THAT(lens_problems(fisheye), ElementsAre());
   ::setenv("THRONG_DEVICE", "software", 1);
-  EXPECT_THAT(lens_problems_of(wide, render::Quality::high), ElementsAre(kCameraPlace));
-  EXPECT_THAT(lens_problems_of(fisheye, render::Quality::high), ElementsAre(kCameraPlace));
-  EXPECT_THAT(lens_problems_of(R"({"width": 7168, "height": 64})", render::Quality::high),
+  EXPECT_THAT(lens_problems(wide, render::Quality::high), ElementsAre(kCameraPlace));
+  EXPECT_THAT(lens_problems(fisheye, render::Quality::high), ElementsAre(kCameraPlace));
+  EXPECT_THAT(lens_problems(R"({"width": 7168, "height": 64})", render::Quality::high),
               ElementsAre());
   ::unsetenv("THRONG_DEVICE");
 }
@@ -59,7 +59,7 @@ TEST(Lens, OneThatFoldsInTheImageOrNeedsAnEnormousFlatImageIsRefused) {
   for (const char* text :
        {R"({"model": "brown_conrady", "distortion": {"k1": -0.9}})",
         R"({"model": "fisheye", "hfov_deg": 140, "width": 7680, "height": 64})"}) {
-    EXPECT_THAT(lens_problems_of(text), ElementsAre("/drones/0/camera/distortion")) << text;
+    EXPECT_THAT(lens_problems(text), ElementsAre("/drones/0/camera/distortion")) << text;
   }
 }
 
@@ -69,7 +69,7 @@ TEST(Lens, ALensMayShowLessThanTheWholeImage) {
         R"({"model": "brown_conrady", "fx_px": 600, "distortion": {"k1": -0.9}})",
         R"({"model": "fisheye", "fx_px": 300, "width": 1280, "height": 960,
             "distortion": {"k1": -0.05, "k2": 0.03, "k3": -0.04, "k4": 0.015}})"}) {
-    EXPECT_TRUE(lens_problems_of(text).empty()) << text;
+    EXPECT_TRUE(lens_problems(text).empty()) << text;
   }
 }
 

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "jobs/pipeline/pipeline.h"
-#include "places/blueprint/load_scenario.h"
 #include "sim/run.h"
 #include "tests/jobs/yard.h"
+#include "world/scenarios/blueprint/load_scenario.h"
 
 namespace throng::jobs {
 namespace {
@@ -35,7 +35,7 @@ class Resolve : public testing::Test {
     return resolve_job(job.dump(), (folder.path() / "job.json").string(), folder.path()).spec();
   }
 
-  std::vector<Problem> problems_of(const std::string& text) const {
+  std::vector<Problem> list_problems(const std::string& text) const {
     try {
       resolved(text);
     } catch (const InputError& error) {
@@ -46,7 +46,7 @@ class Resolve : public testing::Test {
 
   std::vector<std::string> pointers_of(const std::string& text) const {
     std::vector<std::string> pointers;
-    for (const Problem& problem : problems_of(text)) {
+    for (const Problem& problem : list_problems(text)) {
       EXPECT_EQ(problem.source, "test.job.json");
       EXPECT_FALSE(problem.found.empty());
       EXPECT_FALSE(problem.expected.empty());
@@ -64,7 +64,7 @@ TEST_F(Resolve, TheScenarioCompletesTheJob) {
   EXPECT_EQ(job.drones[0].mission.id, "d1");
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
   EXPECT_EQ(job.crowd.model,
-            sim::model_for(places::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
+            sim::model_for(scenarios::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
   EXPECT_EQ(resolved(R"({"scenario": "yard", "crowd": {"compat": "menge"}})").crowd.model, "orca");
 }
 
@@ -105,7 +105,7 @@ TEST_F(Resolve, EachMistakeIsNamedByItsPointer) {
   for (const auto& [text, pointer] : cases) {
     EXPECT_THAT(pointers_of(text), ElementsAre(pointer)) << text;
   }
-  EXPECT_THAT(problems_of(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
+  EXPECT_THAT(list_problems(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
 }
 
 TEST_F(Resolve, ProblemsOfTextAndScenarioComeTogether) {
@@ -204,7 +204,7 @@ TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
               ElementsAre("/scenario/1"));
   EXPECT_THAT(pointers_of(R"({"scenario": ["yard", "yard"], "runs": 4})"), ElementsAre("/drones"))
       << "the scenarios' own drones are not taken";
-  const auto crowded = problems_of(
+  const auto crowded = list_problems(
       R"({"scenario": [{"generate": {"kind": "plaza", "seed": 3}}, {"id": "yard", "agents": 3}],
           "runs": 4, )" +
       drones + "}");

@@ -31,7 +31,7 @@ std::vector<world::DroneSample> passage() {
 TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   const auto truth = passage();
   const JobSpec job;
-  const sim::SensorLog log = sensors_of(job, 3, truth, 0);
+  const sim::SensorLog log = record_sensors(job, 3, truth, 0);
   camera::CameraSpec spec;
   const sim::ViewAngles view{90 * kDegree, -40 * kDegree, 0.5 * kDegree};
   const camera::Camera camera = camera_on(truth[60], spec, view);
@@ -80,7 +80,7 @@ TEST(HorizonRows, AreWhereFarGroundIsSeen) {
 TEST(SensorsCsv, HasALinePerSampleAndAColumnPerName) {
   const auto truth = passage();
   const JobSpec job;
-  std::istringstream csv(sensors_csv(truth, sensors_of(job, 3, truth, 0)));
+  std::istringstream csv(sensors_csv(truth, record_sensors(job, 3, truth, 0)));
   std::string line;
   std::size_t lines = 0;
   std::ptrdiff_t commas = -1;

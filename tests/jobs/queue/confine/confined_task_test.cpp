@@ -22,15 +22,15 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 /// The answer to a request of a child that runs this script; $0 is the work folder.
-json answer_of(const std::string& script) {
+json run_script(const std::string& script) {
   const TemporaryFolder work;
   return confined_task_in_child({"sh", "-c", script})({{"task", "x"}}, work.path());
 }
 
 template <typename Error>
-std::string error_of(const std::string& script) {
+std::string script_error(const std::string& script) {
   try {
-    answer_of(script);
+    run_script(script);
   } catch (const Error& error) {
     return error.what();
   }
@@ -38,17 +38,17 @@ std::string error_of(const std::string& script) {
 }
 
 TEST(ConfinedTask, TheAnswerOfTheChildComesBack) {
-  EXPECT_EQ(answer_of(R"(cp "$0/request.json" "$0/answer.json")"), (json{{"task", "x"}}));
+  EXPECT_EQ(run_script(R"(cp "$0/request.json" "$0/answer.json")"), (json{{"task", "x"}}));
 }
 
 TEST(ConfinedTask, FailuresAreToldApart) {
   EXPECT_THAT(
-      error_of<InputError>(
+      script_error<InputError>(
           R"(echo '[{"source":"a","where":"/b","found":"c","expected":"d"}]' > "$0/answer.json"; exit 2)"),
       HasSubstr("a: /b: found c"));
-  EXPECT_THAT(error_of<InputError>("kill -KILL $$"), HasSubstr("ended by signal 9"));
-  EXPECT_NE(error_of<EnvironmentError>("exit 3"), "");
-  EXPECT_NE(error_of<EnvironmentError>("exit 0"), "");  // without an answer
+  EXPECT_THAT(script_error<InputError>("kill -KILL $$"), HasSubstr("ended by signal 9"));
+  EXPECT_NE(script_error<EnvironmentError>("exit 3"), "");
+  EXPECT_NE(script_error<EnvironmentError>("exit 0"), "");  // without an answer
 }
 
 TEST(ConfinedTask, TheChildAnswersOrReportsMistakes) {

@@ -16,7 +16,7 @@
 namespace throng::jobs {
 namespace {
 
-std::string all_of(const Archive& archive, std::size_t block) {
+std::string read_whole(const Archive& archive, std::size_t block) {
   std::string bytes;
   std::string buffer(block, '?');
   while (const std::size_t count = archive.read(static_cast<std::int64_t>(bytes.size()), buffer)) {
@@ -56,7 +56,7 @@ class ArchiveTest : public testing::Test {
   void add(const std::string& path, const std::string& bytes) {
     write_file_atomically(folder.path() / path, bytes);
     files.push_back(
-        {path, static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes), crc32_of(bytes)});
+        {path, static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes), crc32(bytes)});
   }
   void write_manifest() const {
     write_file_atomically(folder.path() / kManifestName, nlohmann::json{{"files", files}}.dump());
@@ -74,7 +74,7 @@ TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
   add(std::string(60, 'd') + "/" + std::string(60, 'e') + "/file", "long path");
   write_manifest();
   const Archive archive(folder.path(), "square");
-  const std::string tar = all_of(archive, 700);
+  const std::string tar = read_whole(archive, 700);
   EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
   const auto members = unpacked(tar);
   EXPECT_EQ(members.size(), files.size() + 1);
@@ -96,7 +96,7 @@ TEST_F(ArchiveTest, EqualFilesAreLinksToTheFirst) {
   add("images/small", "s");
   write_manifest();
   const Archive archive(folder.path(), "square");
-  const std::string tar = all_of(archive, 4096);
+  const std::string tar = read_whole(archive, 4096);
   EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
   EXPECT_LT(tar.size(), 2 * image.size());
   const std::unique_ptr<struct archive, decltype(&archive_read_free)> reader(archive_read_new(),
@@ -118,9 +118,9 @@ TEST_F(ArchiveTest, AnyPartIsThatPartOfTheWhole) {
   for (int i = 0; i < 5; ++i) add(fmt::format("f{}", i), std::string(300 * i, 'a' + i));
   write_manifest();
   const Archive archive(folder.path(), "r");
-  const std::string whole = all_of(archive, 1 << 20);
+  const std::string whole = read_whole(archive, 1 << 20);
   for (const std::size_t block : {1, 7, 511, 512, 513, 4096}) {
-    EXPECT_EQ(all_of(archive, block), whole) << block;
+    EXPECT_EQ(read_whole(archive, block), whole) << block;
   }
   std::string rest(100, '?');
   EXPECT_EQ(archive.read(archive.size(), rest), 0U);
@@ -131,10 +131,10 @@ TEST_F(ArchiveTest, OrderIsByPathWhateverTheManifestSays) {
   add("b", "2");
   add("a", "1");
   write_manifest();
-  const std::string one = all_of(Archive(folder.path(), "r"), 4096);
+  const std::string one = read_whole(Archive(folder.path(), "r"), 4096);
   std::swap(files[0], files[1]);
   write_manifest();
-  const std::string other = all_of(Archive(folder.path(), "r"), 4096);
+  const std::string other = read_whole(Archive(folder.path(), "r"), 4096);
   EXPECT_EQ(one.substr(0, 2048), other.substr(0, 2048));
   EXPECT_EQ(one.substr(0, 3), "r/a");
 }
@@ -196,14 +196,14 @@ TEST_F(ArchiveTest, AZipFileHoldsTheSame) {
   add("empty", "");
   write_manifest();
   const Archive archive(folder.path(), "square", ArchiveFormat::zip);
-  const std::string zip = all_of(archive, 1000);
+  const std::string zip = read_whole(archive, 1000);
   EXPECT_EQ(static_cast<std::int64_t>(zip.size()), archive.size());
   const auto members = unzipped(zip);
   EXPECT_EQ(members.size(), files.size() + 1);
   for (const FileEntry& file : files) {
     EXPECT_EQ(sha256_hex(members.at("square/" + file.path)), file.sha256) << file.path;
   }
-  for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(all_of(archive, block), zip) << block;
+  for (const std::size_t block : {1, 7, 4096}) EXPECT_EQ(read_whole(archive, block), zip) << block;
 }
 
 /// Lets libarchive go where it likes in an archive, as a program does in a file.
@@ -267,7 +267,7 @@ TEST_F(ArchiveTest, ASelectionHoldsTheChosenFilesAndTheManifest) {
   add("depth/run000/a.png", "2");
   write_manifest();
   const Archive archive(folder.path(), "r", ArchiveFormat::zip, {{"images"}, {1}});
-  const auto members = unzipped(all_of(archive, 4096));
+  const auto members = unzipped(read_whole(archive, 4096));
   EXPECT_EQ(members.size(), 2U);
   EXPECT_EQ(members.at("r/images/run001/a.jpg"), "1");
   EXPECT_TRUE(members.contains("r/manifest.json"));

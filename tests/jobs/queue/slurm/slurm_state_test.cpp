@@ -29,9 +29,9 @@ TEST(SlurmState, TheQueueHoldsOurTasksOnly) {
   EXPECT_EQ(tasks[0].name, "throng-abc");
   EXPECT_EQ(tasks[0].node, "");
   EXPECT_EQ(tasks[0].reason, "Resources");
-  EXPECT_EQ(fate_of(tasks[0]), SlurmFate::waiting);
+  EXPECT_EQ(interpret_fate(tasks[0]), SlurmFate::waiting);
   EXPECT_EQ(tasks[1].node, "node1");
-  EXPECT_EQ(fate_of(tasks[1]), SlurmFate::running);
+  EXPECT_EQ(interpret_fate(tasks[1]), SlurmFate::running);
   EXPECT_EQ(tasks[2].status.code, 3);
   EXPECT_EQ(tasks[2].status.signal, 0);
   EXPECT_EQ(tasks[3].status.code, 0);
@@ -61,7 +61,7 @@ TEST(SlurmState, TheAccountingHasOneLineForTasksThatWait) {
          read_accounting(job + "|PENDING|0:0|None assigned|throng-a|\n", "throng-a")) {
       EXPECT_EQ(task.job, "7");
       EXPECT_EQ(task.index, index);
-      EXPECT_EQ(fate_of(task), SlurmFate::waiting);
+      EXPECT_EQ(interpret_fate(task), SlurmFate::waiting);
       found.push_back(index);
     }
     return found;
@@ -124,19 +124,20 @@ TEST(SlurmState, StatesBecomeOutcomes) {
 
 TEST(SlurmState, FailuresOfTheClusterCostNoAttempt) {
   for (const char* state : {"NODE_FAIL", "BOOT_FAIL", "PREEMPTED", "REQUEUE_HOLD"}) {
-    EXPECT_TRUE(is_blameless(fate_of(in_state(state)))) << state;
+    EXPECT_TRUE(is_blameless(interpret_fate(in_state(state)))) << state;
   }
-  EXPECT_TRUE(is_blameless(fate_of(in_state("FAILED", {0, SIGTERM}))));
-  EXPECT_TRUE(is_blameless(fate_of(in_state("FAILED", {75, 0})))) << "begun by another process";
-  EXPECT_TRUE(is_blameless(fate_of(in_state("PENDING", {}, "launch failed requeued held"))));
+  EXPECT_TRUE(is_blameless(interpret_fate(in_state("FAILED", {0, SIGTERM}))));
+  EXPECT_TRUE(is_blameless(interpret_fate(in_state("FAILED", {75, 0}))))
+      << "begun by another process";
+  EXPECT_TRUE(is_blameless(interpret_fate(in_state("PENDING", {}, "launch failed requeued held"))));
   for (const char* state :
        {"COMPLETED", "FAILED", "TIMEOUT", "OUT_OF_MEMORY", "CANCELLED", "RUNNING", "PENDING"}) {
-    EXPECT_FALSE(is_blameless(fate_of(in_state(state)))) << state;
+    EXPECT_FALSE(is_blameless(interpret_fate(in_state(state)))) << state;
   }
 }
 
 TEST(SlurmState, AStateOfALaterVersionIsNoEnd) {
-  EXPECT_EQ(fate_of(in_state("EXPEDITING")), SlurmFate::running);
+  EXPECT_EQ(interpret_fate(in_state("EXPEDITING")), SlurmFate::running);
 }
 
 TEST(SlurmState, WorkersSayMoreThanSlurm) {
@@ -151,21 +152,22 @@ TEST(SlurmState, WorkersSayMoreThanSlurm) {
 TEST(SlurmSubmission, NeedsComeFromTheEstimate) {
   const SlurmOptions options;
   const Task render{Task::Kind::render, 0, 0};
-  EXPECT_EQ(need_of(render, 0, 0, options).memory_mib, 0) << "the partition's default";
-  EXPECT_EQ(need_of(render, 900, 0, options).memory_mib, 1024 + 512);
-  EXPECT_EQ(need_of(render, 900, 1, options).memory_mib, 2 * (1024 + 512)) << "after it ran out";
-  EXPECT_EQ(need_of(render, 900, 0, options),
-            need_of({Task::Kind::render, 1, 7}, 1000, 0, options));
+  EXPECT_EQ(slurm_need(render, 0, 0, options).memory_mib, 0) << "the partition's default";
+  EXPECT_EQ(slurm_need(render, 900, 0, options).memory_mib, 1024 + 512);
+  EXPECT_EQ(slurm_need(render, 900, 1, options).memory_mib, 2 * (1024 + 512)) << "after it ran out";
+  EXPECT_EQ(slurm_need(render, 900, 0, options),
+            slurm_need({Task::Kind::render, 1, 7}, 1000, 0, options));
   SlurmOptions least;
   least.memory_mib = 8000;
-  EXPECT_EQ(need_of(render, 900, 0, least).memory_mib, 8000);
-  EXPECT_NE(need_of(render, 900, 0, options), need_of({Task::Kind::measure, 0}, 900, 0, options));
+  EXPECT_EQ(slurm_need(render, 900, 0, least).memory_mib, 8000);
+  EXPECT_NE(slurm_need(render, 900, 0, options),
+            slurm_need({Task::Kind::measure, 0}, 900, 0, options));
 }
 
 TEST(SlurmSubmission, HigherPrioritiesAreLessNice) {
-  EXPECT_EQ(nice_of(100), 0);
-  EXPECT_EQ(nice_of(0), 100);
-  EXPECT_EQ(nice_of(-100), 200);
+  EXPECT_EQ(nice_value(100), 0);
+  EXPECT_EQ(nice_value(0), 100);
+  EXPECT_EQ(nice_value(-100), 200);
 }
 
 bool holds(const std::vector<std::string>& words, const std::string& word) {
@@ -182,7 +184,7 @@ TEST(SlurmSubmission, AnArrayIsNeverRestartedBySlurm) {
   options.at_once = 8;
   options.more = {"--qos=low"};
   const JobFolder folder("/shared/50% done");
-  const auto words = submission_of(folder, "00ff", 40, {1536, 1024, true}, 90, options);
+  const auto words = submission_words(folder, "00ff", 40, {1536, 1024, true}, 90, options);
   for (const char* word : {"sbatch", "--parsable", "--no-requeue", "--job-name=throng-00ff",
                            "--array=0-39%8", "--nice=90", "--partition=gpu", "--account=lab",
                            "--time=2:00:00", "--mem=1536M", "--gres=gpu:1", "--cpus-per-task=1",
@@ -191,7 +193,7 @@ TEST(SlurmSubmission, AnArrayIsNeverRestartedBySlurm) {
   }
   EXPECT_EQ(words.back(),
             "--wrap=exec '/opt/it'\\''s/throng' 'worker' --job '/shared/50% done' --array 00ff");
-  const auto others = submission_of(folder, "00ff", 1, {0, 0, false}, 100, options);
+  const auto others = submission_words(folder, "00ff", 1, {0, 0, false}, 100, options);
   EXPECT_TRUE(holds(others, "--array=0-0%8"));
   EXPECT_FALSE(holds(others, "--gres=gpu:1")) << "only tasks that render need the GPU";
 }

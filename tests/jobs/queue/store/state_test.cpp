@@ -33,12 +33,12 @@ TEST(State, AJobThatHasEndedCanAtMostBeTriedAgain) {
     for (const JobEvent event : kJobEvents) {
       moves |= event != JobEvent::retry && next_state(state, event).has_value();
     }
-    EXPECT_EQ(moves, is_active(state)) << name_of(state);
+    EXPECT_EQ(moves, is_active(state)) << to_string(state);
   }
 }
 
 TEST(State, NamesReadBack) {
-  for (const JobState state : kJobStates) EXPECT_EQ(job_state_named(name_of(state)), state);
+  for (const JobState state : kJobStates) EXPECT_EQ(job_state_named(to_string(state)), state);
   EXPECT_FALSE(job_state_named("paused"));
 }
 

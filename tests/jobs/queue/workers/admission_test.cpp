@@ -56,7 +56,7 @@ void let_begin(const std::vector<TestJob*>& jobs) {
 }
 
 /// One worker takes one task: all have asked before it is free. The name of the task's job.
-std::string next_of(const std::vector<TestJob*>& jobs) {
+std::string next_job(const std::vector<TestJob*>& jobs) {
   std::vector<Admission::Permit> ended;
   for (TestJob* job : jobs) {
     for (Admission::Permit& permit : job->running) ended.push_back(std::move(permit));
@@ -73,9 +73,9 @@ std::string next_of(const std::vector<TestJob*>& jobs) {
 }
 
 /// The order in which one worker takes the tasks of all.
-std::vector<std::string> order_of(const std::vector<TestJob*>& jobs, std::size_t steps) {
+std::vector<std::string> admission_order(const std::vector<TestJob*>& jobs, std::size_t steps) {
   std::vector<std::string> order;
-  for (std::size_t i = 0; i < steps; ++i) order.push_back(next_of(jobs));
+  for (std::size_t i = 0; i < steps; ++i) order.push_back(next_job(jobs));
   return order;
 }
 
@@ -127,7 +127,7 @@ TEST(Admission, OwnersTakeTurnsAtOneWorkerByTheTimeTheyHad) {
   TestJob quick(admission, "b", "j2", 100);
   std::map<std::string, int> tasks;
   for (int i = 0; i < 40; ++i) {
-    const std::string next = next_of({&slow, &quick});
+    const std::string next = next_job({&slow, &quick});
     ++tasks[next];
     clock.advance(next == "j1" ? 40s : 10s);
   }
@@ -147,7 +147,7 @@ TEST(Admission, AReturningOwnerGetsNothingForTheTimeAway) {
   TestJob fresh(admission, "b", "j2", 1000);
   std::map<std::string, int> tasks;
   for (int i = 0; i < 20; ++i) {
-    ++tasks[next_of({&old, &fresh})];
+    ++tasks[next_job({&old, &fresh})];
     clock.advance(2s);
   }
   EXPECT_EQ(tasks["j1"], 10);
@@ -158,8 +158,8 @@ TEST(Admission, SmallJobsOfAnOwnerEndEarlyAndTheOldestIsNotForgotten) {
   Admission admission({.workers = 1});
   TestJob large(admission, "a", "j1", 200);
   TestJob small(admission, "a", "j2", 6);
-  EXPECT_EQ(next_of({&large}), "j1");
-  const auto order = order_of({&large, &small}, 9);
+  EXPECT_EQ(next_job({&large}), "j1");
+  const auto order = admission_order({&large, &small}, 9);
   EXPECT_EQ(count(order, "j2"), 6U) << "six of the first nine";
   EXPECT_GE(count(order, "j1"), 2U) << "every fourth is the oldest job's";
 }

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // In a process of its own: staging is chosen for good.
-int exit_code_of(const std::function<int()>& work) {
+int run_for_exit_code(const std::function<int()>& work) {
   const pid_t pid = ::fork();
   if (pid == 0) ::_exit(work());
   int status = 0;
@@ -50,7 +50,7 @@ TEST_F(AttemptsTest, AreReadAsTheyWereMade) {
   EXPECT_EQ(read[0].attempts[1].task, "run001/trace");
   EXPECT_EQ(read[0].attempts[1].number, 2);
   EXPECT_EQ(noted_array_job(folder, array.name), "17");
-  EXPECT_FALSE(claim_of(folder, array.name, 0));
+  EXPECT_FALSE(find_claim(folder, array.name, 0));
   remove_attempts(folder, array.name);
   EXPECT_FALSE(fs::exists(attempts_folder(folder)));
 }
@@ -62,7 +62,7 @@ TEST_F(AttemptsTest, OnesWhoseMakingWasBrokenOffAreRemoved) {
 }
 
 TEST_F(AttemptsTest, AWorkerBeginsSaysAndPublishes) {
-  const int code = exit_code_of([&] {
+  const int code = run_for_exit_code([&] {
     if (begin_attempt(folder.path(), array.name, 1) != "run001/trace") return 1;
     if (std::string(std::getenv("THRONG_TEST_VARIABLE")) != "set") return 2;
     if (std::string(std::getenv("THRONG_ATTEMPT")) != "2") return 3;
@@ -75,8 +75,8 @@ TEST_F(AttemptsTest, AWorkerBeginsSaysAndPublishes) {
   });
   EXPECT_EQ(code, 0);
   EXPECT_EQ(read_file(folder.path() / "work/run001/trace.h5"), "trace");
-  ASSERT_TRUE(claim_of(folder, array.name, 1));
-  EXPECT_EQ(claim_of(folder, array.name, 1)->node, name_of_this_host());
+  ASSERT_TRUE(find_claim(folder, array.name, 1));
+  EXPECT_EQ(find_claim(folder, array.name, 1)->node, name_of_this_host());
   MessageFileReader messages(attempt_folder(folder, array.name, 1) / "messages");
   EXPECT_TRUE(messages.read());
   ASSERT_TRUE(messages.end());
@@ -96,13 +96,13 @@ TEST_F(AttemptsTest, AnAttemptBeginsOnce) {
       return 1;
     }
   };
-  EXPECT_EQ(exit_code_of(begin), 0);
-  EXPECT_EQ(exit_code_of(begin), 1) << "Slurm has started the same attempt again";
+  EXPECT_EQ(run_for_exit_code(begin), 0);
+  EXPECT_EQ(run_for_exit_code(begin), 1) << "Slurm has started the same attempt again";
 }
 
 TEST_F(AttemptsTest, OneThatWasTakenBackDoesNotBegin) {
   revoke_attempt(folder, array.name, 0);
-  EXPECT_EQ(exit_code_of([&] {
+  EXPECT_EQ(run_for_exit_code([&] {
               try {
                 begin_attempt(folder.path(), array.name, 0);
                 return 0;
@@ -120,7 +120,7 @@ TEST_F(AttemptsTest, NothingIsPublishedOnceTheRightIsTakenAway) {
   const fs::path output = folder.path() / "work/run000/shard0000";
   const fs::path file = folder.path() / "work/run000/trace.h5";
   const fs::path note = folder.path() / "work/people";
-  const int code = exit_code_of([&] {
+  const int code = run_for_exit_code([&] {
     begin_attempt(folder.path(), array.name, 0);
     StagingFolder staging(output);
     StagedFile staged(file);
@@ -128,7 +128,7 @@ TEST_F(AttemptsTest, NothingIsPublishedOnceTheRightIsTakenAway) {
     staged.write("late");
     once.write("late");
     if (is_staging_revoked()) return 1;
-    if (exit_code_of([&] {
+    if (run_for_exit_code([&] {
           revoke_attempt(folder, array.name, 0);
           return 0;
         }) != 0) {
@@ -159,15 +159,16 @@ TEST_F(AttemptsTest, NothingIsPublishedOnceTheRightIsTakenAway) {
 // that was cut off is still there.
 TEST_F(AttemptsTest, ARenewedRightIsNotThatOfTheFirstProcess) {
   const fs::path output = folder.path() / "work/run000/shard0000";
-  const int code = exit_code_of([&] {
+  const int code = run_for_exit_code([&] {
     begin_attempt(folder.path(), array.name, 0);
     StagingFolder staging(output);
-    if (exit_code_of([&] { return renew_attempt(folder, array.name, 0) ? 0 : 1; }) != 0) return 1;
+    if (run_for_exit_code([&] { return renew_attempt(folder, array.name, 0) ? 0 : 1; }) != 0)
+      return 1;
     const auto begin = [&] {
       begin_attempt(folder.path(), array.name, 0);
       return is_staging_revoked() ? 1 : 0;
     };
-    if (exit_code_of(begin) != 0) return 2;
+    if (run_for_exit_code(begin) != 0) return 2;
     if (!is_staging_revoked()) return 3;
     fs::create_directories(staging.path() / "files");
     try {
@@ -179,12 +180,12 @@ TEST_F(AttemptsTest, ARenewedRightIsNotThatOfTheFirstProcess) {
   });
   EXPECT_EQ(code, 0);
   EXPECT_FALSE(fs::exists(output));
-  EXPECT_TRUE(claim_of(folder, array.name, 0)) << "the second process has begun";
+  EXPECT_TRUE(find_claim(folder, array.name, 0)) << "the second process has begun";
 }
 
 TEST_F(AttemptsTest, NamesOfStagedFilesNameTheirWriter) {
-  const fs::path one = staging_path_of(base.path() / "file");
-  const fs::path other = staging_path_of(base.path() / "file");
+  const fs::path one = staging_path(base.path() / "file");
+  const fs::path other = staging_path(base.path() / "file");
   EXPECT_NE(one, other);
   EXPECT_EQ(one.parent_path(), base.path());
   const std::string begin = "file.tmp." + name_of_this_host() + "." + std::to_string(::getpid());

@@ -103,10 +103,10 @@ TEST_F(LocalProcessesTest, OnlyTheOneThatPublishesGetsCredentials) {
   options.command = {"/bin/sh", "-c", "env > $2/$4.env", "worker"};
   LocalProcesses processes(options);
   const auto environment_of = [&](const Task& task) {
-    std::filesystem::create_directories((folder.path() / name_of(task)).parent_path());
+    std::filesystem::create_directories((folder.path() / to_string(task)).parent_path());
     const std::array tasks = {task};
     processes.run(JobFolder(folder.path()), tasks, {}, {});
-    return read_file(folder.path() / (name_of(task) + ".env"));
+    return read_file(folder.path() / (to_string(task) + ".env"));
   };
   EXPECT_THAT(environment_of({Task::Kind::publish}), HasSubstr("AWS_SECRET_ACCESS_KEY=hunter2\n"));
   for (const Task::Kind kind : {Task::Kind::simulate, Task::Kind::measure, Task::Kind::render,

@@ -1,0 +1,158 @@
+#include "render/passes/scenery_pass.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "render/gl/shaders.h"
+#include "render/scenery/ground_texture.h"
+#include "render/scenery/lighting.h"
+#include "render/scenery/scenery_classes.h"
+
+namespace throng::render {
+
+namespace {
+
+using embedded::shader_light;
+using embedded::shader_noise;
+using embedded::shader_scenery_vert;
+using embedded::shader_view;
+
+constexpr GLuint kGroundUnit = 3;  // also in shaders/ground.frag.glsl
+
+std::string_view choose_shader(const std::string& material, const world::Scenario& scenario) {
+  const std::array<std::pair<std::string_view, std::string_view>, 7> materials = {{
+      {"pavers", embedded::shader_ground_pavers},
+      {"asphalt", embedded::shader_ground_asphalt},
+      {"grass", embedded::shader_ground_grass},
+      {"concrete", embedded::shader_ground_concrete},
+      {"dirt", embedded::shader_ground_dirt},
+      {"kerb", embedded::shader_ground_kerb},
+      {"paint", embedded::shader_ground_paint},
+  }};
+  for (const auto& [name, text] : materials) {
+    if (name == material) return text;
+  }
+  throw InputError(Problem{scenario.id, "ground material", '"' + material + '"',
+                           R"("pavers", "asphalt", "grass", "concrete" or "dirt")"});
+}
+
+/// A surface's own shader on top of light and noise.
+Program make_scenery_program(std::string_view words, std::string_view surface,
+                             std::string_view more = "") {
+  return make_program({shader_view, shader_scenery_vert},
+                      {words, shader_light, shader_noise, surface, more});
+}
+
+constexpr std::string_view kTextured = "#define TEXTURED\n";
+constexpr std::string_view kPlain = "surroundings";
+
+/// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
+/// small or follow no tile are not.
+bool is_baked(std::string_view material) {
+  return material != "kerb" && material != "paint" && material != kPlain;
+}
+
+/// Mean colors of facades and roofs, in the words of a ground.
+constexpr std::string_view kWallAlbedo =
+    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.41, 0.36, 0.30); }\n";
+constexpr std::string_view kRoofAlbedo =
+    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.31, 0.29, 0.27); }\n";
+
+Program make_corners_program(std::string_view words, std::string_view material) {
+  return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
+                       material, embedded::shader_scenery_corners_vert},
+                      {embedded::shader_silhouette, embedded::shader_corners_frag});
+}
+
+/// The mesh, its surfaces classified if wanted.
+const SceneryMesh& with_classes(bool wanted, const world::Scenario& scenario,
+                                const std::vector<GroundLayer>& layers, SceneryMesh& mesh) {
+  if (wanted) add_classes(scenario, layers, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& environment,
+                         const QualitySettings& quality, bool semantic)
+    : mesh_(scenery_mesh(scenario)),
+      layers_(add_ground_layers(
+          scenario, [&](const Eigen::Vector2d& p) { return openness_at(scenario, p); }, mesh_)),
+      vertices_(make_buffer(with_classes(semantic, scenario, layers_, mesh_).vertices)),
+      indices_(make_buffer(mesh_.indices)),
+      array_(make_vertex_array()),
+      material_(scenario.ground_material),
+      shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})) {
+  const std::string words = light_words(environment).append(shadow_words(quality));
+  if (quality.textured) {
+    walls_ = make_scenery_program(words, embedded::shader_wall_frag);
+    roofs_ = make_scenery_program(words, embedded::shader_roof_frag);
+  } else {
+    walls_ = make_corners_program(words, kWallAlbedo);
+    roofs_ = make_corners_program(words, kRoofAlbedo);
+  }
+  describe_vertices(array_, 0, vertices_, sizeof(SceneryVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(SceneryVertex, position)},
+                     {1, 3, GL_FLOAT, false, offsetof(SceneryVertex, normal)},
+                     {2, 4, GL_FLOAT, false, offsetof(SceneryVertex, local)},
+                     {3, 1, GL_FLOAT, false, offsetof(SceneryVertex, openness)},
+                     {4, 1, GL_UNSIGNED_INT, false, offsetof(SceneryVertex, id)},
+                     {5, 1, GL_FLOAT, false, offsetof(SceneryVertex, facade)}});
+  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  learn(material_, choose_shader(material_, scenario), words, quality);
+  learn(std::string(kPlain), embedded::shader_ground_surroundings, words, quality);
+  for (const GroundLayer& layer : layers_) {
+    learn(layer.material, choose_shader(layer.material, scenario), words, quality);
+  }
+  check_gl("loading the scenery");
+}
+
+void SceneryPass::learn(const std::string& material, std::string_view shader,
+                        std::string_view words, const QualitySettings& quality) {
+  if (looks_.contains(material)) return;
+  Look& look = looks_[material];
+  if (!quality.textured) {
+    look.program = make_corners_program(words, shader);
+  } else if (is_baked(material)) {
+    look.program = make_scenery_program(words, kTextured, embedded::shader_ground_frag);
+    look.texture = bake_ground(shader, quality.ground_texels);
+  } else {
+    look.program = make_scenery_program(words, shader, embedded::shader_ground_frag);
+  }
+}
+
+void SceneryPass::draw_ground(const std::string& material, const Range& range) const {
+  const Look& look = looks_.at(material);
+  glBindTextureUnit(kGroundUnit, look.texture.name());
+  draw_range(look.program, range);
+}
+
+void SceneryPass::draw_range(const Program& program, const Range& range) const {
+  if (range.count == 0) return;
+  glUseProgram(program.name());
+  const std::size_t offset = range.first * sizeof(std::uint32_t);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
+}
+
+void SceneryPass::draw() const {
+  glEnable(GL_CULL_FACE);
+  glBindVertexArray(array_.name());
+  draw_range(walls_, mesh_.walls);
+  draw_range(roofs_, mesh_.roofs);
+  for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
+  draw_ground(material_, mesh_.ground);
+  draw_ground(std::string(kPlain), mesh_.surroundings);
+}
+
+void SceneryPass::draw_shadow() const {
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(array_.name());
+  draw_range(shadow_, mesh_.walls);
+  draw_range(shadow_, mesh_.roofs);
+}
+
+}  // namespace throng::render

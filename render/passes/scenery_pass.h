@@ -1,0 +1,54 @@
+// Renders ground and buildings.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/gl/gl_objects.h"
+#include "render/scenery/ground_layers.h"
+#include "render/scenery/scenery.h"
+#include "spec/render/environment.h"
+#include "spec/render/quality.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+class SceneryPass {
+ public:
+  /// Throws InputError when the scenario names a ground material that does not exist.
+  SceneryPass(const world::Scenario& scenario, const Environment& environment,
+              const QualitySettings& quality, bool semantic);
+
+  /// Expects the View and Light blocks, the shadow map and the target to be bound.
+  void draw() const;
+
+  /// Buildings into the shadow map.
+  void draw_shadow() const;
+
+ private:
+  /// Shader and texture of a material; drafts, kerbs and paint need no texture.
+  struct Look {
+    Program program;
+    Texture texture;
+  };
+  /// Makes the look of a material that has none yet.
+  void learn(const std::string& material, std::string_view shader, std::string_view words,
+             const QualitySettings& quality);
+  void draw_ground(const std::string& material, const Range& range) const;
+  void draw_range(const Program& program, const Range& range) const;
+
+  SceneryMesh mesh_;
+  std::vector<GroundLayer> layers_;  ///< uppermost first
+  Buffer vertices_;
+  Buffer indices_;
+  VertexArray array_;
+  Program walls_;
+  Program roofs_;
+  std::map<std::string, Look> looks_;  ///< by the ground's material
+  std::string material_;               ///< of the ground that no layer covers
+  Program shadow_;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,139 @@
+#include "render/scenery/ground_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/geometry/polygon.h"
+#include "base/geometry/triangulate.h"
+#include "render/frame.h"
+
+namespace throng::render {
+
+namespace {
+
+using Eigen::Vector2d;
+using Polygon = std::vector<Vector2d>;
+
+constexpr double kAreaHeightM = 0.0006;
+constexpr double kNextAreaM = 0.0001;
+constexpr std::size_t kMaxHeights = 6;
+constexpr double kKerbHeightM = 0.0014;
+constexpr double kPaintHeightM = 0.0017;
+
+/// The part of a convex polygon on the side of a line where normal . p <= limit.
+Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
+  return geometry::clipped(polygon, [&](const Vector2d& p) { return normal.dot(p) - limit; });
+}
+
+class LayerBuilder {
+ public:
+  LayerBuilder(const Openness& openness, SceneryMesh& mesh) : openness_(openness), mesh_(mesh) {}
+
+  std::uint32_t indices() const { return static_cast<std::uint32_t>(mesh_.indices.size()); }
+
+  /// A convex polygon, counter-clockwise.
+  void add(const Polygon& polygon, double height_m) {
+    if (polygon.size() < 3) return;
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const Vector2d& p : polygon) {
+      mesh_.vertices.push_back(
+          {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(height_m)},
+           {0, 0, 1},
+           {ground_tone_at(p)},
+           openness_(p),
+           kIdGround,
+           0});
+    }
+    for (std::uint32_t i = 2; i < polygon.size(); ++i) {
+      mesh_.indices.insert(mesh_.indices.end(), {first, first + i - 1, first + i});
+    }
+  }
+
+  /// The same cut along a grid, so that openness is sampled within it.
+  void add_in_cells(const Polygon& polygon, double height_m) {
+    constexpr double kMinCellM = 3;
+    constexpr double kMaxCells = 48;
+    Eigen::AlignedBox2d bounds;
+    for (const Vector2d& p : polygon) bounds.extend(p);
+    const double cell = std::max(kMinCellM, bounds.sizes().maxCoeff() / kMaxCells);
+    for (double x = bounds.min().x(); x < bounds.max().x(); x += cell) {
+      const Polygon column = cut(cut(polygon, {1, 0}, x + cell), {-1, 0}, -x);
+      for (double y = bounds.min().y(); y < bounds.max().y(); y += cell) {
+        add(cut(cut(column, {0, 1}, y + cell), {0, -1}, -y), height_m);
+      }
+    }
+  }
+
+  /// A strip from one point to another.
+  void add_strip(const Vector2d& from, const Vector2d& to, double width_m, double height_m) {
+    const Vector2d along = (to - from).normalized();
+    const Vector2d across = 0.5 * width_m * Vector2d(-along.y(), along.x());
+    add({from - across, to - across, to + across, from + across}, height_m);
+  }
+
+ private:
+  const Openness& openness_;
+  SceneryMesh& mesh_;
+};
+
+void paint(const world::Marking& marking, LayerBuilder& layers) {
+  const double length = (marking.to - marking.from).norm();
+  const Vector2d along = (marking.to - marking.from) / length;
+  if (marking.kind == "line") {
+    layers.add_strip(marking.from, marking.to, marking.width_m, kPaintHeightM);
+    return;
+  }
+  const double bar = marking.kind == "crossing" ? 0.5 : 2.0;
+  for (double s = 0; s < length; s += 2 * bar) {
+    const double end = std::min(s + bar, length);
+    layers.add_strip(marking.from + s * along, marking.from + end * along, marking.width_m,
+                     kPaintHeightM);
+  }
+}
+
+void edge_with_kerb(const Polygon& corners, LayerBuilder& layers) {
+  constexpr double kStoneM = 0.16;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d& from = corners[i];
+    const Vector2d& to = corners[(i + 1) % corners.size()];
+    const Vector2d along = (to - from).normalized();
+    const Vector2d inwards(-along.y(), along.x());
+    layers.add({from, to, to + kStoneM * inwards, from + kStoneM * inwards}, kKerbHeightM);
+  }
+}
+
+}  // namespace
+
+std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
+                                           const Openness& openness, SceneryMesh& mesh) {
+  LayerBuilder builder(openness, mesh);
+  std::vector<GroundLayer> layers;
+  const auto layer = [&](const std::string& material, auto&& add) {
+    const std::uint32_t first = builder.indices();
+    add();
+    if (builder.indices() > first) layers.push_back({material, {first, builder.indices() - first}});
+  };
+  layer("paint", [&] {
+    for (const world::Marking& marking : scenario.markings) paint(marking, builder);
+  });
+  layer("kerb", [&] {
+    for (const world::GroundArea& area : scenario.areas) {
+      if (area.kerb) edge_with_kerb(area.corners, builder);
+    }
+  });
+  for (std::size_t i = scenario.areas.size(); i-- > 0;) {
+    const world::GroundArea& area = scenario.areas[i];
+    const double height_m =
+        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMaxHeights));
+    layer(area.material, [&] {
+      for (const auto& triangle : geometry::triangulate(area.corners)) {
+        builder.add_in_cells(
+            {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
+            height_m);
+      }
+    });
+  }
+  return layers;
+}
+
+}  // namespace throng::render

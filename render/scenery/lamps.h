@@ -1,0 +1,47 @@
+// Street lamps: where they are and what they give. Lit after sunset.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "render/gl/gl_objects.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+struct Lamp {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the light, m
+  /// A lamp on a wall shines to this side of it only (unit vector); zero: all around.
+  Eigen::Vector2d away = Eigen::Vector2d::Zero();
+};
+
+/// One on every 12 m of every wall of at least 4 m (also in shaders/wall.frag.glsl), 4.2 m up.
+std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
+
+/// The lamps on walls and on lamp posts.
+std::vector<Lamp> all_lamps(const world::Scenario& scenario);
+
+/// Lamp light 1 m above a point of the ground, without occlusion by buildings: the sum of the unit
+/// directions to them times their strengths, and the sum of their strengths. One unit of light is
+/// that of render/scenery/daylight.h.
+Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,
+                              const Eigen::Vector2d& point);
+
+/// The light of a scenario's lamps as a texture over its ground.
+class LampMap {
+ public:
+  explicit LampMap(const world::Scenario& scenario);
+
+  const Eigen::AlignedBox2d& area() const { return area_; }
+
+  /// Binds it for lamp_light() of shaders/light.glsl.
+  void bind() const;
+
+ private:
+  Eigen::AlignedBox2d area_;
+  Texture texture_;
+};
+
+}  // namespace throng::render

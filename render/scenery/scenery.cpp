@@ -1,0 +1,203 @@
+#include "render/scenery/scenery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/compute/random.h"
+#include "base/geometry/polygon.h"
+#include "base/geometry/triangulate.h"
+#include "render/frame.h"
+#include "render/scenery/scenery_details.h"
+
+namespace throng::render {
+
+namespace {
+
+constexpr double kGroundCell = 2.0;      // m; openness is sampled at its corners
+constexpr double kSurroundingsM = 3000;  // how far the plain goes
+
+std::array<float, 3> three(double x, double y, double z) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+/// Tangent of the elevation up to which a building hides the sky along a ray on the ground.
+double horizon_slope(const world::Building& building, const Eigen::Vector2d& from,
+                     const Eigen::Vector2d& direction) {
+  double slope = 0;
+  for (std::size_t i = 0; i < building.footprint.size(); ++i) {
+    const Eigen::Vector2d a = building.footprint[i] - from;
+    const Eigen::Vector2d edge =
+        building.footprint[(i + 1) % building.footprint.size()] - building.footprint[i];
+    const double across = geometry::cross(direction, edge);
+    if (std::abs(across) < 1e-9) continue;
+    const double along_ray = geometry::cross(a, edge) / across;
+    const double along_edge = geometry::cross(a, direction) / across;
+    if (along_ray < 0 || along_edge < 0 || along_edge > 1) continue;
+    slope = std::max(slope, building.height_m / std::max(along_ray, 0.05));
+  }
+  return slope;
+}
+
+/// Grid lines over [low, high], and one far away on each side.
+std::vector<double> grid_lines(double low, double high) {
+  const int cells = std::clamp(static_cast<int>(std::ceil((high - low) / kGroundCell)), 1, 128);
+  std::vector<double> lines = {low - kSurroundingsM};
+  for (int i = 0; i <= cells; ++i) lines.push_back(low + (high - low) * i / cells);
+  lines.push_back(high + kSurroundingsM);
+  return lines;
+}
+
+/// One grid for ground and plain, so that no gap opens between them.
+void add_ground(const world::Scenario& scenario, SceneryMesh& mesh) {
+  const std::vector<double> xs = grid_lines(scenario.ground.min.x(), scenario.ground.max.x());
+  const std::vector<double> ys = grid_lines(scenario.ground.min.y(), scenario.ground.max.y());
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const double y : ys) {
+    for (const double x : xs) {
+      mesh.vertices.push_back({three(x, y, 0),
+                               {0, 0, 1},
+                               {ground_tone_at({x, y})},
+                               openness_at(scenario, {x, y}),
+                               kIdGround,
+                               0});
+    }
+  }
+  const auto add_cells = [&](bool inside) {
+    const Range range = {static_cast<std::uint32_t>(mesh.indices.size()), 0};
+    for (std::size_t row = 0; row + 1 < ys.size(); ++row) {
+      for (std::size_t column = 0; column + 1 < xs.size(); ++column) {
+        const bool edge =
+            row == 0 || column == 0 || row + 2 == ys.size() || column + 2 == xs.size();
+        if (edge == inside) continue;
+        const auto corner = static_cast<std::uint32_t>(first + row * xs.size() + column);
+        const auto above = static_cast<std::uint32_t>(corner + xs.size());
+        mesh.indices.insert(mesh.indices.end(),
+                            {corner, corner + 1, above + 1, corner, above + 1, above});
+      }
+    }
+    return Range{range.first, static_cast<std::uint32_t>(mesh.indices.size()) - range.first};
+  };
+  mesh.ground = add_cells(true);
+  mesh.surroundings = add_cells(false);
+}
+
+void add_walls(const world::Building& building, std::uint32_t id, SceneryMesh& mesh) {
+  const double height = building.height_m;
+  for (std::size_t i = 0; i < building.footprint.size(); ++i) {
+    const Eigen::Vector2d& from = building.footprint[i];
+    const Eigen::Vector2d& to = building.footprint[(i + 1) % building.footprint.size()];
+    const double length = (to - from).norm();
+    const Eigen::Vector2d along = (to - from) / length;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const double z : {0.0, height}) {
+      for (const double s : {0.0, length}) {
+        const Eigen::Vector2d p = s == 0.0 ? from : to;
+        mesh.vertices.push_back({three(p.x(), p.y(), z),
+                                 three(along.y(), -along.x(), 0),
+                                 {static_cast<float>(s), static_cast<float>(z),
+                                  static_cast<float>(length), static_cast<float>(height)},
+                                 1,
+                                 id,
+                                 static_cast<float>(building.facade)});
+      }
+    }
+    mesh.indices.insert(mesh.indices.end(),
+                        {first, first + 1, first + 3, first, first + 3, first + 2});
+  }
+}
+
+void add_roof(const world::Building& building, std::uint32_t id, SceneryMesh& mesh) {
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& corner : building.footprint) bounds.extend(corner);
+  const Eigen::Vector2d size = bounds.sizes();
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector2d& corner : building.footprint) {
+    const Eigen::Vector2d local = corner - bounds.min();
+    mesh.vertices.push_back({three(corner.x(), corner.y(), building.height_m),
+                             {0, 0, 1},
+                             {static_cast<float>(local.x()), static_cast<float>(local.y()),
+                              static_cast<float>(size.x()), static_cast<float>(size.y())},
+                             1,
+                             id,
+                             static_cast<float>(building.facade)});
+  }
+  for (const auto& triangle : geometry::triangulate(building.footprint)) {
+    for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);
+  }
+}
+
+}  // namespace
+
+// Along each direction everything above the horizon, weighted by the cosine to the vertical.
+float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point) {
+  constexpr int kDirections = 16;
+  double sum = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
+    double slope = 0;
+    for (const world::Building& building : scenario.buildings) {
+      slope = std::max(slope, horizon_slope(building, point, {std::cos(angle), std::sin(angle)}));
+    }
+    sum += 1 / (1 + slope * slope);
+  }
+  // A corner inside a building would darken the whole cell in front of the wall.
+  return static_cast<float>(std::max(sum / kDirections, 0.35));
+}
+
+// Three octaves of smooth noise over squares of 23, 9 and 4 m.
+float ground_tone_at(const Eigen::Vector2d& point) {
+  constexpr std::array<std::array<double, 2>, 3> kOctaves = {{{23, 0.14}, {9, 0.12}, {4, 0.10}}};
+  const auto corner = [](double x, double y, std::uint64_t octave) {
+    constexpr double kOffset = 1 << 24;  // indices are not negative
+    const auto column = static_cast<std::uint64_t>(x + kOffset);
+    const auto row = static_cast<std::uint64_t>(y + kOffset);
+    return Random(octave, Stream::environment, column << 32U | row).uniform(-1, 1);
+  };
+  double tone = 1;
+  for (std::uint64_t octave = 0; octave < kOctaves.size(); ++octave) {
+    const auto [size_m, strength] = kOctaves[octave];
+    const Eigen::Array2d at = point.array() / size_m;
+    const Eigen::Array2d cell = at.floor();
+    const Eigen::Array2d t = at - cell;
+    const Eigen::Array2d f = t * t * (3 - 2 * t);
+    const auto row = [&](double y) {
+      return (1 - f.x()) * corner(cell.x(), y, octave) + f.x() * corner(cell.x() + 1, y, octave);
+    };
+    tone += strength * ((1 - f.y()) * row(cell.y()) + f.y() * row(cell.y() + 1));
+  }
+  return static_cast<float>(tone);
+}
+
+SceneryMesh scenery_mesh(const world::Scenario& scenario) {
+  SceneryMesh mesh;
+  const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };
+  for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
+    add_walls(scenario.buildings[i], kIdBuilding + i, mesh);
+  }
+  add_exit_doors(scenario, mesh);
+  add_roof_plant(scenario, mesh);
+  mesh.walls = {0, indices()};
+  for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
+    add_roof(scenario.buildings[i], kIdBuilding + i, mesh);
+  }
+  mesh.roofs = {mesh.walls.count, indices() - mesh.walls.count};
+  add_ground(scenario, mesh);
+  return mesh;
+}
+
+double tallest_m(const world::Scenario& scenario) {
+  double tallest = 2.5;
+  constexpr double kTreeM = 7.5;
+  constexpr double kMeshM = 30;  // higher parts of meshes throw no shadow
+  if (!scenario.meshes.empty()) tallest = kMeshM;
+  for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTreeM * prop.scale);
+  for (const world::Building& building : scenario.buildings) {
+    const double plant_m = has_roof_plant(building) ? kRoofPlantM : 0;
+    tallest = std::max(tallest, building.height_m + plant_m);
+  }
+  return tallest;
+}
+
+}  // namespace throng::render

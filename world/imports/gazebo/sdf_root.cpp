@@ -1,0 +1,151 @@
+#include "world/imports/gazebo/sdf_root.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sdf/sdf.hh>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/files/files.h"
+
+namespace throng::imports {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = 32U << 20U;
+constexpr int kMaxIncludes = 2'000;
+constexpr int kMaxTakenOut = 50;  // libsdformat takes up to a quarter of a second for each
+
+bool is_loaded(const sdf::Root& root) { return root.WorldCount() > 0 || root.Model() != nullptr; }
+
+// Follows from another complaint, is said again where poses are resolved, or loses nothing here.
+bool is_noise(const sdf::Error& error) {
+  switch (error.Code()) {
+    case sdf::ErrorCode::MODEL_WITHOUT_LINK:
+    case sdf::ErrorCode::JOINT_CHILD_LINK_INVALID:
+    case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID:
+    case sdf::ErrorCode::JOINT_PARENT_SAME_AS_CHILD:
+    case sdf::ErrorCode::FRAME_ATTACHED_TO_INVALID:
+    case sdf::ErrorCode::FRAME_ATTACHED_TO_CYCLE:
+    case sdf::ErrorCode::FRAME_ATTACHED_TO_GRAPH_ERROR:
+    case sdf::ErrorCode::POSE_RELATIVE_TO_INVALID:
+    case sdf::ErrorCode::POSE_RELATIVE_TO_CYCLE:
+    case sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR:
+      return true;
+    default:
+      return error.Message() == "Failed to load a world." ||
+             error.Message().find("<script>") != std::string::npos;
+  }
+}
+
+class RootLoader {
+ public:
+  RootLoader(const fs::path& file, const LocalFiles& files, std::vector<Skipped>& skipped)
+      : file_(file), skipped_(skipped), text_(file.string(), text_of(file)) {
+    config_.SetFindCallback([&files, this](const std::string& uri) -> std::string {
+      // A model may include itself, and would for ever.
+      if (++includes_ > kMaxIncludes) return "";
+      const auto found = files.find(uri, file_);
+      return found ? found->string() : "";
+    });
+  }
+
+  SdfText load(sdf::Root& root) {
+    sdf::Console::Instance()->SetQuiet(true);
+    sdf::Errors errors = load_once(root);
+    for (int i = 0; i < kMaxTakenOut && !is_loaded(root); ++i) {
+      if (!take_out_first(errors)) break;
+      errors = load_once(root);
+    }
+    if (!is_loaded(root)) reject(errors);
+    list(errors);
+    return std::move(text_);
+  }
+
+ private:
+  static std::string text_of(const fs::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
+    if (size > kMaxFileBytes) {
+      throw InputError({file.string(), "", "a file of more than 32 MB", "a smaller world"});
+    }
+    return read_file(file);
+  }
+
+  sdf::Errors load_once(sdf::Root& root) {
+    includes_ = 0;
+    root = sdf::Root();
+    try {
+      return root.LoadSdfString(text_.text(), config_);
+    } catch (const std::exception& wrong) {
+      throw InputError({file_.string(), "", wrong.what(), "a world of SDF"});
+    }
+  }
+
+  std::pair<std::string, int> place_of(const sdf::Error& error) const {
+    const std::string path = error.FilePath().value_or("");
+    const int line = error.LineNumber().value_or(0);
+    if (!is_given_text(path)) return {path, line};
+    return {file_.string(), line > 0 ? text_.line_of(line) : 0};
+  }
+
+  // The first complaint is about the innermost element.
+  bool take_out_first(const sdf::Errors& errors) {
+    for (const sdf::Error& error : errors) {
+      if (!is_given_text(error.FilePath().value_or("")) || !error.LineNumber()) continue;
+      const auto part = text_.take_out(*error.LineNumber());
+      if (!part) continue;
+      skipped_.push_back({file_.string(), part->line, part->name, error.Message()});
+      return true;
+    }
+    return false;
+  }
+
+  [[noreturn]] void reject(const sdf::Errors& errors) const {
+    std::vector<Problem> problems;
+    for (const sdf::Error& error : errors) {
+      const auto [file, line] = place_of(error);
+      // The last one quotes the whole text.
+      if (line == 0 && !problems.empty()) continue;
+      problems.push_back({file, line > 0 ? fmt::format("line {}", line) : "",
+                          error.Message().substr(0, 200), "a world of SDF"});
+    }
+    if (problems.empty()) problems.push_back({file_.string(), "", "no world", "a world of SDF"});
+    throw InputError(std::move(problems));
+  }
+
+  void list(const sdf::Errors& errors) {
+    std::set<std::string> said;
+    for (const sdf::Error& error : errors) {
+      if (is_noise(error)) continue;
+      const auto [file, line] = place_of(error);
+      const bool missing = error.Code() == sdf::ErrorCode::URI_LOOKUP;
+      Skipped skipped{file, line, "SDF",
+                      error.Message() + (missing ? " (nothing is fetched: see --models)" : "")};
+      if (said.insert(skipped.text()).second) skipped_.push_back(std::move(skipped));
+    }
+  }
+
+  const fs::path& file_;
+  std::vector<Skipped>& skipped_;
+  SdfText text_;
+  sdf::ParserConfig config_;
+  int includes_ = 0;
+};
+
+}  // namespace
+
+SdfText load_root(const fs::path& file, const LocalFiles& files, sdf::Root& root,
+                  std::vector<Skipped>& skipped) {
+  return RootLoader(file, files, skipped).load(root);
+}
+
+bool is_given_text(const std::string& path) { return path.empty() || path == "<data-string>"; }
+
+}  // namespace throng::imports

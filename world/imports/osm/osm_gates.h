@@ -1,0 +1,28 @@
+// Gates at the points where ways leave an extract.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "world/imports/osm/osm_tags.h"
+#include "world/imports/parts/imported_scenario.h"
+
+namespace throng::imports {
+
+struct UsedWay {
+  const OsmLine* line;
+  WayKind kind;
+};
+
+/// A gate on the edge of `inside` wherever a way crosses it or ends within a meter of it, as wide
+/// as the way (2 to 12 m); those that overlap are one.
+std::vector<Gate> gates_at_edge(const std::vector<UsedWay>& ways, const world::Rectangle& inside);
+
+/// The part of a segment in a rectangle, if it is longer than a decimeter (Liang and Barsky, ACM
+/// Transactions on Graphics 3, 1984).
+std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> part_within(
+    const Eigen::Vector2d& from, const Eigen::Vector2d& to, const world::Rectangle& area);
+
+}  // namespace throng::imports

@@ -1,0 +1,373 @@
+#include "world/imports/osm/osm_map.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/geometry/angle.h"
+#include "base/geometry/rectangle.h"
+#include "world/imports/osm/osm_buildings.h"
+#include "world/imports/osm/osm_gates.h"
+#include "world/imports/osm/osm_tags.h"
+#include "world/imports/parts/populate.h"
+#include "world/imports/parts/scenario_writer.h"
+#include "world/imports/parts/solids.h"
+
+namespace throng::imports {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kMinBuildingM2 = 1;
+constexpr double kMinPatchM2 = 0.2;
+constexpr std::size_t kMaxProps = 20'000;
+const Vector3d kRoofRgb(0.35, 0.33, 0.3);
+const Vector3d kWaterRgb(0.05, 0.12, 0.2);
+
+class MapReader {
+ public:
+  MapReader(OsmFile file, std::string source) : file_(std::move(file)), source_(std::move(source)) {
+    place_.inside = file_.bounds;
+    place_.skipped = std::move(file_.skipped);
+    ground_ = ground_rectangle(place_);
+  }
+
+  ImportedScenario read();
+
+ private:
+  void skip(const std::string& element, const std::string& reason) {
+    place_.skipped.push_back({source_, 0, element, reason});
+  }
+  void add_surface(const Area& area, const std::string& material,
+                   std::vector<world::GroundArea>& to);
+  void add_buildings();
+  void add_standing(const BuildingPiece& piece);
+  void add_hanging(const BuildingPiece& piece);
+  void add_water(const OsmArea& found);
+  void add_area(const OsmArea& found);
+  void add_way(const OsmLine& line, const WayKind& kind);
+  void add_crossings(const OsmLine& line, const WayKind& kind);
+  void add_barrier(const OsmLine& line, const Barrier& barrier);
+  std::vector<Area> openings_near(const Area& area) const;
+  void add_line(const OsmLine& line);
+  void add_tree_row(const OsmLine& line);
+  void add_prop(const OsmPoint& point);
+  void add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags, std::uint32_t look);
+  Object& object(const std::string& name) { return place_.objects.emplace_back(Object{name, {}}); }
+
+  OsmFile file_;
+  std::string source_;
+  world::Rectangle ground_;
+  ImportedScenario place_;
+  std::vector<geometry::Rectangle> building_bounds_;
+  std::vector<Area> openings_;        // in barriers
+  std::set<std::int64_t> crossings_;  // nodes
+  std::vector<world::GroundArea> green_;
+  std::vector<world::GroundArea> paved_;
+  std::vector<world::GroundArea> paths_;
+  std::vector<world::GroundArea> roads_;
+  std::vector<UsedWay> used_;
+};
+
+void MapReader::add_surface(const Area& area, const std::string& material,
+                            std::vector<world::GroundArea>& to) {
+  for (const Area& part : clipped(area, ground_)) {
+    for (Corners& corners : simple_parts(part, kMinPatchM2)) {
+      to.push_back({std::move(corners), material, false});
+    }
+  }
+}
+
+void MapReader::add_hanging(const BuildingPiece& piece) {
+  Solid solid;
+  solid.rgb = kRoofRgb;
+  constexpr double kRoofM = 0.3;
+  const double from_m = piece.from_m > kHeadM ? piece.from_m : piece.to_m - kRoofM;
+  for (const Area& part : clipped(piece.area, ground_)) {
+    for (const Corners& corners : simple_parts(part, kMinBuildingM2)) {
+      const Triangles prism = prism_triangles(corners, from_m, piece.to_m);
+      solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
+    }
+  }
+  if (!solid.triangles.empty()) object(piece.name).solids.push_back(std::move(solid));
+}
+
+// Buildings that are there already are cut out, so that no two buildings overlap.
+void MapReader::add_standing(const BuildingPiece& piece) {
+  for (const Area& part : clipped(piece.area, ground_)) {
+    std::vector<Area> others;
+    const geometry::Rectangle bounds = geometry::bounding_box(part.outline);
+    for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
+      if (bounds.meets(building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
+    }
+    double kept_m2 = 0;
+    for (const Area& rest : without(part, others)) {
+      kept_m2 += size_m2(rest);
+      for (Corners& corners : simple_parts(rest, kMinBuildingM2)) {
+        building_bounds_.push_back(geometry::bounding_box(corners));
+        if (!piece.part) place_.obstacles.push_back(corners);
+        place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
+                                    std::move(corners), piece.to_m, world::Facade::by_id});
+      }
+    }
+    const double cut_m2 = size_m2(part) - kept_m2;
+    if (cut_m2 > kMinBuildingM2 && !piece.part) {
+      skip(piece.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
+    }
+  }
+}
+
+void MapReader::add_buildings() {
+  MapBuildings found = make_buildings(file_.areas, source_);
+  for (const Area& outline : found.outlines) {
+    for (const Area& part : clipped(outline, ground_)) {
+      for (Corners& corners : simple_parts(part, kMinBuildingM2)) {
+        place_.obstacles.push_back(std::move(corners));
+      }
+    }
+  }
+  for (const BuildingPiece& piece : found.pieces) {
+    if (piece.stands) {
+      add_standing(piece);
+    } else {
+      add_hanging(piece);
+    }
+  }
+  for (Skipped& skipped : found.skipped) place_.skipped.push_back(std::move(skipped));
+}
+
+void MapReader::add_water(const OsmArea& found) {
+  constexpr double kSurfaceM = 0.02;
+  Solid solid;
+  solid.rgb = kWaterRgb;
+  for (const Area& part : clipped(found.area, ground_)) {
+    for (const Corners& corners : simple_parts(part, kMinPatchM2)) {
+      const Triangles flat = prism_triangles(corners, 0, kSurfaceM);
+      solid.triangles.insert(solid.triangles.end(), flat.begin(), flat.end());
+      place_.obstacles.push_back(corners);
+    }
+  }
+  if (!solid.triangles.empty()) object(found.name).solids.push_back(std::move(solid));
+}
+
+void MapReader::add_area(const OsmArea& found) {
+  const Tags& tags = found.tags;
+  if (is_building(tags) || is_building_part(tags)) return;  // add_buildings()
+  if (is_underground(tags)) return skip(found.name, "is underground");
+  if (is_water(tags)) return add_water(found);
+  const std::string material = surface_material(tags);
+  if (material == "grass") return add_surface(found.area, material, green_);
+  if (!material.empty()) return add_surface(found.area, material, paved_);
+  const bool silent = tags.contains("landuse") || tags.contains("amenity") ||
+                      tags.contains("leisure") || tags.contains("area");
+  if (!silent) skip(found.name, "an area that is not drawn");
+}
+
+// The bars of a crossing over the road, at the node that says so.
+void MapReader::add_crossings(const OsmLine& line, const WayKind& kind) {
+  constexpr double kBarsM = 4;
+  constexpr double kClearOfKerb = 0.94;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    if (!crossings_.contains(line.nodes[i]) || !ground_.contains(line.points[i])) continue;
+    const Vector2d along =
+        line.points[std::min(i + 1, line.points.size() - 1)] - line.points[i > 0 ? i - 1 : 0];
+    if (along.norm() < 0.1) continue;
+    const Vector2d across =
+        0.5 * kClearOfKerb * kind.width_m * Vector2d(-along.y(), along.x()).normalized();
+    place_.markings.push_back(
+        {"crossing", line.points[i] - across, line.points[i] + across, kBarsM});
+  }
+}
+
+void MapReader::add_way(const OsmLine& line, const WayKind& kind) {
+  for (const Area& area : along(line.points, kind.width_m)) {
+    add_surface(area, kind.material, kind.road ? roads_ : paths_);
+  }
+  used_.push_back({&line, kind});
+  if (!kind.road) return;
+  add_crossings(line, kind);
+  if (!kind.center_line) return;
+  constexpr double kFromEndsM = 4;
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vector2d way = line.points[i + 1] - line.points[i];
+    if (way.norm() < 3 * kFromEndsM) continue;
+    const Vector2d ends = kFromEndsM * way.normalized();
+    const auto part = part_within(line.points[i] + ends, line.points[i + 1] - ends, ground_);
+    if (part) place_.markings.push_back({"dashes", part->first, part->second, 0.12});
+  }
+}
+
+std::vector<Area> MapReader::openings_near(const Area& area) const {
+  const geometry::Rectangle bounds = geometry::bounding_box(area.outline);
+  std::vector<Area> near;
+  for (const Area& opening : openings_) {
+    if (bounds.meets(geometry::bounding_box(opening.outline))) near.push_back(opening);
+  }
+  return near;
+}
+
+void MapReader::add_barrier(const OsmLine& line, const Barrier& barrier) {
+  Solid solid;
+  solid.rgb = barrier.rgb;
+  for (const Area& whole : along(line.points, barrier.width_m)) {
+    for (const Area& closed : without(whole, openings_near(whole))) {
+      for (const Area& part : clipped(closed, ground_)) {
+        for (const Corners& corners : simple_parts(part)) {
+          const Triangles prism = prism_triangles(corners, 0, barrier.height_m);
+          solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
+          place_.obstacles.push_back(corners);
+        }
+      }
+    }
+  }
+  if (!solid.triangles.empty()) {
+    object(fmt::format("{} {}", tag_value(line.tags, "barrier"), line.id)).solids.push_back(solid);
+  }
+}
+
+void MapReader::add_tree_row(const OsmLine& line) {
+  constexpr double kApartM = 8;
+  double since = kApartM;
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vector2d way = line.points[i + 1] - line.points[i];
+    const double length = way.norm();
+    for (double at = kApartM - since; at <= length; at += kApartM) {
+      if (at < 0) continue;
+      const Vector2d position = line.points[i] + at / std::max(length, 1e-9) * way;
+      add_prop(world::PropKind::tree, position, line.tags,
+               static_cast<std::uint32_t>(place_.props.size()));
+    }
+    since = std::fmod(since + length, kApartM);
+  }
+}
+
+void MapReader::add_line(const OsmLine& line) {
+  const std::string name = fmt::format("way {}", line.id);
+  if (line.tags.contains("highway")) {
+    const auto kind = way_kind(line.tags);
+    const bool elsewhere = tag_value(line.tags, "tunnel") == "yes" ||
+                           tag_value(line.tags, "bridge") == "yes" ||
+                           length_in(tag_value(line.tags, "layer")).value_or(0) > 0;
+    if (elsewhere) return skip(name, "a way above or below the ground");
+    if (kind) return add_way(line, *kind);
+    return skip(name,
+                fmt::format("highway={} has no ground here", tag_value(line.tags, "highway")));
+  }
+  if (const auto barrier = find_barrier(line.tags)) return add_barrier(line, *barrier);
+  if (tag_value(line.tags, "natural") == "tree_row") return add_tree_row(line);
+  constexpr std::array<const char*, 7> kSeen = {"railway",  "waterway", "natural", "barrier",
+                                                "man_made", "power",    "aeroway"};
+  for (const char* key : kSeen) {
+    if (line.tags.contains(key)) {
+      return skip(name, fmt::format("{}={} is not drawn", key, tag_value(line.tags, key)));
+    }
+  }
+}
+
+void MapReader::add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags,
+                         std::uint32_t look) {
+  if (!place_.inside.contains(at) || place_.props.size() >= kMaxProps) return;
+  world::Prop prop;
+  prop.kind = kind;
+  prop.position = at;
+  prop.look = look % 16;
+  if (kind == world::PropKind::tree) {
+    constexpr double kTreeM = 8;
+    prop.scale =
+        std::clamp(length_in(tag_value(tags, "height")).value_or(kTreeM) / kTreeM, 0.4, 2.5);
+  }
+  // A bench looks to its right, seen along its heading; directions are clockwise from north.
+  if (const auto towards = length_in(tag_value(tags, "direction"))) {
+    prop.yaw_rad = geometry::wrapped_rad(std::numbers::pi - *towards * kDegree);
+  }
+  place_.props.push_back(prop);
+}
+
+void MapReader::add_prop(const OsmPoint& point) {
+  struct NamedProp {
+    const char* key;
+    const char* value;
+    world::PropKind kind;
+  };
+  constexpr std::array<NamedProp, 5> kProps = {
+      {{"natural", "tree", world::PropKind::tree},
+       {"highway", "street_lamp", world::PropKind::lamp_post},
+       {"amenity", "bench", world::PropKind::bench},
+       {"amenity", "waste_basket", world::PropKind::bin},
+       {"barrier", "bollard", world::PropKind::bollard}}};
+  for (const NamedProp& named : kProps) {
+    if (tag_value(point.tags, named.key) != named.value) continue;
+    return add_prop(named.kind, point.position, point.tags,
+                    static_cast<std::uint32_t>(point.id & 0xFFFF));
+  }
+}
+
+ImportedScenario MapReader::read() {
+  constexpr double kGateM = 2.4;
+  for (const OsmPoint& point : file_.points) {
+    const std::string& barrier = tag_value(point.tags, "barrier");
+    if (barrier == "gate" || barrier == "entrance" || barrier == "lift_gate") {
+      const Vector2d half = Vector2d::Constant(0.5 * kGateM);
+      openings_.push_back({rectangle_corners({point.position - half, point.position + half}), {}});
+    }
+    if (tag_value(point.tags, "highway") == "crossing") crossings_.insert(point.id);
+  }
+  add_buildings();
+  for (const OsmArea& area : file_.areas) add_area(area);
+  for (const OsmLine& line : file_.lines) add_line(line);
+  for (const OsmPoint& point : file_.points) add_prop(point);
+  for (const auto* layer : {&green_, &paved_, &paths_, &roads_}) {
+    place_.areas.insert(place_.areas.end(), layer->begin(), layer->end());
+  }
+  place_.gates = gates_at_edge(used_, place_.inside);
+  place_.people_come = true;
+  return std::move(place_);
+}
+
+}  // namespace
+
+ImportedScenario read_osm(const std::filesystem::path& file, const OsmOptions& options) {
+  OsmFile extract = read_osm_file(file, options.origin);
+  constexpr double kMinSizeM = 20;
+  constexpr double kAroundM = 8;
+  const Vector2d around = Vector2d::Constant(kAroundM);
+  const auto size = [&] { return Vector2d(extract.bounds.max - extract.bounds.min); };
+  const auto grow = [&] {
+    extract.bounds = {extract.bounds.min - around, extract.bounds.max + around};
+  };
+  if (!extract.has_bounds && size().minCoeff() < kMinSizeM) grow();
+  if (!(size().minCoeff() >= kMinSizeM)) {
+    throw InputError({file.string(), "bounds",
+                      fmt::format("{:.1f} m x {:.1f} m", size().x(), size().y()),
+                      "at least 20 m x 20 m"});
+  }
+  const auto read = [&] {
+    ImportedScenario scenario = MapReader(extract, file.string()).read();
+    scenario.gates_asked = !options.gates.empty();
+    if (scenario.gates_asked) scenario.gates = options.gates;
+    return scenario;
+  };
+  ImportedScenario scenario = read();
+  // Larger ones are not walled up, and take long to look at.
+  constexpr double kSmallM = 500;
+  const bool small = size().maxCoeff() < kSmallM;
+  if (small && !scenario.gates_asked && open_ground_m2(scenario) == 0) {
+    grow();
+    scenario = read();
+    scenario.skipped.push_back(
+        {file.string(), 0, "edge", "walled up: there are 8 m of ground around"});
+  }
+  scenario.name = scenario_name_from(file);
+  scenario.description = fmt::format("Imported from {} (OpenStreetMap).", file.filename().string());
+  return scenario;
+}
+
+}  // namespace throng::imports

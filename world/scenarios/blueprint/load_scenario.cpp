@@ -1,0 +1,32 @@
+#include "world/scenarios/blueprint/load_scenario.h"
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "world/extended_document.h"
+#include "world/scenarios/blueprint/blueprint.h"
+
+namespace throng::scenarios {
+
+namespace fs = std::filesystem;
+
+world::Scenario load_scenario(const fs::path& file, std::string id) {
+  const std::string source = file.string();
+  const world::ExtendedDocument document = world::read_extended(file, source);
+  return world::read_with_files(document, [&] {
+    if (!is_blueprint(document.whole, file)) {
+      return world::parse_scenario(document.whole, file, std::move(id));
+    }
+    BuiltScenario built = build_scenario(document.whole, source, id);
+    world::Scenario scenario = world::parse_scenario(built.document, file, std::move(id));
+    scenario.built_crowd = std::make_shared<const crowd::CrowdDescription>(std::move(built.crowd));
+    return scenario;
+  });
+}
+
+world::Scenario find_scenario(const fs::path& folder, const std::string& id) {
+  return load_scenario(world::scenario_file(folder, id), id);
+}
+
+}  // namespace throng::scenarios

@@ -1,0 +1,125 @@
+#include "world/scenarios/check/check.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "world/scenarios/blueprint/load_scenario.h"
+#include "world/scenarios/check/check_scenario.h"
+#include "world/scenarios/check/survey.h"
+
+namespace throng::scenarios {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The remedy of an error that a reader of files has found.
+std::string suggest_remedy(const Problem& problem) {
+  if (problem.found.find("does not exist") != std::string::npos) {
+    return "put the file beside the scenario, or correct its name";
+  }
+  if (problem.where.starts_with("line")) {
+    return "correct this element: docs/crowd_vocabulary.md lists what each may say";
+  }
+  return "correct this field: docs/scenario.md lists what each may say";
+}
+
+std::vector<Finding> to_findings(const InputError& error, const std::string& source) {
+  std::vector<Finding> findings;
+  for (Problem problem : error.problems()) {
+    if (problem.source.empty()) problem.source = source;
+    std::string remedy = suggest_remedy(problem);
+    findings.push_back({Severity::error, std::move(problem), std::move(remedy)});
+  }
+  return findings;
+}
+
+void append(std::vector<Finding> more, std::vector<Finding>& all) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+std::vector<Finding> check_file(const fs::path& file) {
+  try {
+    return check(load_scenario(file, world::id_from_file(file)), file.string());
+  } catch (const InputError& error) {
+    return to_findings(error, file.string());
+  }
+}
+
+}  // namespace
+
+std::string Finding::text() const {
+  return fmt::format("{}: {}\n  remedy: {}", severity == Severity::error ? "error" : "warning",
+                     problem.text(), remedy);
+}
+
+std::vector<Finding> check(const world::Scenario& scenario, const std::string& source) {
+  Findings findings(source);
+  check_sizes(scenario, findings);
+  check_drawn_ground(scenario, findings);
+  check_buildings(scenario, findings);
+  check_drones(scenario, findings);
+  std::vector<Finding> all = findings.take();
+  // Grids of what has the wrong size would be absurd, too.
+  if (any_error(all)) return all;
+  if (!scenario.has_crowd()) return all;  // only recorded people can be in it
+  try {
+    const LoadedCrowd loaded = load_scenario_crowd(scenario);
+    const Routes routes = find_routes(scenario, loaded);
+    check_exits(scenario, loaded, routes, findings);
+    check_walls(scenario, routes, findings);
+    check_ground(scenario, routes, findings);
+    check_outline(scenario, loaded, routes, findings);
+    check_outsiders(scenario, loaded, findings);
+    check_people(scenario, loaded, routes, findings);
+    append(findings.take(), all);
+    for (const Problem& warning : loaded.warnings) {
+      all.push_back({Severity::warning, warning, suggest_remedy(warning)});
+    }
+  } catch (const InputError& error) {
+    append(to_findings(error, source), all);
+  }
+  return all;
+}
+
+std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source) {
+  Findings findings(source);
+  check_sizes(scenario, findings);
+  if (any_error(findings.take())) return {};
+  check_drawn_ground(scenario, findings);
+  if (!scenario.has_crowd()) return findings.take();
+  try {
+    const LoadedCrowd loaded = load_scenario_crowd(scenario);
+    check_outline(scenario, loaded, find_routes(scenario, loaded), findings);
+    check_outsiders(scenario, loaded, findings);
+  } catch (const InputError&) {
+    return {};  // said when the crowd is loaded for a run
+  }
+  return findings.take();
+}
+
+std::vector<Finding> check_files(const fs::path& file_or_folder) {
+  if (fs::is_regular_file(file_or_folder)) return check_file(file_or_folder);
+  if (!fs::is_directory(file_or_folder)) {
+    throw InputError({file_or_folder.string(), "", "nothing", "a scenario file or a folder"});
+  }
+  std::vector<Finding> findings;
+  const std::vector<std::string> ids = world::list_scenarios(file_or_folder);
+  if (ids.empty()) {
+    throw InputError(
+        {file_or_folder.string(), "", "no scenario",
+         "a folder with scenario files, whose names are words of [a-z0-9_] and .json"});
+  }
+  for (const std::string& id : ids) {
+    append(check_file(world::scenario_file(file_or_folder, id)), findings);
+  }
+  return findings;
+}
+
+bool any_error(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::error; });
+}
+
+}  // namespace throng::scenarios

@@ -1,0 +1,40 @@
+// Words for findings about people: where the first of them is, and how many more there are.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+
+#include "world/scenarios/check/survey.h"
+
+namespace throng::scenarios {
+
+/// "[x, y]" in meters.
+inline std::string point_text(const Eigen::Vector2d& point) {
+  return fmt::format("[{:.4g}, {:.4g}]", point.x(), point.y());
+}
+
+/// The first of those who have the same trouble, and how many more there are.
+class Sufferers {
+ public:
+  void add(std::size_t agent, const Eigen::Vector2d& at, std::string what) {
+    if (count_++ == 0) first_ = fmt::format("agent {} at {} {}", agent, point_text(at), what);
+  }
+  bool any() const { return count_ > 0; }
+  std::string text() const {
+    return count_ > 1 ? fmt::format("{}, and {} more", first_, count_ - 1) : first_;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::string first_;
+};
+
+/// Whether an agent is a person who takes part from the start or later.
+inline bool is_to_arrive_or_there(const LoadedCrowd& loaded, std::size_t agent) {
+  return loaded.is_person[agent] != 0 && loaded.crowd.agents.position[agent].allFinite();
+}
+
+}  // namespace throng::scenarios
