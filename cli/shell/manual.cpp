@@ -34,7 +34,11 @@ std::string option_lines(const CLI::App& command) {
     if (option->get_group().empty() || option->check_name("--help")) continue;
     const std::string name =
         option->get_positional() ? option->get_name(true) : option->get_name(false, true);
-    text += fmt::format(".TP\n.B {}\n{}\n", roff(name), roff(option->get_description()));
+    // Without default values: some are folders of this machine.
+    const std::string type = option->get_type_name();
+    text +=
+        fmt::format(".TP\n\\fB{}\\fR{}{}{}\n{}\n", roff(name), type.empty() ? "" : " ", roff(type),
+                    option->get_required() ? " REQUIRED" : "", roff(option->get_description()));
   }
   return text;
 }

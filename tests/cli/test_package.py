@@ -90,6 +90,10 @@ class Package(unittest.TestCase):
         page = run(THRONG, "manual")
         for command in commands():
             self.assertIn(f".SS throng {command}\n".replace("-", "\\-"), page)
+        self.assertIn("\\fB\\-o,\\-\\-output\\fR TEXT REQUIRED\n", page)
+        self.assertIn("\\fB\\-\\-executor\\fR TEXT:{local,slurm}\n", page)
+        self.assertIn("\\fB\\-\\-profile\\fR\n", page)
+        self.assertNotIn(str(ROOT), page)
         done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
