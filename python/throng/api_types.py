@@ -15,27 +15,27 @@ class Job(TypedDict):
     name: str
     state: Literal["queued", "running", "succeeded", "partial", "failed", "cancelled"]
     attempt: int
-    """How often work on it was begun or taken up."""
+    """Number of times that work on it was begun or taken up."""
     priority: int
     labels: list[str]
     owner: str | None
-    """The id of the key that it came with."""
+    """Id of the key that it came with."""
     created_at: str | None
     started_at: str | None
     ended_at: str | None
     expires_at: str | None
-    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    """Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk."""
     keep: bool
-    """Never to be removed for its age."""
+    """Whether it is never removed for its age."""
     bytes: int
-    """Disk that its files take, measured when it ended."""
+    """Disk space of its files, measured when it ended."""
     waiting_for: str | None
-    """Why nobody works on it although it is its turn."""
+    """Reason why nobody works on it although it is its turn."""
     progress: Progress
     error: JobError | None
     links: dict[str, str]
     job: dict[str, Any]
-    """With all defaults."""
+    """The job with all defaults."""
 
 
 class JobList(TypedDict):
@@ -69,20 +69,21 @@ class JobError(TypedDict):
     message: str
     problems: list[Mistake]
     runs: NotRequired[list[JobErrorRun]]
-    """Runs that failed, of a job that is partial."""
+    """Failed runs of a partial job."""
 
 
 class ProgressPublishing(TypedDict):
-    """Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md)."""
+    """Publication of the dataset: only for a job with outputs.publish, once its dataset is finished
+    (docs/publishing.md)."""
 
     address: str
-    """Place of the dataset in the object store, s3://BUCKET/PREFIX."""
+    """Address of the dataset in the object store, s3://BUCKET/PREFIX."""
     bytes_done: int
-    """Known to be there."""
+    """Bytes that are known to be there."""
     bytes_total: int
-    """0 as long as it is not known."""
+    """Bytes of the dataset; 0 while that is not known."""
     objects: int | None
-    """Objects of the dataset, once all are there."""
+    """Number of the dataset's objects, once all are there."""
 
 
 class ProgressRun(TypedDict):
@@ -90,7 +91,7 @@ class ProgressRun(TypedDict):
 
     run: str
     seed: int
-    """Up to 64 bits."""
+    """Seed of the run, of up to 64 bits."""
     stage: Literal["waiting", "simulating", "rendering", "rendered", "publishing", "finished", "failed"]
     simulated_s: float
     duration_s: float
@@ -109,7 +110,7 @@ class ProgressShard(TypedDict):
     frames_per_s: float
     remaining_s: float | None
     node: NotRequired[str]
-    """Of a cluster; not there where workers run on the service's machine."""
+    """Node of the cluster; left out where workers run on the service's machine."""
 
 
 class ProgressNode(TypedDict):
@@ -117,32 +118,33 @@ class ProgressNode(TypedDict):
 
     node: str
     running: int
-    """Tasks now."""
+    """Number of tasks that the node is working on."""
     done: int
-    """Tasks that succeeded."""
+    """Number of tasks that succeeded."""
     failed: int
-    """Attempts at tasks that did not, also those that were lost with the node."""
+    """Number of failed attempts at tasks, including those that were lost with the node."""
     busy_s: float
-    """Seconds of all attempts that ended."""
+    """Duration of all attempts that ended, s."""
 
 
 class Progress(TypedDict):
-    """Empty before the job has begun."""
+    """Progress of a job; empty before the job has begun."""
 
     stage: NotRequired[Literal["waiting", "simulating", "rendering", "rendered", "publishing", "finished", "failed"]]
     publishing: NotRequired[ProgressPublishing]
-    """Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md)."""
+    """Publication of the dataset: only for a job with outputs.publish, once its dataset is finished
+    (docs/publishing.md)."""
     frames_done: NotRequired[int]
     frames_total: NotRequired[int]
     runs: NotRequired[list[ProgressRun]]
     shards: NotRequired[list[ProgressShard]]
-    """Running ones."""
+    """The shards that are being rendered."""
     nodes: NotRequired[list[ProgressNode]]
     """The work of a cluster's nodes for the job; empty where workers run on the service's machine."""
     frames_per_s: NotRequired[float]
-    """0 before the first."""
+    """Frames per second; 0 before the first frame."""
     remaining_s: NotRequired[float | None]
-    """At this rate; null before the first frame."""
+    """Remaining time at this rate, s; null before the first frame."""
 
 
 class DryRun(TypedDict):
@@ -152,14 +154,14 @@ class DryRun(TypedDict):
     runs: int
     shards: int
     frames: int
-    """Of all cameras."""
+    """Number of frames of all cameras."""
     people: int
-    """In the first run, arrivals included."""
+    """Number of people in the first run, arrivals included."""
     estimate: JobEstimate
     views: list[CameraView]
-    """Of the first run's cameras whose path does not depend on the people they see."""
+    """Views of those cameras of the first run whose path does not depend on the people that they see."""
     warnings: list[Mistake]
-    """Parts of the job that work and are probably not meant."""
+    """Parts of the job that work and are probably not intended."""
     job: dict[str, Any]
 
 
@@ -167,10 +169,10 @@ class JobEstimate(TypedDict):
     """JobEstimate of the service."""
 
     cpu_s: float
-    """Seconds of one core, with the software renderer; right within a factor of about two."""
+    """Time of one core with the software renderer, s; right within a factor of about two."""
     disk_bytes: int
     memory_mib: int
-    """Of the largest task."""
+    """Memory of the largest task, MiB."""
 
 
 class CameraView(TypedDict):
@@ -237,7 +239,7 @@ class ImageListImage(TypedDict):
     camera: str
     frame: int
     path: str
-    """In the dataset: /v1/jobs/{id}/files/PATH."""
+    """Path in the dataset, for /v1/jobs/{id}/files/PATH."""
     bytes: int
 
 
@@ -263,9 +265,9 @@ class ImageList(TypedDict):
 
     images: list[ImageListImage]
     total: int
-    """Images that fit, on all pages."""
+    """Number of matching images on all pages."""
     runs: list[ImageListRun]
-    """Of the whole dataset."""
+    """The runs of the whole dataset."""
 
 
 class Calibration(TypedDict):
@@ -275,22 +277,22 @@ class Calibration(TypedDict):
     name: str
     state: Literal["queued", "running", "succeeded", "failed", "cancelled"]
     attempt: int
-    """How often work on it was begun or taken up."""
+    """Number of times that work on it was begun or taken up."""
     priority: int
     labels: list[str]
     owner: str | None
-    """The id of the key that it came with."""
+    """Id of the key that it came with."""
     created_at: str | None
     started_at: str | None
     ended_at: str | None
     expires_at: str | None
-    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    """Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk."""
     keep: bool
-    """Never to be removed for its age."""
+    """Whether it is never removed for its age."""
     bytes: int
-    """Disk that its files take, measured when it ended."""
+    """Disk space of its files, measured when it ended."""
     waiting_for: str | None
-    """Why nobody works on it although it is its turn."""
+    """Reason why nobody works on it although it is its turn."""
     progress: dict[str, Any]
     error: JobError | None
     links: dict[str, str]
@@ -311,11 +313,11 @@ class CalibrationPointsViewPoint(TypedDict):
     """CalibrationPointsViewPoint of the service."""
 
     pixel: list[float]
-    """Counted from the middle of the top-left one."""
+    """Position in the image, px; the middle of the top-left pixel is (0, 0)."""
     residual_px: list[float | None] | None
-    """Shown - observed; null before anything is estimated."""
+    """Difference between the projected and the observed position, px; null before anything is estimated."""
     used: bool
-    """false: an outlier."""
+    """Whether the point is used; false: it is an outlier."""
 
 
 class CalibrationPointsView(TypedDict):
@@ -340,7 +342,7 @@ class StudyProgress(TypedDict):
     runs_done: NotRequired[int]
     runs_total: NotRequired[int]
     cells: NotRequired[list[list[int]]]
-    """Finished runs, per case and policy."""
+    """Numbers of finished runs, per case and policy."""
     remaining_s: NotRequired[float | None]
 
 
@@ -351,22 +353,22 @@ class Study(TypedDict):
     name: str
     state: Literal["queued", "running", "succeeded", "failed", "cancelled"]
     attempt: int
-    """How often work on it was begun or taken up."""
+    """Number of times that work on it was begun or taken up."""
     priority: int
     labels: list[str]
     owner: str | None
-    """The id of the key that it came with."""
+    """Id of the key that it came with."""
     created_at: str | None
     started_at: str | None
     ended_at: str | None
     expires_at: str | None
-    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    """Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk."""
     keep: bool
-    """Never to be removed for its age."""
+    """Whether it is never removed for its age."""
     bytes: int
-    """Disk that its files take, measured when it ended."""
+    """Disk space of its files, measured when it ended."""
     waiting_for: str | None
-    """Why nobody works on it although it is its turn."""
+    """Reason why nobody works on it although it is its turn."""
     progress: StudyProgress
     error: JobError | None
     links: dict[str, str]
@@ -406,17 +408,17 @@ class StudyPlan(TypedDict):
     name: str
     seed: int
     runs: int
-    """Pairs: runs of each case and policy."""
+    """Number of runs of each case and policy."""
     baseline: str
     """The policy that others are compared with."""
     cases: list[StudyPlanCase]
     policies: list[StudyPlanPolicie]
     simulations: int
-    """In all."""
+    """Number of all simulations."""
     people: int
-    """Most that a run begins with."""
+    """Maximum number of people at the beginning of a run."""
     memory_mib: int
-    """Of the largest simulation, by estimate."""
+    """Estimated memory of the largest simulation, MiB."""
     valid: NotRequired[Literal[True]]
 
 
@@ -465,7 +467,7 @@ class StudySummaryRow(TypedDict):
     policy: str
     runs: int
     times: dict[str, StudySummaryRowTimes]
-    """t25_s to t99_s: median and quartiles."""
+    """Median and quartiles of t25_s to t99_s."""
     all_out: int
     not_escaped: float
     casualties: float
@@ -477,11 +479,11 @@ class StudySummaryRow(TypedDict):
     followed: float
     exit_use: dict[str, float]
     left_by_no_exit: NotRequired[float]
-    """People who left where there is no exit, mean over the runs: there is a gap in the outline."""
+    """People who left where there is no exit, mean over the runs; above 0 the outline has a gap."""
 
 
 class StudySummary(TypedDict):
-    """As summary.json of `throng study`: of the runs that every policy of a case has."""
+    """The summary, as summary.json of `throng study`, over the runs that every policy of a case has."""
 
     name: str
     seed: int
@@ -489,7 +491,7 @@ class StudySummary(TypedDict):
     baseline: str
     rows: list[StudySummaryRow]
     took_s: NotRequired[float]
-    """To make it; of a summary of what is there so far."""
+    """Time that it took to make a summary of unfinished runs, s."""
 
 
 class StudyValuesCasePolicie(TypedDict):
@@ -510,7 +512,7 @@ class StudyValuesCase(TypedDict):
     id: str
     horizons_s: list[float]
     runs: list[int]
-    """Numbers of the runs that every policy has."""
+    """Numbers of the runs that every policy of the case has."""
     policies: list[StudyValuesCasePolicie]
 
 
@@ -535,7 +537,7 @@ class ScenarioDrone(TypedDict):
     id: str
     start_m: list[float]
     yaw_deg: float
-    """Its heading, counter-clockwise from +x."""
+    """Heading of the drone, counter-clockwise from +x."""
 
 
 class Scenario(TypedDict):
@@ -551,9 +553,9 @@ class Scenario(TypedDict):
     buildings: NotRequired[int]
     props: NotRequired[int]
     error: NotRequired[str]
-    """Why it cannot be used."""
+    """Reason why the scenario cannot be used."""
     uploaded: NotRequired[None | Upload]
-    """Whose upload it is from; null: it came with throng."""
+    """Upload that it is from; null: it came with throng."""
 
 
 class ScenarioList(TypedDict):
@@ -578,12 +580,12 @@ class Upload(TypedDict):
 
     name: str
     owner: str
-    """The id of the key that sent it."""
+    """Id of the key that sent it."""
     created_at: str
     bytes: int
     files: int
     ids: NotRequired[list[str]]
-    """Of its scenarios."""
+    """Ids of its scenarios."""
     findings: NotRequired[list[UploadFinding]]
     """Findings that do not prevent the upload (throng scenario check)."""
 
@@ -602,7 +604,7 @@ class Mistake(TypedDict):
 
 
 class Problem(TypedDict):
-    """RFC 9457"""
+    """A problem document (RFC 9457)."""
 
     type: str
     title: str
@@ -618,17 +620,17 @@ class Key(TypedDict):
     name: str
     scope: Literal["read", "submit", "admin"]
     max_jobs: int | None
-    """Jobs that may wait or run at once; null: any number."""
+    """Maximum number of jobs that wait or run at once; null: any number."""
     max_bytes: int | None
-    """Disk that all their jobs may take; null: any."""
+    """Maximum disk space of all the key's jobs; null: any."""
     max_priority: int
-    """Of their jobs, from -100 to 100."""
+    """Maximum priority of the key's jobs, from -100 to 100."""
     created_at: str | None
     revoked_at: str | None
-    """Null: it is good."""
+    """Time when the key was revoked; null: it is valid."""
     links: dict[str, str]
     key: NotRequired[str]
-    """The text that callers send; in the answer to its creation only."""
+    """The key itself, which callers send; only in the answer to its creation."""
 
 
 class KeyList(TypedDict):
@@ -644,16 +646,16 @@ class Webhook(TypedDict):
     url: str
     events: list[str]
     enabled: bool
-    """False also when it has failed for a day."""
+    """Whether it is in use; it goes out of use after failing for a day."""
     created_at: str | None
     delivered_up_to: int
-    """The last event that is settled."""
+    """Number of the last event that is settled."""
     failures: int
-    """In a row."""
+    """Number of failures in a row."""
     failing_since: str | None
     links: dict[str, str]
     secret: NotRequired[str]
-    """In the answer to its creation only."""
+    """Secret that signs deliveries; only in the answer to its creation."""
 
 
 class WebhookList(TypedDict):
@@ -666,7 +668,7 @@ class Delivery(TypedDict):
     """Delivery of the service."""
 
     event: int
-    """0 for a ping."""
+    """Number of the event; 0 for a ping."""
     type: str
     at: str | None
     attempt: int
@@ -688,7 +690,7 @@ class Session(TypedDict):
     needs_key: bool
     """Whether callers need a key."""
     scope: str | None
-    """read, submit or admin; null without a good key."""
+    """Scope of the caller: read, submit or admin; null without a valid key."""
 
 
 class LiveFlightError(TypedDict):
@@ -710,17 +712,17 @@ class LiveFlight(TypedDict):
 
     id: str
     name: str
-    """Of the job."""
+    """Name of the job."""
     state: Literal["starting", "flying", "ended", "failed"]
     time_s: float
-    """Simulated so far."""
+    """Simulated time, s."""
     viewers: int
-    """Streams that are read."""
+    """Number of streams that are being read."""
     drones: list[str]
     error: LiveFlightError | None
     links: LiveFlightLinks
     result: NotRequired[LiveResult | None]
-    """Once it has ended; not in lists."""
+    """Result of a flight that has ended; lists leave it out."""
 
 
 class LiveResultDrone(TypedDict):
@@ -737,10 +739,10 @@ class LiveResult(TypedDict):
     duration_s: float
     steps: int
     trace_sha256: str
-    """Of the flight's trace; that of the job's run000 is equal."""
+    """SHA-256 of the flight's trace; the trace of the job's run000 has the same."""
     drones: list[LiveResultDrone]
     job: dict[str, Any]
-    """Flies the logs (as set-points of the policy pilot_log): for POST /v1/jobs."""
+    """A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log."""
     warnings: list[str]
 
 
@@ -749,25 +751,25 @@ class LiveCommandsDrone(TypedDict):
 
     id: str
     velocity_mps: NotRequired[list[float]]
-    """Ahead, to the left, up. At most 10 m/s over the ground and 3 m/s up or down are flown."""
+    """Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down."""
     yaw_rate_deg_s: NotRequired[float]
-    """Counter-clockwise; at most 120 are flown."""
+    """Rate of yaw, counter-clockwise; drones turn at most at 120."""
     beacon: NotRequired[bool]
     """Whether people may follow the drone."""
     return_home: NotRequired[bool]
-    """To its start, until it is steered again."""
+    """Whether the drone returns to its start, until it is steered again."""
 
 
 class LiveCommands(TypedDict):
     """LiveCommands of the service."""
 
     sequence: NotRequired[int]
-    """Comes back with the states and images in which the commands are in force."""
+    """Number that comes back with the states and images in which the commands are in force."""
     paused: NotRequired[bool]
     factor: NotRequired[float]
-    """Simulated seconds per second; 1 at first."""
+    """Simulated seconds per second; default at the start: 1."""
     view: NotRequired[str]
-    """The drone whose camera is shown; the first at first."""
+    """Id of the drone whose camera is shown; default at the start: the first drone."""
     drones: NotRequired[list[LiveCommandsDrone]]
 
 

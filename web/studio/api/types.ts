@@ -4,27 +4,27 @@ export interface Job {
   id: string;
   name: string;
   state: "queued" | "running" | "succeeded" | "partial" | "failed" | "cancelled";
-  /** How often work on it was begun or taken up. */
+  /** Number of times that work on it was begun or taken up. */
   attempt: number;
   priority: number;
   labels: string[];
-  /** The id of the key that it came with. */
+  /** Id of the key that it came with. */
   owner: string | null;
   created_at: string | null;
   started_at: string | null;
   ended_at: string | null;
-  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  /** Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk. */
   expires_at: string | null;
-  /** Never to be removed for its age. */
+  /** Whether it is never removed for its age. */
   keep: boolean;
-  /** Disk that its files take, measured when it ended. */
+  /** Disk space of its files, measured when it ended. */
   bytes: number;
-  /** Why nobody works on it although it is its turn. */
+  /** Reason why nobody works on it although it is its turn. */
   waiting_for: string | null;
   progress: Progress;
   error: JobError | null;
   links: Record<string, string>;
-  /** With all defaults. */
+  /** The job with all defaults. */
   job: Record<string, unknown>;
 }
 
@@ -43,7 +43,7 @@ export interface JobError {
   kind: "input" | "environment" | "partial";
   message: string;
   problems: Mistake[];
-  /** Runs that failed, of a job that is partial. */
+  /** Failed runs of a partial job. */
   runs?: {
     run: string;
     task: string;
@@ -52,25 +52,25 @@ export interface JobError {
   }[];
 }
 
-/** Empty before the job has begun. */
+/** Progress of a job; empty before the job has begun. */
 export interface Progress {
   stage?: "waiting" | "simulating" | "rendering" | "rendered" | "publishing" | "finished" | "failed";
-  /** Of a job with outputs.publish only, from the time on that its dataset is finished (docs/publishing.md). */
+  /** Publication of the dataset: only for a job with outputs.publish, once its dataset is finished (docs/publishing.md). */
   publishing?: {
-    /** Place of the dataset in the object store, s3://BUCKET/PREFIX. */
+    /** Address of the dataset in the object store, s3://BUCKET/PREFIX. */
     address: string;
-    /** Known to be there. */
+    /** Bytes that are known to be there. */
     bytes_done: number;
-    /** 0 as long as it is not known. */
+    /** Bytes of the dataset; 0 while that is not known. */
     bytes_total: number;
-    /** Objects of the dataset, once all are there. */
+    /** Number of the dataset's objects, once all are there. */
     objects: number | null;
   };
   frames_done?: number;
   frames_total?: number;
   runs?: ({
     run: string;
-    /** Up to 64 bits. */
+    /** Seed of the run, of up to 64 bits. */
     seed: number;
     stage: "waiting" | "simulating" | "rendering" | "rendered" | "publishing" | "finished" | "failed";
     simulated_s: number;
@@ -80,31 +80,31 @@ export interface Progress {
     frames_per_s: number;
     remaining_s: number | null;
   })[];
-  /** Running ones. */
+  /** The shards that are being rendered. */
   shards?: ({
     shard: string;
     frames_done: number;
     frames_total: number;
     frames_per_s: number;
     remaining_s: number | null;
-    /** Of a cluster; not there where workers run on the service's machine. */
+    /** Node of the cluster; left out where workers run on the service's machine. */
     node?: string;
   })[];
   /** The work of a cluster's nodes for the job; empty where workers run on the service's machine. */
   nodes?: {
     node: string;
-    /** Tasks now. */
+    /** Number of tasks that the node is working on. */
     running: number;
-    /** Tasks that succeeded. */
+    /** Number of tasks that succeeded. */
     done: number;
-    /** Attempts at tasks that did not, also those that were lost with the node. */
+    /** Number of failed attempts at tasks, including those that were lost with the node. */
     failed: number;
-    /** Seconds of all attempts that ended. */
+    /** Duration of all attempts that ended, s. */
     busy_s: number;
   }[];
-  /** 0 before the first. */
+  /** Frames per second; 0 before the first frame. */
   frames_per_s?: number;
-  /** At this rate; null before the first frame. */
+  /** Remaining time at this rate, s; null before the first frame. */
   remaining_s?: number | null;
 }
 
@@ -112,23 +112,23 @@ export interface DryRun {
   valid: true;
   runs: number;
   shards: number;
-  /** Of all cameras. */
+  /** Number of frames of all cameras. */
   frames: number;
-  /** In the first run, arrivals included. */
+  /** Number of people in the first run, arrivals included. */
   people: number;
   estimate: JobEstimate;
-  /** Of the first run's cameras whose path does not depend on the people they see. */
+  /** Views of those cameras of the first run whose path does not depend on the people that they see. */
   views: CameraView[];
-  /** Parts of the job that work and are probably not meant. */
+  /** Parts of the job that work and are probably not intended. */
   warnings: Mistake[];
   job: Record<string, unknown>;
 }
 
 export interface JobEstimate {
-  /** Seconds of one core, with the software renderer; right within a factor of about two. */
+  /** Time of one core with the software renderer, s; right within a factor of about two. */
   cpu_s: number;
   disk_bytes: number;
-  /** Of the largest task. */
+  /** Memory of the largest task, MiB. */
   memory_mib: number;
 }
 
@@ -176,13 +176,13 @@ export interface ImageList {
     run: string;
     camera: string;
     frame: number;
-    /** In the dataset: /v1/jobs/{id}/files/PATH. */
+    /** Path in the dataset, for /v1/jobs/{id}/files/PATH. */
     path: string;
     bytes: number;
   }[];
-  /** Images that fit, on all pages. */
+  /** Number of matching images on all pages. */
   total: number;
-  /** Of the whole dataset. */
+  /** The runs of the whole dataset. */
   runs: {
     run: string;
     cameras: {
@@ -199,22 +199,22 @@ export interface Calibration {
   id: string;
   name: string;
   state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
-  /** How often work on it was begun or taken up. */
+  /** Number of times that work on it was begun or taken up. */
   attempt: number;
   priority: number;
   labels: string[];
-  /** The id of the key that it came with. */
+  /** Id of the key that it came with. */
   owner: string | null;
   created_at: string | null;
   started_at: string | null;
   ended_at: string | null;
-  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  /** Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk. */
   expires_at: string | null;
-  /** Never to be removed for its age. */
+  /** Whether it is never removed for its age. */
   keep: boolean;
-  /** Disk that its files take, measured when it ended. */
+  /** Disk space of its files, measured when it ended. */
   bytes: number;
-  /** Why nobody works on it although it is its turn. */
+  /** Reason why nobody works on it although it is its turn. */
   waiting_for: string | null;
   progress: Record<string, unknown>;
   error: JobError | null;
@@ -236,11 +236,11 @@ export interface CalibrationPoints {
   views: ({
     image: string;
     points: ({
-      /** Counted from the middle of the top-left one. */
+      /** Position in the image, px; the middle of the top-left pixel is (0, 0). */
       pixel: number[];
-      /** Shown - observed; null before anything is estimated. */
+      /** Difference between the projected and the observed position, px; null before anything is estimated. */
       residual_px: (number | null)[] | null;
-      /** false: an outlier. */
+      /** Whether the point is used; false: it is an outlier. */
       used: boolean;
     })[];
   })[];
@@ -250,28 +250,28 @@ export interface Study {
   id: string;
   name: string;
   state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
-  /** How often work on it was begun or taken up. */
+  /** Number of times that work on it was begun or taken up. */
   attempt: number;
   priority: number;
   labels: string[];
-  /** The id of the key that it came with. */
+  /** Id of the key that it came with. */
   owner: string | null;
   created_at: string | null;
   started_at: string | null;
   ended_at: string | null;
-  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  /** Time when it will be removed for its age; it is removed earlier where all jobs together take too much disk. */
   expires_at: string | null;
-  /** Never to be removed for its age. */
+  /** Whether it is never removed for its age. */
   keep: boolean;
-  /** Disk that its files take, measured when it ended. */
+  /** Disk space of its files, measured when it ended. */
   bytes: number;
-  /** Why nobody works on it although it is its turn. */
+  /** Reason why nobody works on it although it is its turn. */
   waiting_for: string | null;
   progress: {
     stage?: "simulating" | "summing up" | "finished";
     runs_done?: number;
     runs_total?: number;
-    /** Finished runs, per case and policy. */
+    /** Numbers of finished runs, per case and policy. */
     cells?: number[][];
     remaining_s?: number | null;
   };
@@ -291,7 +291,7 @@ export interface StudyList {
 export interface StudyPlan {
   name: string;
   seed: number;
-  /** Pairs: runs of each case and policy. */
+  /** Number of runs of each case and policy. */
   runs: number;
   /** The policy that others are compared with. */
   baseline: string;
@@ -306,28 +306,28 @@ export interface StudyPlan {
     id: string;
     title: string;
   }[];
-  /** In all. */
+  /** Number of all simulations. */
   simulations: number;
-  /** Most that a run begins with. */
+  /** Maximum number of people at the beginning of a run. */
   people: number;
-  /** Of the largest simulation, by estimate. */
+  /** Estimated memory of the largest simulation, MiB. */
   memory_mib: number;
   valid?: true;
 }
 
-/** As summary.json of `throng study`: of the runs that every policy of a case has. */
+/** The summary, as summary.json of `throng study`, over the runs that every policy of a case has. */
 export interface StudySummary {
   name: string;
   seed: number;
   generator: string;
   baseline: string;
-  /** To make it; of a summary of what is there so far. */
+  /** Time that it took to make a summary of unfinished runs, s. */
   took_s?: number;
   rows: ({
     case: string;
     policy: string;
     runs: number;
-    /** t25_s to t99_s: median and quartiles. */
+    /** Median and quartiles of t25_s to t99_s. */
     times: Record<string, {
       median: number | null;
       low: number | null;
@@ -360,7 +360,7 @@ export interface StudySummary {
     t90_to_reference: number | null;
     mean_to_reference: number | null;
     followed: number;
-    /** People who left where there is no exit, mean over the runs: there is a gap in the outline. */
+    /** People who left where there is no exit, mean over the runs; above 0 the outline has a gap. */
     left_by_no_exit?: number;
     exit_use: Record<string, number>;
   })[];
@@ -372,7 +372,7 @@ export interface StudyValues {
   cases: ({
     id: string;
     horizons_s: number[];
-    /** Numbers of the runs that every policy has. */
+    /** Numbers of the runs that every policy of the case has. */
     runs: number[];
     policies: ({
       id: string;
@@ -400,14 +400,14 @@ export interface Scenario {
   drones?: {
     id: string;
     start_m: number[];
-    /** Its heading, counter-clockwise from +x. */
+    /** Heading of the drone, counter-clockwise from +x. */
     yaw_deg: number;
   }[];
   buildings?: number;
   props?: number;
-  /** Why it cannot be used. */
+  /** Reason why the scenario cannot be used. */
   error?: string;
-  /** Whose upload it is from; null: it came with throng. */
+  /** Upload that it is from; null: it came with throng. */
   uploaded?: null | Upload;
 }
 
@@ -417,12 +417,12 @@ export interface ScenarioList {
 
 export interface Upload {
   name: string;
-  /** The id of the key that sent it. */
+  /** Id of the key that sent it. */
   owner: string;
   created_at: string;
   bytes: number;
   files: number;
-  /** Of its scenarios. */
+  /** Ids of its scenarios. */
   ids?: string[];
   /** Findings that do not prevent the upload (throng scenario check). */
   findings?: ({
@@ -446,7 +446,7 @@ export interface Mistake {
   source?: string;
 }
 
-/** RFC 9457 */
+/** A problem document (RFC 9457). */
 export interface Problem {
   type: string;
   title: string;
@@ -459,16 +459,16 @@ export interface Key {
   id: string;
   name: string;
   scope: "read" | "submit" | "admin";
-  /** Jobs that may wait or run at once; null: any number. */
+  /** Maximum number of jobs that wait or run at once; null: any number. */
   max_jobs: number | null;
-  /** Disk that all their jobs may take; null: any. */
+  /** Maximum disk space of all the key's jobs; null: any. */
   max_bytes: number | null;
-  /** Of their jobs, from -100 to 100. */
+  /** Maximum priority of the key's jobs, from -100 to 100. */
   max_priority: number;
   created_at: string | null;
-  /** Null: it is good. */
+  /** Time when the key was revoked; null: it is valid. */
   revoked_at: string | null;
-  /** The text that callers send; in the answer to its creation only. */
+  /** The key itself, which callers send; only in the answer to its creation. */
   key?: string;
   links: Record<string, string>;
 }
@@ -481,15 +481,15 @@ export interface Webhook {
   id: string;
   url: string;
   events: string[];
-  /** False also when it has failed for a day. */
+  /** Whether it is in use; it goes out of use after failing for a day. */
   enabled: boolean;
   created_at: string | null;
-  /** The last event that is settled. */
+  /** Number of the last event that is settled. */
   delivered_up_to: number;
-  /** In a row. */
+  /** Number of failures in a row. */
   failures: number;
   failing_since: string | null;
-  /** In the answer to its creation only. */
+  /** Secret that signs deliveries; only in the answer to its creation. */
   secret?: string;
   links: Record<string, string>;
 }
@@ -499,7 +499,7 @@ export interface WebhookList {
 }
 
 export interface Delivery {
-  /** 0 for a ping. */
+  /** Number of the event; 0 for a ping. */
   event: number;
   type: string;
   at: string | null;
@@ -517,21 +517,21 @@ export interface DeliveryList {
 export interface Session {
   /** Whether callers need a key. */
   needs_key: boolean;
-  /** read, submit or admin; null without a good key. */
+  /** Scope of the caller: read, submit or admin; null without a valid key. */
   scope: string | null;
 }
 
 export interface LiveFlight {
   id: string;
-  /** Of the job. */
+  /** Name of the job. */
   name: string;
   state: "starting" | "flying" | "ended" | "failed";
-  /** Simulated so far. */
+  /** Simulated time, s. */
   time_s: number;
-  /** Streams that are read. */
+  /** Number of streams that are being read. */
   viewers: number;
   drones: string[];
-  /** Once it has ended; not in lists. */
+  /** Result of a flight that has ended; lists leave it out. */
   result?: LiveResult | null;
   error: {
     kind: string;
@@ -546,35 +546,35 @@ export interface LiveFlight {
 export interface LiveResult {
   duration_s: number;
   steps: number;
-  /** Of the flight's trace; that of the job's run000 is equal. */
+  /** SHA-256 of the flight's trace; the trace of the job's run000 has the same. */
   trace_sha256: string;
   drones: {
     id: string;
     /** The pilot log (docs/guidance.md). */
     csv: string;
   }[];
-  /** Flies the logs (as set-points of the policy pilot_log): for POST /v1/jobs. */
+  /** A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log. */
   job: Record<string, unknown>;
   warnings: string[];
 }
 
 export interface LiveCommands {
-  /** Comes back with the states and images in which the commands are in force. */
+  /** Number that comes back with the states and images in which the commands are in force. */
   sequence?: number;
   paused?: boolean;
-  /** Simulated seconds per second; 1 at first. */
+  /** Simulated seconds per second; default at the start: 1. */
   factor?: number;
-  /** The drone whose camera is shown; the first at first. */
+  /** Id of the drone whose camera is shown; default at the start: the first drone. */
   view?: string;
   drones?: {
     id: string;
-    /** Ahead, to the left, up. At most 10 m/s over the ground and 3 m/s up or down are flown. */
+    /** Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down. */
     velocity_mps?: number[];
-    /** Counter-clockwise; at most 120 are flown. */
+    /** Rate of yaw, counter-clockwise; drones turn at most at 120. */
     yaw_rate_deg_s?: number;
     /** Whether people may follow the drone. */
     beacon?: boolean;
-    /** To its start, until it is steered again. */
+    /** Whether the drone returns to its start, until it is steered again. */
     return_home?: boolean;
   }[];
 }
