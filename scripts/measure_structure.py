@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the structure of the source code: sizes, public headers, cycles, function lengths, words, tests.
 
-usage: scripts/measure_structure.py [FOLDER...] >docs/structure.md    (default: this checkout; two folders: before → after)
+usage: scripts/measure_structure.py [FOLDER...] >docs/reference/structure.md    (default: this checkout; two folders: before → after)
 
 Prints a Markdown table of the folders of modules, and one of figures with a row per top-level folder with C++ sources. Columns:
   .cpp, .h    number of files, each with its lines in the next column

@@ -60,7 +60,7 @@ std::string as_markdown() {
   std::string out =
       "# Vocabulary of the crowd engine's files\n\n"
       "Printed by `throng crowd --list --markdown` from the tables that read the files. See "
-      "[crowd.md](crowd.md) for how they fit together.\n";
+      "[crowd.md](../crowd.md) for how they fit together.\n";
   for (const VocabularyKind& kind : crowd::vocabulary()) {
     out += fmt::format("\n## {}\n\n{}\n\n", kind.title, cell(kind.element));
     out += "| type | attribute | values | default | meaning |\n|---|---|---|---|---|\n";

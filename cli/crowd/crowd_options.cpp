@@ -69,7 +69,9 @@ void add_output_options(CLI::App& command, CrowdArguments& arguments) {
       command.add_flag("-l,-L,--list", arguments.list,
                        "Print the vocabulary of project, scene and behavior files and exit");
   command.add_flag("--json", arguments.json, "Print the list as JSON")->needs(list);
-  command.add_flag("--markdown", arguments.markdown, "Print the list as Markdown, as in docs/")
+  command
+      .add_flag("--markdown", arguments.markdown,
+                "Print the list as Markdown, as in docs/reference")
       ->needs(list);
 }
 

@@ -1,5 +1,5 @@
 // The elements that most descriptions need, as functions; any other is a Node written out, or
-// typed(). docs/crowd_vocabulary.md lists every element, its types and attributes.
+// typed(). docs/reference/crowd_vocabulary.md lists every element, its types and attributes.
 #pragma once
 
 #include <Eigen/Core>

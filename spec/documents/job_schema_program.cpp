@@ -1,11 +1,10 @@
-// Writes the files that follow from the tables of a job's fields: spec/job/job.schema.json and the
-// table of docs/job.md. Usage: job_schema SOURCE_FOLDER
+// Writes spec/job/job.schema.json, which follows from the tables of a job's fields. Usage:
+// job_schema SOURCE_FOLDER
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
 #include "base/files/files.h"
-#include "spec/documents/field_docs.h"
 #include "spec/job/spec.h"
 
 int main(int argc, char** argv) {
@@ -17,9 +16,6 @@ int main(int argc, char** argv) {
     const std::filesystem::path source = argv[1];  // NOLINT(*-pointer-arithmetic)
     throng::write_file_atomically(source / "spec/job/job.schema.json",
                                   throng::jobs::job_schema_text());
-    const std::filesystem::path document = source / "docs/job.md";
-    throng::write_file_atomically(document,
-                                  throng::jobs::with_job_fields(throng::read_file(document)));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "job_schema: %s\n", error.what());
     return 3;

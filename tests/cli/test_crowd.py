@@ -222,14 +222,6 @@ class Crowd(unittest.TestCase):
         self.assertEqual(distance["default"], "0")
         self.assertIn("goal_reached", crowd("--list").stdout)
 
-    def test_the_documented_list_is_the_program_s(self):
-        written = (ROOT / "docs" / "crowd_vocabulary.md").read_text()
-        self.assertEqual(
-            crowd("--list", "--markdown").stdout,
-            written,
-            "run: throng crowd --list --markdown > docs/crowd_vocabulary.md",
-        )
-
     @unittest.skipUnless(EXAMPLES.exists(), "Menge's examples are not here")
     def test_runs_menge_s_examples_unchanged(self):
         for project in sorted(EXAMPLES.glob("*.xml")):

@@ -22,7 +22,7 @@ import doc_fixtures as fixtures  # noqa: E402
 from free_ports import free_port  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake"}
 
 # Page, how the block begins -> why it does not run here.

@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import doc_fixtures  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "python").glob("*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "python").glob("*.md")])
 CODE = re.compile(r"^(```|~~~).*?^\1\s*$", re.M | re.S)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -56,7 +56,7 @@ class Docs(unittest.TestCase):
     def test_the_start_page_names_every_page(self):
         start = (ROOT / "docs" / "README.md").read_text()
         named = {link.partition("#")[0] for link in LINK.findall(start)}
-        pages = {page.name for page in (ROOT / "docs").glob("*.md")} - {"README.md"}
+        pages = {str(page.relative_to(ROOT / "docs")) for page in (ROOT / "docs").rglob("*.md")} - {"README.md"}
         self.assertEqual(pages - named, set())
 
     def test_every_variable_is_in_the_table(self):

@@ -1,4 +1,4 @@
-// Products of the tables of a job's fields: the schema's file, docs/job.md, sampled values.
+// Products of the tables of a job's fields: the schema's file, sampled values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 
 #include "base/files/files.h"
 #include "base/files/resources.h"
-#include "spec/documents/field_docs.h"
 #include "spec/job/job_fields.h"
 #include "spec/job/spec.h"
 
@@ -23,11 +22,6 @@ const std::filesystem::path kSource = source_folder();
 TEST(JobFields, TheSchemasFileIsThatOfTheTables) {
   EXPECT_TRUE(read_file(kSource / "spec/job/job.schema.json") == job_schema_text())
       << "run: build/release/spec/job_schema .";
-}
-
-TEST(JobFields, TheDocumentListsEveryField) {
-  const std::string document = read_file(kSource / "docs/job.md");
-  EXPECT_TRUE(with_job_fields(document) == document) << "run: build/release/spec/job_schema .";
 }
 
 TEST(JobFields, EveryPathIsUniqueAndHasTitleAndHelp) {

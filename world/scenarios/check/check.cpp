@@ -20,9 +20,9 @@ std::string suggest_remedy(const Problem& problem) {
     return "put the file beside the scenario, or correct its name";
   }
   if (problem.where.starts_with("line")) {
-    return "correct this element: docs/crowd_vocabulary.md lists what each may say";
+    return "correct this element: docs/reference/crowd_vocabulary.md lists what each may say";
   }
-  return "correct this field: docs/scenario.md lists what each may say";
+  return "correct this field: docs/reference/scenario.md lists what each may say";
 }
 
 std::vector<Finding> to_findings(const InputError& error, const std::string& source) {
