@@ -72,7 +72,7 @@ class Schema:
         return bool(rules.get("properties")) or any(map(self.has_fields, self.alternatives(rules)))
 
     def section_of(self, rules):
-        """The link to the section of a reference, or None where its values are said in place."""
+        """The link to the section of a reference; None where its values stand in the table itself."""
         if "$ref" not in rules or not self.has_fields(self.resolved(rules)):
             return None
         name = rules["$ref"].rsplit("/", 1)[-1]
@@ -154,9 +154,7 @@ class Schema:
     def row(self, reference, path, is_required):
         rules = self.resolved(reference)
         section = self.section_of(reference)
-        if rules.get("properties") and not section:
-            return self.rows(rules, path + ".")
-        default = f"`{plain(rules['default'])}`" if "default" in rules else ""
+        default = f"`{plain(rules['default'])}`" if rules.get("default", {}) != {} else ""
         text = meaning(rules.get("description", ""))
         row = f"| `{path}` | {self.values(reference)} | {rules.get('unit', '')} | {'required' if is_required else default} | {text} |\n"
         if section:
@@ -167,6 +165,15 @@ class Schema:
         elif not self.section_of(items) and self.has_fields(items):
             row += self.rows(items, path + "[].")
         return row
+
+    def also_required(self):
+        """A sentence on alternative required fields of the document."""
+        deprecated = {name for name, rules in self.document["properties"].items() if rules.get("deprecated")}
+        lists = [set(one.get("required", [])) for one in self.document.get("anyOf", [])]
+        lists = [names for names in lists if names and not names & deprecated]
+        fields = self.document["properties"]
+        choices = [", ".join(f"`{name}`" for name in fields if name in names) for names in lists]
+        return f"Also required: {'; or '.join(choices)}.\n\n" if choices else ""
 
     def sections(self, level):
         """A section for each definition that has fields."""
@@ -189,7 +196,7 @@ def file_page(kind):
     text = f"# Fields of a file: {kind}\n\n{NOTE.format(f'`{file}`')}"
     text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, with which editors complete "
     text += f'and check fields. A path such as `a[].b` is `{{"a": [{{"b": ...}}]}}`.\n\n'
-    text += FIELDS_HEAD + schema.rows(document)
+    text += schema.also_required() + FIELDS_HEAD + schema.rows(document)
     if kind == "job":
         text += '\n"Or a distribution": the value may be sampled for each run, as [job_randomization.md](../job_randomization.md) describes.\n'
     return text + schema.sections("##")

@@ -558,7 +558,7 @@ class Columns(Part):
 
 @dataclass
 class Recorded(Part):
-    """People of a trajectory file, who are replayed instead of simulating the scenario's; see docs/imports.md."""
+    """People of a trajectory file, who are replayed instead of simulating the scenario's; see docs/recorded.md."""
 
     file: str
     """The file of trajectories, named from the job's folder; a job's own folder keeps a copy. Requests cannot name
@@ -606,7 +606,7 @@ class Crowd(Part):
     fall_impulse_ns: float | None = None
     """Impulse that knocks a person down; needs crowd.physical. Unit: N s. Default: 20."""
     recorded: Recorded | None = None
-    """People of a trajectory file, who are replayed instead of simulating the scenario's; see docs/imports.md."""
+    """People of a trajectory file, who are replayed instead of simulating the scenario's; see docs/recorded.md."""
 
 
 @dataclass

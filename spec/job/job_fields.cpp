@@ -106,7 +106,7 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
         job.recorded = read_recorded(value, place);
       },
       "People of a trajectory file, who are replayed instead of simulating the scenario's; see "
-      "docs/imports.md.");
+      "docs/recorded.md.");
 }
 
 void add_appearance_fields(FieldTable<JobSpec>& table) {

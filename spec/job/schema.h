@@ -12,7 +12,7 @@ namespace throng::jobs {
 
 /// The JSON Schema of a job.
 const nlohmann::json& job_schema();
-/// The same as text, whose fields are in the order of docs/job.md.
+/// The same as text, whose fields are in the order of docs/reference/job.md.
 std::string_view job_schema_text();
 
 /// Everything in which `job` breaks the schema: one problem per place, with its JSON pointer, what

@@ -1,4 +1,4 @@
-"""The commands of docs/imports.md: imports, their check, and a run of one of them and of recorded people."""
+"""The commands of docs/imports.md and a job of docs/recorded.md: imports, their check, and a run of one of them and of recorded people."""
 import json
 import math
 import os

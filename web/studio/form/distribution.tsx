@@ -1,4 +1,4 @@
-// A value that is fixed, or sampled for each run (docs/job.md, "Distributions").
+// A value that is fixed, or sampled for each run (docs/job_randomization.md).
 import type { JSX } from "preact";
 import type { ControlProps } from "./field";
 import { isObject, type Json } from "./json";
