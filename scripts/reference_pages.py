@@ -51,7 +51,7 @@ def plain(value):
 
 
 class Schema:
-    """Tables of the fields that a JSON Schema describes. Definitions with fields have sections of their own, to which others link."""
+    """Tables of the fields of a JSON Schema. Definitions with fields have sections, to which other tables link."""
 
     def __init__(self, document, definitions):
         self.document = document
@@ -155,8 +155,8 @@ class Schema:
         rules = self.resolved(reference)
         section = self.section_of(reference)
         default = f"`{plain(rules['default'])}`" if rules.get("default", {}) != {} else ""
-        text = meaning(rules.get("description", ""))
-        row = f"| `{path}` | {self.values(reference)} | {rules.get('unit', '')} | {'required' if is_required else default} | {text} |\n"
+        row = f"| `{path}` | {self.values(reference)} | {rules.get('unit', '')} | "
+        row += f"{'required' if is_required else default} | {meaning(rules.get('description', ''))} |\n"
         if section:
             return row
         items = rules.get("items", {})
@@ -194,11 +194,12 @@ def file_page(kind):
     document = json.loads((ROOT / file).read_text())
     schema = Schema(document, document.get("definitions", {}))
     text = f"# Fields of a file: {kind}\n\n{NOTE.format(f'`{file}`')}"
-    text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, with which editors complete "
-    text += f'and check fields. A path such as `a[].b` is `{{"a": [{{"b": ...}}]}}`.\n\n'
+    text += f"[{task.partition('#')[0]}](../{task}) explains the task. `throng schema {kind}` prints the schema, "
+    text += f'with which editors complete and check fields. A path such as `a[].b` is `{{"a": [{{"b": ...}}]}}`.\n\n'
     text += schema.also_required() + FIELDS_HEAD + schema.rows(document)
     if kind == "job":
-        text += '\n"Or a distribution": the value may be sampled for each run, as [job_randomization.md](../job_randomization.md) describes.\n'
+        text += '\n"Or a distribution": the value may be sampled for each run, as '
+        text += "[job_randomization.md](../job_randomization.md) describes.\n"
     return text + schema.sections("##")
 
 
@@ -221,10 +222,8 @@ def answers_text(schema, responses):
 
 
 def route_text(schema, method, path, route):
-    text = (
-        f"\n### {method.upper()} {path}\n\n{meaning(route['summary'])}. {meaning(route.get('description', ''))}".rstrip()
-        + "\n\n"
-    )
+    text = f"\n### {method.upper()} {path}\n\n{meaning(route['summary'])}."
+    text += f" {meaning(route['description'])}\n\n" if "description" in route else "\n\n"
     parameters = [schema.resolved(parameter) for parameter in route.get("parameters", [])]
     if parameters:
         text += "| parameter | in | values | default | meaning |\n|---|---|---|---|---|\n"
@@ -239,7 +238,8 @@ def route_text(schema, method, path, route):
     body = route.get("requestBody", {})
     for kind, content in body.get("content", {}).items():
         rules = content.get("schema", {})
-        text += f"Body `{kind}`: {schema.values(rules)}. {meaning(schema.resolved(rules).get('description', body.get('description', '')))}".rstrip()
+        said = schema.resolved(rules).get("description", body.get("description", ""))
+        text += f"Body `{kind}`: {schema.values(rules)}. {meaning(said)}".rstrip()
         inner = "" if schema.section_of(rules) else schema.rows(rules)
         text += f"\n\n{FIELDS_HEAD}{inner}\n" if inner else "\n\n"
     return text + answers_text(schema, route["responses"])
