@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs every scenario of the library for 60 s, everyday and emergency, with an image every 10 s, validates each dataset
-# and prints a row of docs/scenarios.md for it. Finished runs are not repeated.
+# and prints a row of docs/shipped_scenarios.md for it. Finished runs are not repeated.
 #   scripts/sheets/scenario_runs.sh FOLDER [SCENARIO...]
 # FOLDER/PLACE_VARIANT/ are the jobs' folders; THRONG names another program than build/release/cli/throng.
 set -euo pipefail

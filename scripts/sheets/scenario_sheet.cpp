@@ -1,5 +1,5 @@
 // A place in everyday life and in its emergency, from several heights and in several weathers: the
-// images of docs/scenarios.md. scripts/sheets/contact_sheet.sh makes them all.
+// images of docs/shipped_scenarios.md. scripts/sheets/contact_sheet.sh makes them all.
 //
 //   scenario_sheet OUT.jpg WIDTH EVERYDAY TRACE [EMERGENCY TRACE]
 //

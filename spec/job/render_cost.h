@@ -8,7 +8,7 @@
 namespace throng::jobs {
 
 /// Seconds of one core for an image with so many people in view. Measured: the tables of
-/// docs/rendering.md and docs/scenarios.md.
+/// docs/rendering.md and docs/shipped_scenarios.md.
 double image_cpu_s(render::Quality quality, const camera::CameraSpec& camera,
                    double people_in_view);
 

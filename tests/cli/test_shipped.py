@@ -3,7 +3,7 @@
 
 The drones of the scenario hover, as a job without drones has it. 60 people each keep it short; with $THRONG_LONG it is
 every scenario, with 250 people for 300 s, and scripts/studies/shipped_runs.py does the same for 600 s with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
-their people start in a wall (docs/scenarios.md).
+their people start in a wall (docs/shipped_scenarios.md).
 usage: test_shipped.py THRONG
 """
 import json
