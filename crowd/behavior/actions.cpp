@@ -120,7 +120,7 @@ std::vector<ActionRegistry::Entry> obstacle_actions() {
       mask_entry<MaskChange::add>("add_obstacle", "agents avoid obstacles of more classes"),
       mask_entry<MaskChange::remove>("remove_obstacle", "obstacles of fewer classes"),
       mask_entry<MaskChange::set>("set_obstacle", "obstacles of these classes"),
-      {"teleport", "puts the agent elsewhere", {distribution_2("place in m")}, make_teleport},
+      {"teleport", "puts the agent elsewhere", {distribution_2("position in m")}, make_teleport},
   };
 }
 

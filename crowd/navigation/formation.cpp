@@ -175,7 +175,7 @@ std::unique_ptr<VelModifier> make_formation(const Element& element, const Attrib
 std::vector<VelModifierRegistry::Entry> formation_modifiers() {
   return {{"formation",
            "those with this modifier walk in a formation",
-           {text("file_name", "a file of places: see the documentation")},
+           {text("file_name", "a file of positions: see the documentation")},
            make_formation}};
 }
 

@@ -55,7 +55,7 @@ void NavMeshRoutes::enter(const Crowd& crowd, std::size_t agent) {
   if (distance > crowd.agents[Property::radius][agent]) {
     throw InputError(Problem{file_name_,
                              fmt::format("agent {} at ({:.2f}, {:.2f})", agent, p.x(), p.y()),
-                             fmt::format("a place {:.2f} m outside of the mesh", distance),
+                             fmt::format("a position {:.2f} m outside of the mesh", distance),
                              "agents with this velocity component on the mesh"});
   }
 }

@@ -13,18 +13,18 @@ namespace throng::crowd {
 RoadMap load_road_map(const TextFile& source) {
   NumberFile file(source);
   RoadMap map;
-  const int places = file.count("the number of places", 1, 3);
-  for (int i = 0; i < places; ++i) {
-    file.integer("the number of a place's roads", 0, std::numeric_limits<int>::max());
-    const float x = file.real("a place's x in m");
-    map.places.emplace_back(x, file.real("a place's y in m"));
+  const int vertices = file.count("the number of vertices", 1, 3);
+  for (int i = 0; i < vertices; ++i) {
+    file.integer("the number of roads at a vertex", 0, std::numeric_limits<int>::max());
+    const float x = file.real("a vertex's x in m");
+    map.vertices.emplace_back(x, file.real("a vertex's y in m"));
   }
-  map.roads.resize(map.places.size());
+  map.roads.resize(map.vertices.size());
   const int roads = file.count("the number of roads", 0, 2);
   for (int i = 0; i < roads; ++i) {
-    const int from = file.integer("the place where a road begins", 0, places - 1);
-    const int to = file.integer("the place where a road ends", 0, places - 1);
-    const float length = (map.places[to] - map.places[from]).norm();
+    const int from = file.integer("the vertex where a road begins", 0, vertices - 1);
+    const int to = file.integer("the vertex where a road ends", 0, vertices - 1);
+    const float length = (map.vertices[to] - map.vertices[from]).norm();
     map.roads[from].push_back({to, length});
     map.roads[to].push_back({from, length});
   }
@@ -32,39 +32,39 @@ RoadMap load_road_map(const TextFile& source) {
   return map;
 }
 
-RoadFinder::RoadFinder(const RoadMap& map) : nodes_(map.places.size()) {
+RoadFinder::RoadFinder(const RoadMap& map) : nodes_(map.vertices.size()) {
   std::size_t roads = 1;
   for (const std::vector<RoadMap::Road>& from : map.roads) roads += from.size();
   open_.reserve(roads);
-  places_.reserve(map.places.size());
+  vertices_.reserve(map.vertices.size());
 }
 
 bool RoadFinder::find(const RoadMap& map, int from, int to) {
   const auto worse = [](const Open& a, const Open& b) {
-    return a.estimate != b.estimate ? a.estimate > b.estimate : a.place > b.place;
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.vertex > b.vertex;
   };
-  const Eigen::Vector2f& end = map.places[to];
-  places_.clear();
+  const Eigen::Vector2f& end = map.vertices[to];
+  vertices_.clear();
   open_.clear();
   nodes_[from] = {++search_, false, -1, 0};
-  open_.push_back({(end - map.places[from]).norm(), from});
+  open_.push_back({(end - map.vertices[from]).norm(), from});
   while (!open_.empty()) {
     std::pop_heap(open_.begin(), open_.end(), worse);
-    const int place = open_.back().place;
+    const int vertex = open_.back().vertex;
     open_.pop_back();
-    if (nodes_[place].done) continue;
-    nodes_[place].done = true;
-    if (place == to) {
-      for (int i = to; i >= 0; i = nodes_[i].before) places_.push_back(i);
-      std::reverse(places_.begin(), places_.end());
+    if (nodes_[vertex].done) continue;
+    nodes_[vertex].done = true;
+    if (vertex == to) {
+      for (int i = to; i >= 0; i = nodes_[i].before) vertices_.push_back(i);
+      std::reverse(vertices_.begin(), vertices_.end());
       return true;
     }
-    for (const RoadMap::Road& road : map.roads[place]) {
+    for (const RoadMap::Road& road : map.roads[vertex]) {
       Node& node = nodes_[road.to];
-      const float cost = nodes_[place].cost + road.length_m;
+      const float cost = nodes_[vertex].cost + road.length_m;
       if (node.search == search_ && (node.done || cost >= node.cost)) continue;
-      node = {search_, false, place, cost};
-      open_.push_back({cost + (end - map.places[road.to]).norm(), road.to});
+      node = {search_, false, vertex, cost};
+      open_.push_back({cost + (end - map.vertices[road.to]).norm(), road.to});
       std::push_heap(open_.begin(), open_.end(), worse);
     }
   }
@@ -117,11 +117,11 @@ void RoadMapRoutes::head_on(const Crowd& crowd, std::size_t agent, const Eigen::
   if (route.next == route.count) {
     head_for(crowd, agent, target, preferred);
   } else {
-    head_through(crowd, agent, map_.places[route.places[route.next]], preferred);
+    head_through(crowd, agent, map_.vertices[route.vertices[route.next]], preferred);
   }
 }
 
-/// Whether the goal has moved to where another place is the nearest.
+/// Whether the goal has moved to where another vertex is the nearest.
 bool RoadMapRoutes::is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const {
   const Eigen::Vector2f now = goal_place(crowd, agent, route.target);
   if (now == route.target) return false;
@@ -129,19 +129,19 @@ bool RoadMapRoutes::is_elsewhere(const Crowd& crowd, std::size_t agent, Route& r
   return nearest_visible(crowd, agent, now) != route.end;
 }
 
-bool RoadMapRoutes::sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place) {
+bool RoadMapRoutes::sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& vertex) {
   const Agents& agents = crowd.agents;
-  return crowd.obstacles.visible(agents.position[agent], place, agents[Property::radius][agent],
+  return crowd.obstacles.visible(agents.position[agent], vertex, agents[Property::radius][agent],
                                  agents.obstacle_mask[agent]);
 }
 
-/// Goes on from place to place as long as the agent sees the next; false if it is lost.
+/// Goes on from vertex to vertex as long as the agent sees the next; false if it is lost.
 bool RoadMapRoutes::advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
                             Route& route) const {
   const auto sees_place = [&](std::size_t i) {
-    return sees(crowd, agent, i == route.count ? target : map_.places[route.places[i]]);
+    return sees(crowd, agent, i == route.count ? target : map_.vertices[route.vertices[i]]);
   };
-  // After the last place comes the goal, unless that is not the end of the way.
+  // After the last vertex comes the goal, unless that is not the end of the way.
   const std::size_t last = route.whole || route.count == 0 ? route.count : route.count - 1;
   const std::size_t before = route.next;
   while (route.next < last && sees_place(route.next + 1)) ++route.next;
@@ -160,22 +160,24 @@ void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.end = nearest_visible(crowd, agent, route.target);
   route.noticed_end = route.end;
   if (!finder.find(map_, nearest_visible(crowd, agent, p), route.end)) return;
-  route.count = std::min(finder.places().size(), kMaxPlaces);
-  route.whole = route.count == finder.places().size();
-  std::copy_n(finder.places().begin(), route.count, route.places.begin());
+  route.count = std::min(finder.vertices().size(), kMaxVertices);
+  route.whole = route.count == finder.vertices().size();
+  std::copy_n(finder.vertices().begin(), route.count, route.vertices.begin());
 }
 
-/// The nearest place that a point sees; if it sees none, the nearest.
+/// The nearest vertex that a point sees; if it sees none, the nearest.
 int RoadMapRoutes::nearest_visible(const Crowd& crowd, std::size_t agent,
                                    const Eigen::Vector2f& point) const {
   const Agents& agents = crowd.agents;
   int nearest = 0;
   int seen = -1;
-  const auto distance_sq = [&](int place) { return (map_.places[place] - point).squaredNorm(); };
-  for (int i = 0; i < static_cast<int>(map_.places.size()); ++i) {
+  const auto distance_sq = [&](int vertex) {
+    return (map_.vertices[vertex] - point).squaredNorm();
+  };
+  for (int i = 0; i < static_cast<int>(map_.vertices.size()); ++i) {
     if (distance_sq(i) < distance_sq(nearest)) nearest = i;
     if (seen >= 0 && distance_sq(i) >= distance_sq(seen)) continue;
-    if (crowd.obstacles.visible(point, map_.places[i], agents[Property::radius][agent],
+    if (crowd.obstacles.visible(point, map_.vertices[i], agents[Property::radius][agent],
                                 agents.obstacle_mask[agent])) {
       seen = i;
     }
@@ -208,7 +210,7 @@ std::unique_ptr<VelComponent> make_along_roads(const Element& element, const Att
 
 VelComponentRegistry::Entry road_map_component() {
   return {"road_map",
-          "along the roads of a graph, from place to place",
+          "along the roads of a graph, from vertex to vertex",
           {text("file_name", "of the graph")},
           make_along_roads};
 }

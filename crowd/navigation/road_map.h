@@ -19,11 +19,11 @@ struct RoadMap {
     float length_m = 0;
   };
 
-  std::vector<Eigen::Vector2f> places;   ///< at least one
-  std::vector<std::vector<Road>> roads;  ///< by place
+  std::vector<Eigen::Vector2f> vertices;  ///< at least one
+  std::vector<std::vector<Road>> roads;   ///< by place
 };
 
-/// Reads Menge's format: places with the number of their roads, then roads. Throws InputError
+/// Reads Menge's format: vertices with the number of their roads, then roads. Throws InputError
 /// (file, line, found, expected), EnvironmentError when the file cannot be read.
 RoadMap load_road_map(const TextFile& source);
 
@@ -35,7 +35,7 @@ class RoadFinder {
   /// Finds a path; false if there is none. The map is the one given to the constructor.
   bool find(const RoadMap& map, int from, int to);
   /// The way points of the path found last, from its beginning to its end.
-  const std::vector<int>& places() const { return places_; }
+  const std::vector<int>& vertices() const { return vertices_; }
 
  private:
   struct Node {
@@ -51,7 +51,7 @@ class RoadFinder {
 
   std::vector<Node> nodes_;
   std::vector<Open> open_;  // a heap
-  std::vector<int> places_;
+  std::vector<int> vertices_;
   unsigned search_ = 0;
 };
 
@@ -69,7 +69,7 @@ class RoadMapRoutes {
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
 
  private:
-  static constexpr std::size_t kMaxPlaces = 32;
+  static constexpr std::size_t kMaxVertices = 32;
 
   struct Route {
     bool known = false;
@@ -81,7 +81,7 @@ class RoadMapRoutes {
     Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next place was last seen
     int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
     Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
-    std::array<int, kMaxPlaces> places{};
+    std::array<int, kMaxVertices> vertices{};
   };
 
   void prefer_as_menge(const Crowd& crowd, std::size_t agent, Route& route,

@@ -142,8 +142,8 @@ void require_on_mesh(const Element& element, const NavMeshFile& file, int group,
   if (polygon >= 0 && (group == kAnyGroup || file.mesh[polygon].group == group)) return;
   element.fail(fmt::format("({}, {}), which is not on the mesh", place.x(), place.y()),
                group == kAnyGroup
-                   ? "a place on the mesh"
-                   : fmt::format("a place on the mesh's group {}",
+                   ? "a position on the mesh"
+                   : fmt::format("a position on the mesh's group {}",
                                  in_quotes(file.groups[static_cast<std::size_t>(group)])));
 }
 
@@ -283,11 +283,11 @@ class Noise {
 const GeneratorRegistry& generator_registry() {
   static const GeneratorRegistry kRegistry(
       {{
-          {"explicit", "places listed one by one", {}, make_listed},
+          {"explicit", "positions listed one by one", {}, make_listed},
           {"rect_grid",
            "rows and columns",
-           {number("anchor_x", "place of the first agent in m"),
-            number("anchor_y", "place of the first agent in m"),
+           {number("anchor_x", "position of the first agent in m"),
+            number("anchor_y", "position of the first agent in m"),
             number("offset_x", "between columns in m"), number("offset_y", "between rows in m"),
             integer("count_x", "columns", 1, kMaxAgents), integer("count_y", "rows", 1, kMaxAgents),
             optional(number("rotation", "about the first agent in degrees", -3600, 3600), "0")},
@@ -304,7 +304,7 @@ const GeneratorRegistry& generator_registry() {
             optional(number("rotation", "about the anchor in degrees", -3600, 3600), "0")},
            make_hex_lattice},
           {"nav_mesh_explicit",
-           "places listed one by one, each on a navigation mesh",
+           "positions listed one by one, each on a navigation mesh",
            {text("file_name", "a .nav file"),
             optional(text("group_name", "of polygons, on which they have to be"))},
            make_listed_on_mesh},
@@ -317,7 +317,7 @@ const GeneratorRegistry& generator_registry() {
                              std::numeric_limits<std::uint32_t>::max()))},
            make_scattered},
       }},
-      {optional(distribution(kNoisePrefix, "distance from the exact place in m"))});
+      {optional(distribution(kNoisePrefix, "distance from the exact position in m"))});
   return kRegistry;
 }
 

@@ -10,10 +10,10 @@ using Eigen::Vector2f;
 
 namespace {
 
-/// Places in square cells as wide as two places have to be apart.
-class Places {
+/// Positions in square cells as wide as two positions have to be apart.
+class Positions {
  public:
-  explicit Places(float apart_m) : apart_m_(apart_m) {}
+  explicit Positions(float apart_m) : apart_m_(apart_m) {}
 
   void add(const Vector2f& place) {
     cells_[key(column(place.x()), column(place.y()))].push_back(place);
@@ -66,7 +66,7 @@ std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
   area.add_polygon(spec.area, 1);
   const Polygon& outline = area.polygons().front();
   const auto& [min, max] = outline.bounds;
-  Places all(spec.apart_m);
+  Positions all(spec.apart_m);
   for (const Vector2f& place : taken) all.add(place);
   const auto is_free = [&](const Vector2f& place) {
     return area.encloses(outline, place) && all.has_room(place) &&

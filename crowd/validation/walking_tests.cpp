@@ -89,7 +89,7 @@ std::vector<Test> walking_tests() {
        "ring of 3 m x 79 m: the greatest flow from 1.2 to 2.1 /m², then 3 and 5.5 /m²",
        "ours: at 3 /m² at most 70 % of the greatest, at 5.5 /m² below 0.5 /(m s)", capacity_drop},
       {"open_square", "Open square",
-       "0.5 and 1 people/m² on 30 m x 30 m who walk to random places; the worst of 5 runs",
+       "0.5 and 1 people/m² on 30 m x 30 m who walk to random positions; the worst of 5 runs",
        "ours: after 2 minutes at most 5 % get less than 1 m far in 10 s", open_square},
       {"against", "Counter-flow",
        "NIST 2.8 to its end: 100 people alone, then against 100; the slowest of 5 runs",

@@ -13,7 +13,7 @@ namespace throng::formats {
 
 namespace {
 
-using Places = std::vector<Pixel>;
+using Pixels = std::vector<Pixel>;
 
 /// Directions of edges between pixels: right, down, left, up; the mask is on their right side.
 constexpr int kUp = 3;
@@ -25,9 +25,9 @@ Pixel sum(const Pixel& a, const Pixel& b) { return {a.first + b.first, a.second 
 
 /// The border between the mask and one region of its background, through the mask's pixels.
 struct BorderRing {
-  Places places;
+  Pixels places;
   std::int64_t area = 0;  ///< pixels within, negative if they are a hole
-  Places left_sides;      ///< pixels whose left side is part of it
+  Pixels left_sides;      ///< pixels whose left side is part of it
 };
 
 /// Edges that are not in a ring yet: from each corner a bit for each direction.
@@ -77,27 +77,27 @@ BorderRing take_border(OpenEdges& edges) {
 }
 
 /// The places from `first` on, all the way round and back to it.
-Places turned_to(const Places& ring, const Pixel& first) {
+Pixels turned_to(const Pixels& ring, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), first);
   check(at != ring.end(), "a ring passes its own places");
-  Places turned(at, ring.end());
+  Pixels turned(at, ring.end());
   turned.insert(turned.end(), ring.begin(), at);
   turned.push_back(first);
   return turned;
 }
 
 /// Goes from a place of the ring to `first` of another one, around that one, and back.
-void splice(Places& ring, const Pixel& from, const Places& other, const Pixel& first) {
+void splice(Pixels& ring, const Pixel& from, const Pixels& other, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), from);
   check(at != ring.end(), "rings are joined where they pass");
-  Places detour = turned_to(other, first);
+  Pixels detour = turned_to(other, first);
   detour.push_back(from);
   ring.insert(at + 1, detour.begin(), detour.end());
 }
 
 /// Pixels that hang together: their outer border with the holes' spliced in, and how many they are.
 struct Piece {
-  Places places;
+  Pixels places;
   std::int64_t area = 0;
 };
 
@@ -146,7 +146,7 @@ struct Bridge {
   int pixels = std::numeric_limits<int>::max();  ///< that a line from one to the other adds
 };
 
-void shorten(Bridge& bridge, const Places& joined, const Places& piece) {
+void shorten(Bridge& bridge, const Pixels& joined, const Pixels& piece) {
   for (const Pixel& a : joined) {
     for (const Pixel& b : piece) {
       const int between = std::max(std::abs(a.first - b.first), std::abs(a.second - b.second)) - 1;
@@ -155,12 +155,12 @@ void shorten(Bridge& bridge, const Places& joined, const Places& piece) {
   }
 }
 
-Places joined(std::vector<Piece> pieces, PolygonFit& fit) {
+Pixels joined(std::vector<Piece> pieces, PolygonFit& fit) {
   fit.pieces = static_cast<int>(pieces.size());
   for (const Piece& piece : pieces) fit.mask_px += piece.area;
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.area > b.area; });
-  Places all = pieces.front().places;
+  Pixels all = pieces.front().places;
   pieces.erase(pieces.begin());
   std::vector<Bridge> bridges(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) shorten(bridges[i], all, pieces[i].places);
@@ -187,14 +187,14 @@ Places joined(std::vector<Piece> pieces, PolygonFit& fit) {
 }
 
 /// Without the places in the middle of straight lines of single steps.
-Places straightened(const Places& ring) {
+Pixels straightened(const Pixels& ring) {
   const auto step = [](const Pixel& a, const Pixel& b) {
     return Pixel(b.first - a.first, b.second - a.second);
   };
   const auto is_single = [](const Pixel& d) {
     return std::abs(d.first) <= 1 && std::abs(d.second) <= 1;
   };
-  Places kept;
+  Pixels kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Pixel before = step(ring[(i + ring.size() - 1) % ring.size()], ring[i]);
     const Pixel after = step(ring[i], ring[(i + 1) % ring.size()]);
@@ -211,7 +211,7 @@ std::vector<Pixel> trace_polygon(const Bitmap& mask, PolygonFit* fit) {
   std::vector<Piece> pieces = split_pieces(mask);
   if (pieces.empty()) return {};
   PolygonFit found;
-  Places polygon = straightened(joined(std::move(pieces), found));
+  Pixels polygon = straightened(joined(std::move(pieces), found));
   if (fit != nullptr) *fit = found;
   constexpr std::size_t kMinPoints = 3;  // of a polygon: fewer are taken for a box
   while (polygon.size() < kMinPoints) polygon.push_back(polygon.back());

@@ -85,7 +85,7 @@ class FieldsCheck : public GroundTruthCheck {
 /// counts/RUN.csv and the images' `zones` against the people that cameras see.
 class CountsCheck : public GroundTruthCheck {
  public:
-  using Places = std::map<std::int64_t, Eigen::Vector2d>;  ///< by track
+  using Positions = std::map<std::int64_t, Eigen::Vector2d>;  ///< by track
 
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
   void finish(const DatasetInfo& info, Findings& findings) override;
@@ -99,8 +99,8 @@ class CountsCheck : public GroundTruthCheck {
   static void check_visible(const std::string& id, const std::vector<Eigen::Vector2d>& corners,
                             const Visible& image, std::size_t zone, Findings& findings);
 
-  std::map<std::string, std::map<std::int64_t, Places>> seen_;  ///< by run and frame
-  std::map<std::string, std::vector<Visible>> images_;          ///< by run
+  std::map<std::string, std::map<std::int64_t, Positions>> seen_;  ///< by run and frame
+  std::map<std::string, std::vector<Visible>> images_;             ///< by run
 };
 
 /// trajectories/RUN.npy against the people in the images, and against how fast people run.
@@ -185,7 +185,7 @@ class ConstancyCheck {
   std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
 };
 
-/// Places and sizes of vehicles in the images of a run.
+/// Positions and sizes of vehicles in the images of a run.
 class VehicleCheck {
  public:
   void add(const Image& image, Findings& findings);

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kGroundLatticeM = 0.5;
-constexpr double kMaxPlaces = 250'000;
+constexpr double kMaxPositions = 250'000;
 // Places of the lattice within the kernel's reach along one axis, at most.
 constexpr std::size_t kAcross = 9;
 
@@ -21,7 +21,7 @@ constexpr std::size_t kAcross = 9;
 
 GroundPressure::GroundPressure(const world::Rectangle& ground,
                                std::span<const world::Building> buildings, double dt_s)
-    : lattice_(lattice_over(ground, kGroundLatticeM, kMaxPlaces)),
+    : lattice_(lattice_over(ground, kGroundLatticeM, kMaxPositions)),
       covered_(covered_by(buildings, lattice_)),
       sums_(lattice_.size()),
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1 / dt_s)))) {}

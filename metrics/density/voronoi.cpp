@@ -52,16 +52,16 @@ class Neighbors {
     order_.clear();
   }
   void add(const Vector2d& offset, double squared_m2) {
-    order_.push_back((std::bit_cast<std::uint64_t>(squared_m2) & ~kPlace) |
-                     (list_.size() & kPlace));
+    order_.push_back((std::bit_cast<std::uint64_t>(squared_m2) & ~kIndexMask) |
+                     (list_.size() & kIndexMask));
     list_.push_back({squared_m2, offset});
   }
   void sort() { std::sort(order_.begin(), order_.end()); }
   std::size_t size() const { return list_.size(); }
-  const Neighbor& operator[](std::size_t i) const { return list_[order_[i] & kPlace]; }
+  const Neighbor& operator[](std::size_t i) const { return list_[order_[i] & kIndexMask]; }
 
  private:
-  static constexpr std::uint64_t kPlace = (1U << 20U) - 1;  // a million neighbors
+  static constexpr std::uint64_t kIndexMask = (1U << 20U) - 1;  // a million neighbors
   std::vector<Neighbor> list_;
   std::vector<std::uint64_t> order_;
 };

@@ -32,7 +32,7 @@ mat3x4 read_rows(uvec4 bone) {
 }
 
 // The rows of palettes a and b, blended (the blend is a float's bits).
-mat3x4 blended_rows_of(uvec3 pose) {
+mat3x4 blend_rows(uvec3 pose) {
   mat3x4 rows = mat3x4(0.0);
   float b = uintBitsToFloat(pose.z);
   // Most vertices follow one or two bones, and weights come largest first.
@@ -50,7 +50,7 @@ mat3x4 blended_rows_of(uvec3 pose) {
   return rows;
 }
 
-mat3x4 blended_rows() { return blended_rows_of(pose.xyz); }
+mat3x4 blended_rows() { return blend_rows(pose.xyz); }
 
 // The vertex's normal, from two 16-bit numbers on an octahedron.
 vec3 normal_in() {
@@ -90,7 +90,7 @@ bool is_apart() { return part() >> 31 != 0u; }
 uint instance_id() { return is_apart() ? pose.w | 0x40000000u : pose.w; }  // kIdUmbrella
 
 // A tint's sRGB word: white where the part has none of its own.
-uint tint_of(uint slot) {
+uint choose_tint(uint slot) {
   if (slot == 5u) return tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
   return slot > 0u && slot < 5u ? tints[slot - 1u] : 0xFFFFFFu;
 }
@@ -137,7 +137,7 @@ void main() {
   vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
   vec3 base = unpackUnorm4x8(colors.x).rgb;
   vec4 shades = unpackUnorm4x8(colors.y);
-  vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(tint_slot())).rgb);
+  vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(choose_tint(tint_slot())).rgb);
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);
   }
@@ -177,7 +177,7 @@ void main() {
   is_next = next_pose.w;
   next = vec3(0.0);
   if (is_next != 0u) {
-    vec3 model = vec4(position_in, 1.0) * blended_rows_of(next_pose.xyz);
+    vec3 model = vec4(position_in, 1.0) * blend_rows(next_pose.xyz);
     vec3 p = next_seen(placed_at(next_foot, next_facing, model));
     next = vec3(p.xy + next_view.focal.zw * p.z, p.z);
   }
@@ -223,7 +223,7 @@ void main() {
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
 #endif
-  surface = uvec4(part() & 0xFFFu, tint_of(tint_slot()), instance_id(), part() >> 12 & 0xFFFu);
+  surface = uvec4(part() & 0xFFFu, choose_tint(tint_slot()), instance_id(), part() >> 12 & 0xFFFu);
   shaded = tints;
   gl_Position = project_movable(world, ivec2(0));
 #ifdef SILHOUETTES

@@ -27,7 +27,7 @@ using httplib::Response;
 namespace {
 
 constexpr std::uint32_t kVersion = 1;
-constexpr double kMaxPlaces = 2e6;  // 12 MB
+constexpr double kMaxPositions = 2e6;  // 12 MB
 constexpr double kMaxTimeS = 1e6;
 constexpr double kMinEveryS = 0.001;
 constexpr std::uint16_t kAbsent = std::numeric_limits<std::uint16_t>::max();
@@ -106,12 +106,12 @@ std::vector<double> requested_times(const Request& request, const world::Traject
   const double count =
       std::max(0.0, std::floor((to_s - from_s) / every_s + world::kTimeSlackS) + 1);
   const double people = std::max(1.0, static_cast<double>(reader.agents()));
-  if (count * people > kMaxPlaces) {
+  if (count * people > kMaxPositions) {
     throw HttpError{
         400,
-        "these are too many places at once",
+        "these are too many positions at once",
         {{"", "?every_s", fmt::format("{:.0f} times of {:.0f} people", count, people),
-          fmt::format("at most {:.0f} places: fewer times, or a part of the run", kMaxPlaces)}}};
+          fmt::format("at most {:.0f} positions: fewer times, or a part of the run", kMaxPositions)}}};
   }
   std::vector<double> times(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < times.size(); ++i) {

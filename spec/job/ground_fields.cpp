@@ -46,7 +46,7 @@ ordered_json zone_rules() {
   return area_rules(
       "Zone", "A simple polygon on the ground.",
       {{"corners", titled("Corners", "[x, y] of each, in their order.",
-                          lists(3, kMaxCorners, titled("Place", "[x, y].", coordinates(2))))}});
+                          lists(3, kMaxCorners, titled("Corner", "[x, y].", coordinates(2))))}});
 }
 
 ordered_json line_rules() {

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kInPlace = "x-distribution";
+constexpr const char* kDistribution = "x-distribution";
 constexpr const char* kElsewhere = "x-randomize";
 
 bool is_index(const std::string& word) {
@@ -49,7 +49,7 @@ const json* rules_at(const std::vector<std::string>& words) {
       node = &fields->at(word);
     }
   }
-  return node->contains(kInPlace) || node->contains(kElsewhere) ? node : nullptr;
+  return node->contains(kDistribution) || node->contains(kElsewhere) ? node : nullptr;
 }
 
 Quantity enum_quantity(const json& words) {
@@ -99,7 +99,7 @@ bool is_there(const json& job, const std::vector<std::string>& words, bool in_pl
 }
 
 void add_paths(const json& rules, const std::string& path, std::vector<std::string>& paths) {
-  if (rules.contains(kInPlace) || rules.contains(kElsewhere)) paths.push_back(path);
+  if (rules.contains(kDistribution) || rules.contains(kElsewhere)) paths.push_back(path);
   const auto step = [&](const std::string& word) {
     return path.empty() ? word : fmt::format("{}.{}", path, word);
   };
@@ -150,13 +150,13 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
       problems.push_back(unknown_path(path, value));
       continue;
     }
-    if (!is_there(job, words, rules->contains(kInPlace))) {
+    if (!is_there(job, words, rules->contains(kDistribution))) {
       problems.push_back({"", place, fmt::format("\"{}\"", path), "a place that the job fills"});
       continue;
     }
     std::string pointer;
     for (const std::string& word : words) pointer += "/" + word;
-    if (rules->contains(kInPlace)) {
+    if (rules->contains(kDistribution)) {
       job[json::json_pointer(pointer)] = value;
       continue;
     }

@@ -46,7 +46,7 @@ const FieldTable<ScenarioShare>& share_fields() {
             },
             "Id of a scenario.")
         .without_default();
-    table.add("generate", "Generate", "", raw({{"type", "object"}}, "the parameters of a place"),
+    table.add("generate", "Generate", "", raw({{"type", "object"}}, "the parameters of a generated scenario"),
               generate_json, set_generate,
               "Parameters of a generated scenario; without a seed, another one for each run.");
     table.add("weight", "Weight", "", numbers(kMinWeight, kMaxWeight), at(&ScenarioShare::weight),

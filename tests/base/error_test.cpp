@@ -21,7 +21,7 @@ TEST(InputError, KeepsAllProblemsAndSaysThemAll) {
 
 TEST(Check, HoldsSilently) { check(true, "fine"); }
 
-TEST(CheckDeathTest, AbortsNamingClaimAndPlace) {
+TEST(CheckDeathTest, AbortsNamingClaimAndPosition) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_DEATH(check(false, "water is wet"), "throng bug at .*error_test.cpp:[0-9]+: water is wet");
 }

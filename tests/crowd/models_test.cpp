@@ -79,7 +79,7 @@ TEST_P(AnyModel, StaysFiniteForMinutesWhereItIsTooDense) {
   }
 }
 
-TEST_P(AnyModel, PartsTwoInOnePlace) {
+TEST_P(AnyModel, PartsTwoAtOnePosition) {
   if (!minds_others()) GTEST_SKIP() << "a dummy minds nobody";
   Simulation crowd =
       test::load(test::model_scene(test::agent_at(0, 0) + test::agent_at(0, 0)),

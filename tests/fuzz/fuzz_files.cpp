@@ -37,27 +37,27 @@ constexpr const char* kKdTree = R"(<SpatialQuery type="kd-tree"/>)";
 constexpr const char* kToGoal = R"(<VelComponent type="goal"/>)";
 
 /// Elements of the scene and the behavior that name a kind of resource.
-using Places = std::map<std::string, std::string>;
+using Elements = std::map<std::string, std::string>;
 
-std::string filled(std::string text, const Places& places, const Places& otherwise) {
-  for (const auto& [place, standard] : otherwise) {
-    const auto given = places.find(place);
-    const std::string& with = given != places.end() ? given->second : standard;
-    const std::size_t at = text.find("{" + place + "}");
-    if (at != std::string::npos) text.replace(at, place.size() + 2, with);
+std::string filled(std::string text, const Elements& elements, const Elements& otherwise) {
+  for (const auto& [name, standard] : otherwise) {
+    const auto given = elements.find(name);
+    const std::string& with = given != elements.end() ? given->second : standard;
+    const std::size_t at = text.find("{" + name + "}");
+    if (at != std::string::npos) text.replace(at, name.size() + 2, with);
   }
   return text;
 }
 
-void use_resource(const Folder& folder, const Places& places) {
-  const Places standard = {{"spatial", kKdTree}, {"elevation", ""},      {"obstacles", ""},
-                           {"modifier", ""},     {"selector", kNearest}, {"velocity", kToGoal}};
-  load_and_step(folder.write("scene.xml", filled(kScene, places, standard)),
-                folder.write("behavior.xml", filled(kBehavior, places, standard)), {});
+void use_resource(const Folder& folder, const Elements& elements) {
+  const Elements standard = {{"spatial", kKdTree}, {"elevation", ""},      {"obstacles", ""},
+                             {"modifier", ""},     {"selector", kNearest}, {"velocity", kToGoal}};
+  load_and_step(folder.write("scene.xml", filled(kScene, elements, standard)),
+                folder.write("behavior.xml", filled(kBehavior, elements, standard)), {});
 }
 
-const std::map<std::string_view, Places>& resources() {
-  static const std::map<std::string_view, Places> kResources = {
+const std::map<std::string_view, Elements>& resources() {
+  static const std::map<std::string_view, Elements> kResources = {
       {"road_map", {{"velocity", R"(<VelComponent type="road_map" file_name="resource"/>)"}}},
       {"vel_field", {{"velocity", R"(<VelComponent type="vel_field" file_name="resource"/>)"}}},
       {"smooth_field",

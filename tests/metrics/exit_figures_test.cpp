@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-ExitSeries exit_series(const std::vector<Walk>& walks, double duration_s = 60) {
+ExitSeries walk_series(const std::vector<Walk>& walks, double duration_s = 60) {
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;
   return exit_series(make_trace(walks, crowd), place_with_door(2)).at(0);
@@ -35,7 +35,7 @@ TEST(ExitQueue, GoesAsFarAsTheLinksReach) {
   walks.push_back(standing({-10, 0}));            // 1.3 m behind the last one
   walks.push_back(standing({0.3, 0}));            // beyond the door
   walks.push_back(walking({-2, 1}, {1, 0}, -9));  // fast enough not to queue
-  const ExitSample sample = exit_series(walks).samples.front();
+  const ExitSample sample = walk_series(walks).samples.front();
   EXPECT_EQ(sample.queue, 8);
   EXPECT_NEAR(sample.queue_length_m, 1 + 7 * 1.1, 1e-5);
   // Nothing was measured yet: the capacity of one lane, 0.8 m.
@@ -61,11 +61,11 @@ TEST(ExitQueue, OnlyThatPartOfTheDoorServesBeforeWhichPeopleStand) {
 TEST(ExitQueue, AroundACornerIsAsLongAsTheWay) {
   std::vector<Walk> walks = walk_in_line(3, 1, 1);  // to x = -3
   for (int i = 1; i <= 4; ++i) walks.push_back(standing({-3, static_cast<double>(i)}));
-  EXPECT_NEAR(exit_series(walks).samples.front().queue_length_m, 7, 1e-6);
+  EXPECT_NEAR(walk_series(walks).samples.front().queue_length_m, 7, 1e-6);
 }
 
 TEST(ExitQueue, WhereNobodyStandsAtTheDoorThereIsNone) {
-  const ExitSample sample = exit_series(walk_in_line(5, 4, 1)).samples.front();
+  const ExitSample sample = walk_series(walk_in_line(5, 4, 1)).samples.front();
   EXPECT_EQ(sample.queue, 0);
   EXPECT_EQ(sample.queue_length_m, 0);
   EXPECT_EQ(sample.predicted_wait_s, 0);
@@ -75,7 +75,7 @@ TEST(ExitQueue, TheWaitIsTheQueueOverTheFlow) {
   std::vector<Walk> walks = walk_in_line(6, 1, 1);
   // A person a second beside them, from 0.5 s on.
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - i, 0.9}, {1, 0}));
-  const ExitSample sample = exit_series(walks).samples.at(300);
+  const ExitSample sample = walk_series(walks).samples.at(300);
   EXPECT_EQ(sample.queue, 6);
   // 20 people in the last 20 s, and 10 s at the capacity of one lane, 1.04 /s.
   EXPECT_NEAR(sample.predicted_wait_s, 6 / ((20 + 10.4) / 30), 0.1);
@@ -105,7 +105,7 @@ TEST(ExitPressure, IsDensityTimesVariance) {
 }
 
 TEST(ExitPressure, IsZeroForAUniformStream) {
-  const ExitSeries series = exit_series({walking({-5, 0}, {1, 0}), walking({-5, 1}, {1, 0})}, 8);
+  const ExitSeries series = walk_series({walking({-5, 0}, {1, 0}), walking({-5, 1}, {1, 0})}, 8);
   for (const ExitSample& sample : series.samples) EXPECT_NEAR(sample.pressure_per_s2, 0, 1e-6);
 }
 
@@ -116,7 +116,7 @@ TEST(ExitVoronoi, ALatticeHasItsDensity) {
       walks.push_back(standing({0.25 + 0.5 * column, 0.5 * row}));
     }
   }
-  const ExitSample sample = exit_series(walks, 0.1).samples.front();
+  const ExitSample sample = walk_series(walks, 0.1).samples.front();
   EXPECT_NEAR(sample.voronoi_density_per_m2, 4, 1e-6);
   EXPECT_NEAR(sample.density_per_m2, 4, 0.5) << "counting whole people is rougher";
 }
@@ -124,7 +124,7 @@ TEST(ExitVoronoi, ALatticeHasItsDensity) {
 TEST(ExitFlow, SpecificFlowIsPerMeter) {
   std::vector<Walk> walks;
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - 0.5 * i, 0}, {1, 0}));
-  const ExitSeries series = exit_series(walks, 15);
+  const ExitSeries series = walk_series(walks, 15);
   for (const ExitSample& sample : series.samples) {
     EXPECT_DOUBLE_EQ(sample.specific_flow_per_ms, sample.flow_per_s / 2);
   }
@@ -149,7 +149,7 @@ std::vector<Walk> two_passers() {
 }
 
 TEST(ExitClogs, TheWholeGapIsClogged) {
-  const ExitSeries series = exit_series(two_passers(), 30);
+  const ExitSeries series = walk_series(two_passers(), 30);
   ASSERT_EQ(series.clogs.size(), 3U);
   EXPECT_NEAR(series.clogs[0].from_s, 0, 1e-9);
   EXPECT_NEAR(series.clogs[0].until_s, 10.4, 0.101);
@@ -195,7 +195,7 @@ TEST(ExitClogs, LastsUntilSomebodyPasses) {
 }
 
 TEST(ExitClogs, AFreeDoorHasNone) {
-  EXPECT_TRUE(exit_series({walking({-5, 0}, {1, 0})}).clogs.empty());
+  EXPECT_TRUE(walk_series({walking({-5, 0}, {1, 0})}).clogs.empty());
 }
 
 TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {

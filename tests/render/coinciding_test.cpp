@@ -207,7 +207,7 @@ TEST(CoincidingSurfaces, AreFoundWhereTheyAre) {
   EXPECT_TRUE(coinciding(list_faces(scenario)).empty()) << "they stand side by side";
 }
 
-TEST(CoincidingSurfaces, AreInNoShippedPlace) {
+TEST(CoincidingSurfaces, AreInNoShippedScenario) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(source_folder() / "scenarios")) {
@@ -223,7 +223,7 @@ TEST(CoincidingSurfaces, AreInNoShippedPlace) {
   }
 }
 
-TEST(CoincidingSurfaces, AreInNoGeneratedPlace) {
+TEST(CoincidingSurfaces, AreInNoGeneratedScenario) {
   for (const char* kind : {"plaza", "street", "campus", "block"}) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       scenarios::GeneratorSpec spec;

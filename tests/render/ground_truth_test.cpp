@@ -56,7 +56,7 @@ TEST(GroundTruth, BoxIsTightAroundAnUnoccludedMask) {
   }
 }
 
-TEST(GroundTruth, BoxHoldsTheVerticesThatSkinningPlaces) {
+TEST(GroundTruth, BoxHoldsTheSkinnedVertices) {
   Stage stage(open_ground());
   const PersonInstance person = walking(stage, 0, 1, 0.5, 0.8, 0.3);
   const camera::Camera camera = camera_at({-6, 0, 5}, 0, -35);

@@ -34,7 +34,7 @@ std::vector<Problem> separation_problems(const std::vector<DroneMission>& missio
   return problems;
 }
 
-TEST(Separation, TwoStartsAtOnePlace) {
+TEST(Separation, TwoStartsAtOnePosition) {
   const auto problems = separation_problems({mission("a", {0, 0, 20}), mission("b", {0, 0, 20})});
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/1/start");

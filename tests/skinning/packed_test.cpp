@@ -9,7 +9,7 @@
 namespace throng::skinning {
 namespace {
 
-TEST(Packed, KeepsEveryVertexInItsPlace) {
+TEST(Packed, KeepsThePositionOfEveryVertex) {
   const Walker walker = made_up_walker();
   for (const Clip& clip : standard_clips()) {
     const std::vector<Palette> palettes = bake_clip(walker, clip);

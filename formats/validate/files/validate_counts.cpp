@@ -23,7 +23,7 @@ using nlohmann::json;
 namespace {
 
 using Tracks = std::set<std::int64_t>;
-using Places = CountsCheck::Places;
+using Positions = CountsCheck::Positions;
 
 /// Positions in records are rounded; on the border of an area both answers are right.
 constexpr double kBorderM = 0.02;
@@ -107,7 +107,7 @@ class AreaRows {
       : area_(std::move(area)), file_(std::move(file)), findings_(&findings) {}
 
   void add(std::int64_t frame, const std::string& inside, const Change& change,
-           const Places* before, const Places* now) {
+           const Positions* before, const Positions* now) {
     frame_ = frame;
     if (area_.is_zone) {
       add_zone(inside, change, now);
@@ -121,7 +121,7 @@ class AreaRows {
   }
 
  private:
-  void add_zone(const std::string& inside, const Change& change, const Places* now) {
+  void add_zone(const std::string& inside, const Change& change, const Positions* now) {
     for (const std::int64_t track : change.in) {
       if (!inside_.insert(track).second) fault(fmt::format("track {} enters twice", track));
     }
@@ -140,7 +140,7 @@ class AreaRows {
     }
   }
 
-  void check_crossings(const Change& change, const Places& before, const Places& now) const {
+  void check_crossings(const Change& change, const Positions& before, const Positions& now) const {
     for (const auto& [track, place] : now) {
       const auto last = before.find(track);
       if (last == before.end()) continue;
@@ -165,7 +165,7 @@ class AreaRows {
 };
 
 void check_table(const CsvTable& table, const std::vector<Area>& areas, const std::string& file,
-                 const DatasetInfo& info, const std::map<std::int64_t, Places>& seen,
+                 const DatasetInfo& info, const std::map<std::int64_t, Positions>& seen,
                  Findings& findings) {
   const std::vector<std::string> kColumns = {"frame",  "time_s",  "kind",    "id",  "inside",
                                              "inflow", "outflow", "entered", "left"};
@@ -178,7 +178,7 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
   std::vector<AreaRows> rows;
   rows.reserve(areas.size());
   for (const Area& area : areas) rows.emplace_back(area, file, findings);
-  const auto places_at = [&](std::int64_t frame) -> const Places* {
+  const auto places_at = [&](std::int64_t frame) -> const Positions* {
     const auto found = seen.find(frame);
     return found == seen.end() ? nullptr : &found->second;
   };
@@ -203,13 +203,13 @@ void check_table(const CsvTable& table, const std::vector<Area>& areas, const st
   }
 }
 
-/// Places by frame of all people of a run, seen or not.
-std::map<std::int64_t, Places> places_of_everybody(const DatasetInfo& info,
-                                                   const std::string& run) {
+/// Positions by frame of all people of a run, seen or not.
+std::map<std::int64_t, Positions> places_of_everybody(const DatasetInfo& info,
+                                                      const std::string& run) {
   const RunTrajectories recorded = read_run_trajectories(info.root, run);
-  std::map<std::int64_t, Places> frames;
+  std::map<std::int64_t, Positions> frames;
   for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
-    Places& places = frames[static_cast<std::int64_t>(frame)];
+    Positions& places = frames[static_cast<std::int64_t>(frame)];
     for (std::size_t person = 0; person < recorded.tracks.size(); ++person) {
       if (!recorded.present(frame, person)) continue;
       places[recorded.tracks[person]] = recorded.place(frame, person);
@@ -231,7 +231,7 @@ void CountsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings&
     }
   }
   if (!is_shot_at_once(image)) return;
-  Places& places = seen_[image.run][image.frame];
+  Positions& places = seen_[image.run][image.frame];
   for (const Person& person : image.people) {
     places.insert_or_assign(person.track_id, Vector2d(person.position.head<2>()));
   }

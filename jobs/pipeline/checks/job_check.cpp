@@ -58,7 +58,7 @@ StartingCrowd starting_crowd(const JobSpec& job, const crowd::Simulation& simula
 }
 
 /// A job in one of its scenarios.
-struct InPlace {
+struct ScenarioCheck {
   ExpectedRun expected;
   double taking_part = 0;  ///< people at the start, and those who come while it lasts
   std::vector<CameraView> views;
@@ -72,8 +72,8 @@ double expected_arrivals(double all, double at_start, double duration_s) {
   return std::max(0.0, all - at_start) * std::min(1.0, duration_s / kArrivalsS);
 }
 
-InPlace check_in_place(const JobSpec& job, const world::Scenario& scenario, int run) {
-  InPlace checked;
+ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario, int run) {
+  ScenarioCheck checked;
   StartingCrowd crowd;
   if (job.recorded) {
     const world::Trace recording = read_recording(*job.recorded);
@@ -128,7 +128,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   std::vector<ExpectedRun> of_shares(job.mix.empty() ? 1 : job.mix.size());
   for (const int run : first_runs(job)) {
     const JobSpec one = in_scenario_of_run(job, run);
-    InPlace place = check_in_place(one, load_job_scenario(one, scenarios, source), run);
+    ScenarioCheck place = check_scenario(one, load_job_scenario(one, scenarios, source), run);
     const auto runs =
         std::count(shares.begin(), shares.end(), shares[static_cast<std::size_t>(run)]);
     people_of_runs += static_cast<double>(runs) * place.taking_part;

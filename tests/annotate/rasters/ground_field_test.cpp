@@ -203,7 +203,7 @@ TEST(GroundField, AgreesWithTheImagesMapInEveryRegion) {
   EXPECT_GT(seen, 200) << "most of them are in the image";
 }
 
-TEST(FieldLevels, HaveTheSamePeopleInTheSamePlaces) {
+TEST(FieldLevels, HaveTheSamePeopleAtTheSamePositions) {
   const world::Trace trace = ground_crowd(300);
   const GroundGrid grid(yard());
   const GroundField fine = ground_field(trace, grid, 0.5);

@@ -11,7 +11,7 @@
 namespace throng {
 namespace {
 
-TEST(ReadOnlyFile, IsReadAtAnyPlace) {
+TEST(ReadOnlyFile, IsReadAtAnyOffset) {
   const auto path =
       std::filesystem::temp_directory_path() / ("throng_ro_" + std::to_string(::getpid()));
   write_file_atomically(path, "0123456789");

@@ -79,7 +79,7 @@ TEST(JsonSchema, NamesTheAlternatives) {
               ElementsAre(HasSubstr("/speed/normal/1: 99")));
 }
 
-TEST(OtherPlaces, AreThoseThatNothingIsSaidOf) {
+TEST(OtherScenarios, AreThoseThatNothingIsSaidOf) {
   std::vector<Problem> problems = {{"f", "/a/b", "1", "2"}};
   add_other_places(problems, {{"f", "/a/b", "x", ""},
                               {"f", "/a", "x", ""},

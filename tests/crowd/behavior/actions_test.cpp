@@ -24,7 +24,7 @@ Simulation alternating(const std::string& action, const std::string& agents,
               options);
 }
 
-TEST(Actions, PropertiesByPlace) {
+TEST(Actions, PropertiesByIndex) {
   const Simulation crowd =
       alternating(R"(type="set_xproperty" property="pref_speed" origin="10" value="2" scale="0.1")",
                   agent_at(10, 0) + agent_at(20, 3) + agent_at(-50, 6));

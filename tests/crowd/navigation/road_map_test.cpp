@@ -52,9 +52,9 @@ TEST(RoadMap, FindsTheShortestWay) {
   const RoadMap map = load_road_map(folder.write("roads.txt", kRoads));
   RoadFinder finder(map);
   ASSERT_TRUE(finder.find(map, 0, 3));
-  EXPECT_EQ(finder.places(), (std::vector<int>{0, 4, 5, 3}));
+  EXPECT_EQ(finder.vertices(), (std::vector<int>{0, 4, 5, 3}));
   ASSERT_TRUE(finder.find(map, 2, 2));
-  EXPECT_EQ(finder.places(), std::vector<int>{2});
+  EXPECT_EQ(finder.vertices(), std::vector<int>{2});
 }
 
 TEST(RoadMap, AgentsHeadForTheLastPlaceTheySee) {
@@ -115,7 +115,7 @@ TEST(RoadMap, ReportsMistakesWithTheirLine) {
   };
   EXPECT_EQ(problem_of("2\n0 1 1\n0 2 2\n1\n0 2\n").where, "line 5");
   EXPECT_EQ(problem_of("2\n0 1 1\n0 2 2\n1\n0 2\n").expected,
-            "the place where a road ends: a whole number from 0 to 1");
+            "the vertex where a road ends: a whole number from 0 to 1");
   EXPECT_EQ(problem_of("2\n0 1 1\n").found, "the end of the file");
   EXPECT_FALSE(problem_of("0\n0\n").found.empty());
   EXPECT_FALSE(problem_of("1\n0 0 0\n0\n7").found.empty());

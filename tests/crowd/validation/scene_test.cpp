@@ -120,7 +120,7 @@ TEST(Room, IsClosedWithoutDoors) {
   }
 }
 
-TEST(Room, HasDoorsOfTheirWidthAtTheirPlaces) {
+TEST(Room, HasDoorsOfTheirWidthAtTheirPositions) {
   const auto walls = room(30, 20,
                           {{Side::left, 15, 1},
                            {Side::left, 5, 1.2},

@@ -67,7 +67,7 @@ TEST_F(TrajectoryTexts, JuPedSimHasRateUnitsAndEverybodyPresent) {
   EXPECT_EQ(lines(out / "run001.txt").size(), 3U);
 }
 
-TEST_F(TrajectoryTexts, EthUcyHasFramePersonAndPlace) {
+TEST_F(TrajectoryTexts, EthUcyHasFramePersonAndPosition) {
   const std::vector<std::string> text = lines(exported("eth-ucy") / "train/run000.txt");
   ASSERT_EQ(text.size(), 45U + 22);
   EXPECT_EQ(text[0], "0\t7\t0.0000\t0.2500");

@@ -363,7 +363,7 @@ TEST_F(Validate, ImagesThatAreCutOff) {
   expect("image", "images/run000/d1/000001.jpg", "image 2");
 }
 
-TEST_F(Validate, ImagesThatChangedPlaces) {
+TEST_F(Validate, ImagesThatWereExchanged) {
   const fs::path a = root_ / "images/run000/d1/000001.jpg";
   const fs::path b = root_ / "images/run000/d1/000002.jpg";
   const render::Frame other = annotate::empty_frame(160, 120);

@@ -35,7 +35,7 @@ std::set<std::string> scenarios_of_jobs(const fs::path& folder) {
   return scenarios;
 }
 
-TEST(Library, HasReadyJobsForEveryDayAndTheEmergencyOfEveryPlace) {
+TEST(Library, HasJobsForEveryDayAndTheEmergencyOfEveryFolder) {
   std::size_t places = 0;
   for (const auto& entry : fs::directory_iterator(kLibrary)) {
     if (!entry.is_directory() || entry.path().filename() == "presets") continue;
@@ -47,7 +47,7 @@ TEST(Library, HasReadyJobsForEveryDayAndTheEmergencyOfEveryPlace) {
 }
 
 // Reading alone: what is checked against eight places and their crowds takes minutes.
-TEST(Library, PresetsAreJobsOfAllPlaces) {
+TEST(Library, PresetsAreJobsOfAllScenarios) {
   std::size_t presets = 0;
   for (const auto& entry : fs::directory_iterator(kLibrary / "presets")) {
     ++presets;

@@ -149,7 +149,7 @@ TEST(ExitSeries, CountsOnlyPeopleThatIntendTheExit) {
   EXPECT_EQ(observe(trace).samples.front().in_zone, 2);
 }
 
-TEST(ExitSeries, IntentsAreFoundByIdNotByPlace) {
+TEST(ExitSeries, IntentsAreFoundByIdNotByIndex) {
   const std::vector<Walk> walks = {standing({-1, 0})};
   EXPECT_EQ(observe(make_trace(walks, {}, {"other", "door"})).samples.front().in_zone, 0);
   EXPECT_EQ(observe(make_trace(walks, {}, {"door", "other"})).samples.front().in_zone, 1);

@@ -18,18 +18,18 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 
-constexpr const char* kPlace = "/drones/0/camera";
+constexpr const char* kPointer = "/drones/0/camera";
 
 CameraSpec parsed(const char* text) {
   std::vector<Problem> problems;
-  CameraSpec spec = read_camera(json::parse(text), kPlace, problems);
+  CameraSpec spec = read_camera(json::parse(text), kPointer, problems);
   EXPECT_TRUE(problems.empty()) << text;
   return spec;
 }
 
 std::vector<std::string> problem_pointers(const char* text) {
   std::vector<Problem> problems;
-  read_camera(json::parse(text), kPlace, problems);
+  read_camera(json::parse(text), kPointer, problems);
   std::vector<std::string> pointers;
   for (const Problem& problem : problems) pointers.push_back(problem.where);
   return pointers;
@@ -61,7 +61,7 @@ constexpr const char* kCalibration =
 
 TEST(CameraSpec, ACalibrationIsTheCameraThatFramesHave) {
   const CameraSpec spec = parsed(kCalibration);
-  const auto k = camera_of_run(spec, 1, kPlace).intrinsics();
+  const auto k = camera_of_run(spec, 1, kPointer).intrinsics();
   ASSERT_TRUE(k);
   EXPECT_EQ(k->width, 640);
   EXPECT_EQ(k->height, 480);
@@ -175,19 +175,19 @@ TEST(CameraSpec, DistributionsAreDrawnForEachRun) {
   std::set<double> pitches;
   std::set<double> isos;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const CameraSpec run = camera_of_run(spec, seed, kPlace);
+    const CameraSpec run = camera_of_run(spec, seed, kPointer);
     EXPECT_TRUE(run.sampled.empty());
     EXPECT_EQ(run.yaw_deg, 7);
     EXPECT_GE(run.pitch_deg, -80);
     EXPECT_LE(run.pitch_deg, -30);
     pitches.insert(run.pitch_deg);
     isos.insert(run.sensor.iso.value());
-    EXPECT_EQ(run.pitch_deg, camera_of_run(spec, seed, kPlace).pitch_deg);
+    EXPECT_EQ(run.pitch_deg, camera_of_run(spec, seed, kPointer).pitch_deg);
   }
   EXPECT_EQ(pitches.size(), 40U);
   EXPECT_THAT(isos, ElementsAre(100, 1600));
   EXPECT_NE(camera_of_run(spec, 3, "/drones/1/camera").pitch_deg,
-            camera_of_run(spec, 3, kPlace).pitch_deg);
+            camera_of_run(spec, 3, kPointer).pitch_deg);
 }
 
 TEST(CameraSpec, EachMistakeIsNamedByItsPointer) {

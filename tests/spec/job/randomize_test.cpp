@@ -119,7 +119,7 @@ TEST_F(Randomize, DrawsAndRecordsEveryFieldThatTheSchemaMarks) {
   }
 }
 
-TEST_F(Randomize, FieldsWithDistributionsOfTheirOwnMoveToTheirPlace) {
+TEST_F(Randomize, FieldsWithDistributionsOfTheirOwnMoveToTheirPath) {
   const json distribution = {{"uniform", {-80, -35}}};
   const JobSpec block = drawing({{"drones.0.camera.pitch_deg", distribution}});
   EXPECT_TRUE(block.randomize.empty());

@@ -111,7 +111,7 @@ TEST_F(Spec, APlaceFromASeedIsReadBackAsItIsWritten) {
   EXPECT_EQ(to_json(parse(written.dump())), written);
 }
 
-TEST_F(Spec, ReportsMistakesInGeneratedPlaces) {
+TEST_F(Spec, ReportsMistakesInGeneratedScenarios) {
   EXPECT_THAT(pointers_of(R"({"scenario": {"generate": {"kind": "moon"}}})"),
               ElementsAre("/scenario/generate/kind"));
   EXPECT_THAT(pointers_of(R"({"scenario": {"make": 1, "generate": {"kind": "street"}}})"),

@@ -18,7 +18,7 @@
 namespace throng::imports {
 namespace {
 
-const std::filesystem::path kPlaces = source_folder() / "tests/world/imports/data";
+const std::filesystem::path kData = source_folder() / "tests/world/imports/data";
 
 class Counter : public sim::RunObserver {
  public:
@@ -54,18 +54,18 @@ void expect_it_runs(ImportedScenario scenario, int people) {
 }
 
 TEST(ImportRun, AGazeboWorld) {
-  expect_it_runs(read_sdf(kPlaces / "yard.sdf", {{kPlaces / "models"}, {}}), 60);
+  expect_it_runs(read_sdf(kData / "yard.sdf", {{kData / "models"}, {}}), 60);
 }
 
 TEST(ImportRun, AGazeboWorldWithAnExitOfOnesOwn) {
   ImportedScenario scenario =
-      read_sdf(kPlaces / "yard.sdf", {{kPlaces / "models"}, {{{-14, 0}, {-14, 5}, 1}}});
+      read_sdf(kData / "yard.sdf", {{kData / "models"}, {{{-14, 0}, {-14, 5}, 1}}});
   const Population population = populate(scenario, {10, 1});
   ASSERT_EQ(population.gates.size(), 1U);
   EXPECT_EQ(population.gates[0].from, Eigen::Vector2d(-14, 0));
 }
 
-TEST(ImportRun, AMap) { expect_it_runs(read_osm(kPlaces / "quarter.osm", {}), 60); }
+TEST(ImportRun, AMap) { expect_it_runs(read_osm(kData / "quarter.osm", {}), 60); }
 
 TEST(ImportRun, APlaceThatNobodyCanLeaveIsRefused) {
   ImportedScenario scenario;

@@ -197,7 +197,7 @@ TEST(OsmFile, KnowsTagsOnOuterWaysAndObjectsThatJosmDeleted) {
   EXPECT_EQ(scenario.areas.at(0).material, "grass");
 }
 
-TEST(OsmFile, ReadsWaysThatCarryTheirPlaces) {  // Overpass's "out geom"
+TEST(OsmFile, ReadsWaysThatCarryTheirPositions) {  // Overpass's "out geom"
   const throng::testing::TemporaryFolder folder;
   write_file_atomically(
       folder.path() / "m.osm",

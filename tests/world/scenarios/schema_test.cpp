@@ -69,9 +69,9 @@ void collect_pointers(const json& value, const json::json_pointer& at,
   }
 }
 
-class SchemaOfPlaces : public ::testing::TestWithParam<Kind> {};
+class ScenarioSchemas : public ::testing::TestWithParam<Kind> {};
 
-TEST_P(SchemaOfPlaces, HoldsForAllThatAreShipped) {
+TEST_P(ScenarioSchemas, HoldsForAllThatAreShipped) {
   const bool places = GetParam() == Kind::blueprint;
   const std::vector<fs::path> files = shipped(places);
   EXPECT_GE(files.size(), 8U);
@@ -87,7 +87,7 @@ TEST_P(SchemaOfPlaces, HoldsForAllThatAreShipped) {
   }
 }
 
-TEST_P(SchemaOfPlaces, RefusesTheSameDocumentsAsTheReader) {
+TEST_P(ScenarioSchemas, RefusesTheSameDocumentsAsTheReader) {
   const bool places = GetParam() == Kind::blueprint;
   const fs::path file = kScenarios / "city_square" / "emergency.blueprint.json";
   const json blueprint = load_blueprint(file);
@@ -114,7 +114,7 @@ TEST_P(SchemaOfPlaces, RefusesTheSameDocumentsAsTheReader) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SchemaOfPlaces, ::testing::Values(Kind::scenario, Kind::blueprint),
+INSTANTIATE_TEST_SUITE_P(All, ScenarioSchemas, ::testing::Values(Kind::scenario, Kind::blueprint),
                          [](const auto& each) {
                            return each.param == Kind::scenario ? "scenario" : "blueprint";
                          });

@@ -14,7 +14,7 @@ export type Point3 = readonly [x: number, y: number, z: number];
 
 // Lenses are used up to here off their axis, as they are rendered.
 const kMaxAngle = (80 * Math.PI) / 180;
-const kMinDepth_m = 0.05;
+const kMinDepthM = 0.05;
 
 interface Lens {
   /** Distance from the axis as shown, by the tangent of the angle from it. */
@@ -70,7 +70,7 @@ export function projectionOf(camera: CameraRecord): (point: Point3) => Point2 | 
       number,
       number,
     ];
-    if (z < kMinDepth_m) return null;
+    if (z < kMinDepthM) return null;
     const [a, b] = [x / z, y / z];
     const r = Math.hypot(a, b);
     if (r > limit) return null;

@@ -17,7 +17,7 @@ const kViridis: Rgb[] = [
 ];
 const kPercentile = 0.98;
 const kMaxSamples = 20_000;
-const kMinFlow_px = 0.05;
+const kMinFlowPx = 0.05;
 
 /** The color of a share from 0 to 1. */
 export function colorAt(share: number): Rgb {
@@ -45,7 +45,7 @@ export interface Scale {
 export function scaleOf({ values, kind }: Raster): Scale {
   const step = Math.max(1, Math.floor(values.length / kMaxSamples));
   const known: number[] = [];
-  const least = kind === "flow" ? kMinFlow_px : -Infinity; // what stands still would leave no color to the rest
+  const least = kind === "flow" ? kMinFlowPx : -Infinity; // what stands still would leave no color to the rest
   for (let index = 0; index < values.length; index += step) if (values[index]! > least) known.push(values[index]!);
   known.sort((a, b) => a - b);
   const at = (share: number) => known[Math.floor(share * (known.length - 1))] ?? 0;

@@ -8,21 +8,21 @@ interface PadProps {
 }
 
 function Pad({ label, onMove }: PadProps) {
-  const [place, setPlace] = useState<[number, number] | null>(null);
+  const [offset, setOffset] = useState<[number, number] | null>(null);
   const move = (event: TargetedPointerEvent<HTMLDivElement>) => {
     if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
     const box = event.currentTarget.getBoundingClientRect();
     const limited = (value: number) => Math.max(-1, Math.min(1, value));
     const right = limited((2 * (event.clientX - box.left)) / box.width - 1);
     const up = limited(1 - (2 * (event.clientY - box.top)) / box.height);
-    setPlace([right, up]);
+    setOffset([right, up]);
     onMove(right, up);
   };
   const release = () => {
-    setPlace(null);
+    setOffset(null);
     onMove(0, 0);
   };
-  const [right, up] = place ?? [0, 0];
+  const [right, up] = offset ?? [0, 0];
   return (
     <div
       class="pad"

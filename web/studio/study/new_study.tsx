@@ -14,9 +14,9 @@ import { StartBar } from "./start_bar";
 import { StudyForm } from "./study_form";
 import { type StudySchema, withJobParts } from "./study_schema";
 
-const kPlace: DraftTarget = { path: "/v1/studies?dry_run", storage: "throng.study" };
+const kTarget: DraftTarget = { path: "/v1/studies?dry_run", storage: "throng.study" };
 
-const firstDraft = () => storedDraft(kPlace.storage) ?? draftOf(textOf(kPresets[0]!.study));
+const firstDraft = () => storedDraft(kTarget.storage) ?? draftOf(textOf(kPresets[0]!.study));
 
 function Sources({ studies, onDraft }: { studies: Study[]; onDraft: (draft: Draft) => void }) {
   const choose = (id: string) => {
@@ -75,7 +75,7 @@ function Editor({ draft, check, onDraft }: EditorProps) {
       draft={draft}
       check={check}
       onDraft={onDraft}
-      bar={(onErrors) => <StartBar draft={draft} place={kPlace} check={check} onErrors={onErrors} />}
+      bar={(onErrors) => <StartBar draft={draft} place={kTarget} check={check} onErrors={onErrors} />}
     />
   );
 }
@@ -86,7 +86,7 @@ export function NewStudy({ studies }: { studies: Study[] }) {
   const from = query.get("from");
   const [draft, setDraft] = useState<Draft>(firstDraft);
   const [error, setError] = useState<ApiError | null>(null);
-  const check = useCheck<StudyPlan>(draft, kPlace);
+  const check = useCheck<StudyPlan>(draft, kTarget);
   useEffect(() => {
     if (!from) return;
     let isLatest = true;

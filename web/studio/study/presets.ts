@@ -9,7 +9,7 @@ export interface Preset {
 }
 
 const kSmallRuns = 6;
-const kSmallDuration_s = 300;
+const kSmallDurationS = 300;
 
 const itemsOf = (study: JsonObject, key: string) => ((study[key] ?? []) as Json[]).filter(isObject);
 
@@ -17,7 +17,7 @@ const itemsOf = (study: JsonObject, key: string) => ((study[key] ?? []) as Json[
 function partOf(study: JsonObject, name: string, cases: number[], policies: number[]): JsonObject {
   const shortened = itemsOf(study, "cases").map((one) => ({
     ...one,
-    duration_s: Math.min(kSmallDuration_s, Number(one["duration_s"] ?? kSmallDuration_s)),
+    duration_s: Math.min(kSmallDurationS, Number(one["duration_s"] ?? kSmallDurationS)),
   }));
   const baseline = study["baseline"];
   return {

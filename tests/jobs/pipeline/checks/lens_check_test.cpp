@@ -18,11 +18,11 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 
-constexpr const char* kCameraPlace = "/drones/0/camera";
+constexpr const char* kCameraPointer = "/drones/0/camera";
 
 CameraSpec camera_parsed(const char* text) {
   std::vector<Problem> problems;
-  CameraSpec spec = read_camera(json::parse(text), kCameraPlace, problems);
+  CameraSpec spec = read_camera(json::parse(text), kCameraPointer, problems);
   EXPECT_TRUE(problems.empty()) << text;
   return spec;
 }
@@ -30,7 +30,8 @@ CameraSpec camera_parsed(const char* text) {
 std::vector<std::string> lens_problems(const char* text,
                                        render::Quality quality = render::Quality::standard) {
   std::vector<Problem> problems;
-  check_lens(camera_of_run(camera_parsed(text), 1, kCameraPlace), quality, kCameraPlace, problems);
+  check_lens(camera_of_run(camera_parsed(text), 1, kCameraPointer), quality, kCameraPointer,
+             problems);
   std::vector<std::string> pointers;
   for (const Problem& problem : problems) pointers.push_back(problem.where);
   return pointers;
@@ -48,8 +49,8 @@ TEST(Lens, ImagesThatTheDeviceCannotRenderAreRefused) {
   EXPECT_THAT(lens_problems(wide), ElementsAre());
   EXPECT_THAT(lens_problems(fisheye), ElementsAre());
   ::setenv("THRONG_DEVICE", "software", 1);
-  EXPECT_THAT(lens_problems(wide, render::Quality::high), ElementsAre(kCameraPlace));
-  EXPECT_THAT(lens_problems(fisheye, render::Quality::high), ElementsAre(kCameraPlace));
+  EXPECT_THAT(lens_problems(wide, render::Quality::high), ElementsAre(kCameraPointer));
+  EXPECT_THAT(lens_problems(fisheye, render::Quality::high), ElementsAre(kCameraPointer));
   EXPECT_THAT(lens_problems(R"({"width": 7168, "height": 64})", render::Quality::high),
               ElementsAre());
   ::unsetenv("THRONG_DEVICE");

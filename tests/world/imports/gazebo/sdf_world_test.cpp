@@ -366,7 +366,7 @@ TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {
   EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("m <plugin>: has no meaning")));
 }
 
-TEST(SdfPlaces, ReachAsFarAsTheirObjects) {
+TEST(SdfScenarios, ReachAsFarAsTheirObjects) {
   const ImportedScenario scenario = read_world(collision_text(box(4, 4, 3), "-20 -10 1.5 0 0 0") +
                                                collision_text(box(4, 4, 3), "20 10 1.5 0 0 0"));
   EXPECT_LT((scenario.inside.min - Vector2d(-22, -12)).norm(), 1e-9);

@@ -85,7 +85,7 @@ TEST_P(Projected, IsEastAndNorthOfTheOrigin) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Projected,
+INSTANTIATE_TEST_SUITE_P(Points, Projected,
                          ::testing::Values(GeoPoint{0, 0}, GeoPoint{48.137, 11.575},
                                            GeoPoint{-33.86, 151.21}, GeoPoint{64.15, -21.94}));
 

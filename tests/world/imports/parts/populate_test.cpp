@@ -238,7 +238,7 @@ std::size_t count_occurrences(const std::string& text, const std::string& word) 
   return count;
 }
 
-TEST(WritePlace, HasExitsBuildingsAndPeople) {
+TEST(WriteImportedScenario, HasExitsBuildingsAndPeople) {
   ImportedScenario scenario = field();
   scenario.gates = {{{0, 8}, {0, 12.00049}, 1}, {{40, 8}, {40, 12}, 3}};
   scenario.people_come = true;
@@ -262,7 +262,7 @@ TEST(WritePlace, HasExitsBuildingsAndPeople) {
   EXPECT_THAT(files.skipped, HasSubstr("w.sdf:7: model a: lost\n"));
 }
 
-TEST(WritePlace, PutsTheDroneAboveRoofs) {
+TEST(WriteImportedScenario, PutsTheDroneAboveRoofs) {
   ImportedScenario scenario = field();
   const auto height_of = [&](double building_m) {
     scenario.buildings[0].height_m = building_m;

@@ -74,7 +74,7 @@ TEST(GeneratedInMemory, NeedNoDisk) {
   EXPECT_TRUE(check(place, "generated").empty());
 }
 
-TEST(GeneratedInMemory, LeaveNothingBesideTheFilesOfAPlace) {
+TEST(GeneratedInMemory, LeaveNothingBesideTheFilesOfAScenario) {
   const TemporaryFolder folder;
   make_scenario(generate_blueprint(spec_from_seed(5)), "generated", folder.path(), "place");
   std::set<std::string> names;

@@ -124,7 +124,7 @@ TEST_F(CheckYard, WarnsOfPeopleThatStartOutside) {
                                          "and 1 more, out of 3 people"));
 }
 
-TEST_F(CheckYard, WarnsOfGroundThatIsSmallerThanThePlace) {
+TEST_F(CheckYard, WarnsOfGroundThatIsSmallerThanTheInside) {
   yard.scenario["ground"]["max"] = {11, 30};
   const std::vector<Finding> found = findings();
   ASSERT_EQ(found.size(), 1U);
@@ -176,7 +176,7 @@ TEST_F(CheckYard, SeesADroneAgainstAWall) {
   expect_error("/drones/0/start", "against building \"hut\"");
 }
 
-TEST_F(CheckYard, SeesTwoDronesInOnePlace) {
+TEST_F(CheckYard, SeesTwoDronesAtOnePosition) {
   yard.scenario["drones"].push_back({{"id", "d2"}, {"start", {0.5, 0, 20}}});
   expect_error("/drones/1/start", "at the same place");
 }
