@@ -134,17 +134,18 @@ std::string service_url(const std::string& host, int port) {
                  : fmt::format("http://{}:{}", host, port);
 }
 
-}  // namespace
-
-int serve(const ServeOptions& options) {
+void check_folders(const ServeOptions& options) {
   for (const auto& [option, folder] :
        {std::pair{"--data", options.data}, std::pair{"--database", options.database}}) {
     if (fs::exists(folder) && !fs::is_directory(folder)) {
       throw InputError(Problem{option, "", folder.string() + ", which is a file", "a folder"});
     }
   }
-  const fs::path database = options.database.empty() ? options.data : options.database;
-  Keys keys(database);
+}
+
+/// Makes a first key where other machines can reach the service. Throws InputError when there are
+/// none and they are needed.
+void require_keys(const ServeOptions& options, Keys& keys) {
   const bool is_reachable = !options.insecure && !is_loopback(options.host);
   if (is_reachable) fmt::print(stderr, "{}", make_first_key(keys, options.port));
   if (is_reachable && !keys.are_needed()) {
@@ -152,6 +153,33 @@ int serve(const ServeOptions& options) {
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
+}
+
+/// Names folders to child processes, which read nothing of the data folder but scenarios and their
+/// own folder: keys and secrets lie there.
+void set_environment(const fs::path& data, const fs::path& database) {
+  ::setenv(jobs::kPrivateFolderVariable, fs::absolute(data).c_str(), 1);
+  ::setenv(jobs::kPrivateDatabaseVariable, fs::absolute(database).c_str(), 1);
+  ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(fs::absolute(data)).c_str(), 1);
+}
+
+void announce(const std::string& url, bool in_log) {
+  if (in_log) {
+    spdlog::info("serving on {}", url);
+    spdlog::default_logger()->flush();
+  } else {
+    fmt::print("throng serving on {}\n", url);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options) {
+  check_folders(options);
+  const fs::path database = options.database.empty() ? options.data : options.database;
+  Keys keys(database);
+  require_keys(options, keys);
   PublishTargets publish_to(options.publish_to);
   // Missing credentials shall not be found by the first job.
   if (publish_to.are_there()) static_cast<void>(bucket::read_access());
@@ -162,12 +190,7 @@ int serve(const ServeOptions& options) {
   std::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-
-  // Children read nothing of it but scenarios and their own folder: keys and secrets lie there.
-  ::setenv(jobs::kPrivateFolderVariable, fs::absolute(options.data).c_str(), 1);
-  ::setenv(jobs::kPrivateDatabaseVariable, fs::absolute(database).c_str(), 1);
-  // Workers look for scenarios there.
-  ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(fs::absolute(options.data)).c_str(), 1);
+  set_environment(options.data, database);
   const std::optional<jobs::FolderLock> lock = lock_of_data(options);
   const std::unique_ptr<jobs::Executor> executor = made_executor(options);
   const auto checks =
@@ -194,14 +217,7 @@ int serve(const ServeOptions& options) {
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }
-  const std::string url = service_url(options.host, api.port());
-  if (logs_json && is_container) {
-    spdlog::info("serving on {}", url);
-    spdlog::default_logger()->flush();
-  } else {
-    fmt::print("throng serving on {}\n", url);
-    std::fflush(stdout);
-  }
+  announce(service_url(options.host, api.port()), logs_json && is_container);
   const SignalWatch watch([&] {
     spdlog::info("ending");
     executor->leave_tasks();

@@ -39,8 +39,8 @@ class PointGrid {
   /// false when the ring lies beyond all cells.
   template <typename Body>
   bool for_ring(const Eigen::Vector2d& place, int ring, const Body& body) const {
-    const int column = index_from(place.x() - min_.x());
-    const int row = index_from(place.y() - min_.y());
+    const int column = cell_index(place.x() - min_.x());
+    const int row = cell_index(place.y() - min_.y());
     if (column + ring >= columns_ && row + ring >= rows_ && column - ring < 0 && row - ring < 0) {
       return false;
     }
@@ -70,10 +70,10 @@ class PointGrid {
   /// `radius_m` about `place`.
   template <typename Body>
   void for_stored_about(const Eigen::Vector2d& place, double radius_m, const Body& body) const {
-    const int low = std::max(0, index_from(place.y() - radius_m - min_.y()));
-    const int high = std::min(rows_ - 1, index_from(place.y() + radius_m - min_.y()));
-    const int from = index_from(place.x() - radius_m - min_.x());
-    const int to = index_from(place.x() + radius_m - min_.x());
+    const int low = std::max(0, cell_index(place.y() - radius_m - min_.y()));
+    const int high = std::min(rows_ - 1, cell_index(place.y() + radius_m - min_.y()));
+    const int from = cell_index(place.x() - radius_m - min_.x());
+    const int to = cell_index(place.x() + radius_m - min_.x());
     for (int row = low; row <= high; ++row) {
       const auto [first, last] = slots_of(row, from, to);
       for (std::size_t slot = first; slot < last; ++slot) body(slot, sorted_[slot].point);
@@ -87,14 +87,14 @@ class PointGrid {
     std::size_t index = 0;
   };
 
-  int index_from(double offset_m) const {
+  int cell_index(double offset_m) const {
     constexpr double kFar = 1e6;  // cells; beyond it nothing is stored
     return static_cast<int>(std::clamp(std::floor(offset_m / cell_m_), -kFar, kFar));
   }
 
   std::size_t cell_of(const Eigen::Vector2d& point) const {
-    const int column = std::clamp(index_from(point.x() - min_.x()), 0, columns_ - 1);
-    const int row = std::clamp(index_from(point.y() - min_.y()), 0, rows_ - 1);
+    const int column = std::clamp(cell_index(point.x() - min_.x()), 0, columns_ - 1);
+    const int row = std::clamp(cell_index(point.y() - min_.y()), 0, rows_ - 1);
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }

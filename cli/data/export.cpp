@@ -113,6 +113,45 @@ void export_formats(const ExportArguments& arguments) {
   }
 }
 
+/// The limits beyond which a person becomes an ignore region.
+void add_filter_options(CLI::App& command, ExportArguments& arguments) {
+  command
+      .add_option("--min-visibility", arguments.min_visibility,
+                  "People less visible than this become ignore regions")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--max-truncation", arguments.max_truncation,
+                  "People farther outside of the image become ignore regions")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--min-contrast", arguments.min_contrast,
+                  "People whose color differs less than this (CIELAB) from the surroundings become "
+                  "ignore regions; needs the annotation difficulty")
+      ->check(CLI::Range(0.0, 100.0));
+  command
+      .add_option("--min-height", arguments.min_height_px,
+                  "People smaller than this height in pixels become ignore regions")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+void list_formats() {
+  for (const formats::Format& format : formats::all_formats()) {
+    fmt::print("{:<26}{}\n", format.name, format.summary);
+  }
+}
+
+/// CLI11 would also require them with --list.
+void check_required(const ExportArguments& arguments) {
+  for (const auto& [name, is_missing] : {std::pair{"DATASET", arguments.dataset.empty()},
+                                         {"--output", arguments.output.empty()},
+                                         {"--formats", arguments.formats.empty()}}) {
+    if (is_missing) {
+      throw InputError(
+          {"throng export", "", fmt::format("missing {} (`throng export --help`)", name), ""});
+    }
+  }
+}
+
 }  // namespace
 
 void add_export(CLI::App& app) {
@@ -127,24 +166,7 @@ void add_export(CLI::App& app) {
                    "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
                    "gets the remaining runs")
       ->delimiter(',');
-  command
-      ->add_option("--min-visibility", arguments->min_visibility,
-                   "People less visible than this become ignore regions")
-      ->check(CLI::Range(0.0, 1.0));
-  command
-      ->add_option("--max-truncation", arguments->max_truncation,
-                   "People farther outside of the image become ignore regions")
-      ->check(CLI::Range(0.0, 1.0));
-  command
-      ->add_option(
-          "--min-contrast", arguments->min_contrast,
-          "People whose color differs less than this (CIELAB) from the surroundings become "
-          "ignore regions; needs the annotation difficulty")
-      ->check(CLI::Range(0.0, 100.0));
-  command
-      ->add_option("--min-height", arguments->min_height_px,
-                   "People smaller than this height in pixels become ignore regions")
-      ->check(CLI::Range(0.0, 1e6));
+  add_filter_options(*command, *arguments);
   command
       ->add_option("--shard-mb", arguments->shard_mb, "Size of WebDataset's tar files (10^6 bytes)")
       ->check(CLI::Range(1.0, 1e5))
@@ -163,20 +185,11 @@ void add_export(CLI::App& app) {
   command->add_flag("--list", *list, "List the formats and exit");
   command->callback([arguments, list] {
     if (*list) {
-      for (const formats::Format& format : formats::all_formats()) {
-        fmt::print("{:<26}{}\n", format.name, format.summary);
-      }
-      return;
+      list_formats();
+    } else {
+      check_required(*arguments);
+      export_formats(*arguments);
     }
-    for (const auto& [name, is_missing] : {std::pair{"DATASET", arguments->dataset.empty()},
-                                           {"--output", arguments->output.empty()},
-                                           {"--formats", arguments->formats.empty()}}) {
-      if (is_missing) {
-        throw InputError(
-            {"throng export", "", fmt::format("missing {} (`throng export --help`)", name), ""});
-      }
-    }
-    export_formats(*arguments);
   });
 }
 

@@ -10,6 +10,54 @@
 
 namespace throng::cli {
 
+namespace {
+
+/// How many jobs and how much time, memory and disk the service uses.
+void add_limit_options(CLI::App& command, server::ServeOptions& options) {
+  command
+      .add_option("--max-active-jobs", options.max_active_jobs,
+                  "Jobs in progress at once; each key may always have one")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--keep-days", options.keep_days,
+                  "Remove jobs this many days after their end (0: never)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--keep-gib", options.keep_gib,
+                  "Disk limit in GiB: beyond it, remove the jobs that ended first (0: none)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--uploads-gib", options.uploads_gib,
+                  "Max size of all uploaded scenarios together, in GiB")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--min-free", options.min_free_mib,
+                  "MiB of free disk below which the queue is paused")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option("--live-timeout", options.live_timeout_s,
+                  "Seconds after which a live flight ends that nobody looks at")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+  command
+      .add_option("--task-timeout", options.max_task_s,
+                  "Seconds after which a worker counts as hung (0: no limit)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--worker-memory", options.worker_memory_mib,
+                  "Max MiB of address space per worker (0: by what its task needs)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--memory", options.memory_mib,
+                  "MiB of memory for all workers together (0: 7/8 of the machine's)")
+      ->check(CLI::NonNegativeNumber);
+}
+
+}  // namespace
+
 void add_serve(CLI::App& app) {
   auto* command =
       app.add_subcommand("serve", "Serve jobs over HTTP (SQLite, workers here or in Slurm, files)");
@@ -32,46 +80,7 @@ void add_serve(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_executor_options(*command, *executor);
-  command
-      ->add_option("--max-active-jobs", options->max_active_jobs,
-                   "Jobs in progress at once; each key may always have one")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--keep-days", options->keep_days,
-                   "Remove jobs this many days after their end (0: never)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--keep-gib", options->keep_gib,
-                   "Disk limit in GiB: beyond it, remove the jobs that ended first (0: none)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--uploads-gib", options->uploads_gib,
-                   "Max size of all uploaded scenarios together, in GiB")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--min-free", options->min_free_mib,
-                   "MiB of free disk below which the queue is paused")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--live-timeout", options->live_timeout_s,
-                   "Seconds after which a live flight ends that nobody looks at")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 3600.0));
-  command
-      ->add_option("--task-timeout", options->max_task_s,
-                   "Seconds after which a worker counts as hung (0: no limit)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--worker-memory", options->worker_memory_mib,
-                   "Max MiB of address space per worker (0: by what its task needs)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--memory", options->memory_mib,
-                   "MiB of memory for all workers together (0: 7/8 of the machine's)")
-      ->check(CLI::NonNegativeNumber);
+  add_limit_options(*command, *options);
   command
       ->add_option("--publish-to", options->publish_to,
                    "Address that jobs may publish their datasets to, and below it: "

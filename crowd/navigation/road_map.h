@@ -20,7 +20,7 @@ struct RoadMap {
   };
 
   std::vector<Eigen::Vector2f> vertices;  ///< at least one
-  std::vector<std::vector<Road>> roads;   ///< by place
+  std::vector<std::vector<Road>> roads;   ///< by vertex
 };
 
 /// Reads Menge's format: vertices with the number of their roads, then roads. Throws InputError
@@ -46,7 +46,7 @@ class RoadFinder {
   };
   struct Open {
     float estimate = 0;
-    int place = 0;
+    int vertex = 0;
   };
 
   std::vector<Node> nodes_;
@@ -73,12 +73,12 @@ class RoadMapRoutes {
 
   struct Route {
     bool known = false;
-    bool whole = false;  ///< after the last place comes the goal
+    bool whole = false;  ///< after the last vertex comes the goal
     std::size_t next = 0;
     std::size_t count = 0;
-    int end = -1;  ///< the place nearest to the goal
+    int end = -1;  ///< the vertex nearest to the goal
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
-    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next place was last seen
+    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next vertex was last seen
     int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
     Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
     std::array<int, kMaxVertices> vertices{};
@@ -88,7 +88,7 @@ class RoadMapRoutes {
                        PreferredVelocity& preferred);
   void head_on(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
                const Route& route, PreferredVelocity& preferred) const;
-  static bool sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place);
+  static bool sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& vertex);
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
   bool is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const;
   bool advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,

@@ -13,7 +13,7 @@ namespace throng::formats {
 
 namespace {
 
-using Pixels = std::vector<Pixel>;
+using PixelRing = std::vector<Pixel>;
 
 /// Directions of edges between pixels: right, down, left, up; the mask is on their right side.
 constexpr int kUp = 3;
@@ -25,9 +25,9 @@ Pixel sum(const Pixel& a, const Pixel& b) { return {a.first + b.first, a.second 
 
 /// The border between the mask and one region of its background, through the mask's pixels.
 struct BorderRing {
-  Pixels places;
+  PixelRing places;
   std::int64_t area = 0;  ///< pixels within, negative if they are a hole
-  Pixels left_sides;      ///< pixels whose left side is part of it
+  PixelRing left_sides;   ///< pixels whose left side is part of it
 };
 
 /// Edges that are not in a ring yet: from each corner a bit for each direction.
@@ -77,27 +77,28 @@ BorderRing take_border(OpenEdges& edges) {
 }
 
 /// The places from `first` on, all the way round and back to it.
-Pixels turned_to(const Pixels& ring, const Pixel& first) {
+PixelRing turned_to(const PixelRing& ring, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), first);
   check(at != ring.end(), "a ring passes its own places");
-  Pixels turned(at, ring.end());
+  PixelRing turned(at, ring.end());
   turned.insert(turned.end(), ring.begin(), at);
   turned.push_back(first);
   return turned;
 }
 
 /// Goes from a place of the ring to `first` of another one, around that one, and back.
-void splice(Pixels& ring, const Pixel& from, const Pixels& other, const Pixel& first) {
+void splice(PixelRing& ring, const Pixel& from, const PixelRing& other, const Pixel& first) {
   const auto at = std::find(ring.begin(), ring.end(), from);
   check(at != ring.end(), "rings are joined where they pass");
-  Pixels detour = turned_to(other, first);
+  PixelRing detour = turned_to(other, first);
   detour.push_back(from);
   ring.insert(at + 1, detour.begin(), detour.end());
 }
 
-/// Pixels that hang together: their outer border with the holes' spliced in, and how many they are.
+/// PixelRing that hang together: their outer border with the holes' spliced in, and how many they
+/// are.
 struct Piece {
-  Pixels places;
+  PixelRing places;
   std::int64_t area = 0;
 };
 
@@ -146,7 +147,7 @@ struct Bridge {
   int pixels = std::numeric_limits<int>::max();  ///< that a line from one to the other adds
 };
 
-void shorten(Bridge& bridge, const Pixels& joined, const Pixels& piece) {
+void shorten(Bridge& bridge, const PixelRing& joined, const PixelRing& piece) {
   for (const Pixel& a : joined) {
     for (const Pixel& b : piece) {
       const int between = std::max(std::abs(a.first - b.first), std::abs(a.second - b.second)) - 1;
@@ -155,12 +156,12 @@ void shorten(Bridge& bridge, const Pixels& joined, const Pixels& piece) {
   }
 }
 
-Pixels joined(std::vector<Piece> pieces, PolygonFit& fit) {
+PixelRing joined(std::vector<Piece> pieces, PolygonFit& fit) {
   fit.pieces = static_cast<int>(pieces.size());
   for (const Piece& piece : pieces) fit.mask_px += piece.area;
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.area > b.area; });
-  Pixels all = pieces.front().places;
+  PixelRing all = pieces.front().places;
   pieces.erase(pieces.begin());
   std::vector<Bridge> bridges(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) shorten(bridges[i], all, pieces[i].places);
@@ -187,14 +188,14 @@ Pixels joined(std::vector<Piece> pieces, PolygonFit& fit) {
 }
 
 /// Without the places in the middle of straight lines of single steps.
-Pixels straightened(const Pixels& ring) {
+PixelRing straightened(const PixelRing& ring) {
   const auto step = [](const Pixel& a, const Pixel& b) {
     return Pixel(b.first - a.first, b.second - a.second);
   };
   const auto is_single = [](const Pixel& d) {
     return std::abs(d.first) <= 1 && std::abs(d.second) <= 1;
   };
-  Pixels kept;
+  PixelRing kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Pixel before = step(ring[(i + ring.size() - 1) % ring.size()], ring[i]);
     const Pixel after = step(ring[i], ring[(i + 1) % ring.size()]);
@@ -211,7 +212,7 @@ std::vector<Pixel> trace_polygon(const Bitmap& mask, PolygonFit* fit) {
   std::vector<Piece> pieces = split_pieces(mask);
   if (pieces.empty()) return {};
   PolygonFit found;
-  Pixels polygon = straightened(joined(std::move(pieces), found));
+  PixelRing polygon = straightened(joined(std::move(pieces), found));
   if (fit != nullptr) *fit = found;
   constexpr std::size_t kMinPoints = 3;  // of a polygon: fewer are taken for a box
   while (polygon.size() < kMinPoints) polygon.push_back(polygon.back());

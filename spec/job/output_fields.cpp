@@ -136,7 +136,7 @@ void set_publish(JobSpec& job, const json& value, const FieldLocation& place) {
   }
 }
 
-void add_export_fields(FieldTable<JobSpec>& table) {
+void add_split_fields(FieldTable<JobSpec>& table) {
   table.group("outputs/splits", "Splits", "Assignment of runs to splits in other formats.");
   table.add("outputs/splits/train", "Training", "", numbers(0, 1), split_share(Split::train),
             "Share of the runs for training; whole runs, in their order. Default: the rest that "
@@ -166,6 +166,9 @@ void add_export_fields(FieldTable<JobSpec>& table) {
   table.add("outputs/splits/test_scenarios", "Test runs by scenario", "", split_scenarios(),
             no_scenarios, scenarios_setter(Split::test),
             "Scenarios of which every run is in test regardless of the shares.");
+}
+
+void add_filter_fields(FieldTable<JobSpec>& table) {
   table.group("outputs/filters", "Filters",
               "Limits for a label in other formats; people beyond them become ignore regions if a "
               "format has them.");
@@ -187,6 +190,11 @@ void add_export_fields(FieldTable<JobSpec>& table) {
             "Minimum color difference of a person to the surroundings, in the mean or along the "
             "outline, whichever is larger; needs the annotation difficulty. About 2.3 is just "
             "noticeable.");
+}
+
+void add_export_fields(FieldTable<JobSpec>& table) {
+  add_split_fields(table);
+  add_filter_fields(table);
   table.group("outputs/webdataset", "WebDataset", "Options of the webdataset format.");
   table.add("outputs/webdataset/shard_mb", "Size of a shard", "MB", numbers(1, 100000),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::webdataset,

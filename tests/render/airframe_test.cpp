@@ -72,7 +72,7 @@ TEST_F(Airframes, AreOneConnectedShape) {
   std::vector<char> reached(frame.id.size(), 0);
   std::vector<int> waiting;
   const auto visit = [&](int x, int y) {
-    const std::size_t i = index_from(frame, x, y);
+    const std::size_t i = pixel_index(frame, x, y);
     if (frame.id[i] != kIdDrone + kOther || reached[i] != 0) return;
     reached[i] = 1;
     waiting.push_back(static_cast<int>(i));
@@ -102,12 +102,12 @@ TEST_F(Airframes, FlowCarriesThemAsTheyFlyAndTilt) {
   int count = 0;
   for (int y = 0; y < before.height(); ++y) {
     for (int x = 0; x < before.width(); ++x) {
-      const std::size_t i = index_from(before, x, y);
+      const std::size_t i = pixel_index(before, x, y);
       if (before.id[i] != kIdDrone + kOther) continue;
       const auto to_x = static_cast<int>(std::lround(x + before.flow[2 * i]));
       const auto to_y = static_cast<int>(std::lround(y + before.flow[2 * i + 1]));
       ASSERT_TRUE(to_x >= 0 && to_y >= 0 && to_x < 640 && to_y < 480);
-      sum += after.id[index_from(after, to_x, to_y)] == kIdDrone + kOther ? 1 : 0;
+      sum += after.id[pixel_index(after, to_x, to_y)] == kIdDrone + kOther ? 1 : 0;
       ++count;
     }
   }

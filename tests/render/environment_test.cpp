@@ -63,7 +63,7 @@ TEST(Weathers, FogTakesContrastWithDistanceAsBeersLawSays) {
     const Eigen::Vector2d chest = camera.project({x, 0, 1.1}).pixel;
     const int column = static_cast<int>(std::lround(chest.x()));
     const int row = static_cast<int>(std::lround(chest.y()));
-    EXPECT_EQ(frame.id[index_from(frame, column, row)], id_of_agent(0));
+    EXPECT_EQ(frame.id[pixel_index(frame, column, row)], id_of_agent(0));
     return std::abs(brightness(empty, column, row) - brightness(frame, column, row));
   };
   const int near_fog = contrast(Weather::fog, 60, 12);
@@ -131,7 +131,7 @@ TEST(Hours, TheSkyIsWarmAtSunsetAndBlueAtNoon) {
   const auto red_over_blue = [&](double elevation_deg) {
     Stage stage(open_ground(), weather(Weather::clear, elevation_deg));
     const Frame frame = stage.draw(camera);
-    const std::size_t i = 3 * index_from(frame, 20, 150);  // just above the horizon
+    const std::size_t i = 3 * pixel_index(frame, 20, 150);  // just above the horizon
     EXPECT_EQ(frame.id[i / 3], kIdNothing);
     return static_cast<double>(frame.rgb[i]) / frame.rgb[i + 2];
   };
@@ -164,7 +164,7 @@ TEST(Film, SunlitWhiteIsJustBelowTheFilmsAndBlackIsBlack) {
     int min = 3 * 255;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
-        if (frame.id[index_from(frame, x, y)] != id_of_agent(0)) continue;
+        if (frame.id[pixel_index(frame, x, y)] != id_of_agent(0)) continue;
         max = std::max(max, brightness(frame, x, y));
         min = std::min(min, brightness(frame, x, y));
       }
@@ -274,7 +274,7 @@ Mask flames(const world::Disaster& disaster, double time_s, double smoke, int re
   Mask mask;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::uint8_t* const rgb = &frame.rgb[3 * index_from(frame, x, y)];
+      const std::uint8_t* const rgb = &frame.rgb[3 * pixel_index(frame, x, y)];
       if (rgb[0] <= rgb[2] + red) continue;
       ++mask.pixels;
       mask.box.extend(Eigen::Vector2d(x, y));

@@ -128,7 +128,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
     const Frame still = street.still(flight, readout_s * (y + 0.5 - 120) / 240);
     const auto left_edge = [&](const Frame& image) {
       for (int x = 0; x < 320; ++x) {
-        if (image.id[index_from(image, x, y)] == id_of_agent(3)) return x;
+        if (image.id[pixel_index(image, x, y)] == id_of_agent(3)) return x;
       }
       return -1;
     };
@@ -149,7 +149,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   EXPECT_EQ(person.amodal_area_px, mask.pixels);
   ASSERT_TRUE(person.head_px);
   const Eigen::Vector2i head = person.head_px->array().floor().cast<int>();
-  EXPECT_EQ(frame.id[index_from(frame, head.x(), head.y())], id_of_agent(3));
+  EXPECT_EQ(frame.id[pixel_index(frame, head.x(), head.y())], id_of_agent(3));
   // The image leans: another one than all rows at once.
   EXPECT_NE(frame.id, street.still(flight, 0).id);
 }

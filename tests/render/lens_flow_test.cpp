@@ -37,7 +37,7 @@ TEST_P(LensFlow, OfStillThingsIsWhereTheModelSeesThemNext) {
   double error = 0;
   for (int y = 3; y < frame.height(); y += 9) {
     for (int x = 3; x < frame.width(); x += 9) {
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       if (std::isinf(frame.depth_m[i]) || std::isnan(frame.flow[2 * i])) continue;
       const Camera::Projection seen =
           next.camera.project(frame.camera.unproject(Vector2d(x, y), frame.depth_m[i]));

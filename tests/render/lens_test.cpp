@@ -158,7 +158,7 @@ void add_errors(const Frame& frame, EdgeErrors& errors) {
     const int right = brightness(frame, near + 6, y);
     if (std::abs(left - right) < 90) continue;
     int first = near - 4;
-    while (frame.id[index_from(frame, first, y)] != kIdBuilding && first < near + 4) ++first;
+    while (frame.id[pixel_index(frame, first, y)] != kIdBuilding && first < near + 4) ++first;
     ASSERT_LT(std::abs(first - 0.5 - edge), 1.3) << "row " << y;
     double covered = 0;
     for (int x = near - 4; x <= near + 5; ++x) {
@@ -194,7 +194,7 @@ TEST(Lens, DepthIsTheCamerasZ) {
     double error = 0;
     for (int y = 0; y < frame.height(); y += 3) {
       for (int x = 0; x < frame.width(); x += 3) {
-        const double depth = frame.depth_m[index_from(frame, x, y)];
+        const double depth = frame.depth_m[pixel_index(frame, x, y)];
         const Vector3d ground = camera.unproject({x, y}, depth);
         EXPECT_LT(std::abs(ground.z()), 0.06) << x << ' ' << y;
         error += ground.z();

@@ -80,7 +80,7 @@ Errors count_errors(const Frame& frame) {
       }
       if (at_edge) continue;
       ++errors.compared;
-      const std::size_t pixel = index_from(frame, x, y);
+      const std::size_t pixel = pixel_index(frame, x, y);
       const double depth_m = static_cast<double>(frame.depth_m[pixel]);
       if (frame.id[pixel] != hit.id) ++errors.other_surface;
       if (hit.id != kIdNothing && std::isinf(depth_m)) ++errors.sky;
@@ -140,12 +140,12 @@ TEST_F(NearSurfaces, SomebodyIsThereFromAFewCentimeters) {
   const PersonInstance person = stage.standing(7, 0, 0);
   const Frame from_afar = draw(camera_at({-3, 0, 1}, 0, 0), {person});
   const double front_m =
-      static_cast<double>(from_afar.depth_m[index_from(from_afar, 160, 120)]) - 3;
+      static_cast<double>(from_afar.depth_m[pixel_index(from_afar, 160, 120)]) - 3;
   for (const double gap_m : {0.01, 0.03, 0.07}) {
     const Frame near = draw(camera_at({front_m - gap_m, 0, 1}, 0, 0), {person});
     SCOPED_TRACE(gap_m);
-    EXPECT_EQ(near.id[index_from(near, 160, 120)], id_of_agent(7));
-    EXPECT_NEAR(near.depth_m[index_from(near, 160, 120)], gap_m, 0.002);
+    EXPECT_EQ(near.id[pixel_index(near, 160, 120)], id_of_agent(7));
+    EXPECT_NEAR(near.depth_m[pixel_index(near, 160, 120)], gap_m, 0.002);
   }
 }
 

@@ -57,7 +57,7 @@ TEST_P(BlockView, IdsAndDepthsAreThoseOfARayCast) {
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       const Hit expected = cast(camera, solid, x + 0.5, y + 0.5);
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       blocks += frame.id[i] == kIdBuilding ? 1 : 0;
       // Corners lie on a grid of 1/256 pixel, so the surface seen is that of a ray nearby.
       std::set<std::uint32_t> near_ids = {expected.id};
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Views, BlockView,
 TEST(Image, SkyIsInfinitelyFarAndNobody) {
   Stage stage(open_ground());
   const Frame frame = stage.draw(camera_at({0, 0, 5}, 0, 20));
-  const std::size_t top = index_from(frame, 160, 0);
+  const std::size_t top = pixel_index(frame, 160, 0);
   EXPECT_EQ(frame.id[top], kIdNothing);
   EXPECT_EQ(frame.depth_m[top], std::numeric_limits<float>::infinity());
 }
@@ -108,7 +108,7 @@ TEST(Image, UnprojectedGroundPixelsLieOnTheGround) {
   const Frame frame = stage.draw(camera);
   for (int y = 0; y < frame.height(); y += 3) {
     for (int x = 0; x < frame.width(); x += 3) {
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       if (frame.id[i] != kIdGround) continue;
       const Eigen::Vector3d point = camera.unproject(Eigen::Vector2d(x, y), frame.depth_m[i]);
       ASSERT_NEAR(point.z(), 0, 2e-3) << "pixel " << x << ", " << y;
@@ -185,7 +185,7 @@ TEST(Image, ShadowsTurnAndShortenWithTheHours) {
     int dark = 0;
     for (int y = 0; y < 480; ++y) {
       for (int x = 0; x < 480; ++x) {
-        const std::size_t i = index_from(frame, x, y);
+        const std::size_t i = pixel_index(frame, x, y);
         const bool is_dark = brightness(frame, x, y) < 0.8 * brightness(bare, x, y);
         if (frame.id[i] != kIdGround || !is_dark) continue;
         const Eigen::Vector2d at = camera.unproject({x, y}, frame.depth_m[i]).head<2>();
@@ -262,7 +262,7 @@ TEST(Image, TintColorsClothesAndNotSkin) {
   const camera::Camera camera = camera_at({4, 0, 1.2}, 180, 0);
   const auto pixel_at = [&](const Frame& frame, double height) {
     const Eigen::Vector2d pixel = camera.project({0.12, 0, height}).pixel;
-    const std::size_t i = 3 * index_from(frame, static_cast<int>(std::lround(pixel.x())),
+    const std::size_t i = 3 * pixel_index(frame, static_cast<int>(std::lround(pixel.x())),
                                          static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };

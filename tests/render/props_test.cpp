@@ -129,7 +129,7 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
   int wrong = 0;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       if (frame.id[i] != kIdProp && frame.id[i] != kIdGround) continue;
       // At depth 1 along the pixel's ray, so that distances are depths.
       const Eigen::Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
@@ -255,7 +255,7 @@ TEST_F(MeshFile, StandsUprightWhereTheScenarioPutsIt) {
   EXPECT_NEAR(mask.box.min().y(), tip.y() + 0.5, 1.5) << "2 units of 1.5 m high";
   const Eigen::Vector2d inside = camera.project({10, 1, 1}).pixel;
   const std::size_t i =
-      3 * index_from(frame, static_cast<int>(inside.x()), static_cast<int>(inside.y()));
+      3 * pixel_index(frame, static_cast<int>(inside.x()), static_cast<int>(inside.y()));
   EXPECT_GT(frame.rgb[i], 2 * frame.rgb[i + 2]) << "red";
 }
 
@@ -303,7 +303,7 @@ TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {
   const Frame frame = stage.draw(camera);
   const auto color = [&](double x, double y) {
     const Eigen::Vector2d pixel = camera.project({x, y, 0}).pixel;
-    const std::size_t i = 3 * index_from(frame, static_cast<int>(std::lround(pixel.x())),
+    const std::size_t i = 3 * pixel_index(frame, static_cast<int>(std::lround(pixel.x())),
                                          static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };

@@ -61,11 +61,11 @@ TEST(Quality, SeveralSamplesChangeEdgesAlone) {
   int mixed = 0;
   for (int y = 2; y < sampled.height() - 2; ++y) {
     for (int x = 2; x < sampled.width() - 2; ++x) {
-      const std::uint32_t id = sampled.id[index_from(sampled, x, y)];
+      const std::uint32_t id = sampled.id[pixel_index(sampled, x, y)];
       bool is_inner = true;
       for (const auto& [i, j] :
            {std::pair(-2, 0), {2, 0}, {0, -2}, {0, 2}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}}) {
-        is_inner = is_inner && sampled.id[index_from(sampled, x + i, y + j)] == id;
+        is_inner = is_inner && sampled.id[pixel_index(sampled, x + i, y + j)] == id;
       }
       const int change = std::abs(brightness(sampled, x, y) - brightness(smoothed, x, y));
       // The ground's own pattern has no edges of ids, but is the same in both.
@@ -148,7 +148,7 @@ TEST(Quality, SmoothEdgesAreNearTheShareOfAPixelThatALineCovers) {
               inside += y + (j + 0.5) / 8 < 24 + slope * (x + (i + 0.5) / 8 - 32) ? 1 : 0;
             }
           }
-          sum += std::abs(frame.rgb[index_from(frame, x, y) * 3] / 255.0 - inside / 64.0);
+          sum += std::abs(frame.rgb[pixel_index(frame, x, y) * 3] / 255.0 - inside / 64.0);
         }
       }
       return sum;

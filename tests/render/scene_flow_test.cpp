@@ -95,7 +95,7 @@ TEST(BackwardFlow, UndoesForwardFlowWhereBothFramesShowTheSame) {
   std::size_t hidden_and_undone = 0;
   for (int y = 0; y < now.height(); ++y) {
     for (int x = 0; x < now.width(); ++x) {
-      const std::size_t i = index_from(now, x, y);
+      const std::size_t i = pixel_index(now, x, y);
       if (std::isinf(now.depth_m[i])) continue;
       const float u = static_cast<float>(x) + now.flow[2 * i];
       const float v = static_cast<float>(y) + now.flow[2 * i + 1];
@@ -103,7 +103,7 @@ TEST(BackwardFlow, UndoesForwardFlowWhereBothFramesShowTheSame) {
                              v < static_cast<float>(next.height()) - 2;
       if (!is_inside) continue;
       const std::size_t there =
-          index_from(next, static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
+          pixel_index(next, static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)));
       const Eigen::Vector2f sum(now.flow[2 * i] + next.flow_backward[2 * there],
                                 now.flow[2 * i + 1] + next.flow_backward[2 * there + 1]);
       const bool is_undone = sum.norm() < 1.0;

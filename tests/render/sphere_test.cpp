@@ -86,7 +86,7 @@ TEST_F(Spheres, CoverTheirOutline) {
         const auto [inside_px, depth_m] = meeting(camera, x, y);
         // The mesh is within 0.1 pixel of the sphere.
         if (std::abs(inside_px) < 0.2) continue;
-        const std::size_t i = index_from(frame, x, y);
+        const std::size_t i = pixel_index(frame, x, y);
         ASSERT_EQ(frame.id[i] == kIdProp, inside_px > 0) << x << ' ' << y << ' ' << inside_px;
         if (inside_px < 3) continue;
         ASSERT_NEAR(frame.depth_m[i], depth_m, 0.01) << x << ' ' << y;
@@ -110,7 +110,7 @@ TEST_F(Spheres, CoverTheirDistortedOutline) {
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
         const double inside_px = meeting(camera, x, y).inside_px;
-        const bool is_sphere = frame.id[index_from(frame, x, y)] == kIdProp;
+        const bool is_sphere = frame.id[pixel_index(frame, x, y)] == kIdProp;
         expected += inside_px > 0 ? 1 : 0;
         drawn += is_sphere ? 1 : 0;
         // Ids are those of the nearest pixel of a wider image.

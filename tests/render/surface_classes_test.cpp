@@ -82,7 +82,7 @@ std::optional<SemanticClass> building_class_at(std::uint32_t building, double he
 
 /// The class of the surface that a pixel shows, from its id and depth.
 std::optional<SemanticClass> expected_class(const Frame& frame, int x, int y) {
-  const std::size_t pixel = index_from(frame, x, y);
+  const std::size_t pixel = pixel_index(frame, x, y);
   const std::uint32_t id = frame.id[pixel];
   if (id == kIdNothing) return SemanticClass::sky;
   if (is_agent(id)) return SemanticClass::person;
@@ -115,7 +115,7 @@ Counts compared(const Frame& frame) {
   EXPECT_EQ(frame.surface.size(), frame.id.size());
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const auto shown = static_cast<SemanticClass>(frame.surface[index_from(frame, x, y)]);
+      const auto shown = static_cast<SemanticClass>(frame.surface[pixel_index(frame, x, y)]);
       ++counts[shown];
       const auto expected = expected_within(frame, x, y);
       if (!expected || *expected == shown) continue;

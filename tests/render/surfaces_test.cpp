@@ -15,7 +15,7 @@ constexpr RenderOptions kEverything = {
     .quality = Quality::draft, .normals = true, .flow = true, .parts = true};
 
 Eigen::Vector3d normal_at(const Frame& frame, int x, int y) {
-  const std::size_t i = index_from(frame, x, y) * 3;
+  const std::size_t i = pixel_index(frame, x, y) * 3;
   return (Eigen::Vector3d(frame.normal[i], frame.normal[i + 1], frame.normal[i + 2]).array() -
           128) /
          127;
@@ -59,7 +59,7 @@ TEST(Surfaces, StillSurfacesMoveWithTheCamera) {
   int measured = 0;
   for (int y = 3; y < frame.height(); y += 20) {
     for (int x = 3; x < frame.width(); x += 20) {
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       const float depth_m = frame.depth_m[i];
       const bool sky = std::isinf(depth_m);
       // A point of the sky is far away.
@@ -120,7 +120,7 @@ TEST(Surfaces, PeopleHaveNormalsAndPartsOnEveryPixelOfTheirs) {
   std::array<double, 10> column_sum{};
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::size_t i = index_from(frame, x, y);
+      const std::size_t i = pixel_index(frame, x, y);
       const std::uint8_t part = frame.part[i];
       ASSERT_EQ(part != 0, is_agent(frame.id[i]));
       ++count.at(part);

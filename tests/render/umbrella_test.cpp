@@ -44,7 +44,7 @@ TEST_P(Umbrella, HidesItsOwnerAndIsNotTheirs) {
   EXPECT_EQ(instance_mask(dry, id_of_umbrella(6)).pixels, 0U);
   for (int y = 0; y < wet.height(); ++y) {
     for (int x = 0; x < wet.width(); ++x) {
-      const std::size_t i = index_from(wet, x, y);
+      const std::size_t i = pixel_index(wet, x, y);
       ASSERT_EQ(truth.whole_mask->at(x, y), bare.whole_mask->at(x, y)) << x << ' ' << y;
       ASSERT_FALSE(is_umbrella(wet.id[i]) && wet.part[i] != 0) << x << ' ' << y;
     }

@@ -74,7 +74,7 @@ void expect_masks(const std::vector<world::Prop>& props, const camera::Camera& c
     std::uint64_t wrong = 0;
     for (int y = 0; y < frame.height(); ++y) {
       for (int x = 0; x < frame.width(); ++x) {
-        const bool is_shown = alone.id[index_from(alone, x, y)] == kIdProp;
+        const bool is_shown = alone.id[pixel_index(alone, x, y)] == kIdProp;
         whole += is_shown ? 1 : 0;
         wrong += is_shown != object.whole_mask->at(x, y) ? 1 : 0;
       }

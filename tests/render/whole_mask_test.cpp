@@ -49,7 +49,7 @@ class Queue {
         for (int x = 0; x < together.width(); ++x) {
           const bool is_covered = truth.whole_mask->at(x, y);
           pixels += is_covered ? 1 : 0;
-          wrong += is_covered != (alone.id[index_from(alone, x, y)] == id) ? 1 : 0;
+          wrong += is_covered != (alone.id[pixel_index(alone, x, y)] == id) ? 1 : 0;
         }
       }
       EXPECT_EQ(wrong, 0U) << "agent " << person.agent;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "base/files/files.h"
@@ -271,6 +272,71 @@ bool may_have_touched(const DatasetInfo& info, const std::string& run, const std
          figures.value("near_misses", 0) > 0 || figures.value("landed_s", json()).is_number();
 }
 
+namespace {
+
+/// The rows of a table; nothing where it is malformed, which is a finding.
+std::optional<std::vector<Row>> read_sensor_rows(const DatasetInfo& info, const std::string& name,
+                                                 Findings& findings) {
+  const CsvTable csv = read_csv(info.root / name);
+  if (fmt::format("{}", fmt::join(csv.columns, ",")) != annotate::kSensorColumns) {
+    findings.add("sensors", name, "line 1", "other columns than docs/formats_coco.md has");
+    return std::nullopt;
+  }
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    Row row;
+    for (const std::string& cell : csv.rows[i]) row.push_back(parse_number(cell));
+    if (row.size() != kColumns ||
+        !std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) {
+      findings.add("sensors", name, fmt::format("line {}", i + 2), "not 39 numbers");
+      return std::nullopt;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+struct SensorRows {
+  const std::string& name;  ///< of the file
+  const std::vector<Row>& rows;
+};
+
+/// Checks that rows follow from each other and readings from the truth. Only the first fault is
+/// reported: the rest would repeat it.
+void check_sensor_rows(const DatasetInfo& info, const Image& image, const SensorRows& table,
+                       Findings& findings) {
+  const auto& [name, rows] = table;
+  const double latitude_deg =
+      image.record.value("environment", json::object()).value("latitude_deg", 45.0);
+  const json figures = read_flight_figures(info, image.run, image.camera);
+  const bool may_touch = may_have_touched(info, image.run, image.camera);
+  const double end_s = info.from_s + static_cast<double>(info.frames_per_camera - 1) / info.rate_hz;
+  const std::string gap = missing_rows(rows, end_s);
+  if (!gap.empty()) findings.add("sensors", name, "", gap);
+  const std::string figure = rows.empty() ? "" : other_figure(figures, rows);
+  if (!figure.empty()) findings.add("sensors", name, "", figure);
+  bool in_contact = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // From then on it may lie there or slide.
+    in_contact = in_contact || (may_touch && i > 0 && is_contact(rows[i - 1], rows[i]));
+    const bool touches =
+        in_contact || is_near_ground(rows[i]) || (i > 0 && is_near_ground(rows[i - 1]));
+    std::string what = i == 0 ? "" : break_between(rows[i - 1], rows[i], touches);
+    constexpr double kGpsAgeS = 0.45;
+    if (what.empty()) {
+      SensorSample sample = sample_of_row(rows[i]);
+      constexpr double kMaxImpactMps = 25;
+      if (in_contact) sample.max_jump_mps = kMaxImpactMps;
+      what = implausible_reading(sample, latitude_deg, 0, kGpsAgeS);
+    }
+    if (what.empty()) continue;
+    findings.add("sensors", name, fmt::format("line {}", i + 2), what);
+    return;
+  }
+}
+
+}  // namespace
+
 void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
   if (!image.record.contains("flight")) return;
   const std::string name =
@@ -278,51 +344,10 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
   Table& table = tables_[name];
   if (!table.is_read) {
     table.is_read = true;
-    const CsvTable csv = read_csv(info.root / name);
-    if (fmt::format("{}", fmt::join(csv.columns, ",")) != annotate::kSensorColumns) {
-      findings.add("sensors", name, "line 1", "other columns than docs/formats_coco.md has");
-      return;
-    }
-    for (std::size_t i = 0; i < csv.rows.size(); ++i) {
-      Row row;
-      for (const std::string& cell : csv.rows[i]) row.push_back(parse_number(cell));
-      if (row.size() != kColumns ||
-          !std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) {
-        findings.add("sensors", name, fmt::format("line {}", i + 2), "not 39 numbers");
-        table.rows.clear();
-        return;
-      }
-      table.rows.push_back(std::move(row));
-    }
-    const double latitude_deg =
-        image.record.value("environment", json::object()).value("latitude_deg", 45.0);
-    const json figures = read_flight_figures(info, image.run, image.camera);
-    const bool may_touch = may_have_touched(info, image.run, image.camera);
-    const double end_s =
-        info.from_s + static_cast<double>(info.frames_per_camera - 1) / info.rate_hz;
-    const std::string gap = missing_rows(table.rows, end_s);
-    if (!gap.empty()) findings.add("sensors", name, "", gap);
-    const std::string figure = table.rows.empty() ? "" : other_figure(figures, table.rows);
-    if (!figure.empty()) findings.add("sensors", name, "", figure);
-    bool in_contact = false;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      // From then on it may lie there or slide.
-      in_contact =
-          in_contact || (may_touch && i > 0 && is_contact(table.rows[i - 1], table.rows[i]));
-      const bool touches = in_contact || is_near_ground(table.rows[i]) ||
-                           (i > 0 && is_near_ground(table.rows[i - 1]));
-      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i], touches);
-      constexpr double kGpsAgeS = 0.45;
-      if (what.empty()) {
-        SensorSample sample = sample_of_row(table.rows[i]);
-        constexpr double kMaxImpactMps = 25;
-        if (in_contact) sample.max_jump_mps = kMaxImpactMps;
-        what = implausible_reading(sample, latitude_deg, 0, kGpsAgeS);
-      }
-      if (what.empty()) continue;
-      findings.add("sensors", name, fmt::format("line {}", i + 2), what);
-      break;  // the rest would only be repeated
-    }
+    std::optional<std::vector<Row>> rows = read_sensor_rows(info, name, findings);
+    if (!rows) return;
+    table.rows = *std::move(rows);
+    check_sensor_rows(info, image, {name, table.rows}, findings);
   }
   if (table.rows.empty()) return;
   const json& flight = image.record.at("flight");

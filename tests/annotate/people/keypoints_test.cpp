@@ -113,7 +113,7 @@ TEST(Keypoints, AgreeWithDepth) {
       for (int i = 0; i < 9; ++i) {
         const int x = std::clamp(static_cast<int>(point.x) + i % 3 - 1, 0, frame.width() - 1);
         const int y = std::clamp(static_cast<int>(point.y) + i / 3 - 1, 0, frame.height() - 1);
-        const std::size_t pixel = render::index_from(frame, x, y);
+        const std::size_t pixel = render::pixel_index(frame, x, y);
         if (frame.id[pixel] != render::id_of_agent(label.agent)) continue;
         const float here = seen[k].z() - frame.depth_m[pixel];
         if (std::abs(here) < std::abs(in_front)) in_front = here;

@@ -17,7 +17,7 @@ std::vector<MeasuredRun> two_runs(const world::Scenario& scenario) {
     for (int i = 0; i < 12; ++i) {
       walks.push_back(metrics::walking({-3.0 - 0.7 * i, 0.3 * (i % 3)}, {speed, 0}));
     }
-    runs.push_back(measured(speed == 1 ? "fast<&>" : "slow", metrics::trace_file(walks), scenario));
+    runs.push_back(measured(speed == 1 ? "fast<&>" : "slow", metrics::make_trace(walks), scenario));
   }
   return runs;
 }
@@ -108,7 +108,7 @@ TEST(RunReport, SaysThatPeopleLeftByNoExit) {
   std::vector<MeasuredRun> runs;
   runs.push_back(measured(
       "leak",
-      metrics::trace_file({metrics::walking({-5, 0}, {1, 0}), metrics::walking({-5, 6}, {0, 1})}),
+      metrics::make_trace({metrics::walking({-5, 0}, {1, 0}), metrics::walking({-5, 6}, {0, 1})}),
       scenario));
   const std::string html = html_report(scenario, runs);
   EXPECT_NE(html.find("<td>leak</td><td>2</td><td>1</td><td>1</td><td>0</td>"), std::string::npos)
@@ -119,7 +119,7 @@ TEST(RunReport, SaysThatPeopleLeftByNoExit) {
 TEST(RunReport, NobodyIsNoError) {
   const world::Scenario scenario = metrics::place_with_door(2);
   std::vector<MeasuredRun> runs;
-  runs.push_back(measured("empty", metrics::trace_file({}), scenario));
+  runs.push_back(measured("empty", metrics::make_trace({}), scenario));
   const std::string html = html_report(scenario, runs);
   EXPECT_NE(html.find("not reached"), std::string::npos);
   EXPECT_EQ(count(html, "type=\"radio\""), 0U) << "one run needs no choice";
@@ -130,7 +130,7 @@ TEST(RunReport, APlaceWithoutExitsHasNoEmptyPanel) {
   world::Scenario scenario = metrics::place_with_door(2);
   scenario.exits.clear();
   std::vector<MeasuredRun> runs;
-  runs.push_back(measured("open", metrics::trace_file({metrics::standing({0, 0})}), scenario));
+  runs.push_back(measured("open", metrics::make_trace({metrics::standing({0, 0})}), scenario));
   const std::string html = html_report(scenario, runs);
   EXPECT_EQ(count(html, "data-chart=\"timeline\""), 0U);
   EXPECT_NE(html.find("no exits"), std::string::npos);
@@ -139,7 +139,7 @@ TEST(RunReport, APlaceWithoutExitsHasNoEmptyPanel) {
 TEST(RunReport, ADoorThatNobodyWantedToPassHasNoFlow) {
   const world::Scenario scenario = metrics::place_with_door(2);
   std::vector<MeasuredRun> runs;
-  runs.push_back(measured("calm", metrics::trace_file({metrics::standing({-9, 0})}), scenario));
+  runs.push_back(measured("calm", metrics::make_trace({metrics::standing({-9, 0})}), scenario));
   EXPECT_NE(html_report(scenario, runs)
                 .find("<td>door</td><td>2.00</td><td>0 / 0</td><td></td><td></td>"),
             std::string::npos);
