@@ -137,7 +137,10 @@ IDENTIFIERS = (
     (re.compile(r"\b(?:say_that|take_what|stop_if_wrong|is_anothers)\w*"), "a verb and its object: apply_overrides"),
     (re.compile(r"\b[Tt]old\b"), "given, reported, notified"),
     (re.compile(r"\b(?:Who|Whom|Whose|What)[A-Z]\w*"), "a noun and a verb: YieldsToAgentsWithRightOfWay"),
-    (re.compile(r"(?<=\n)[^\s#/][^\n;={}()]*[\s&*]\w+_of(?=\()"), "a verb and its object, or a noun: read_name, job_name"),
+    (
+        re.compile(r"(?<=\n)[^\s#/][^\n;={}()]*[\s&*]\w+_of(?=\()"),
+        "a verb and its object, or a noun: read_name, job_name",
+    ),
     (re.compile(r"\b\w*Places?\b"), "scenario, position, index"),
     (re.compile(r"\bk[A-Z][A-Za-z\d]*_(?:m2?|s|deg|rad|px|cm|h|mps|hz)\b"), "the unit as a word: kReachM"),
     (re.compile(r"\b(?:min|max)_value_?\b"), "a quantity and its unit: max_neighbors, max_speed_mps"),

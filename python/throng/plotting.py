@@ -51,7 +51,9 @@ def overlay(frame: Frame, *, opacity: float = 0.5) -> NDArray[np.uint8]:
     annotations = frame.annotations
     for i, track in enumerate(annotations.track_ids):
         mask = annotations.mask(i)
-        picture[mask] = (1 - opacity) * picture[mask] + opacity * 255 * np.array(track_color(int(track)), dtype=np.float32)
+        picture[mask] = (1 - opacity) * picture[mask] + opacity * 255 * np.array(
+            track_color(int(track)), dtype=np.float32
+        )
     return np.rint(picture).astype(np.uint8)
 
 

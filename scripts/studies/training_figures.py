@@ -94,7 +94,9 @@ def write_scores(folder):
         counted = both(model)
         means = [format_errors(one["always_the_mean"]) for one in counted]
         name = name.split(" (")[0]
-        counters.append(f"| {name} | {format_errors(counted[0])} | {format_errors(counted[1])} | {means[0]} | {means[1]} |")
+        counters.append(
+            f"| {name} | {format_errors(counted[0])} | {format_errors(counted[1])} | {means[0]} | {means[1]} |"
+        )
         seconds += [cpu_s, counter_s]
     facts = (
         f"The held-out run of `bridge` has {scores[0]['images']} images with {scores[0]['people']} people to be "

@@ -107,11 +107,11 @@ std::vector<double> requested_times(const Request& request, const world::Traject
       std::max(0.0, std::floor((to_s - from_s) / every_s + world::kTimeSlackS) + 1);
   const double people = std::max(1.0, static_cast<double>(reader.agents()));
   if (count * people > kMaxPositions) {
-    throw HttpError{
-        400,
-        "these are too many positions at once",
-        {{"", "?every_s", fmt::format("{:.0f} times of {:.0f} people", count, people),
-          fmt::format("at most {:.0f} positions: fewer times, or a part of the run", kMaxPositions)}}};
+    throw HttpError{400,
+                    "these are too many positions at once",
+                    {{"", "?every_s", fmt::format("{:.0f} times of {:.0f} people", count, people),
+                      fmt::format("at most {:.0f} positions: fewer times, or a part of the run",
+                                  kMaxPositions)}}};
   }
   std::vector<double> times(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < times.size(); ++i) {

@@ -46,8 +46,9 @@ const FieldTable<ScenarioShare>& share_fields() {
             },
             "Id of a scenario.")
         .without_default();
-    table.add("generate", "Generate", "", raw({{"type", "object"}}, "the parameters of a generated scenario"),
-              generate_json, set_generate,
+    table.add("generate", "Generate", "",
+              raw({{"type", "object"}}, "the parameters of a generated scenario"), generate_json,
+              set_generate,
               "Parameters of a generated scenario; without a seed, another one for each run.");
     table.add("weight", "Weight", "", numbers(kMinWeight, kMaxWeight), at(&ScenarioShare::weight),
               "Runs are shared out by the weights.");

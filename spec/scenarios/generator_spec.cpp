@@ -36,7 +36,9 @@ fields::FieldTable<GeneratorSpec> make_generator_fields() {
   fields::FieldTable<GeneratorSpec> table;
   fields::Values kinds = fields::one_of_words(kPlaceKinds);
   kinds.expected = "plaza, street, campus or block";
-  table.add("kind", "Kind", "", std::move(kinds), at(&GeneratorSpec::kind), "Layout of the scenario.")
+  table
+      .add("kind", "Kind", "", std::move(kinds), at(&GeneratorSpec::kind),
+           "Layout of the scenario.")
       .required();
   table.add("seed", "Seed", "", integers(0, 1'000'000'000), at(&GeneratorSpec::seed),
             "Seed of all that is not given.");

@@ -104,7 +104,10 @@ def bundle(folder, throng):
     }
     write_json(folder / "plaza.blueprint.json", blueprint)
     subprocess.run(
-        [throng, "scenario", "make", "plaza.blueprint.json", "-o", "my_place"], cwd=folder, check=True, capture_output=True
+        [throng, "scenario", "make", "plaza.blueprint.json", "-o", "my_place"],
+        cwd=folder,
+        check=True,
+        capture_output=True,
     )
     with zipfile.ZipFile(folder / "my_place.zip", "w") as archive:
         for file in (folder / "my_place").iterdir():

@@ -195,7 +195,7 @@ TEST(GroundTruth, HeadIsWhereTheHeadIsDrawn) {
   EXPECT_NEAR(person.head.z(), 0.93 * kSyntheticStatureM, 1e-5);
   const Eigen::Vector2d pixel = camera.project(person.head).pixel;
   EXPECT_EQ(frame.id[pixel_index(frame, static_cast<int>(std::lround(pixel.x())),
-                                static_cast<int>(std::lround(pixel.y())))],
+                                 static_cast<int>(std::lround(pixel.y())))],
             id_of_agent(3));
   EXPECT_NEAR(person.stature_m, kSyntheticStatureM, 1e-6);
 }

@@ -263,7 +263,7 @@ TEST(Image, TintColorsClothesAndNotSkin) {
   const auto pixel_at = [&](const Frame& frame, double height) {
     const Eigen::Vector2d pixel = camera.project({0.12, 0, height}).pixel;
     const std::size_t i = 3 * pixel_index(frame, static_cast<int>(std::lround(pixel.x())),
-                                         static_cast<int>(std::lround(pixel.y())));
+                                          static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };
   const Frame in_red = stage.draw(camera, {red});

@@ -304,7 +304,7 @@ TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {
   const auto color = [&](double x, double y) {
     const Eigen::Vector2d pixel = camera.project({x, y, 0}).pixel;
     const std::size_t i = 3 * pixel_index(frame, static_cast<int>(std::lround(pixel.x())),
-                                         static_cast<int>(std::lround(pixel.y())));
+                                          static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };
   const Eigen::Vector3i asphalt = color(10, 9);
