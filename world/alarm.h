@@ -1,5 +1,4 @@
-// When the alarm of a scenario is, and which states of its behavior only people who know of it
-// reach.
+// The alarm of a scenario: its time, and the behavior states that only informed people enter.
 #pragma once
 
 #include <optional>
@@ -11,20 +10,20 @@ namespace throng::world {
 struct Scenario;
 
 struct Alarm {
-  /// The earliest start of a disaster; where the scenario places none, the earliest start of the
-  /// behavior's conditions "proximity" (s). Empty: nothing ever happens here.
+  /// The earliest start of a disaster (s); if the scenario defines no disaster, the earliest start
+  /// of the "proximity" conditions of the behavior. Empty if nothing ever happens.
   std::optional<double> at_s;
-  /// Names of the states that are reached only through a transition whose condition asks for the
-  /// reach of a disaster, for panic or for a guide, or of an event that changes states; states of
-  /// people who cannot stand are left out. Empty where the behavior has no such transition.
+  /// Names of the states that people enter only through a transition whose condition tests for a
+  /// disaster, panic or a guide, or through an event that changes states. States in which people
+  /// lie on the ground are excluded. Empty if the behavior has no such transition.
   std::vector<std::string> aware_states = {};
 
   bool operator==(const Alarm&) const = default;
 };
 
-/// Scenario::alarm if it is known, else from the scenario's scene and behavior, if it has a crowd.
-/// Throws EnvironmentError for files that cannot be read and InputError for files that are not
-/// well-formed.
+/// Returns Scenario::alarm if it is set; otherwise derives the alarm from the disasters and, if the
+/// scenario has a crowd, from the scene and behavior. Throws EnvironmentError for files that cannot
+/// be read and InputError for malformed files.
 Alarm find_alarm(const Scenario& scenario);
 
 }  // namespace throng::world

@@ -1,5 +1,5 @@
-// Disasters of a scenario: time, position, growth. The crowd's files define who notices them and
-// what they block; this defines their appearance.
+// Disasters of a scenario: time, position, growth. The scene and behavior files define who notices
+// a disaster and what it blocks; this header defines its appearance.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,27 +14,28 @@ class JsonValue;
 
 enum class DisasterKind : std::uint8_t { explosion, fire, attacker, collapse, gas };
 
-/// The kinds' names in files, in the order of DisasterKind.
+/// Names of the kinds in files, in the order of DisasterKind.
 inline constexpr std::array<std::string_view, 5> kDisasterKinds = {"explosion", "fire", "attacker",
                                                                    "collapse", "gas"};
 
 struct Disaster {
   DisasterKind kind = DisasterKind::explosion;
-  int agent = 0;  ///< that stands for it in the crowd; neither rendered nor counted
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m; where an attacker starts
+  int agent = 0;  ///< index of the agent that represents the disaster; neither rendered nor counted
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m; the start of an attacker
   double start_s = 0;
-  double radius_m = 2;      ///< when it starts
-  double growth_mps = 0;    ///< of the radius
-  double max_radius_m = 2;  ///< up to which it grows
+  double radius_m = 2;      ///< radius at the start
+  double growth_mps = 0;    ///< growth of the radius
+  double max_radius_m = 2;  ///< the radius stops growing here
 
-  /// How far it reaches from its place; 0 before it starts (m).
+  /// Radius of the affected disc at a time of the run (m); 0 before the start.
   double reach_m(double time_s) const;
 };
 
-/// The disaster that an object describes; its fields are the caller's to list.
+/// Reads a disaster from a JSON object. Does not reject unknown fields: the caller calls
+/// JsonValue::fields(). A missing "max_radius_m" means 1000 m.
 Disaster read_disaster(const JsonValue& item, int agent);
 
-/// Reads a scenario's list "disasters".
+/// Reads the list "disasters" of a scenario, whose agents must differ.
 std::vector<Disaster> read_disasters(const JsonValue& list);
 
 }  // namespace throng::world

@@ -9,16 +9,16 @@
 
 namespace throng::world {
 
-/// A drone's flight path, from its start on.
+/// Flight path of a drone, from its first recorded position.
 struct DronePath {
   std::string id;
   std::vector<Eigen::Vector3d> points;  ///< m, at least one
 
-  /// Adds a point; leaves out those that nobody would miss: less than 10 cm on.
+  /// Appends a point unless it is less than 10 cm from the last one.
   void add(const Eigen::Vector3d& point);
 };
 
-/// Flight paths of a run's drones.
+/// Returns the flight paths of all drones in a trace that have samples.
 std::vector<DronePath> flown_paths(const Trace& trace);
 
 }  // namespace throng::world

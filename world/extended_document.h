@@ -1,4 +1,4 @@
-// Documents that extend another one: a scenario or blueprint that says what differs (RFC 7396).
+// JSON documents that extend another document: they contain only the differences (RFC 7396).
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,26 @@
 
 namespace throng::world {
 
-/// A document as its file says it, and the one that it extends with the changes made.
+/// A document, the document that it extends, and the result of merging both.
 struct ExtendedDocument {
+  /// The merged document, without "extends".
   nlohmann::json whole;
-  nlohmann::json own;           ///< the file's; the same as `whole` if it extends nothing
-  nlohmann::json base;          ///< null if it extends nothing
-  std::string file, base_file;  ///< names for messages
+  nlohmann::json own;   ///< content of the file itself; equal to `whole` if it extends nothing
+  nlohmann::json base;  ///< content of the extended file; null if there is none
+  std::string file, base_file;  ///< names in messages
 
-  /// Problems of the whole with the file of each: the base's name if the place is only there.
+  /// Sets the source of each problem in `whole`: `base_file` if only the base has the value that
+  /// the problem points to, else `file`.
   std::vector<Problem> in_their_files(std::vector<Problem> problems) const;
 };
 
-/// Reads a file, and the one in the same folder that its "extends" names. Throws InputError.
+/// Reads a file and the file in the same folder that its key "extends" names. `source` names the
+/// file in messages. Throws InputError, also if the extended file extends another one, and
+/// EnvironmentError if a file cannot be read.
 ExtendedDocument read_extended(const std::filesystem::path& file, const std::string& source);
 
-/// The result of `read`, with the names of the files in its InputError.
+/// Returns the result of `read`; an InputError of `read` is rethrown with the sources of
+/// in_their_files().
 template <typename Read>
 auto read_with_files(const ExtendedDocument& document, Read read) {
   try {

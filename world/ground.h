@@ -1,4 +1,4 @@
-// Ground areas of other materials than the scenario's main one, and painted markings.
+// Ground areas with a material of their own, and painted markings.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,11 @@ namespace throng::world {
 
 class JsonValue;
 
-/// A polygon of another material. Corners counter-clockwise seen from above.
+/// A polygon with a material of its own. Corners counter-clockwise seen from above.
 struct GroundArea {
   std::vector<Eigen::Vector2d> corners;  ///< m
   std::string material;
-  bool kerb = false;  ///< edged with kerb stones
+  bool kerb = false;  ///< bordered by kerb stones
 };
 
 /// A strip of paint from one point to another: a line, a dashed line, or the bars of a zebra
@@ -25,7 +25,7 @@ struct Marking {
   double width_m = 0.12;
 };
 
-/// "pavers", "asphalt", "grass", "concrete" or "dirt"; anything else is a problem.
+/// Reads "pavers", "asphalt", "grass", "concrete" or "dirt"; records a problem for other words.
 std::string read_ground_material(const JsonValue& value);
 
 std::vector<GroundArea> read_ground_areas(const JsonValue& list);

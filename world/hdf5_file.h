@@ -1,4 +1,5 @@
-// The little of HDF5 that a trace needs: owned handles, extendible row datasets, attributes.
+// The part of HDF5 that a trace needs: owned handles, extendible row datasets, attributes.
+// Functions throw Failure unless their comment says otherwise. Not thread-safe, like HDF5 itself.
 #pragma once
 
 #include <hdf5.h>
@@ -11,24 +12,25 @@
 
 namespace throng::world::hdf5 {
 
-/// An HDF5 call failed; names the part of the file. Users of this header turn it into the error
-/// that fits: a file being read is the user's, a file being written is the machine's.
+/// An HDF5 call failed; the message names the object in the file. Callers translate it: into an
+/// InputError when they read a file, into an EnvironmentError when they write one.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Owns an HDF5 id of any kind.
+/// Owns an HDF5 id of any kind and closes it with its closer.
 class Handle {
  public:
   Handle() = default;
-  /// `id` is negative when the call that made it failed; `what` names it in the Failure then.
+  /// Takes ownership of `id`. Throws Failure with `what` as its message if `id` is negative, that
+  /// is, if the call that created it failed.
   Handle(hid_t id, herr_t (*closer)(hid_t), const std::string& what);
   ~Handle();
   Handle(Handle&& other) noexcept;
   Handle& operator=(Handle&& other) noexcept;
   hid_t id() const { return id_; }
-  /// Closes now; for a file this is when its last bytes are written. Throws Failure.
+  /// Closes the handle now; for a file, this call writes the last bytes. Throws Failure.
   void close(const std::string& what);
 
  private:
@@ -36,7 +38,7 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// Keeps HDF5 from printing its errors while it lives (in this thread).
+/// Suppresses HDF5's error output during its lifetime, in this thread.
 class QuietErrors {
  public:
   QuietErrors();
@@ -49,7 +51,7 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
-/// Element types as they stand in the file (little endian) and in memory.
+/// Types of a dataset's elements in the file (little endian) and in memory.
 struct ElementType {
   hid_t file;
   hid_t memory;
@@ -69,7 +71,7 @@ ElementType element_type<std::uint8_t>();
 template <>
 ElementType element_type<std::int8_t>();
 
-/// No time stamps anywhere: the same content gives the same bytes.
+/// Creates or replaces a file. Files hold no time stamps: equal content gives equal bytes.
 Handle create_file(const std::string& path);
 Handle open_file(const std::string& path);
 Handle create_group(const Handle& parent, const std::string& name);
@@ -100,13 +102,13 @@ T read_attribute(const Handle& object, const std::string& name) {
 }
 
 /// A dataset whose first dimension grows; chunked by `rows_per_chunk` rows, shuffled and deflated.
-/// Whole chunks are compressed here, which is several times as fast as HDF5's own filters.
+/// Whole chunks are compressed by this class, which is several times as fast as HDF5's filters.
 class RowDataset {
  public:
   /// `row` is the shape of one row, e.g. {agents, 2}.
   RowDataset(const Handle& parent, std::string name, hid_t file_type, hid_t memory_type,
              const std::vector<hsize_t>& row, hsize_t rows_per_chunk, const std::string& unit);
-  /// Appends `count` rows; `data` holds them one after the other.
+  /// Appends `count` rows; `data` holds them consecutively.
   void append(const void* data, hsize_t count);
 
  private:
@@ -117,31 +119,31 @@ class RowDataset {
   hid_t memory_type_;
   hsize_t rows_per_chunk_;
   std::size_t value_bytes_;
-  bool as_in_file_;  ///< memory holds values as the file does
+  bool as_in_file_;  ///< whether values have the same representation in memory and in the file
   std::vector<hsize_t> shape_;
   Handle dataset_;
 };
 
-/// The shape of a dataset, its rank checked. Throws Failure when it is missing or has another rank.
+/// Returns the shape of a dataset. Throws Failure if it is missing or its rank is not `rank`.
 std::vector<hsize_t> dataset_shape(const Handle& parent, const std::string& name, std::size_t rank);
 
-/// Throws Failure when the file holds too few bytes of a dataset for its shape: a damaged shape
-/// must not decide how much memory is asked for.
+/// Throws Failure if a dataset occupies too few bytes in the file for its shape, so that a damaged
+/// shape cannot cause a huge allocation.
 void require_stored(const Handle& parent, const std::string& name,
                     const std::vector<hsize_t>& shape, std::size_t value_bytes);
 
-/// A whole dataset of numbers, whose shape must be `shape` and whose element type in the file must
-/// be T's.
+/// Reads a whole dataset of numbers into `data`. Throws Failure unless its shape is `shape` and its
+/// element type in the file is `type.file`.
 void read_into(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,
                const ElementType& type, void* data);
 
-/// Rows of a dataset of numbers, whose shape must be `shape` and whose element type in the file
-/// must be that of `type`. `parent` must outlive it.
+/// Reads rows of a dataset of numbers. Throws Failure unless the shape of the dataset is `shape`
+/// and its element type in the file is `type.file`.
 class RowReader {
  public:
   RowReader(const Handle& parent, std::string name, const ElementType& type,
             std::vector<hsize_t> shape);
-  /// `count` rows from `first` on, one after the other.
+  /// Reads `count` rows from index `first` on into `data`, consecutively.
   void read(hsize_t first, hsize_t count, void* data) const;
 
  private:
@@ -151,10 +153,12 @@ class RowReader {
   Handle dataset_;
 };
 
-/// Text of a fixed width, padded with zeros; the width is in the type.
+/// Returns a text type of fixed width in bytes, padded with zeros.
 Handle text_type(std::size_t width);
+/// Writes texts as a dataset of one dimension; the longest text determines the width.
 void write_texts(const Handle& parent, const std::string& name,
                  const std::vector<std::string>& texts);
+/// Reads the texts of a dataset. Throws Failure for more than a million texts or bytes per text.
 std::vector<std::string> read_texts(const Handle& parent, const std::string& name);
 
 }  // namespace throng::world::hdf5

@@ -1,4 +1,4 @@
-// The crowd of a scenario, whether it is in files or in memory.
+// The crowd of a scenario, from files or from memory.
 #pragma once
 
 #include "crowd/description/description.h"
@@ -6,8 +6,8 @@
 
 namespace throng::world {
 
-/// Scene and behavior of a scenario. Throws InputError when it has no crowd or a file is not XML,
-/// EnvironmentError when one cannot be read.
+/// Returns the scene and behavior of a scenario. Throws InputError if it has no crowd or a file is
+/// not XML, EnvironmentError if a file cannot be read.
 crowd::CrowdDescription build_crowd(const Scenario& scenario);
 
 }  // namespace throng::world

@@ -1,4 +1,4 @@
-// Ids of scenarios in what users write instead.
+// Recognition of scenario ids in file paths that users enter.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace throng::world {
 
-/// The id of a scenario of the folder that a path ends with ("scenarios/campus/everyday.json"), if
-/// there is one.
+/// Returns the id of a scenario of `folder` with which `path` ends, or nothing. Example:
+/// "campus/everyday" for "scenarios/campus/everyday.json".
 std::optional<std::string> scenario_id_in(const std::filesystem::path& folder,
                                           const std::string& path);
 

@@ -1,5 +1,5 @@
-// Semantic classes: what a surface is. One table of names and colors. The numbers are stable: they
-// are the values of semantic/*.png.
+// Semantic classes of surfaces: one table of numbers, names and colors. The numbers are the values
+// of semantic/*.png and never change.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@
 namespace throng::world {
 
 enum class SemanticClass : std::uint8_t {
-  sky = 0,       ///< or nothing, where a lens ends
-  terrain = 1,   ///< the plain around a scenario
+  sky = 0,       ///< also pixels outside the image circle of a lens
+  terrain = 1,   ///< ground around a scenario
   building = 2,  ///< facades
-  object = 3,    ///< of no other class: meshes whose scenario names none
-  person = 4,    ///< with clothes and what is carried
+  object = 3,    ///< surfaces of no other class, e.g. meshes without a class
+  person = 4,    ///< with clothes and carried objects
   umbrella = 5,
   drone = 6,
-  roof = 7,  ///< with what stands on it
-  door = 8,  ///< of exits
-  wall = 9,  ///< too low for a story
+  roof = 7,  ///< with structures on it
+  door = 8,  ///< of an exit
+  wall = 9,  ///< lower than a story
   hedge = 10,
   pavement = 11,  ///< pavers and concrete
   road = 12,      ///< asphalt
@@ -50,7 +50,7 @@ enum class SemanticClass : std::uint8_t {
 };
 inline constexpr std::size_t kSemanticClasses = 34;
 
-/// The kind of instance that a pixel of a class may belong to.
+/// Kinds of instances to which a pixel can belong.
 enum class SemanticGroup : std::uint8_t {
   nothing,
   ground,
@@ -64,17 +64,17 @@ enum class SemanticGroup : std::uint8_t {
 struct SemanticClassInfo {
   SemanticClass value{};
   std::string_view name = {};
-  std::array<std::uint8_t, 3> color{};  ///< of legends, sRGB
+  std::array<std::uint8_t, 3> color{};  ///< in legends, sRGB
   SemanticGroup group{};
 };
 
-/// The class of a kind of prop.
+/// Returns the class of a kind of prop.
 SemanticClass semantic_class(PropKind kind);
 
-/// The class of this name; nothing if there is none.
+/// Returns the class with this name, or nothing.
 std::optional<SemanticClass> semantic_class_named(std::string_view name);
 
-/// All classes, by value.
+/// All classes, sorted by value.
 std::span<const SemanticClassInfo, kSemanticClasses> semantic_classes();
 
 inline const SemanticClassInfo& semantic_class_info(SemanticClass value) {

@@ -1,4 +1,5 @@
-// The scenario that a trace holds, so that a trace is enough to measure and to render its run.
+// The scenario stored in a trace, with which a run can be measured and rendered without other
+// files.
 #pragma once
 
 #include <optional>
@@ -9,14 +10,14 @@
 
 namespace throng::world {
 
-/// Meshes of a scenario are files of their own, which a trace does not hold.
+/// Treatment of a scenario's meshes, which are separate files that a trace does not hold.
 enum class TraceMeshes {
-  left_out,  ///< the scenario without them: for figures
-  needed     ///< no scenario if it has some: for images
+  left_out,  ///< returns the scenario without its meshes (for measures)
+  needed     ///< returns nothing if the scenario has meshes (for rendering)
 };
 
-/// The scenario of the trace's run without its crowd; nothing in traces of earlier versions.
-/// `source` is the trace's file, for messages. Throws InputError for a damaged one.
+/// Returns the scenario of the run without its crowd; nothing for traces of earlier versions.
+/// `source` names the trace in messages. Throws InputError if the stored scenario is invalid.
 std::optional<Scenario> scenario_in_trace(const TraceHeader& header, const std::string& source,
                                           TraceMeshes meshes);
 

@@ -1,4 +1,4 @@
-// Everybody's places at some times of a run: a part of a trace, read without the rest.
+// Positions and states of all agents at selected times, read from a trace without its other data.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +13,17 @@
 
 namespace throng::world {
 
-/// Arrays over [time][agent] are row-major.
+/// Trajectories at selected times. Arrays over [time][agent] are row-major.
 struct Trajectories {
   std::vector<AgentRole> role;            ///< per agent
-  std::vector<double> time_s;             ///< as asked for
+  std::vector<double> time_s;             ///< the requested times
   std::vector<Eigen::Vector2f> position;  ///< m
   std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
   std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked, kFallen, kFollowing
 };
 
-/// One trace, from which parts are read. HDF5 is not used from several threads at once: the caller
-/// sees to that.
+/// Reads parts of one trace. HDF5 is not thread-safe: callers must not use it from several threads
+/// at the same time.
 class TrajectoryReader {
  public:
   /// Throws EnvironmentError when the file cannot be read, InputError when it is not a trace.
@@ -31,13 +31,14 @@ class TrajectoryReader {
   ~TrajectoryReader();
   TrajectoryReader(const TrajectoryReader&) = delete;
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
+  /// Time of the last step.
 
   std::size_t agents() const;
   double end_s() const;
 
-  /// At these times of 0 to end_s(). Between two steps positions are on the straight line between
-  /// both, where an agent takes part in both; the rest is that of the earlier step. Throws as the
-  /// constructor.
+  /// Returns the agents at these times, each from 0 to end_s(). Positions between two steps are
+  /// interpolated linearly if the agent is present at the later step; states and flags are those of
+  /// the earlier step. Throws like the constructor.
   Trajectories at(std::span<const double> time_s) const;
 
  private:
