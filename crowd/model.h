@@ -1,4 +1,4 @@
-// Pedestrian models: from where everybody wants to go to how everybody moves.
+// Pedestrian models: from the preferred velocities of all agents to their velocities.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// Computes new velocities from the state of everybody at the beginning of a step.
+/// A pedestrian model: computes new velocities from the state of all agents at the start of a step.
 class Model {
  public:
   virtual ~Model() = default;
@@ -22,31 +22,36 @@ class Model {
                     std::span<Eigen::Vector2f> new_velocity) = 0;
 };
 
-/// A parameter of a model: an attribute of its element in a profile, or a <Property> in there; or
-/// an attribute of its element in the scene.
+/// A parameter or constant of a pedestrian model. A parameter is an attribute of the model's
+/// element in a profile, or a <Property> of that element; a constant is an attribute of its element
+/// in the scene.
 struct ModelParameter {
   std::string_view name;
   float initial;
   float min;
   float max;
   std::string_view help;
-  std::string_view property_name = {};  ///< in a <Property>, where that has another name
+  std::string_view property_name = {};  ///< name in a <Property> if it differs from `name`
 };
 
+/// A pedestrian model, as find_model() finds it.
 struct ModelEntry {
-  std::string_view name;  ///< in a project or on the command line
-  std::string_view tag;   ///< of its element in a profile
+  std::string_view name;  ///< name in projects, jobs and on the command line
+  std::string_view tag;   ///< tag of its element in profiles
   std::string_view help;
   std::vector<ModelParameter> parameters;  ///< in the order of Agents::model_parameters
   std::vector<ModelParameter> constants;   ///< in the order of Crowd::model_constants
   std::unique_ptr<Model> (*make)(const Crowd& crowd);
-  std::string_view alias = {};  ///< another name, if it has one
+  std::string_view alias = {};  ///< alternative name; may be empty
 };
 
+/// Returns all pedestrian models.
 const std::vector<ModelEntry>& models();
-/// Throws InputError for an unknown name, listing those that there are.
+/// Returns the model with this name or alias. Throws InputError, with a list of names, if there is
+/// none.
 const ModelEntry& find_model(std::string_view name);
 
+/// Entries of models(), each defined in models/NAME.cpp.
 ModelEntry orca_model();
 ModelEntry weidmann_model();
 ModelEntry ttc_model();

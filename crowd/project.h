@@ -1,4 +1,4 @@
-// A Menge project file: which scene and behavior are run, with which model, for how long.
+// Menge's project files: the scene, behavior, model and duration of a run.
 #pragma once
 
 #include <filesystem>
@@ -11,33 +11,35 @@
 
 namespace throng::crowd {
 
-/// Throws InputError for a word that is not in kCompatWords.
+/// Parses one of kCompatWords. Throws InputError for other words.
 Compat parse_compat(std::string_view word);
-/// Throws InputError for a word that is not in kSeparationWords.
+/// Returns true for "hard" and false for "soft". Throws InputError for other words.
 bool is_hard(std::string_view separation);
 
+/// Content of a project file.
 struct Project {
-  std::filesystem::path scene_file;  ///< empty when it is not given
+  std::filesystem::path scene_file;  ///< empty if the file does not name it
   std::filesystem::path behavior_file;
   LoadOptions options;
-  double duration_s = 400;             ///< no longer than this
-  std::filesystem::path output;        ///< trajectories, empty: none
-  std::string scb_version = "2.1";     ///< of an .scb output, one of kScbVersions
-  std::vector<Problem> warnings = {};  ///< what was ignored
+  double duration_s = 400;             ///< max duration of the run
+  std::filesystem::path output;        ///< trajectory file; empty: none
+  std::string scb_version = "2.1";     ///< one of kScbVersions; for an output ending in .scb
+  std::vector<Problem> warnings = {};  ///< ignored parts of the file
 };
 
-/// Menge takes the clock for a seed of 0; here that is 1, so that every run can be repeated.
+/// Replaces a seed of 0 by 1. Menge replaces it by the current time, which makes runs
+/// irreproducible.
 constexpr std::uint64_t seed_or_default(std::uint64_t seed) { return seed != 0 ? seed : 1; }
 
-/// The attributes of <Project>.
+/// Returns the attributes of <Project>.
 AttributeTable project_attributes();
 
-/// Reads a <Project>. Paths in it are relative to its folder. Throws InputError, also when there
-/// is no such file, EnvironmentError when it cannot be read.
+/// Reads a project file; relative paths in it are resolved against its folder. Throws InputError
+/// for invalid content or a missing file, EnvironmentError if the file cannot be read.
 Project load_project(const std::filesystem::path& file);
 
-/// The simulation that the project describes. Throws InputError and EnvironmentError like
-/// Simulation's constructor, and InputError when there is no such file.
+/// Creates the simulation of a project. Throws like the constructor of Simulation, and InputError
+/// if the scene or behavior file does not exist.
 Simulation load_simulation(const Project& project);
 
 }  // namespace throng::crowd

@@ -1,4 +1,4 @@
-// A Menge scene file: who is there, where, and which walls.
+// Menge's scene files: agents, their profiles and start positions, and obstacles.
 #pragma once
 
 #include <string>
@@ -13,18 +13,19 @@
 
 namespace throng::crowd {
 
-/// Parts that cannot be made before the behavior file is read.
+/// Parts of a scene that are completed after the behavior file has been read.
 struct Scene {
   std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
-  std::vector<std::unique_ptr<Process>> processes;      ///< arrivals
-  std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< social groups; before the file's own
+  std::vector<std::unique_ptr<Process>> processes;      ///< arrivals of agents
+  /// Of social groups; they precede those of the behavior file.
+  std::vector<std::unique_ptr<VelModifier>> modifiers;
 };
 
-/// The attributes of <SpatialQuery>.
+/// Returns the attributes of <SpatialQuery>.
 AttributeTable spatial_query_attributes();
 
-/// Reads an <Experiment> into `crowd`, whose seed and compat are set: time step, obstacles and
-/// agents with their properties, positions and first states. Throws InputError.
+/// Reads an <Experiment> into `crowd`, whose seed and compat must be set: time step, obstacles, and
+/// agents with their properties, positions and initial states. Throws InputError.
 Scene load_scene(const Element& experiment, const std::vector<std::string>& state_names,
                  const ModelEntry& model, MengeSequences& sequences, Crowd& crowd);
 

@@ -1,4 +1,4 @@
-// Values that the engine's interface and its parts share.
+// Types shared by the public interface of the engine and its parts.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,27 @@
 
 namespace throng::crowd {
 
-/// Somebody fell.
+/// The fall of an agent.
 struct Fall {
   std::uint32_t agent;
-  float impulse_ns;     ///< of the blow; 0: it was the crowd
-  float crush_n_per_m;  ///< of the crowd, per meter of girth; 0: it was a blow
+  float impulse_ns;     ///< impulse of the impact (N s); 0: the crowd caused the fall
+  float crush_n_per_m;  ///< crowd force per meter of body circumference; 0: an impact
 };
 
+/// Options of a Simulation.
 struct LoadOptions {
   std::uint64_t seed = 1;
-  std::string model = "orca";  ///< the pedestrian model
+  std::string model = "orca";  ///< name or alias of the pedestrian model
   Compat compat = Compat::none;
-  std::optional<double> time_step_s = {};  ///< instead of the scene's
-  int sub_steps = 0;                       ///< steps in between that nobody sees, per time step
-  bool hard_separation = false;            ///< bodies never overlap by more than 1 cm
-  double compliance = 1;                   ///< times the probability that somebody follows a guide
+  std::optional<double> time_step_s = {};  ///< replaces the time step of the scene
+  int sub_steps = 0;                       ///< unrecorded steps between two time steps
+  bool hard_separation = false;            ///< bodies overlap by at most 1 cm
+  double compliance = 1;  ///< multiplies the probability that a person follows a guide
   Physical physical = {};
 };
 
-/// A goal chosen by an agent: set and goal id of the behavior file; -1 for one made on the fly
-/// (identity, offset, ...).
+/// The goal of an agent: ids of goal set and goal in the behavior file; -1 for goals that a
+/// selector computes (identity, offset, ...).
 struct GoalId {
   std::int32_t set = -1;
   std::int32_t goal = -1;

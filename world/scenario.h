@@ -1,5 +1,5 @@
-// A scenario: ground, buildings, exits, crowd and the drones' starts. The JSON file beside the
-// Menge scene and behavior files that it names.
+// A scenario: ground, buildings, exits, crowd and start positions of drones. A JSON file names the
+// Menge scene and behavior files beside it.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,13 +39,13 @@ struct Exit {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
   Eigen::Vector2d outward =
-      Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the scenario
-  bool open = true;              ///< otherwise nobody can ever get out here
-  std::vector<GoalRef> goals;    ///< an agent heading for one of these intends this exit
-  /// From when on nobody can: a disaster has reached it (s).
+      Eigen::Vector2d::UnitX();  ///< unit normal that points out of the scenario
+  bool open = true;              ///< false: the exit stays closed for the whole run
+  std::vector<GoalRef> goals;    ///< an agent that heads for one of these goals intends this exit
+  /// Time at which a disaster reaches and closes the exit (s).
   double closes_at_s = std::numeric_limits<double>::infinity();
 
-  /// Whether people can get out here at a time of the run (s), which is that of a step.
+  /// Whether people can leave here at a time of the run (s), the time of a step.
   bool is_open(double time_s) const {
     constexpr double kRoundingS = 1e-6;
     return open && time_s < closes_at_s - kRoundingS;
@@ -54,8 +54,8 @@ struct Exit {
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
-/// Appearance of a building's walls. by_id: plaster or brick, by the building's number. The numbers
-/// are those of shaders/wall.frag.glsl, which has others for what render/ adds (render::WallLook).
+/// Appearance of a building's walls. by_id: plaster or brick, depending on the building's index.
+/// The values are those of shaders/wall.frag.glsl, which has further ones for render::WallLook.
 enum class Facade : std::uint8_t { by_id = 0, plaster = 1, brick = 2, glass = 3, hedge = 8 };
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
@@ -66,7 +66,7 @@ struct Building {
   Facade facade = Facade::by_id;
 };
 
-/// A user's mesh file, y up, placed in the world: its origin at `position`.
+/// A mesh file of the user (y up), placed in the world with its origin at `position`.
 struct PlacedMesh {
   std::filesystem::path file;                          ///< absolute
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
@@ -75,6 +75,7 @@ struct PlacedMesh {
   SemanticClass semantic_class = SemanticClass::object;
 };
 
+/// Start pose of a drone.
 struct DroneStart {
   std::string id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
@@ -88,79 +89,81 @@ struct Scenario {
   std::string id;  ///< "city_square/nearest_exit": path below the scenarios folder, no suffix
   std::string name;
   std::string description;
-  std::filesystem::path scene_file;  ///< Menge scene XML, absolute; empty: none, or `built_crowd`
+  std::filesystem::path scene_file;  ///< Menge scene XML, absolute; may be empty: see has_crowd()
   std::filesystem::path behavior_file;  ///< Menge behavior XML, absolute
-  /// A crowd that is in no files; null: that of the two files (world/scenario_crowd.h).
+  /// A crowd built in code; null: the crowd of the two files (see world/scenario_crowd.h).
   std::shared_ptr<const crowd::CrowdDescription> built_crowd;
-  std::string crowd_model;      ///< pedestrian model that it was made for; empty: any
+  std::string crowd_model;      ///< pedestrian model for which the crowd was tuned; empty: any
   Rectangle ground;             ///< what is rendered as ground
-  std::string ground_material;  ///< "pavers", "asphalt", "grass", "concrete"
-  Rectangle inside;             ///< who leaves this rectangle has escaped
+  std::string ground_material;  ///< "pavers", "asphalt", "grass", "concrete" or "dirt"
+  Rectangle inside;             ///< people who leave this rectangle have escaped
   std::vector<Exit> exits;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
-  /// Agents that are not people (the paper's disaster is an agent); neither rendered nor counted.
-  /// Those of `disasters` are among them.
+  /// Indices of agents that are not people, including those of `disasters`; neither rendered nor
+  /// counted.
   std::vector<int> disaster_agents;
   std::vector<Disaster> disasters;
-  /// Whether the behavior file lets people who have noticed nothing follow a drone.
+  /// Whether the behavior file lets people who have not noticed a disaster follow a drone.
   bool guides_alert = false;
-  std::vector<Prop> props;       ///< placed ones in the file's order, then scattered ones
-  std::size_t placed_props = 0;  ///< how many of them are placed
+  std::vector<Prop> props;       ///< placed props in the order of the file, then scattered props
+  std::size_t placed_props = 0;  ///< number of placed props
   std::vector<PlacedMesh> meshes;
-  std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones
+  std::vector<GroundArea> areas;  ///< later areas cover earlier ones
   std::vector<Marking> markings;
-  /// The file's JSON without its crowd, for those who have the run's trace but not the file.
+  /// The JSON of the file without its crowd; a trace stores it, so that it can be read without the
+  /// file.
   std::string document;
-  /// The alarm of a scenario whose crowd is not at hand, as in a trace; otherwise find_alarm()
-  /// finds it.
+  /// The alarm of a scenario whose crowd is not available, as in a trace; otherwise find_alarm()
+  /// computes it.
   std::optional<Alarm> alarm;
 
-  /// Whether it has a crowd to simulate; otherwise only recorded people can be in it.
+  /// Whether the scenario has a crowd to simulate; without one it can only show recorded people.
   bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }
 };
 
-/// Reads and checks a scenario file. `id` becomes Scenario::id. One that `extends` another file of
-/// its folder contains only the differences: fields of objects replace those of the same name,
-/// anything else replaces the whole (RFC 7396). Throws InputError (file, JSON pointer, found,
-/// expected) for bad content and EnvironmentError when the file cannot be read.
+/// Reads and checks a scenario file. `id` becomes Scenario::id. A file that `extends` another file
+/// of its folder contains only the differences: fields of objects replace those of the same name,
+/// and other values replace the whole value (RFC 7396). Throws InputError (file, JSON pointer,
+/// found, expected) for invalid content and EnvironmentError if the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
 
-/// The same for a document in memory that extends nothing. `file` is where it would be: for
-/// messages, and for the names of files in it.
+/// Checks a scenario document in memory that extends nothing. `file` is used in messages, and its
+/// folder is that of the files that the document names. Throws like load_scenario().
 Scenario parse_scenario(const nlohmann::json& document, const std::filesystem::path& file,
                         std::string id);
 
-/// Leaves this share (0 to 1) of the scattered props where they are, chosen by the seed, and takes
-/// the others away. A smaller share leaves some of those that a larger one leaves.
+/// Removes scattered props: each stays with probability `share` (0 to 1), determined by the seed.
+/// The props that stay at a smaller share are a subset of those that stay at a larger one.
 void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 
-/// The folder of shipped scenarios: $THRONG_SCENARIOS if set, else the installed one, else the
-/// source tree's.
+/// Returns the folder of shipped scenarios: $THRONG_SCENARIOS if set, else the installed folder,
+/// else that of the source tree.
 std::filesystem::path scenarios_folder();
 
-/// Ending of the files of blueprints (world/scenarios/blueprint/blueprint.h).
+/// File name suffix of blueprints (world/scenarios/blueprint/blueprint.h).
 inline constexpr std::string_view kBlueprintEnding = ".blueprint.json";
 
-/// Ending of blueprints in files of version 0.1; they are still read.
+/// File name suffix of blueprints of version 0.1, which are still read.
 inline constexpr std::string_view kFormerBlueprintEnding = ".place.json";
 
-/// Whether a file's name ends as blueprints' do, now or formerly.
+/// Whether a file name has one of the suffixes of blueprints.
 bool is_blueprint_name(std::string_view file);
 
-/// `<folder>/<id>.json`, else the blueprint `<folder>/<id>.blueprint.json`. Ids are words of
-/// [a-z0-9_] joined by '/': nothing outside the folder can be named. Throws InputError when the id
-/// is malformed or unknown (listing what there is).
+/// Returns `<folder>/<id>.json` if it exists, else `<folder>/<id>.blueprint.json`. Ids consist of
+/// words of [a-z0-9_] joined by '/', so an id cannot name a file outside the folder. Throws
+/// InputError, with a list of ids, if the id is malformed or unknown.
 std::filesystem::path scenario_file(const std::filesystem::path& folder, const std::string& id);
 
-/// Whether there is a file for the id, without reading it.
+/// Whether a scenario or blueprint file exists for the id. Does not read the file.
 bool has_scenario(const std::filesystem::path& folder, const std::string& id);
 
-/// The name of a scenario file without its ending, which is ".json" or ".blueprint.json".
+/// Returns the name of a scenario file without its suffix ".json" or ".blueprint.json".
 std::string id_from_file(const std::filesystem::path& file);
 
-/// Every scenario id in the folder, sorted, whether its file is a scenario or a blueprint. Sound
-/// JSON files without any part of a scenario (jobs, studies) are none.
+/// Returns the sorted ids of all scenarios and blueprints in the folder and its subfolders. Valid
+/// JSON files without any part of a scenario (jobs, studies) are left out. Throws InputError if
+/// there is no such folder and EnvironmentError if it cannot be read.
 std::vector<std::string> list_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::world

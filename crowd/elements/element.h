@@ -1,4 +1,4 @@
-// Reading descriptions so that everything wrong is reported with its file, line and element.
+// Access to the elements of a description, with errors that name file, line and element.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace throng::crowd {
 
 class Reading;
 
-/// An element while a simulation is made from its description: what a reader of elements asks, and
-/// where it says what is wrong. A view, valid as long as its Reading.
+/// An element of a description while a simulation is created from it: its name, attributes and
+/// children, and the reporting of errors and warnings. A view, valid as long as its Reading.
 class Element {
  public:
   Element(const Node& node, Reading& reading) : node_(&node), reading_(&reading) {}
@@ -27,29 +27,29 @@ class Element {
   std::vector<std::pair<std::string_view, std::string_view>> attributes() const;
   std::optional<std::string_view> attribute(std::string_view name) const;
 
-  /// Whether the words true and false are both 0 in this file.
+  /// Whether the words true and false both mean 0 in this file: see Reading.
   bool words_are_zero() const;
 
-  /// The only child, which must be there. `expected` names it in the error.
+  /// Returns the only child. Fails with `expected` unless there is exactly one.
   Element only_child(std::string_view expected) const;
-  /// Throws unless the element has no child elements.
+  /// Fails if the element has child elements.
   void require_no_children() const;
 
-  /// Throw an InputError that says where this element stands: file and line, or which of the
-  /// elements it is that were built in code.
+  /// Throws an InputError with the position of this element: file and line, or the path of an
+  /// element that was built in code.
   [[noreturn]] void fail(std::string found, std::string expected) const;
   [[noreturn]] void fail_attribute(std::string_view attribute, std::string found,
                                    std::string expected) const;
-  /// For an element that does not belong here; `expected` lists those that do.
+  /// Throws for an element that is not allowed here; `expected` lists the allowed ones.
   [[noreturn]] void fail_unknown(std::string expected) const;
 
-  /// Notes that something is ignored, or surely not meant.
+  /// Records a warning: a part is ignored or probably a mistake.
   void warn(std::string found, std::string expected) const;
   void warn_attribute(std::string_view attribute, std::string found, std::string expected) const;
 
-  /// The file that an attribute names, relative to the description's folder.
+  /// Resolves a file name against the folder of the description.
   std::filesystem::path file_beside(std::string_view file_name) const;
-  /// The same for a text file, which may also be one of Description::files.
+  /// Returns a text file of the description's folder or of Description::files.
   TextFile text_file(std::string_view file_name) const;
 
  private:
@@ -62,12 +62,13 @@ class Element {
   Reading* reading_;
 };
 
-/// The making of something from a description, which stays as it is: several simulations may be
-/// made from one at the same time.
+/// The creation of a simulation from a description: collects warnings and provides the root
+/// element. Does not change the description, so several simulations may be created from it at the
+/// same time.
 class Reading {
  public:
-  /// `words_are_zero`: "true" and "false" are both 0, as Menge reads them where it expects a
-  /// number. Throws InputError when the root is another element.
+  /// The description must outlive this object. `words_are_zero`: "true" and "false" mean 0, as
+  /// Menge reads them where it expects a number. Throws InputError if the root has another name.
   Reading(const Description& description, std::string_view root_name, bool words_are_zero = false);
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
@@ -80,10 +81,10 @@ class Reading {
 
   const Description* description_;
   bool words_are_zero_;
-  std::vector<Problem> warnings_;  ///< what was ignored
+  std::vector<Problem> warnings_;  ///< ignored parts
 };
 
-/// Text from a file in quotes, made printable and short enough for a message.
+/// Returns a text from a file in quotes, shortened and with unprintable characters replaced.
 std::string in_quotes(std::string_view text);
 
 }  // namespace throng::crowd

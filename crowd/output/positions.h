@@ -1,5 +1,5 @@
-// Agents' positions at some moments of a run, as a table (CSV): time, agent, class, state,
-// position, orientation, preferred and actual velocity. Agents that do not take part are left out.
+// Positions of agents at selected times of a run as a table (CSV): time, agent, class, state,
+// position, orientation, preferred and actual velocity. Agents that are not present are left out.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,12 @@
 
 namespace throng::crowd {
 
+/// Writes the positions of agents at selected times.
 class PositionsWriter : public Recorder {
  public:
-  /// At the frames nearest to `times_s`, as far as the run goes on until then. Without times at
-  /// the beginning, 10 %, 25 %, 50 %, 75 % and the end of the run; all frames are then kept beside
-  /// `path` until it is known which these are. Throws EnvironmentError.
+  /// Records the frames nearest to `times_s` that the run reaches. Without times: the start, 10 %,
+  /// 25 %, 50 %, 75 % and the end of the run; as the end is unknown, all frames are kept in a
+  /// temporary file beside `path` until finish(). Throws EnvironmentError.
   PositionsWriter(const std::filesystem::path& path,
                   const std::optional<std::vector<double>>& times_s, const Simulation& crowd);
 
@@ -25,7 +26,7 @@ class PositionsWriter : public Recorder {
 
  private:
   std::filesystem::path path_;
-  std::optional<std::vector<std::size_t>> wanted_;  ///< frames, ascending
+  std::optional<std::vector<std::size_t>> wanted_;  ///< indices of frames, ascending
   ScbWriter frames_;
   std::size_t frame_count_ = 0;
 };

@@ -1,17 +1,19 @@
-// Interface of recorders, which write a run while it proceeds.
+// Interface of recorders, which write a run while it is simulated.
 #pragma once
 
 #include "crowd/simulation.h"
 
 namespace throng::crowd {
 
+/// Writes one file from a running simulation.
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  /// Writes the crowd as it is now: at time 0 and after every step. Throws EnvironmentError.
+  /// Writes the current state of the crowd. Called at time 0 and after each step. Throws
+  /// EnvironmentError.
   virtual void record(const Simulation& crowd) = 0;
-  /// Completes the file and gives it its name after the last record() of the same crowd; without
-  /// it nothing is left behind. Throws EnvironmentError.
+  /// Completes the file and moves it to its final name. Called once, after the last record();
+  /// without this call, no file is left. Throws EnvironmentError.
   virtual void finish(const Simulation& crowd) = 0;
 };
 

@@ -1,6 +1,7 @@
-// Statistics of a whole crowd, second by second, as a table (CSV): time, shares of agents in final
-// states and in states that no transition leads out of, mean and highest speed, distance of the
-// nearest pair, pairs that overlap, mean and (population) standard deviation of places, agents per
+// Statistics of the crowd for each second as a table (CSV): time, shares of agents in final states
+// and in states without transitions, mean and max speed, distance of the nearest pair, number of
+// overlapping pairs, mean and (population) standard deviation of positions, agents per state. Units
+// are seconds and meters. Absent agents are left out.
 // state. Units are seconds and meters. Agents that do not take part are left out.
 #pragma once
 
@@ -13,10 +14,10 @@
 
 namespace throng::crowd {
 
-/// Writes one line for the frame nearest to every whole second, and one for the last frame.
+/// Writes a row for the frame nearest to each whole second and one for the last frame.
 class SeriesWriter : public Recorder {
  public:
-  /// Throws EnvironmentError when the file cannot be written.
+  /// Throws EnvironmentError if the file cannot be written.
   SeriesWriter(const std::filesystem::path& path, const Simulation& crowd);
 
   void record(const Simulation& crowd) override;
