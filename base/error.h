@@ -1,6 +1,5 @@
-// Three kinds of failure, three words: InputError (what the user gave us is wrong),
-// EnvironmentError (the machine failed; a retry may help) and check() (we have a bug: stop at
-// once).
+// The three kinds of failure: InputError (the user's input is wrong), EnvironmentError (the machine
+// failed; a retry may help) and check() (the program has a bug and stops).
 #pragma once
 
 #include <stdexcept>
@@ -17,13 +16,13 @@ struct Problem {
   std::string found;     ///< The value found there.
   std::string expected;  ///< The value or form expected there.
 
-  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". If `found`
-  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. If it
-  /// begins with "missing", and without `expected`, it is `found` alone.
+  /// Returns "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". If
+  /// `found` begins with "unknown ": `/drone: unknown field "drone"; did you mean "drones"?`. If
+  /// `found` begins with "missing " or `expected` is empty, the text ends after `found`.
   std::string text() const;
 };
 
-/// The user's input is wrong; names every problem found. Retrying cannot help.
+/// The user's input is wrong. Holds all problems that were found; a retry cannot help.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Problem problem);
@@ -34,7 +33,7 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// Something outside the program failed: disk, driver, child process. A retry may help.
+/// A failure outside the program: disk, driver, child process. A retry may help.
 class EnvironmentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -46,7 +45,7 @@ class Cancelled : public std::runtime_error {
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-/// Source location of a check (std::source_location, which clang 14 lacks).
+/// Source location of a check: std::source_location, which clang 14 lacks.
 struct CodeLocation {
   const char* file;
   int line;
@@ -56,8 +55,8 @@ struct CodeLocation {
   }
 };
 
-/// States what must be true unless we have a bug; prints the claim and aborts when it is not.
-/// Never reachable by bad input.
+/// Aborts the program with `claim` on stderr unless `holds`. For conditions that only a bug can
+/// violate, never for input.
 void check(bool holds, std::string_view claim, CodeLocation location = CodeLocation::here());
 
 }  // namespace throng

@@ -1,5 +1,5 @@
-// Errors that say that the machine lacks something for the moment: open files, processes, memory.
-// Nobody's job is wrong, and no attempt counts.
+// Errors of a machine that temporarily lacks open files, processes or memory. They are not the
+// fault of a job, and the attempt does not count.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,23 @@
 
 namespace throng {
 
+/// A temporary lack of resources.
 class ResourcesExhausted : public EnvironmentError {
  public:
   using EnvironmentError::EnvironmentError;
 };
 
-/// Throws ResourcesExhausted if the errno says so, else EnvironmentError; the message gets the
-/// errno's text.
+/// Throws ResourcesExhausted if the errno `error` means a lack of resources, else EnvironmentError.
+/// The text of the errno is appended to the message.
 [[noreturn]] void throw_environment_error(const std::string& message, int error);
 
-/// Whether this is ResourcesExhausted, std::bad_alloc, or an error of threads or files with such an
+/// Whether an error is ResourcesExhausted, std::bad_alloc, or a std::system_error with such an
 /// errno.
 bool is_resource_exhaustion(const std::exception& error);
 
 /// Throws EnvironmentError("cannot write FILE: No space left on device"). `error` is an errno, or 0
-/// where a library keeps it to itself: then a disk without free space is the reason.
+/// if a library does not report it: then the text names missing write access, a full disk or, if
+/// neither is found, an I/O error.
 [[noreturn]] void throw_write_error(const std::filesystem::path& file, int error);
 
 }  // namespace throng

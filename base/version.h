@@ -1,4 +1,4 @@
-// The name and version that every file we write carries.
+// Name and version of the program, written into all output files.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// Hot loops compiled for more than one instruction set; which one runs is chosen at run time, so
-// the same program runs everywhere.
+// Loops that are compiled for several instruction sets; the program selects one at run time, so the
+// same program runs on all machines.
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,11 @@
 namespace throng {
 
 enum class InstructionSet {
-  baseline,  ///< what every machine of this architecture has; on x86-64 that is SSE2
+  baseline,  ///< supported by every machine of the architecture; SSE2 on x86-64
   avx2       ///< vectors of 8 floats
 };
 
-/// The best one that this machine has.
+/// Returns the best instruction set that this machine supports.
 inline InstructionSet best_instruction_set() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") != 0) return InstructionSet::avx2;
@@ -23,10 +23,10 @@ inline std::string_view to_string(InstructionSet set) {
   return set == InstructionSet::avx2 ? "avx2" : "baseline";
 }
 
-/// A loop in several versions. A Kernel has `template <int kWidth> static R run(Args...)`, where
-/// kWidth is the number of lanes (see simd.h); everything that it calls is inlined into it and so
-/// compiled for the same instruction set. Versions differ in speed only: there are no fused
-/// multiply-adds, so they round alike.
+/// Versions of a loop. A Kernel has `template <int kWidth> static R run(Args...)`, where kWidth is
+/// the number of lanes (see simd.h). Functions that the kernel calls are inlined and so compiled
+/// for the same instruction set. Versions differ only in speed: without fused multiply-adds, their
+/// results are equal.
 template <typename Kernel, typename Signature>
 struct Versions;
 

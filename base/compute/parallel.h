@@ -1,4 +1,4 @@
-// Loops over independent items on TBB's threads, which sleep when there is nothing to do.
+// Loops over independent items on TBB's threads.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -39,26 +39,26 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
-/// Per-thread state of a loop, created before the loop, so that a thread that joins late creates
-/// nothing.
+/// A value per thread of a loop. Values are created before the loop, so that threads that join
+/// later allocate nothing.
 template <typename T>
 class PerThread {
  public:
   explicit PerThread(const T& initial) : initial_(initial) {}
 
-  /// To be called before the loop, by the thread that starts it.
+  /// Must be called before the loop, by the thread that starts it.
   void prepare() {
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     if (all_.size() < threads) all_.resize(threads, Padded{initial_});
   }
-  /// To be called in the loop: this thread's own.
+  /// Returns the value of the calling thread; called in the loop.
   T& local() {
     const int index = tbb::this_task_arena::current_thread_index();
     return all_[static_cast<std::size_t>(std::max(index, 0))].value;
   }
 
  private:
-  struct alignas(128) Padded {  // no two in one cache line
+  struct alignas(128) Padded {  // separate cache lines
     T value;
   };
 

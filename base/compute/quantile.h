@@ -1,4 +1,5 @@
-// Quantiles of a sample, linear between order statistics (Hyndman and Fan 1996, type 7).
+// Quantiles of a sample, interpolated linearly between order statistics (Hyndman and Fan 1996, type
+// 7).
 #pragma once
 
 #include <algorithm>
@@ -8,8 +9,8 @@
 
 namespace throng {
 
-/// The quantile p (0 to 1) of values in ascending order, of which there is at least one. Values may
-/// be infinite.
+/// Returns the quantile p (0 to 1) of at least one value in ascending order. Values may be
+/// infinite.
 inline double quantile_of_sorted(const std::vector<double>& sorted, double p) {
   const double at = p * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(at);
@@ -19,14 +20,14 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double p) {
   return sorted[low] + part * (sorted[low + 1] - sorted[low]);
 }
 
-/// The same for values in any order; NaN if there is none.
+/// Returns the quantile p (0 to 1) of unsorted values; NaN if there are none.
 inline double quantile(std::vector<double> values, double p) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());
   return quantile_of_sorted(values, p);
 }
 
-/// The middle value, or the mean of the two middle ones; NaN if there is none.
+/// Returns the median; NaN if there are no values.
 inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 }  // namespace throng

@@ -1,5 +1,5 @@
-// Counter-based random numbers: a value depends only on (seed, stream, index, draw), never on the
-// order in which others sample, so results do not change with threads, shards or retries.
+// Counter-based random numbers: a value depends only on (seed, stream, index, number of the call),
+// so results do not depend on threads, shards or retries.
 #pragma once
 
 #include <array>
@@ -7,34 +7,34 @@
 
 namespace throng {
 
-/// One stream per purpose; the number is part of every file's bytes, so never renumber.
+/// Purposes of random numbers. The values determine the bytes of output files and must not change.
 enum class Stream : std::uint32_t {
   run = 1,              ///< seed of run i of a job
-  crowd_generator = 2,  ///< where agents start
-  crowd_profile = 3,    ///< agents' properties
+  crowd_generator = 2,  ///< start positions of agents
+  crowd_profile = 3,    ///< properties of agents
   crowd_behavior = 4,   ///< goals, timers, targets
-  appearance = 5,       ///< who looks like what
+  appearance = 5,       ///< assignment of characters to agents
   motion = 6,           ///< gait phase and style
   wind = 7,
   sensors = 8,
-  population = 9,  ///< bodies that are baked
+  population = 9,  ///< bodies of a character library
   environment = 10,
   randomize = 11,     ///< values sampled for a job's distributions
-  participants = 12,  ///< who of a scenario's people takes part in a run
+  participants = 12,  ///< selection of the people who take part in a run
   crowd_arrivals = 13,
-  crowd_groups = 14,  ///< who walks with whom
+  crowd_groups = 14,  ///< social groups
   crowd_panic = 15,
-  crowd_exits = 16,  ///< which exits somebody knows
+  crowd_exits = 16,  ///< exits known to a person
   crowd_model = 17,  ///< noise of pedestrian models
   camera_noise = 18,
-  perception = 24,  ///< what guides count wrongly
+  perception = 24,  ///< counting errors of guides
   bootstrap = 25,   ///< resampling of statistics
-  aim = 26,         ///< people at whom drones aim, and from where
-  place = 27,       ///< places generated for single runs of a job
+  aim = 26,         ///< people at whom drones aim, and positions of the drones
+  place = 27,       ///< scenarios generated for single runs of a job
 };
 
-/// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.
-/// Cheap to construct: make one per agent, frame or decision, and throw it away.
+/// A generator for the key (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) of Random123.
+/// Cheap to construct: create one per agent, frame or decision.
 class Random {
  public:
   Random(std::uint64_t seed, Stream stream, std::uint64_t index = 0);
@@ -57,7 +57,7 @@ class Random {
   int used_ = 4;
 };
 
-/// A 64-bit seed for part `index` of something with this seed, e.g. run 3 of a job.
+/// Returns a 64-bit seed for part `index` of an object with this seed, e.g. for run 3 of a job.
 std::uint64_t derive_seed(std::uint64_t seed, Stream stream, std::uint64_t index);
 
 }  // namespace throng

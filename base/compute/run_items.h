@@ -1,4 +1,4 @@
-// Long pieces of work that know nothing of each other, several at a time.
+// Parallel execution of long, independent tasks.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace throng {
 
-/// Calls item(0) ... item(count - 1), each once and in this order of beginning, on `threads`
-/// threads (0: one per core); within one there is a single thread (TBB's loops too). When one
-/// throws, no more begin and the first exception is thrown on after the others have ended. Throws
-/// Cancelled when `stop` was requested.
+/// Calls item(0) ... item(count - 1), each once and started in this order, on `threads` threads (0:
+/// one per core). Loops of TBB inside an item run on its thread only. After an exception, no more
+/// items start; the first exception is rethrown when the running ones have ended. Throws Cancelled
+/// if `stop` was requested.
 void run_items(std::size_t count, int threads, const std::stop_token& stop,
                const std::function<void(std::size_t)>& item);
 

@@ -1,5 +1,5 @@
-// Vectors of 4 or 8 floats on which operators work lane by lane (GCC's vector extension). For
-// kernels only (see instruction_set.h), whose files throng_kernels() in cmake/Modules.cmake names.
+// Vectors of 4 or 8 floats whose operators work per lane (GCC's vector extension). For kernels only
+// (see instruction_set.h), whose files throng_kernels() of cmake/Modules.cmake lists.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 #include <emmintrin.h>
 #endif
 
-// Vectors stay inside of functions that are inlined: how they would be passed is nobody's concern.
+// Vectors are used in inlined functions only, so the ABI of vector arguments does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace throng {
 
 using Float4 [[gnu::vector_size(16)]] = float;
 using Float8 [[gnu::vector_size(32)]] = float;
-/// Result of comparisons: -1 where true, 0 elsewhere.
+/// Masks, the results of comparisons: -1 for true, 0 for false.
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 using Int8 [[gnu::vector_size(32)]] = std::int32_t;
 
@@ -27,7 +27,7 @@ inline Float4 high_half(Float8 v) { return __builtin_shufflevector(v, v, 4, 5, 6
 inline Int4 low_half(Int8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
 inline Int4 high_half(Int8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 
-/// Bit i is set if lane i of a mask is true.
+/// Returns the mask as bits: bit i is set if lane i is true.
 inline unsigned movemask(Int4 mask) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
@@ -39,11 +39,11 @@ inline unsigned movemask(Int8 mask) {
   return movemask(low_half(mask)) | (movemask(high_half(mask)) << 4U);
 }
 
-/// Whether a mask is true in any lane.
+/// Whether a lane of the mask is true.
 inline bool any(Int4 mask) { return movemask(mask) != 0; }
 inline bool any(Int8 mask) { return any(low_half(mask) | high_half(mask)); }
 
-/// Lane by lane; b where one of them is no number.
+/// Minimum and maximum per lane; b if a or b is NaN.
 template <typename Vector>
 Vector smaller(Vector a, Vector b) {
   return a < b ? a : b;
@@ -53,7 +53,7 @@ Vector greater(Vector a, Vector b) {
   return a > b ? a : b;
 }
 
-/// The smallest and the greatest of the lanes.
+/// Minimum and maximum of all lanes.
 inline float lowest(Float4 v) {
   v = smaller(v, __builtin_shufflevector(v, v, 2, 3, 2, 3));
   return smaller(v, __builtin_shufflevector(v, v, 1, 1, 1, 1))[0];
@@ -65,6 +65,7 @@ inline float highest(Float4 v) {
 inline float lowest(Float8 v) { return lowest(smaller(low_half(v), high_half(v))); }
 inline float highest(Float8 v) { return highest(greater(low_half(v), high_half(v))); }
 
+/// The vector types with kWidth lanes.
 template <int kWidth>
 struct Vectors;
 
@@ -82,7 +83,7 @@ struct Vectors<8> {
   static constexpr Int kIndex = {0, 1, 2, 3, 4, 5, 6, 7};
 };
 
-/// The same in every lane.
+/// Returns a vector with the same value in all lanes.
 template <int kWidth>
 typename Vectors<kWidth>::Float broadcast(float value) {
   return value - typename Vectors<kWidth>::Float{};
@@ -120,12 +121,12 @@ inline constexpr auto kPackedLanes = [] {
   return lanes;
 }();
 
-/// Stores the lanes of two vectors for which the mask is true, one after the other. Returns how
-/// many there are; what follows them, up to a whole vector, may be written too.
+/// Stores the lanes of two vectors for which the mask is true, consecutively. Returns their number;
+/// memory behind them, up to a whole vector, may be overwritten.
 template <int kWidth>
 std::size_t compress_store(typename Vectors<kWidth>::Float a, typename Vectors<kWidth>::Int b,
                            typename Vectors<kWidth>::Int mask, float* to_a, std::int32_t* to_b) {
-#if !defined(__clang__)  // which has no shuffle by a variable
+#if !defined(__clang__)  // clang has no shuffle with variable indices
   if constexpr (kWidth == 8) {
     const unsigned which = movemask(mask);
     const Int8 from = load<8>(kPackedLanes[which].data());
@@ -149,11 +150,11 @@ typename Vectors<kWidth>::Float square_root(typename Vectors<kWidth>::Float v) {
   return v;
 }
 
-/// e to the power of x: within 3e-7 of it, relatively, and the same for any number of lanes; x is
-/// taken for at most 88 and at least -87.
+/// Returns e^x with a relative error of at most 3e-7, equal for all numbers of lanes. x is limited
+/// to -87 to 88.
 template <typename Float>
 Float exponential(Float x) {
-  // 2^k e^r, where adding the big number rounds to an integer and leaves it in the lowest bits.
+  // e^x = 2^k e^r. Adding kRound rounds x / ln 2 to the integer k in the lowest bits.
   using Int = decltype(x < x);
   constexpr float kRound = 12582912;  // 1.5 * 2^23
   constexpr float kLn2High = 0.693359375F;
@@ -162,7 +163,7 @@ Float exponential(Float x) {
   const Float shifted = x * 1.44269504F + kRound;
   const Float k = shifted - kRound;
   const Float r = x - k * kLn2High - k * kLn2Low;
-  // Through e^r at Chebyshev points.
+  // Polynomial that interpolates e^r at Chebyshev points.
   Float p = 0.0013941213255748153F * r + 0.008375209756195545F;
   p = p * r + 0.04166635125875473F;
   p = p * r + 0.16666413843631744F;
@@ -176,7 +177,7 @@ Float exponential(Float x) {
 }
 inline float exponential(float x) { return exponential(Float4{} + x)[0]; }
 
-/// Turns records of four numbers into four vectors.
+/// Transposes records of four numbers to four vectors.
 inline void transpose(const std::array<Float4, 4>& r, Float4& a, Float4& b, Float4& c, Float4& d) {
   const Float4 ab_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
   const Float4 cd_low = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
@@ -188,7 +189,7 @@ inline void transpose(const std::array<Float4, 4>& r, Float4& a, Float4& b, Floa
   d = __builtin_shufflevector(cd_low, cd_high, 2, 3, 6, 7);
 }
 
-/// Turns pairs of numbers into two vectors.
+/// Splits pairs of numbers into two vectors.
 inline void deinterleave(Float4 first, Float4 second, Float4& a, Float4& b) {
   a = __builtin_shufflevector(first, second, 0, 2, 4, 6);
   b = __builtin_shufflevector(first, second, 1, 3, 5, 7);
@@ -198,7 +199,7 @@ inline void deinterleave(Float8 first, Float8 second, Float8& a, Float8& b) {
   b = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
 }
 
-/// Back to pairs.
+/// Combines two vectors to pairs: the inverse of deinterleave().
 inline void interleave(Float4 a, Float4 b, Float4& first, Float4& second) {
   first = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   second = __builtin_shufflevector(a, b, 2, 6, 3, 7);

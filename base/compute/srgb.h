@@ -1,17 +1,17 @@
-// sRGB (IEC 61966-2-1) bytes to linear light in [0, 1] and back.
+// Conversion between sRGB bytes (IEC 61966-2-1) and linear light in [0, 1].
 #pragma once
 
 #include <cstdint>
 
 namespace throng {
 
-/// Linear light of an encoded value in [0, 1].
+/// Returns the linear light of an encoded value in [0, 1].
 double linear_from_encoded(double encoded);
 
-/// Linear light of a byte.
+/// Returns the linear light of a byte.
 float linear_from_srgb(std::uint8_t byte);
 
-/// The nearest byte; light is clipped to [0, 1], and no number is none.
+/// Returns the nearest byte; light is clamped to [0, 1], NaN gives 0.
 std::uint8_t srgb_from_linear(float light);
 
 }  // namespace throng

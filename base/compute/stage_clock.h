@@ -1,4 +1,4 @@
-// Profile of repeated work: the code reports each stage that has just ended.
+// Profiling of repeated work by stages.
 #pragma once
 
 #include <chrono>
@@ -8,22 +8,23 @@
 
 namespace throng {
 
-/// Processor and wall-clock time of one stage, over all its repetitions (s).
+/// Processor and wall-clock time of one stage, summed over its repetitions (s).
 struct StageTime {
   double cpu_s = 0;  ///< of all threads of the process
   double wall_s = 0;
 };
 
-/// For figures that people read, never for what a dataset holds.
+/// Measures the duration of stages. For reports only: a dataset must not depend on measured times.
 class StageClock {
  public:
   using Times = std::map<std::string, StageTime, std::less<>>;
 
+  /// Starts the clock.
   StageClock() { skip(); }
 
-  /// All time since the last call belongs to `stage`.
+  /// Adds the time since the last lap() or skip() to `stage`.
   void lap(std::string_view stage);
-  /// The time since the last call belongs to nothing.
+  /// Discards the time since the last lap() or skip().
   void skip();
 
   const Times& times() const { return times_; }

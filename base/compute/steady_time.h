@@ -1,5 +1,4 @@
-// The time that passes, for code that decides by it: it asks a function, so that tests can put a
-// time of their own in its place.
+// The steady clock as a function, so that tests of code that depends on time can replace it.
 #pragma once
 
 #include <chrono>
@@ -7,16 +6,16 @@
 
 namespace throng {
 
-/// A moment of a clock that nobody sets.
+/// A time of a monotonic clock.
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// Tells the present moment; safe to call from many threads.
+/// Returns the current time; safe to call from several threads.
 using SteadyNow = std::function<SteadyTime()>;
 
-/// The machine's.
+/// Returns the current time of the machine's clock.
 inline SteadyTime steady_now() { return std::chrono::steady_clock::now(); }
 
-/// Seconds as a duration of that clock.
+/// Converts seconds to a duration of this clock.
 inline SteadyTime::duration steady_seconds(double seconds) {
   return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(seconds));
 }

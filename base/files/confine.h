@@ -1,17 +1,17 @@
-// Keeping the names in somebody else's files inside a folder.
+// Restriction of file names in untrusted files to a folder.
 #pragma once
 
 #include <filesystem>
 
 namespace throng {
 
-/// Whether a path leads into a folder, with every link on its path followed; also one where nothing
-/// is.
+/// Whether a path, with all links resolved, is in a folder. The path need not exist.
 bool lies_within(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// As long as it lives, the files that this thread's loaders read because a file names them
-/// (scenarios, Menge's XML, meshes) must lie in the folder. It goes with the thread rather than
-/// with every loader's parameters, so that no loader can be forgotten on the path.
+/// During its lifetime, files that a loader on this thread reads because another file names them
+/// (scenarios, Menge's XML, meshes) must be in the folder. A property of the thread and not a
+/// parameter of the loaders, so that no loader can omit it. Objects nest: the destructor restores
+/// the state before.
 class Confinement {
  public:
   explicit Confinement(const std::filesystem::path& folder);
@@ -19,7 +19,7 @@ class Confinement {
   Confinement(const Confinement&) = delete;
   Confinement& operator=(const Confinement&) = delete;
 
-  /// Whether this thread may read a file that was named: always, where it is not confined.
+  /// Whether this thread may read a named file; true if the thread is not confined.
   static bool allows(const std::filesystem::path& path);
 
  private:

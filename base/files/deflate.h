@@ -1,4 +1,4 @@
-// Fast compression that any reader of zlib streams understands.
+// Fast compression to zlib streams.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace throng {
 
-/// One zlib stream (RFC 1950) of `input`, by libdeflate at its level 1. Equal inputs give equal
-/// bytes; ISA-L, four times as fast, did not always. The result lies in `output`, whose capacity
-/// grows as needed and may be reused.
+/// Compresses `input` to one zlib stream (RFC 1950) with libdeflate at level 1; equal inputs give
+/// equal bytes, which was not always true for the faster ISA-L. The result is a view of `output`,
+/// which may be reused to avoid allocations.
 std::string_view deflated(std::span<const std::uint8_t> input, std::vector<std::uint8_t>& output);
 
 }  // namespace throng

@@ -1,4 +1,4 @@
-// Files that are either complete or absent: everything is written beside its place and renamed.
+// Files that are either complete or absent: they are written under a temporary name and renamed.
 #pragma once
 
 #include <filesystem>
@@ -8,27 +8,27 @@
 
 namespace throng {
 
-/// The whole file as bytes. Throws EnvironmentError naming the file when it cannot be read.
+/// Reads a whole file. Throws EnvironmentError with the file's name if it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Writes, syncs and renames, so that a reader sees the old file or the new one, never a part.
-/// Creates the parent folder. Throws EnvironmentError.
+/// Writes a file, syncs and renames it, so that readers see the old or the new file but never a
+/// part. Creates the parent folder. Throws EnvironmentError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Writes without syncing: for exchange between processes, in a folder that a crash may take along.
+/// Writes a file without sync and renaming: for exchange between processes in a temporary folder.
 /// Throws EnvironmentError.
 void write_temporary_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Creates the folder and those around it, so that they are still there after a power failure.
-/// Nothing if it exists. Throws EnvironmentError.
+/// Creates a folder and its parents and syncs them, so that they survive a power failure. Does
+/// nothing if the folder exists. Throws EnvironmentError.
 void make_folders(const std::filesystem::path& folder);
 
-/// Gives the file a second name, or copies it where the file system has no hard links. Creates the
-/// parent folder. Throws EnvironmentError naming both.
+/// Creates a hard link, or a copy if the file system has no hard links. Creates the parent folder.
+/// Throws EnvironmentError with both names.
 void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// A file under construction, for what is too big to be held in memory. commit() gives it its name
-/// (replacing an older file); otherwise the destructor removes it.
+/// A file under construction, for content that is too large for memory. commit() gives the file its
+/// final name and replaces an older file; without it, the destructor removes the file.
 class StagedFile {
  public:
   /// Creates the parent folder and a temporary file beside `final_path`. Throws EnvironmentError.
@@ -37,13 +37,16 @@ class StagedFile {
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
 
-  const std::filesystem::path& path() const { return staging_; }  ///< until commit()
-  /// Throws EnvironmentError when the disk is full.
+  const std::filesystem::path& path() const { return staging_; }  ///< valid until commit()
+  /// Throws EnvironmentError if the file cannot be written, e.g. on a full disk.
   void write(std::string_view bytes);
-  /// Gives what has been written to the system, so that others can read it at path().
+  /// Flushes buffers to the operating system, so that others can read the bytes at path(). Throws
+  /// EnvironmentError.
   void flush();
+  /// Syncs the file and renames it. Throws EnvironmentError.
   void commit();
-  /// Likewise unless there is a file of that name: of several processes one succeeds.
+  /// Syncs the file and links it to its final name unless that exists: of several processes, one
+  /// succeeds. Throws EnvironmentError.
   void commit_if_absent();
 
  private:
@@ -52,29 +55,29 @@ class StagedFile {
   std::ofstream file_;
 };
 
-/// Removes what processes that died have left half-written in a folder (not below it): files and
-/// folders under construction. Only while nobody writes there.
+/// Removes unfinished files and folders of dead processes directly in `folder`. No process may
+/// write there at the same time. Throws EnvironmentError.
 void remove_temporaries(const std::filesystem::path& folder);
 
-/// Whether a path is a folder's or below it, as both are written: nothing is looked up.
+/// Whether `path` equals `folder` or begins with it, component by component; ignores links and
+/// "..".
 bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// A folder under construction. commit() renames it to its final place (replacing nothing: an
-/// existing final folder is kept, since what is published is complete); otherwise the destructor
-/// removes it.
+/// A folder under construction. commit() renames it to its final name unless that exists: published
+/// folders are complete and are kept. Otherwise the destructor removes it.
 class StagingFolder {
  public:
-  /// Creates a folder at staging_path(final_path) (base/files/staging.h). Throws
-  /// EnvironmentError.
+  /// Creates a folder at staging_path(final_path) (base/files/staging.h). Throws EnvironmentError.
   explicit StagingFolder(std::filesystem::path final_path);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
 
   const std::filesystem::path& path() const { return staging_; }
+  /// Syncs all files and renames the folder. Throws EnvironmentError.
   void commit();
-  /// Like commit(), but puts the new folder in the place of one that is there: a process that opens
-  /// it sees the old folder or the new one.
+  /// Like commit(), but replaces an existing folder atomically: other processes see the old or the
+  /// new one.
   void commit_replacing();
 
  private:

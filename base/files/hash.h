@@ -1,4 +1,4 @@
-// SHA-256 of bytes and files, as lower-case hex or in base 64, and CRC-32.
+// SHA-256 and CRC-32 of bytes and files; hexadecimal and base 64 encoding.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,27 @@
 
 namespace throng {
 
-/// Two lower-case hexadecimal digits for each byte.
+/// Encodes each byte as two lower-case hexadecimal digits.
 std::string encode_hex(std::string_view bytes);
-/// Base 64 with padding (RFC 4648).
+/// Encodes bytes in base 64 with padding (RFC 4648).
 std::string encode_base64(std::string_view bytes);
 
 std::string sha256_hex(std::string_view bytes);
-/// In base 64 with padding, as browsers compare scripts (Content Security Policy level 3).
+/// Returns the SHA-256 in base 64 with padding, as in Content Security Policy level 3.
 std::string sha256_base64(std::string_view bytes);
 
-/// The checksum of zip files and gzip (CRC-32 of ISO 3309).
+/// Returns the checksum of zip and gzip files (CRC-32 of ISO 3309).
 std::uint32_t crc32(std::string_view bytes);
 
-/// Both of a file, which is read once, in blocks. Throws EnvironmentError when it cannot be read.
+/// Both hashes of a file, which is read once, in blocks.
 struct FileHashes {
   std::string sha256_hex;
   std::uint32_t crc32 = 0;
 };
+/// Throws EnvironmentError if the file cannot be read.
 FileHashes hashes_of_file(const std::filesystem::path& path);
 
-/// Reads the file in blocks. Throws EnvironmentError when it cannot be read.
+/// Reads the file in blocks. Throws EnvironmentError if it cannot be read.
 std::string sha256_hex_of_file(const std::filesystem::path& path);
 
 }  // namespace throng

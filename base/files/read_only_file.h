@@ -1,4 +1,4 @@
-// A file that is open for reading at any place, by any number of threads.
+// A file open for random-access reading from several threads.
 #pragma once
 
 #include <cstdint>
@@ -7,19 +7,21 @@
 
 namespace throng {
 
+/// An open file; closed by the destructor.
 class ReadOnlyFile {
  public:
-  /// Throws EnvironmentError when it cannot be opened.
+  /// Throws EnvironmentError if the file cannot be opened.
   explicit ReadOnlyFile(const std::filesystem::path& path);
   ~ReadOnlyFile();
   ReadOnlyFile(const ReadOnlyFile&) = delete;
   ReadOnlyFile& operator=(const ReadOnlyFile&) = delete;
 
-  std::int64_t size() const { return size_; }              ///< when it was opened
-  std::int64_t changed_ns() const { return changed_ns_; }  ///< Unix time of its last change then
+  std::int64_t size() const { return size_; }  ///< bytes, when the file was opened
+  /// Modification time when the file was opened, Unix time.
+  std::int64_t changed_ns() const { return changed_ns_; }
 
-  /// Fills the buffer with the bytes from `offset` on; returns how many there were: fewer than
-  /// asked for only at the end of the file. Throws EnvironmentError.
+  /// Fills the buffer with the bytes from `offset` on. Returns their number, which is less than the
+  /// size of the buffer only at the end of the file. Throws EnvironmentError.
   std::size_t read_at(std::int64_t offset, std::span<char> buffer) const;
 
  private:

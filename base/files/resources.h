@@ -1,4 +1,4 @@
-// Folders of the data that comes with the program: scenarios, character library.
+// Folders of data files that belong to the program: scenarios, character library.
 #pragma once
 
 #include <filesystem>
@@ -6,15 +6,15 @@
 
 namespace throng {
 
-/// The folder `$<variable>` if set; else `<program>/../share/throng/<name>` if it exists (an
-/// installed throng); else `in_source`, relative to source_folder().
+/// Returns the folder `$<variable>` if set; else `<program>/../share/throng/<name>` if it exists
+/// (installed program); else `in_source`, relative to source_folder().
 std::filesystem::path resource_folder(const char* variable, const std::string& name,
                                       const std::filesystem::path& in_source);
 
-/// The checkout that this program was built from. It may be gone.
+/// Returns the source tree from which this program was built; it may no longer exist.
 std::filesystem::path source_folder();
 
-/// The running program itself.
+/// Returns the path of the running program.
 std::filesystem::path program_path();
 
 }  // namespace throng

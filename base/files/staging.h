@@ -1,6 +1,6 @@
-// Paths of files and folders until they get their final names, and the one place that renames
-// them. A process of a cluster stages in a folder of its own: once that folder has been removed,
-// nothing that the process wrote can be published any more, however late it tries (fencing).
+// Temporary paths of unfinished files and folders, and their renaming to final names. In a cluster,
+// a process can stage in a folder of its own; once that folder is removed, the process can publish
+// nothing more (fencing).
 #pragma once
 
 #include <filesystem>
@@ -10,32 +10,34 @@
 
 namespace throng {
 
-/// From now on this process stages everything in this folder, which exists and is on the file
-/// system of whatever is published. Throws EnvironmentError.
+/// Makes this process stage all files in `folder`, which must hold a file "claim" and be on the
+/// file system of the final paths. Must be called before the process starts other threads. Throws
+/// EnvironmentError.
 void stage_in(const std::filesystem::path& folder);
 
-/// Whether the folder of stage_in() has been removed: nothing can be published any more.
+/// Whether the folder of stage_in() or its file "claim" was removed, so that nothing can be
+/// published any more.
 bool is_staging_revoked();
 
-/// Paths that have been published since stage_in(), in order. Safe to use from many threads.
+/// Returns the paths published since stage_in(), in order. Thread-safe.
 std::vector<std::filesystem::path> published_files();
 
-/// A new name for what is to become `final_path`: PATH.tmp.HOST.PID.RANDOM.NUMBER beside it, or
-/// such a name in the folder of stage_in(). No other process gets it, on any host.
+/// Returns a new temporary path for `final_path`: PATH.tmp.HOST.PID.RANDOM.NUMBER beside it, or a
+/// path with such a name in the folder of stage_in(). Unique among processes and hosts.
 std::filesystem::path staging_path(const std::filesystem::path& final_path);
 
-/// Renames what lies at a path of staging_path(). With stage_in() the source is looked up in the
-/// folder that was opened then: if that was removed, renaming fails, even if a folder of the same
-/// path has been made since.
+/// Renames a file or folder at a path of staging_path(). With stage_in(), the source is looked up
+/// in the folder that was opened then: if that folder was removed, renaming fails even if a new
+/// folder has the same path.
 std::error_code publish_staged(const std::filesystem::path& staged,
                                const std::filesystem::path& final_path);
 
-/// Gives the staged file a second name unless that is taken; which of several processes succeeds is
-/// up to the file system.
+/// Links the staged file to its final path unless that exists; the file system decides which of
+/// several processes succeeds.
 std::error_code link_staged(const std::filesystem::path& staged,
                             const std::filesystem::path& final_path);
 
-/// "node7": the name that a cluster knows this machine by, else its host name.
+/// Returns the name of this machine in the cluster, e.g. "node7", or else its host name.
 std::string name_of_this_host();
 
 }  // namespace throng

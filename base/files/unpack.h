@@ -1,5 +1,5 @@
-// Unpacking an archive that came from somebody else: nothing of it lands outside the folder, and
-// it cannot grow beyond what was agreed.
+// Unpacking of untrusted archives: no entry is written outside the folder, and the content is
+// limited.
 #pragma once
 
 #include <cstddef>
@@ -9,27 +9,28 @@
 
 namespace throng {
 
-/// Limits on an archive's contents.
+/// Limits on the content of an archive.
 struct UnpackLimits {
   std::size_t max_entries = 4000;
-  std::int64_t max_file_bytes = 256LL << 20U;  ///< of each file
-  std::int64_t max_bytes = 1LL << 30U;         ///< of all files together
-  /// Unpacked bytes per packed byte; text and empty images reach some dozens.
+  std::int64_t max_file_bytes = 256LL << 20U;  ///< per file
+  std::int64_t max_bytes = 1LL << 30U;         ///< sum of all files
+  /// Ratio of unpacked to packed bytes; text and empty images reach several dozens.
   std::int64_t max_ratio = 200;
-  std::size_t max_path_bytes = 200;  ///< characters
-  std::size_t max_depth = 8;         ///< folders and the file's name
+  std::size_t max_path_bytes = 200;  ///< length of an entry's path
+  std::size_t max_depth = 8;         ///< components of an entry's path
 };
 
+/// Number and total size of unpacked files.
 struct Unpacked {
   std::size_t files = 0;
   std::int64_t bytes = 0;
 };
 
-/// Unpacks a zip, tar or tar.gz file, recognized by its first bytes, into an empty folder. Names
-/// are relative paths of printable ASCII that any system could hold; files and folders only: no
-/// links, no devices; nothing encrypted; no two names that differ in their case alone. Files that
-/// macOS adds to zip files (__MACOSX, .DS_Store) are skipped. Throws InputError naming the entry
-/// and EnvironmentError; the folder then holds a part.
+/// Unpacks a zip, tar or tar.gz file, recognized by its first bytes, into an empty folder. Accepts
+/// files and folders with relative paths of printable ASCII that are valid on all systems; no
+/// links, devices, encrypted entries, or names that differ only in case. Skips files that macOS
+/// adds (__MACOSX, .DS_Store). Throws InputError with the name of the entry, and EnvironmentError;
+/// the folder then holds a part of the files.
 Unpacked unpack_archive(std::string_view bytes, const std::filesystem::path& folder,
                         const UnpackLimits& limits = {});
 

@@ -1,4 +1,4 @@
-// ZIP files of one member, as NumPy's .npz is one with one array.
+// ZIP files with one member, such as NumPy's .npz files with one array.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,11 @@
 
 namespace throng {
 
-/// A ZIP file that holds `bytes` under `name`, deflated. Equal inputs give equal bytes.
+/// Returns a ZIP file with `bytes`, deflated, under `name`. Equal inputs give equal bytes.
 std::string make_zip(std::string_view name, std::string_view bytes);
 
-/// The bytes of a member of a ZIP file; nothing of more than `max_bytes` is unpacked. Throws
-/// InputError without a source for a file that is no ZIP file, is damaged, lacks the member, or
-/// whose member is larger.
+/// Returns the bytes of a member of a ZIP file. Throws InputError without a source if the file is
+/// not a valid ZIP file, lacks the member, or the member has more than `max_bytes`.
 std::string zip_member(std::string_view zip, std::string_view name, std::size_t max_bytes);
 
 }  // namespace throng

@@ -1,4 +1,4 @@
-// Points of one instant, found by place.
+// A grid for finding points near a position.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,19 @@
 
 namespace throng::geometry {
 
-/// Square cells over the points' bounding box, coarser where that would be too many of them.
+/// Points sorted by the square cells of a grid over their bounding box. Cells are enlarged if there
+/// would be more than about four per point. Const member functions may be called from several
+/// threads.
 class PointGrid {
  public:
-  /// Copies the points.
+  /// Copies the points. `cell_m` is the min size of a cell.
   PointGrid(std::span<const Eigen::Vector2d> points, double cell_m)
       : points_(points.begin(), points.end()), cell_m_(cell_m) {
     if (points_.empty()) return;
     const Rectangle bounds = bounding_box(points_);
     min_ = bounds.min;
     const Eigen::Vector2d size = bounds.max - bounds.min;
-    // A few who are far away must not cost memory for all the ground in between.
+    // A few distant points must not cost memory for all the ground in between.
     const double max_cells = 4.0 * static_cast<double>(points_.size()) + 64;
     while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > max_cells) cell_m_ *= 1.5;
     columns_ = static_cast<int>(size.x() / cell_m_) + 1;
@@ -34,9 +36,9 @@ class PointGrid {
   std::size_t size() const { return points_.size(); }
   const Eigen::Vector2d& operator[](std::size_t index) const { return points_[index]; }
 
-  /// Calls body(index, point) for every point of the cells at Chebyshev distance `ring` from
-  /// `place`'s. After the rings 0 to k, all points within k * cell_m() have been seen. Returns
-  /// false when the ring lies beyond all cells.
+  /// Calls body(index, point) for all points of the cells at Chebyshev distance `ring` from the
+  /// cell of `place`. The rings 0 to k contain all points within k * cell_m(). Returns false if the
+  /// ring is outside the grid.
   template <typename Body>
   bool for_ring(const Eigen::Vector2d& place, int ring, const Body& body) const {
     const int column = cell_index(place.x() - min_.x());
@@ -63,11 +65,11 @@ class PointGrid {
     });
   }
 
-  /// A point by where it is stored, from 0 to size() - 1: who is near is stored near.
+  /// Returns a point by its slot, 0 to size() - 1; near points have near slots.
   const Eigen::Vector2d& stored(std::size_t slot) const { return sorted_[slot].point; }
 
-  /// Calls body(slot, point) for every point of the cells that reach into the square of half side
-  /// `radius_m` about `place`.
+  /// Calls body(slot, point) for all points of the cells that overlap the square of half side
+  /// `radius_m` around `place`.
   template <typename Body>
   void for_stored_about(const Eigen::Vector2d& place, double radius_m, const Body& body) const {
     const int low = std::max(0, cell_index(place.y() - radius_m - min_.y()));
@@ -81,14 +83,14 @@ class PointGrid {
   }
 
  private:
-  /// Points that are visited together are stored together.
+  /// Points in the order of their cells.
   struct Sorted {
     Eigen::Vector2d point;
     std::size_t index = 0;
   };
 
   int cell_index(double offset_m) const {
-    constexpr double kFar = 1e6;  // cells; beyond it nothing is stored
+    constexpr double kFar = 1e6;  // cells; no point is farther away
     return static_cast<int>(std::clamp(std::floor(offset_m / cell_m_), -kFar, kFar));
   }
 
@@ -110,7 +112,7 @@ class PointGrid {
     }
   }
 
-  /// Range of the points of a row's cells; empty if there are no such cells.
+  /// Range of the slots of a row's cells; empty if there are no such cells.
   std::pair<std::size_t, std::size_t> slots_of(int row, int from_column, int to_column) const {
     const int from = std::max(0, from_column);
     const int to = std::min(columns_ - 1, to_column);
@@ -131,8 +133,8 @@ class PointGrid {
   Eigen::Vector2d min_ = Eigen::Vector2d::Zero();
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::size_t> start_;  ///< per cell, where its points begin in sorted_
-  std::vector<Sorted> sorted_;      ///< by cell, in order within each
+  std::vector<std::size_t> start_;  ///< per cell: the first slot of its points
+  std::vector<Sorted> sorted_;      ///< by cell, then by index
 };
 
 }  // namespace throng::geometry

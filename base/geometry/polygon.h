@@ -1,4 +1,5 @@
-// Segments and polygons on the ground. A polygon is its corners in order, not repeated at the end.
+// Segments and polygons on the ground. A polygon is the list of its corners, the first not
+// repeated.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +10,19 @@
 
 namespace throng::geometry {
 
-/// z of the cross product; positive when b is to the left of a.
+/// z component of the cross product; positive if b is to the left of a.
 template <typename A, typename B>
 typename A::Scalar cross(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// A vector of the same type as the first argument's, so that expressions may be passed.
+/// The vector type for further arguments, from which Scalar is not deduced: expressions may be
+/// passed.
 template <typename Scalar>
 using PointLike = std::type_identity_t<Eigen::Matrix<Scalar, 2, 1>>;
 
-/// The point of the segment from a to b that is nearest to p, as its share of the length from a; 0
-/// if the segment has no length.
+/// Returns the fraction of the segment from a to b at which it is nearest to p; 0 for a segment
+/// without length.
 template <typename Scalar>
 Scalar nearest_share(const Eigen::Matrix<Scalar, 2, 1>& a, const PointLike<Scalar>& b,
                      const PointLike<Scalar>& p) {
@@ -30,7 +32,7 @@ Scalar nearest_share(const Eigen::Matrix<Scalar, 2, 1>& a, const PointLike<Scala
                        : Scalar(0);
 }
 
-/// The point of the segment from a to b that is nearest to p.
+/// Returns the point of the segment from a to b that is nearest to p.
 template <typename Scalar>
 Eigen::Matrix<Scalar, 2, 1> nearest_on_segment(const Eigen::Matrix<Scalar, 2, 1>& a,
                                                const PointLike<Scalar>& b,
@@ -38,12 +40,12 @@ Eigen::Matrix<Scalar, 2, 1> nearest_on_segment(const Eigen::Matrix<Scalar, 2, 1>
   return a + nearest_share<Scalar>(a, b, p) * (b - a);
 }
 
-/// Distance of p from the segment between a and b, which may be one place (m).
+/// Distance from p to the segment from a to b, which may have no length (m).
 double distance_to_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                            const Eigen::Vector2d& p);
 
-/// Whether the segments from a to b and from c to d cross: each has its ends on both sides of the
-/// other. Touching is not crossing.
+/// Whether the segments a-b and c-d cross, each with its ends on both sides of the other; touching
+/// does not count.
 template <typename Scalar>
 bool segments_cross(const Eigen::Matrix<Scalar, 2, 1>& a, const PointLike<Scalar>& b,
                     const PointLike<Scalar>& c, const PointLike<Scalar>& d) {
@@ -51,26 +53,26 @@ bool segments_cross(const Eigen::Matrix<Scalar, 2, 1>& a, const PointLike<Scalar
          cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
-/// Positive for corners counter-clockwise seen from above (m²).
+/// Area of a polygon (m²): positive if its corners are counter-clockwise seen from above.
 double signed_area(std::span<const Eigen::Vector2d> corners);
 
-/// Whether no two edges touch except neighbors at their common corner, and no edge is empty.
+/// Whether all edges have a length and touch only at the common corners of neighbors.
 bool is_simple(std::span<const Eigen::Vector2d> corners);
 
-/// Distance to the polygon's outline, negative inside (m).
+/// Distance from a point to the outline of a polygon (m); negative inside.
 double signed_distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
 
-/// Distance to the polygon's area: 0 inside (m).
+/// Distance from a point to the area of a polygon (m); 0 inside.
 double distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
 
-/// Puts into `kept` the part of a polygon that does not lie beyond a line (Sutherland and Hodgman
-/// 1974). `beyond` has each corner's distance from the line, in any unit, positive beyond it. A
-/// polygon that is not convex may get edges that lie on each other, which its signed area does not
-/// notice. Points may have three coordinates, the line then being a plane.
+/// Stores the part of a polygon on the inner side of a line in `kept` (Sutherland and Hodgman
+/// 1974). `beyond` has the signed distance of each corner from the line, in any unit, positive on
+/// the outer side. The result for a polygon that is not convex may have coincident edges, which do
+/// not change its signed area. Points may have three coordinates; the line is then a plane.
 template <typename Point>
 void clip(std::span<const Point> corners, std::span<const double> beyond,
           std::vector<Point>& kept) {
-  kept.resize(2 * corners.size());  // as many as there can be
+  kept.resize(2 * corners.size());  // the max number
   std::size_t count = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t j = i + 1 < corners.size() ? i + 1 : 0;
@@ -83,7 +85,7 @@ void clip(std::span<const Point> corners, std::span<const double> beyond,
   kept.resize(count);
 }
 
-/// The same with a function that gives a corner's distance.
+/// Clips a polygon like clip(); `beyond` returns the signed distance of a corner.
 template <typename Point, typename Beyond>
 std::vector<Point> clipped(const std::vector<Point>& corners, const Beyond& beyond) {
   std::vector<double> distances(corners.size());

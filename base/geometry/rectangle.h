@@ -1,4 +1,4 @@
-// Rectangles on the ground: along the axes, and turned.
+// Rectangles on the ground: axis-parallel and turned.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace throng::geometry {
 
-/// From its least corner to its greatest, both included.
+/// An axis-parallel rectangle, including its border.
 template <typename Scalar>
 struct BasicRectangle {
   using Point = Eigen::Matrix<Scalar, 2, 1>;
@@ -19,20 +19,22 @@ struct BasicRectangle {
   bool contains(const Point& p) const {
     return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
   }
-  /// Whether the two have a point in common.
+  /// Whether the rectangles have a common point.
   bool meets(const BasicRectangle& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
-  /// The nearest point at least `margin` inside of the border, or as far as there is room.
+  /// Returns the nearest point to p that is at least `margin` inside the border; the margin is
+  /// reduced to half the size if necessary.
   Point nearest_point(const Point& p, Scalar margin) const {
     const Point inset = Point::Constant(margin).cwiseMin(Scalar(0.5) * (max - min));
     return p.cwiseMax(min + inset).cwiseMin(max - inset);
   }
-  /// Grows it to contain a point.
+  /// Enlarges the rectangle to contain a point.
   void extend(const Point& p) {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
+  /// Enlarges the rectangle to contain another one.
   void extend(const BasicRectangle& other) {
     min = min.cwiseMin(other.min);
     max = max.cwiseMax(other.max);
@@ -41,7 +43,7 @@ struct BasicRectangle {
 
 using Rectangle = BasicRectangle<double>;
 
-/// The smallest rectangle around points, of which there must be one at least.
+/// Returns the bounding box of at least one point.
 template <typename Points>
 auto bounding_box(const Points& points) {
   BasicRectangle<typename Points::value_type::Scalar> bounds{*points.begin(), *points.begin()};
@@ -49,8 +51,8 @@ auto bounding_box(const Points& points) {
   return bounds;
 }
 
-/// Corners of a rectangle about its middle, counter-clockwise from (-, -). `half_size` is measured
-/// along the unit vector `along` and to the left of it.
+/// Returns the corners of a turned rectangle around `middle`, counter-clockwise from (-, -).
+/// `half_size` is measured along the unit vector `along` and to its left.
 inline std::array<Eigen::Vector2d, 4> turned_rectangle(const Eigen::Vector2d& middle,
                                                        const Eigen::Vector2d& half_size,
                                                        const Eigen::Vector2d& along) {

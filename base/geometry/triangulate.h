@@ -1,4 +1,4 @@
-// Polygons into triangles.
+// Triangulation of polygons.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,9 @@
 
 namespace throng::geometry {
 
-/// Cuts ears off a simple polygon (corners counter-clockwise, not repeated). Returns corner
-/// indices, each triangle counter-clockwise; size() - 2 triangles for a simple polygon. A corner on
-/// a straight edge is cut off only when nothing else is left, as a triangle without area.
+/// Triangulates a simple polygon (corners counter-clockwise, the first not repeated) by cutting off
+/// ears. Returns the corner indices of size() - 2 triangles, each counter-clockwise. Corners on a
+/// straight edge are cut off last, as triangles without area.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Eigen::Vector2d> polygon);
 
 }  // namespace throng::geometry

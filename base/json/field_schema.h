@@ -1,4 +1,4 @@
-// The JSON Schema of a table's fields (base/json/field_table.h).
+// JSON Schemas of tables of fields (base/json/field_table.h).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,10 +9,10 @@
 
 namespace throng::fields {
 
-/// The rules of an object's fields: "additionalProperties", "required" if some are, "properties".
+/// Returns the schema of an object: "additionalProperties", "required" if needed, "properties".
 nlohmann::ordered_json schema_for(std::span<const FieldRules* const> fields);
 
-/// A schema as text, one member a line but for short lists.
+/// Formats a schema with one member per line, except for short lists.
 std::string schema_text(const nlohmann::ordered_json& schema);
 
 }  // namespace throng::fields

@@ -1,7 +1,7 @@
-// The fields of JSON objects in tables. A line of a table says everything that is known of a field:
-// its path, title and help, unit, permitted values, whether runs of a job may differ in it, and
-// where the program keeps it. Reading, checking, printing, schemas and tables of documentation
-// follow from it. The defaults are those of the structs.
+// Tables of the fields of JSON objects. A row defines a field: path, title, help, unit, permitted
+// values, whether runs of a job may sample it, and the member in which the program stores it.
+// Reading, checking, printing, schemas and tables of the documentation are derived from it.
+// Defaults are those of the structs.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,15 @@ namespace throng::fields {
 // clang-tidy does not see that templates move their parameters.
 // NOLINTBEGIN(performance-unnecessary-value-param)
 
+/// A row of a table.
 template <typename Object>
 struct Field : FieldRules {
-  /// The value as a job writes it; null: it is left out.
+  /// Returns the value as jobs write it; null: the field is omitted.
   std::function<nlohmann::json(const Object&)> get;
-  /// `value` is what the schema allows.
+  /// Stores a value that the schema permits.
   std::function<void(Object&, const nlohmann::json& value, const FieldLocation&)> set;
 
+  /// Allows sampling by the block "randomize" of a job.
   Field& randomized() {
     sampling = Sampling::by_randomize;
     return *this;
@@ -39,30 +41,31 @@ struct Field : FieldRules {
     default_value = nullptr;
     return *this;
   }
-  /// The schema's default of a field that printed jobs leave out.
+  /// Sets the default in the schema for a field that printed jobs omit.
   Field& with_default(nlohmann::ordered_json value) {
     default_value = std::move(value);
     return *this;
   }
-  /// The field was called `name` in an earlier version. Not for fields that may be sampled.
+  /// Declares that the field was called `name` in an earlier version. Not for fields that may be
+  /// sampled.
   Field& renamed_from(std::string name) {
     deprecated_name = std::move(name);
     return *this;
   }
-  /// Marks an object that is there only if it is given: help says what happens without it.
+  /// Marks an object without default; the help text says what happens if it is missing.
   Field& without_default() {
     default_value = nullptr;
     return *this;
   }
 };
 
-/// The member of a member: at(&JobSpec::capture, &CaptureSpec::rate_hz).
+/// Returns a function that accesses a nested member: at(&JobSpec::capture, &CaptureSpec::rate_hz).
 template <typename... Members>
 constexpr auto at(Members... members) {
   return [members...](auto& object) -> auto& { return (object.*....*members); };
 }
 
-/// Values as a job writes them.
+/// Converts a value to JSON as jobs have it; empty texts and optionals become null.
 template <typename Value>
 nlohmann::json value_json(const Value& value) {
   return value;
@@ -81,6 +84,7 @@ template <typename Value>
 nlohmann::json value_json(const std::optional<Value>& value) {
   return value ? value_json(*value) : nlohmann::json();
 }
+/// Reads a checked JSON value.
 template <typename Value>
 void set_value(const nlohmann::json& given, Value& value) {
   given.get_to(value);
@@ -96,7 +100,7 @@ void set_value(const nlohmann::json& given, std::optional<Value>& value) {
   set_value(given, value.emplace());
 }
 
-/// The fields of one kind of object, in the order of the schema.
+/// The fields of one type of object, in the order of the schema.
 template <typename Object>
 class FieldTable {
  public:
@@ -104,7 +108,7 @@ class FieldTable {
   using Get = std::function<nlohmann::json(const Object&)>;
   using Set = std::function<void(Object&, const nlohmann::json&, const FieldLocation&)>;
 
-  /// Begins an object that has its defaults when it is left out.
+  /// Adds an object whose fields follow; if it is missing, its fields have their defaults.
   Field<Object>& group(std::string path, std::string title, std::string help) {
     Field<Object>& field = fields_.emplace_back();
     field.path = std::move(path);
@@ -115,7 +119,7 @@ class FieldTable {
     return field;
   }
 
-  /// A field that is kept where `access` says (at()).
+  /// Adds a field that is stored in the member that `access` returns (see at()).
   template <typename Access>
   Field<Object>& add(std::string path, std::string title, std::string unit, Values values,
                      Access access, std::string help) {
@@ -128,7 +132,7 @@ class FieldTable {
         std::move(help));
   }
 
-  /// A field that is converted.
+  /// Adds a field with conversions.
   Field<Object>& add(std::string path, std::string title, std::string unit, Values values, Get get,
                      Set set, std::string help) {
     Field<Object>& field = fields_.emplace_back();
@@ -143,14 +147,14 @@ class FieldTable {
     return field;
   }
 
-  /// A field that is read and never printed.
+  /// Adds a field that is read but never printed.
   Field<Object>& add_read(std::string path, Values values, Set set) {
     return add(
         std::move(path), "", "", std::move(values), [](const Object&) { return nlohmann::json(); },
         std::move(set), "");
   }
 
-  /// An enumerator that is written as one of `words`.
+  /// Adds a field for an enumeration, written as one of `words` in the order of its values.
   template <typename Words, typename Access>
   Field<Object>& add_word(std::string path, std::string title, const Words& words, Access access,
                           std::string help) {
@@ -169,7 +173,7 @@ class FieldTable {
         std::move(help));
   }
 
-  /// The fields of a part of the object, with `path` before theirs.
+  /// Adds the fields of a part of the object, with the prefix `path`.
   template <typename Part, typename Access>
   void add_all(const std::string& path, const FieldTable<Part>& part, Access access) {
     for (const Field<Part>& other : part.fields()) {
@@ -187,7 +191,7 @@ class FieldTable {
 
   const Fields& fields() const { return fields_; }
 
-  /// Null if there is none of this path.
+  /// Returns the field with this path, or null.
   const Field<Object>* find(std::string_view path) const {
     for (const Field<Object>& field : fields_) {
       if (field.path == path) return &field;
@@ -195,16 +199,16 @@ class FieldTable {
     return nullptr;
   }
 
-  /// Reads an object that a schema has been held against; what it leaves out stays as it is.
-  /// `place` is the object's.
+  /// Reads an object that has been checked against the schema; members without a value do not
+  /// change. `place` is the position of the object.
   void read(const nlohmann::json& value, Object& object, const FieldLocation& place) const {
     for_each_given(value, place,
                    [&](const Field<Object>& field, const nlohmann::json& given,
                        const FieldLocation& at) { field.set(object, given, at); });
   }
 
-  /// Checks an object and reads what is right of it. Adds a problem for each unknown name, missing
-  /// required field and value that breaks its field's rules.
+  /// Checks an object and reads its valid values. Adds a problem for each unknown name, missing
+  /// required field and invalid value.
   void read_checked(const nlohmann::json& value, Object& object, const FieldLocation& place) const {
     if (!check_object(value, rules(), place)) return;
     for_each_given(
@@ -214,6 +218,7 @@ class FieldTable {
         });
   }
 
+  /// Returns the object as JSON.
   nlohmann::json print(const Object& object) const {
     nlohmann::json value = nlohmann::json::object();
     for (const Field<Object>& field : fields_) {
@@ -224,13 +229,12 @@ class FieldTable {
     return value;
   }
 
-  /// "required", if there are such fields, and "properties", of the object that the table
-  /// describes.
+  /// Returns the schema of the object: "properties", and "required" if there are required fields.
   nlohmann::ordered_json schema() const { return schema_for(rules()); }
 
  private:
-  /// Calls visit(field, value, its place) for the fields that `value` has, under their names or
-  /// their deprecated names.
+  /// Calls visit(field, value, location) for the fields that `value` has, by their names or
+  /// deprecated names.
   template <typename Visit>
   void for_each_given(const nlohmann::json& value, const FieldLocation& place, Visit visit) const {
     for (const Field<Object>& field : fields_) {

@@ -1,4 +1,4 @@
-// Permitted values of fields (base/json/field_table.h): for checks, for schemas and for sampling.
+// Permitted values of fields (base/json/field_table.h), for checks, schemas and sampling.
 #pragma once
 
 #include <array>
@@ -13,46 +13,48 @@
 
 namespace throng::fields {
 
-/// How one field writes its values: as numbers, times, words.
+/// Conversion between a field's JSON values (numbers, times, words) and numbers, for sampling.
 struct Quantity {
-  std::string expected;  ///< what a single value must be, for messages: "a number from 0 to 90"
-  /// The value as a number; nothing when it is not one of the field's.
+  std::string expected;  ///< permitted single values, for messages: "a number from 0 to 90"
+  /// Converts a value to a number; nothing if the value is not permitted.
   std::function<std::optional<double>(const nlohmann::json&)> number;
-  /// The reverse.
+  /// Converts a number to a value.
   std::function<nlohmann::json(double)> json;
-  double low = 0;  ///< of all values
+  double low = 0;  ///< min of the numbers
+  /// Max of the numbers.
   double high = 0;
-  bool continuous = true;  ///< else only "choice" makes sense
+  bool continuous = true;  ///< false: only the distribution "choice" is permitted
 };
 
-/// Numbers from `low` to `high`.
+/// Returns the conversion for numbers from `low` to `high`.
 Quantity number_quantity(double low, double high);
 
+/// The permitted values of a field.
 struct Values {
-  nlohmann::ordered_json rules;  ///< in JSON Schema's words, "type" first
-  std::string expected = {};     ///< for messages, where the rules do not say it (x-expected)
-  std::optional<Quantity> quantity = std::nullopt;  ///< how values are sampled, if they may be
+  nlohmann::ordered_json rules;  ///< keywords of JSON Schema, "type" first
+  std::string expected = {};     ///< for messages, if the rules do not express it (x-expected)
+  std::optional<Quantity> quantity = std::nullopt;  ///< set if the field may be sampled
 };
 
 Values integers(std::int64_t low, std::int64_t high);
 Values numbers(double low, double high);
-/// Numbers above `low`.
+/// Numbers greater than `low` and at most `high`.
 Values numbers_above(double low, double high);
 Values booleans();
 /// Texts of `min_length` to `max_length` characters.
 Values texts(int min_length, int max_length);
-/// Letters, digits, '_' and '-'.
+/// Texts of 1 to 32 letters, digits, '_' and '-'.
 Values identifiers();
-/// Texts that match a regular expression of JSON Schema.
+/// Texts that match a regular expression (JSON Schema "pattern").
 Values texts_like(const std::string& pattern, const std::string& expected);
 /// Lists of `min_items` to `max_items` items.
 Values lists(int min_items, int max_items, nlohmann::ordered_json items);
-/// Objects with the fields of a table: its schema().
+/// Objects with the schema() of a table.
 Values object_with(const nlohmann::ordered_json& fields);
-/// Any other rules of the schema.
+/// Other rules of JSON Schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 
-/// Some of words, as they are written in JSON.
+/// One of several words.
 Values one_of_words(std::span<const std::string> words);
 template <typename Words>
 std::vector<std::string> to_texts(const Words& words) {
@@ -63,11 +65,12 @@ Values one_of_words(const Words& words) {
   const std::vector<std::string> texts = to_texts(words);
   return one_of_words(std::span<const std::string>(texts));
 }
-/// The value as the schema writes it: whole numbers without a point.
+/// Returns the value as schemas write it: integers without a decimal point.
 nlohmann::ordered_json plain_numbers(const nlohmann::json& value);
 
-/// The value at a path like "sensor/iso"; null if it is not there.
+/// Returns the value at a path such as "sensor/iso", or null.
 const nlohmann::json* value_at(const nlohmann::json& object, std::string_view path);
+/// Returns the JSON pointer of such a path.
 nlohmann::json::json_pointer pointer_below(const std::string& path);
 
 }  // namespace throng::fields

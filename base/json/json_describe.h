@@ -1,4 +1,4 @@
-// A JSON value in words, for messages.
+// Descriptions of JSON values for messages.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace throng {
 
-/// Short enough for a message: "[4, 2, 1]", "an array of 300", "-1", "\"red\"".
+/// Returns a short text: "[4, 2, 1]", "an array of 300", "-1", "\"red\"".
 std::string describe(const nlohmann::json& value);
 
 }  // namespace throng

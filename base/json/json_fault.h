@@ -1,4 +1,4 @@
-// The fault of a text that is no JSON, in words for the person who wrote it.
+// Descriptions of syntax errors in JSON texts.
 #pragma once
 
 #include <string_view>
@@ -7,13 +7,13 @@
 
 namespace throng {
 
-/// The first fault of a text that the JSON parser has refused, as a Problem without a source: line
-/// and column, what is there ("a comma too many before }") and what JSON has there. `what` is the
-/// kind of text, "file" or "body", for the words of an empty one. `found` is empty if the text
-/// keeps the grammar, as one whose numbers are too large.
+/// Returns the first syntax error of a text that the JSON parser rejected, as a Problem without a
+/// source: line and column, the error ("a comma too many before }") and the expected syntax. `what`
+/// is "file" or "body", for messages about an empty text. `found` is empty if the syntax is valid
+/// and, for example, a number is too large.
 Problem json_fault(std::string_view text, std::string_view what);
 
-/// "line 3, column 12" of a byte of the text; columns count characters.
+/// Returns the position of a byte as "line 3, column 12"; columns count characters.
 std::string text_position(std::string_view text, std::size_t byte);
 
 }  // namespace throng

@@ -1,7 +1,6 @@
-// The one place where JSON text becomes values: request bodies, files, messages of other processes
-// and rows of the database. The limits are checked while the text is read, before anything is
-// built: nlohmann's values copy, merge and print themselves by recursion, so that a deeply nested
-// text would overflow the stack.
+// Parsing of all JSON texts: request bodies, files, messages of other processes, rows of the
+// database. Limits are checked during parsing, before values are created: nlohmann's values are
+// copied, merged and printed recursively, so deep nesting would overflow the stack.
 #pragma once
 
 #include <cstddef>
@@ -12,46 +11,46 @@
 
 namespace throng {
 
+/// Limits of a document.
 struct JsonLimits {
-  std::size_t max_depth = 64;  ///< arrays and objects within each other
+  std::size_t max_depth = 64;  ///< nesting of arrays and objects
   std::size_t max_bytes = 512 << 20;
-  std::size_t max_values = 5'000'000;       ///< objects, arrays and what they hold, at all levels
+  std::size_t max_values = 5'000'000;       ///< objects, arrays and their elements at all levels
   std::size_t max_object_keys = 1'000'000;  ///< of one object
   std::size_t max_key_bytes = 1'000;
-  std::size_t max_number_chars = 100;  ///< of a number with more digits than 64 bits hold
+  std::size_t max_number_chars = 100;  ///< for numbers that 64 bits cannot hold
 };
 
-/// Limits for input from the network: at most about 20 MB of memory for the values beside the text.
+/// Limits for requests: at most about 20 MB of memory for values, in addition to the text.
 inline constexpr JsonLimits kRequestJsonLimits = {.max_values = 200'000, .max_object_keys = 10'000};
-/// A job, wherever it comes from; with space for fields that are filled in before it is stored.
+/// Limits for jobs of any source; they leave room for fields that are added before a job is stored.
 inline constexpr JsonLimits kJobJsonLimits = {
     .max_bytes = 16 << 20, .max_values = 1'000'000, .max_object_keys = 10'000};
-/// Limits for files that this program has written itself, such as the manifest of a large dataset.
+/// Limits for files written by this program, such as the manifest of a large dataset.
 inline constexpr JsonLimits kOwnJsonLimits = {.max_bytes = std::size_t{16} << 30,
                                               .max_values = 1'000'000'000};
 
-/// Parses a document. Throws InputError with the line and column, or the JSON pointer, for
-/// malformed JSON (RFC 8259: also invalid UTF-8 and lone surrogates), for a key that an object
-/// holds twice, for a number beyond the range of a double, and for whatever exceeds the limits.
-/// `source` is the file's name for messages.
+/// Parses a document. Throws InputError with line and column or JSON pointer for malformed JSON
+/// (RFC 8259; also invalid UTF-8 and lone surrogates), duplicate keys, numbers beyond the range of
+/// a double, and exceeded limits. `source` is the name of the file in messages.
 nlohmann::json parse_json(std::string_view text, const std::string& source,
                           const JsonLimits& limits = {});
 
-/// Parses text that this program wrote. Throws EnvironmentError("`what` is damaged: ...").
+/// Parses text written by this program. Throws EnvironmentError("`what` is damaged: ...").
 nlohmann::json parse_own_json(std::string_view text, const std::string& what);
 
-/// Parses a document, or returns a discarded value (is_discarded()) where parse_json() throws: for
-/// callers with a message of their own.
+/// Parses a document, or returns a discarded value (is_discarded()) if parse_json() would throw.
 nlohmann::json parse_json_or_discard(std::string_view text, const JsonLimits& limits = {});
 
-/// Parses text that is part of this program, whose keys keep their order.
+/// Parses text that is embedded in this program and keeps the order of keys.
 nlohmann::ordered_json parse_ordered_json(std::string_view text);
 
-/// Whether text that this program wrote is valid JSON, without building the value.
+/// Whether text written by this program is valid JSON; creates no value.
 bool is_own_json(std::string_view text);
 
-/// Parses a document that this program wrote and whose root has a long list under `list_key`: its
-/// elements are handed over one by one and not kept. Throws EnvironmentError as parse_own_json().
+/// Parses a document written by this program whose root has a long list under `list_key`: calls
+/// `on_element` for each element and does not store it. Throws EnvironmentError like
+/// parse_own_json().
 nlohmann::json parse_own_json_list(std::string_view text, const std::string& what,
                                    const std::string& list_key,
                                    const std::function<void(const nlohmann::json&)>& on_element);

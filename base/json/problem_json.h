@@ -1,4 +1,4 @@
-// Problems as JSON, for the exchange between processes. For modules that link nlohmann's JSON.
+// Conversion of problems to and from JSON, for the exchange between processes.
 #pragma once
 
 #include <nlohmann/json.hpp>

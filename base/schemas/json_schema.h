@@ -1,5 +1,5 @@
-// JSON documents against a JSON Schema (draft 7): every violation with its place, what stands there
-// and what should.
+// Validation of JSON documents with JSON Schema (draft 7): reports each violation with its
+// position, the value found and the expected values.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace throng::schemas {
 
-/// A schema, ready for use by several threads. It may use "definitions" of its own ("$ref":
-/// "#/definitions/NAME"); "x-expected" of a part says in words what should stand there.
+/// A compiled schema; const member functions are thread-safe. "$ref" may refer to
+/// "#/definitions/NAME" of the schema; "x-expected" of a subschema is the text of expected values.
 class JsonSchema {
  public:
   explicit JsonSchema(nlohmann::json schema);
@@ -22,7 +22,7 @@ class JsonSchema {
 
   const nlohmann::json& document() const { return document_; }
 
-  /// Everything in which `value` breaks the schema, one problem per place; empty when it is valid.
+  /// Returns one problem per position at which `value` breaks the schema; empty if it is valid.
   /// `source` names the document in the problems.
   std::vector<Problem> problems(const nlohmann::json& value, const std::string& source) const;
 
@@ -33,7 +33,7 @@ class JsonSchema {
   std::unique_ptr<Compiled> compiled_;
 };
 
-/// Adds those of `more` whose places no problem of `problems` is at, above or below.
+/// Adds the problems of `more` whose positions do not contain, equal or lie in those of `problems`.
 void add_other_places(std::vector<Problem>& problems, std::vector<Problem> more);
 
 }  // namespace throng::schemas

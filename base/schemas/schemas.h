@@ -1,5 +1,5 @@
-// JSON Schemas of the files that users write, for editors and for our own readers. That of a job is
-// made from its table of fields (spec/job/schema.h).
+// JSON Schemas of the files that users write, for editors and for the program's readers. The schema
+// of jobs is made from a table of fields (spec/job/schema.h).
 #pragma once
 
 #include <array>
@@ -9,23 +9,24 @@
 
 namespace throng::schemas {
 
-/// A kind of file.
+/// Kinds of files.
 enum class Kind { scenario, blueprint, study, airframe, character, camera };
 
+/// The schema of a kind of file.
 struct Entry {
   Kind kind;
   std::string_view name;
-  std::string_view text;  ///< of the file NAME.schema.json
+  std::string_view text;  ///< content of NAME.schema.json
 };
 
-/// All kinds, by Kind.
+/// Returns all schemas, in the order of Kind.
 const std::array<Entry, 6>& entries();
 
-/// The schema of a kind, compiled once.
+/// Returns the compiled schema of a kind, which is created once. Thread-safe.
 const JsonSchema& schema_for(Kind kind);
 
-/// Adds to a reader's problems those places where `document` breaks its schema that the reader did
-/// not name.
+/// Adds problems for the positions at which `document` breaks its schema and that the reader's
+/// `problems` do not cover.
 void add_schema_problems(Kind kind, const nlohmann::json& document, const std::string& source,
                          std::vector<Problem>& problems);
 

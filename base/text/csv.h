@@ -1,4 +1,4 @@
-// Lines of CSV files (RFC 4180).
+// Records of CSV files (RFC 4180).
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace throng {
 
-/// The cells of a line that holds a whole record; quotes around cells are removed, doubled ones
-/// become one, a carriage return at the end is left out. At least one cell.
+/// Splits a line that holds a whole record into its cells, at least one. Removes the quotes around
+/// cells, replaces doubled quotes by single ones, and drops carriage returns.
 std::vector<std::string> csv_cells(std::string_view line, char separator = ',');
 
 }  // namespace throng

@@ -1,4 +1,4 @@
-// Text inside XML and HTML.
+// Text in XML and HTML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace throng {
 
-/// The text with the five characters escaped that mean something in XML and HTML.
+/// Escapes the five special characters of XML and HTML.
 inline std::string escaped_markup(std::string_view text) {
   std::string escaped;
   for (const char c : text) {

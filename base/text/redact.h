@@ -1,4 +1,4 @@
-// Messages for people who need not know how a machine's disks are laid out.
+// Messages without the paths of a machine's folders.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace throng {
 
-/// The text with every file in one of the folders named from there: "/srv/data/jobs/x/job.json"
-/// becomes "jobs/x/job.json" where /srv/data is one of them.
+/// Makes the paths of files in one of the folders relative to it: "/srv/data/jobs/x/job.json"
+/// becomes "jobs/x/job.json" for the folder /srv/data.
 std::string without_folders(std::string text, const std::vector<std::filesystem::path>& folders);
 
 }  // namespace throng

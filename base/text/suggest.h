@@ -1,4 +1,4 @@
-// "Did you mean ...?": the known word that a misspelled one is nearest to.
+// Suggestions for misspelled words ("did you mean ...?").
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace throng {
 
-/// Letters to insert, omit, replace or swap with a neighbor to make one word of the other, whatever
-/// their case (Damerau-Levenshtein distance as optimal string alignment).
+/// Number of letters to insert, omit, replace or swap with a neighbor to get from one word to the
+/// other, ignoring case (Damerau-Levenshtein distance, optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the smallest edit_distance() to `word`, the first of equals. If more than a
-/// third of the letters differ, the first of those that begin with the word and go on behind a
-/// '-', '_', '/' or '.' ("yolo" for "yolo-detect"), else nothing.
+/// Returns the first candidate with the smallest edit_distance() to `word`. If more than a third of
+/// the letters differ, returns the first candidate that continues the word after '-', '_', '/' or
+/// '.' ("yolo-detect" for "yolo"), else nothing.
 std::optional<std::string_view> closest(std::string_view word,
                                         std::span<const std::string_view> candidates);
 
-/// " (did you mean x?)", or nothing.
+/// Returns " (did you mean x?)", or an empty text.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 
-/// A name that is not among the known ones, with the nearest of them, else with all:
-/// `unknown field "drone"; did you mean "drones"?`. `kind` is "field", "scenario" and the like.
+/// Returns the problem of an unknown name with the closest known name, or else all known names:
+/// `unknown field "drone"; did you mean "drones"?`. `kind` is, for example, "field" or "scenario".
 Problem unknown_name(std::string source, std::string where, std::string_view kind,
                      std::string_view name, std::span<const std::string_view> known);
 

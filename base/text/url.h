@@ -6,10 +6,10 @@
 
 namespace throng {
 
-/// Characters that stand for themselves anywhere in a URL, besides letters and digits.
+/// Characters besides letters and digits that need no encoding in a URL.
 inline constexpr std::string_view kUnreserved = "-._~";
 
-/// The text with all bytes encoded but letters, digits and those in `kept`.
+/// Encodes all bytes except letters, digits and the characters of `kept`.
 std::string percent_encoded(std::string_view text, std::string_view kept = kUnreserved);
 
 }  // namespace throng

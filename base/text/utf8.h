@@ -1,4 +1,4 @@
-// UTF-8 text (RFC 3629) and its characters (code points), in which JSON Schema counts lengths.
+// UTF-8 text (RFC 3629) and its code points, in which JSON Schema counts lengths.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,17 @@
 
 namespace throng {
 
-/// Number of code points. Every byte that is no continuation byte counts as the first of one.
+/// Returns the number of code points: bytes that are not continuation bytes.
 std::size_t character_count(std::string_view text);
 
-/// Position of the first byte that is not well-formed UTF-8 (RFC 3629); npos if there is none.
+/// Returns the position of the first byte that is not well-formed UTF-8, or npos.
 std::size_t find_invalid_utf8(std::string_view text);
 
-/// Whether the bytes are well-formed: no overlong forms, no surrogates, nothing above U+10FFFF.
+/// Whether the bytes are well-formed UTF-8: no overlong forms, surrogates, or code points above
+/// U+10FFFF.
 bool is_utf8(std::string_view text);
 
-/// The first `count` code points of `text`, all of it if it has fewer.
+/// Returns the first `count` code points of `text`, or all if it has fewer.
 std::string first_characters(std::string_view text, std::size_t count);
 
 }  // namespace throng

@@ -1,4 +1,4 @@
-// Words: counted nouns of messages, words of any case, texts without blanks at their ends.
+// Words in messages: counted nouns, lower case, trimming.
 #pragma once
 
 #include <fmt/core.h>
@@ -9,14 +9,14 @@
 
 namespace throng {
 
-/// "1 image", "2 images", "0 images"; "1 person", "2 people" with a plural of its own.
+/// Returns "1 image", "2 images", "0 images"; with `plural`: "1 person", "2 people".
 inline std::string counted(std::int64_t count, std::string_view noun,
                            std::string_view plural = {}) {
   if (count == 1) return fmt::format("1 {}", noun);
   return plural.empty() ? fmt::format("{} {}s", count, noun) : fmt::format("{} {}", count, plural);
 }
 
-/// The text with its ASCII letters in lower case.
+/// Converts ASCII letters to lower case.
 inline std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {
@@ -25,7 +25,7 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// The text without blanks at its ends.
+/// Removes `blanks` at both ends of the text.
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n") {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};

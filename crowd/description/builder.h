@@ -1,4 +1,4 @@
-// Builds descriptions in code.
+// Builders that create the description of a scene and of a behavior in code.
 //
 //   SceneBuilder scene;
 //   scene.add_profile({.name = "adult", .common = {{"r", 0.2}}});
@@ -10,7 +10,7 @@
 //   behavior.add_transition("Walk", "Out", goal_reached());
 //   Simulation crowd(scene.build(), behavior.build(), {.seed = 7});
 //
-// Nothing is checked before a simulation is made.
+// The builders check nothing; errors are reported when a Simulation is created.
 #pragma once
 
 #include <string>
@@ -21,35 +21,37 @@
 
 namespace throng::crowd {
 
-/// Properties that agents have in common (docs/crowd.md lists attributes and properties).
+/// Properties shared by agents (docs/crowd.md lists attributes and properties).
 struct AgentProfile {
   std::string name;
-  std::string inherits = {};           ///< the name of an earlier profile, or empty
-  std::vector<Attribute> common = {};  ///< the same for all: {"r", 0.2}, {"max_speed", 2}
-  std::vector<Node> properties = {};   ///< sampled for each agent: describe::property(...)
+  std::string inherits = {};           ///< name of an earlier profile; may be empty
+  std::vector<Attribute> common = {};  ///< equal for all agents: {"r", 0.2}, {"max_speed", 2}
+  std::vector<Node> properties = {};   ///< sampled per agent: describe::property(...)
   std::vector<Node> models = {};       ///< parameters of pedestrian models: describe::model(...)
 };
 
-/// Agents of one profile that begin in one state.
+/// Agents with the same profile and initial state.
 struct AgentGroup {
   std::string profile;
   std::string state;
-  Node generator;               ///< describe::agents_at(...), or another <Generator>
-  std::vector<Node> more = {};  ///< <Facing>, <Arrivals>
+  Node generator;               ///< describe::agents_at(...) or another <Generator>
+  std::vector<Node> more = {};  ///< further elements: <Facing>, <Arrivals>
 };
 
+/// Builds a SceneDescription. Elements keep the order of the calls; functions return *this.
 class SceneBuilder {
  public:
   explicit SceneBuilder(double time_step_s = 0.1);
 
   SceneBuilder& add_profile(AgentProfile profile);
   SceneBuilder& add_group(AgentGroup group);
-  /// Obstacles of one class: agents mind those whose class is in their profile's "obstacleSet".
+  /// Adds obstacles of one class. Agents avoid the classes in the attribute "obstacleSet" of their
+  /// profile. `decimals`: decimals of coordinates in the file, or kAllDigits.
   SceneBuilder& add_obstacles(const std::vector<describe::Points>& outlines, int obstacle_class = 1,
                               int decimals = describe::kAllDigits);
-  /// Any other element of a scene: a model's constants, <Elevation>, <SocialGroups>, ...
+  /// Adds another element: constants of a model, <Elevation>, <SocialGroups>, ...
   SceneBuilder& add(Node element);
-  /// A comment of the file before what is added next.
+  /// Writes an XML comment before the next element.
   SceneBuilder& comment(std::string text);
 
   const SceneDescription& build() const { return description_; }
@@ -59,18 +61,19 @@ class SceneBuilder {
   std::string comment_;
 };
 
+/// Builds a BehaviorDescription. Elements keep the order of the calls; functions return *this.
 class BehaviorBuilder {
  public:
   BehaviorBuilder& add_goal_set(int id, std::vector<Node> goals);
   /// `parts`: a goal selector, a velocity component, actions, velocity modifiers.
   BehaviorBuilder& add_state(std::string name, std::vector<Node> parts = {});
-  /// One in which agents are done: a simulation in which all are is over.
+  /// Adds a state in which agents have finished; a run ends when all agents are in final states.
   BehaviorBuilder& add_final_state(std::string name, std::vector<Node> parts = {});
-  /// From a state, or several separated by commas, when the condition holds.
+  /// Adds a transition. `from`: a state, or several separated by commas.
   BehaviorBuilder& add_transition(std::string from, std::string to, Node condition);
-  /// Any other element of a behavior: <Panic>, <EventSystem>, <Task>, <VelModifier>, ...
+  /// Adds another element: <Panic>, <EventSystem>, <Task>, <VelModifier>, ...
   BehaviorBuilder& add(Node element);
-  /// A comment of the file before what is added next.
+  /// Writes an XML comment before the next element.
   BehaviorBuilder& comment(std::string text);
 
   const BehaviorDescription& build() const { return description_; }

@@ -1,6 +1,6 @@
 // The description of a simulation: a scene (Menge's <Experiment>: profiles, groups, obstacles) and
-// a behavior (<BFSM>: goals, states, transitions), each as a value. builder.h builds them in code,
-// menge_files/ reads and writes them.
+// a behavior (<BFSM>: goals, states, transitions), each as a value. builder.h creates descriptions
+// in code; menge_files/ reads and writes them.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,14 @@
 
 namespace throng::crowd {
 
+/// An XML document of Menge with the files that it names.
 struct Description {
   Node root;
-  std::string name;                    ///< for messages: the file's name, or what was built
-  std::filesystem::path folder = {};   ///< what the files that attributes name are relative to
-  std::vector<Problem> warnings = {};  ///< from reading the file
-  /// Text files that attributes name and that are on no disk: road maps, vector fields, formations,
-  /// navigation meshes. They come before files of the folder.
+  std::string name;  ///< name of the file, or "scene" or "behavior"; used in messages
+  std::filesystem::path folder = {};   ///< base of relative file names in attributes
+  std::vector<Problem> warnings = {};  ///< warnings of the reader
+  /// Content of text files that attributes name and that exist only in memory: road maps, vector
+  /// fields, formations, navigation meshes. Used instead of files of the folder with the same name.
   std::map<std::string, std::string> files = {};
 };
 

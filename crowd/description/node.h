@@ -1,5 +1,5 @@
-// A description of a crowd is a tree of nodes: elements with attributes, as in Menge's XML, but as
-// values that a program can build, copy, compare and change.
+// Nodes of a description: elements with attributes, as in Menge's XML, but as values that a program
+// can create, copy, compare and change.
 #pragma once
 
 #include <concepts>
@@ -11,12 +11,12 @@
 
 namespace throng::crowd {
 
-/// The shortest text that reads back as the same number.
+/// Formats a number as the shortest text that is read as the same number.
 std::string number_text(double value);
-/// A number rounded to so many decimals, all of them written.
+/// Formats a number with exactly `decimals` decimals.
 std::string decimals_text(double value, int decimals);
 
-/// A named value. Numbers are kept as text, as in files; booleans are "1" and "0".
+/// A named value. Numbers are stored as text, as in files; booleans as "1" and "0".
 struct Attribute {
   Attribute(std::string attribute, std::string text)
       : name(std::move(attribute)), value(std::move(text)) {}
@@ -37,25 +37,26 @@ struct Attribute {
   std::string value;
 };
 
+/// An element with attributes and child elements.
 struct Node {
   explicit Node(std::string element, std::vector<Attribute> of_it = {},
                 std::vector<Node> below = {});
 
-  /// Replaces the attribute, or adds it at the end.
+  /// Replaces the value of the attribute, or appends it. Returns this node.
   Node& set(Attribute attribute);
-  /// The attribute's value, or null.
+  /// Returns the value of the attribute, or null. Valid until the attributes change.
   const std::string* find(std::string_view attribute) const;
-  /// Adds a child at the end, and returns this node.
+  /// Appends a child. Returns this node.
   Node& add(Node child);
 
-  /// Same name, attributes in the same order and equal children; not comment and line.
+  /// Compares name, attributes in order, and children; ignores comments and lines.
   bool operator==(const Node& other) const;
 
   std::string name;
   std::vector<Attribute> attributes;
   std::vector<Node> children;
-  std::string comment = {};  ///< what a file says before the element
-  int line = 0;              ///< in the file that it was read from; 0: built in code
+  std::string comment = {};  ///< text of the XML comment before the element
+  int line = 0;              ///< line in the file; 0: built in code
 };
 
 }  // namespace throng::crowd

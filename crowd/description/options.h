@@ -1,4 +1,4 @@
-// Options of a simulation that jobs and commands give, without the engine.
+// Options of a simulation that jobs and commands set, without a dependency on the engine.
 #pragma once
 
 #include <array>
@@ -6,23 +6,23 @@
 
 namespace throng::crowd {
 
-/// Whose results are wanted where the files leave a choice.
+/// Program with which results agree.
 enum class Compat {
-  none,      ///< the sensible semantics that the documentation gives
-  menge,     ///< Menge's own, with its quirks and random numbers
-  huang2016  ///< also those of the elements that the paper's authors added to it
+  none,      ///< none: semantics as documented
+  menge,     ///< Menge, with its quirks and random numbers
+  huang2016  ///< the engine of Huang et al. 2016: Menge with the elements that its authors added
 };
 
-/// The words for Compat, in its order.
+/// Words for Compat, in the order of its values.
 inline constexpr std::array<std::string_view, 3> kCompatWords = {"none", "menge", "huang2016"};
 
-/// The words for LoadOptions::hard_separation, false first.
+/// Words for LoadOptions::hard_separation: false, true.
 inline constexpr std::array<std::string_view, 2> kSeparationWords = {"soft", "hard"};
 
-/// Whether people's bodies give way (crowd/motion/bodies.h).
+/// Options of bodies that are pushed and fall (crowd/motion/bodies.h).
 struct Physical {
   bool on = false;
-  float fall_impulse_ns = 20;  ///< a blow that throws somebody over
+  float fall_impulse_ns = 20;  ///< min impulse of an impact that makes a person fall (N s)
 };
 
 }  // namespace throng::crowd

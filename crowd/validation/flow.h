@@ -1,5 +1,4 @@
-// How fast people walk in a crowd, and how many pass through a door: what pedestrian models are
-// compared by.
+// Speeds of people in a crowd and flows through doors, by which pedestrian models are compared.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace throng::validation {
 
-/// Mean speed in m/s at a density (1/m^2) by Weidmann (1993, Schriftenreihe des IVT 90), with
-/// Kladek's formula; 0 from 5.4 /m^2 on.
+/// Mean speed (m/s) at a density (1/m^2) by Weidmann (1993, Schriftenreihe des IVT 90), in Kladek's
+/// formula; 0 from 5.4 1/m^2 on.
 double weidmann_speed_mps(double density);
 
 struct DensitySpeed {
@@ -18,36 +17,39 @@ struct DensitySpeed {
   double speed_mps = 0;
 };
 
-/// A corridor without an end.
+/// A corridor in the form of a ring.
 struct Ring {
-  double radius_m = 12.5;  ///< mean
+  double radius_m = 12.5;  ///< mean radius
   double width_m = 3;
   std::size_t people = 100;
   Sampled speed = Group{}.speed;
 };
+/// Returns the scene of people who walk around in a ring.
 Scene ring(const Ring& spec);
-/// The mean speed along a ring around the origin between two times.
+/// Mean speed along a ring around the origin between two times (m/s).
 double mean_ring_speed(crowd::Simulation& crowd, double from_s, double until_s);
 
-/// People who walk around in a ring of 3 m width and 12.5 m mean radius without an end, at one
-/// density: their mean speed along it from 20 to 50 s.
+/// Returns the mean speed from 20 to 50 s of people in a ring of 3 m width and 12.5 m mean radius
+/// at a density (1/m^2).
 DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed);
 
-/// A room of 10 m x 10 m with a door in the middle of a wall of this thickness.
+/// A room of 10 m x 10 m with a door in the middle of a wall.
 struct Bottleneck {
+  /// Width of the door.
   double width_m = 1;
+  /// Thickness of the wall.
   double wall_m = 0.2;
   std::size_t people = 150;
 };
 
 Scene room_with_door(const Bottleneck& door);
 
-/// People per second between the 10th and the 80th percentile of the passages of so many people at
-/// these times, in order; 0 when they do not get so far.
+/// Flow (1/s) between the 10th and the 80th percentile of the passages of `people`; `times_s` are
+/// the sorted times of passage. Returns 0 if fewer people pass.
 double central_rate(const std::vector<double>& times_s, std::size_t people);
 
-/// People per meter and second between the 10th and the 80th percentile of the passages, as
-/// measured in experiments; 0 when they do not get so far within 300 s.
+/// Specific flow (1/(m s)) between the 10th and the 80th percentile of the passages, as in
+/// experiments; 0 if fewer people pass within 300 s.
 double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::uint64_t seed);
 
 }  // namespace throng::validation

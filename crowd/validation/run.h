@@ -1,4 +1,4 @@
-// Shared by the tests: running a scene to its end and watching who goes where.
+// Execution of a scene, shared by the tests.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,14 @@
 
 namespace throng::validation {
 
+/// Called after each step.
 using Look = std::function<void(const crowd::Simulation&)>;
 
-/// Steps, and looks after each, until nobody is left: returns that time in s. Nothing when that
-/// takes longer than `max_s`, or when nobody has left for a minute: then people block each other.
+/// Runs until nobody is left and returns that time (s). Returns nothing after `max_s`, or if nobody
+/// has left for a minute: people block each other.
 std::optional<double> until_all_left(crowd::Simulation& crowd, double max_s, const Look& look = {});
 
+/// Number of people who are present.
 std::size_t count_present(const crowd::Simulation& crowd);
 
 }  // namespace throng::validation

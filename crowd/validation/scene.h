@@ -1,4 +1,4 @@
-// Scenes for validating the crowd engine, built in code as users' programs build theirs.
+// Scenes for validating the crowd engine, built in code with the public builders.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,52 +18,54 @@ using describe::Sampled;
 /// Corners of an obstacle in order, counter-clockwise, m.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// A box along the axes.
+/// Returns an axis-parallel box.
 Polygon box(double min_x, double min_y, double max_x, double max_y);
 
-/// People of one kind.
+/// People with the same properties.
 struct Group {
   std::vector<Eigen::Vector2d> places;
-  /// Free speed, m/s. Weidmann's (1993) by default.
+  /// Free speed, m/s; by default that of Weidmann (1993).
   Sampled speed = Sampled::normal(1.34, 0.26).limited(0.58, 2.1);
   double radius_m = 0.2;
-  double aside_m = 0.02;  ///< at most so far from their place they begin, at random
+  double aside_m = 0.02;  ///< max random distance between start and place
   std::string state = "Walk";
-  std::vector<crowd::Node> more = {};  ///< further elements of the group, e.g. <Arrivals>
+  std::vector<crowd::Node> more = {};  ///< further elements, e.g. <Arrivals>
 };
 
-/// A behavior, and what most tests put into one.
+/// A BehaviorBuilder with the parts that most tests need.
 class Behavior : public crowd::BehaviorBuilder {
  public:
-  /// A goal set of one box.
+  /// Adds a goal set with one box.
   Behavior& goal_box(int goal_set, double min_x, double min_y, double max_x, double max_y);
-  /// A state in which people go around all walls to the goals of a set, the nearest one.
+  /// Adds a state in which people walk around all walls to the nearest goal of a set.
   Behavior& walk_to(int goal_set, const std::string& state = "Walk");
-  /// The final state "Gone", which people take who reach their goal in one of the states.
+  /// Adds the final state "Gone", which people enter when they reach their goal in one of the
+  /// states.
   Behavior& leave_at_goal(const std::string& states = "Walk");
 };
 
+/// Walls, people and behavior of a test.
 struct Scene {
   std::vector<Polygon> walls;
-  std::vector<Polygon> later_walls;  ///< in nobody's way until an action adds obstacle class 2
+  std::vector<Polygon> later_walls;  ///< walls that appear when an action adds obstacle class 2
   std::vector<Group> groups;
   Behavior behavior;
-  std::map<std::string, std::string> files;  ///< that the behavior names
+  std::map<std::string, std::string> files;  ///< files that the behavior names
   double dt_s = 0.1;
 };
 
-/// A pedestrian model, with parameters other than its own if need be.
+/// A pedestrian model with its parameters.
 struct Tested {
   std::string model;
-  std::vector<crowd::Node> constants = {};  ///< its element of a scene, or nothing
-  std::vector<crowd::Node> profile = {};    ///< its element of a profile, or nothing
+  std::vector<crowd::Node> constants = {};  ///< element with constants for the scene; may be empty
+  std::vector<crowd::Node> profile = {};  ///< element with parameters for the profile; may be empty
 };
 
-/// So many places on a lattice of nearly squares that fills a box.
+/// Returns `count` points of a lattice of nearly square cells that fills a box.
 std::vector<Eigen::Vector2d> lattice(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                                      std::size_t count);
 
-/// The scene as it begins. Models of forces compute five steps in one, as they need to.
+/// Creates the simulation of a scene. Force-based models compute five sub-steps per step.
 crowd::Simulation load(const Scene& scene, const Tested& tested, std::uint64_t seed);
 
 }  // namespace throng::validation

@@ -1,4 +1,4 @@
-// Vector graphics of plans and plots: shapes in pixels, written as SVG, PNG or PDF with cairo and
+// Vector graphics of plans and plots: shapes in pixels, written as SVG, PNG or PDF by cairo and
 // Pango.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Color {
 
 inline constexpr Color kTransparent{{0, 0, 0}, 0};
 
-/// The color of a hue in degrees, with saturation and lightness from 0 to 1 (CSS Color Module,
+/// Converts a hue in degrees, saturation and lightness (0 to 1) to a color (CSS Color Module,
 /// hsl()).
 Color from_hsl(double hue_deg, double saturation, double lightness);
 
@@ -28,8 +28,8 @@ struct Shape {
   enum class Kind : std::uint8_t {
     polygon,  ///< closed
     line,     ///< open polyline
-    circle,   ///< centered at the first point
-    text      ///< its baseline begins at the first point
+    circle,   ///< center at the first point
+    text      ///< start of the baseline at the first point
   };
   Kind kind = Kind::polygon;
   std::vector<Eigen::Vector2d> points;
@@ -43,25 +43,26 @@ struct Shape {
   bool arrow = false;     ///< a line with an arrowhead at its end
 };
 
-/// Shapes on white, later ones over earlier ones.
+/// Shapes on a white page; later shapes cover earlier ones.
 struct Drawing {
   int width_px = 0;
   int height_px = 0;
-  std::string title;  ///< of the PDF document
+  std::string title;  ///< title of the PDF document
   std::vector<Shape> shapes;
 };
 
-/// An SVG document. Text becomes outlines, so that it looks the same without the font.
+/// Returns an SVG document. Text is converted to outlines, so that it looks the same without the
+/// font.
 std::string to_svg(const Drawing& drawing);
 
-/// A PNG file, one pixel per unit.
+/// Returns a PNG file with one pixel per unit.
 std::string to_png(const Drawing& drawing);
 
-/// A PDF document of one page, one point per unit; its text can be searched.
+/// Returns a PDF document of one page with one point per unit; its text is searchable.
 std::string to_pdf(const Drawing& drawing);
 
-/// Writes the drawing in the format of the file's suffix: .svg, .png or .pdf. Throws InputError for
-/// another suffix, EnvironmentError if the file cannot be written.
+/// Writes the drawing in the format of the file name's suffix: .svg, .png or .pdf. Throws
+/// InputError for other suffixes, EnvironmentError if the file cannot be written.
 void write_drawing(const Drawing& drawing, const std::filesystem::path& file);
 
 }  // namespace throng::drawing

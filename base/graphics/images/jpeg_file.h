@@ -1,4 +1,4 @@
-// libjpeg-turbo's decoder for one file in memory, shared by the readers of this module.
+// libjpeg-turbo's decoder for a file in memory, shared by the readers of this module.
 #pragma once
 
 #include <turbojpeg.h>
@@ -12,17 +12,18 @@
 
 namespace throng::images {
 
-/// A JPEG whose header was read.
+/// A JPEG file in memory whose header has been read.
 class JpegFile {
  public:
-  /// Throws InputError naming `what` when the header is damaged. The bytes must outlive this.
+  /// Throws InputError with the name `what` if the header is damaged. The bytes must outlive this
+  /// object.
   JpegFile(std::string_view bytes, std::string what);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// All pixels, rows from the top; `pixel_format` is one of TJPF_. When `strict`, warnings of the
-  /// decoder (a file that is cut off) are InputErrors, too.
+  /// Decodes all pixels, rows from the top. `pixel_format` is a TJPF_ constant. With `strict`,
+  /// warnings of the decoder, e.g. of a truncated file, are InputErrors too.
   std::vector<std::uint8_t> decode(int pixel_format, bool strict) const;
 
  private:

@@ -1,4 +1,4 @@
-// Gray and RGB PNG files, samples as they are in the file.
+// Gray and RGB PNG files with unchanged samples.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,18 @@
 
 namespace throng::images {
 
-/// Samples row by row from the top, channels interleaved; 8-bit ones are widened.
+/// Samples of an image by rows from the top, with interleaved channels; 8-bit samples are stored in
+/// 16 bits without scaling.
 struct Raster {
   int width = 0;
   int height = 0;
   int channels = 0;  ///< 1 (gray) or 3 (RGB)
-  int bits = 0;      ///< 8 or 16
+  int bits = 0;      ///< per sample in the file: 8 or 16
   std::vector<std::uint16_t> samples;
 };
 
-/// Throws InputError when the file is not there or is no gray or RGB PNG of 8 or 16 bits.
+/// Reads a PNG file. Throws InputError if it does not exist or is not a gray or RGB PNG with 8 or
+/// 16 bits.
 Raster read_raster(const std::filesystem::path& path);
 
 }  // namespace throng::images

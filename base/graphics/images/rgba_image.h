@@ -1,4 +1,4 @@
-// Color images with alpha: PNG in and out, JPEG in.
+// Color images with alpha: reads PNG and JPEG, writes PNG.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace throng::images {
 
-/// 8-bit sRGB color with alpha, rows from the top.
+/// An image of 8-bit sRGB colors with alpha, rows from the top.
 struct RgbaImage {
   int width = 0;
   int height = 0;
@@ -17,6 +17,7 @@ struct RgbaImage {
 
   RgbaImage() = default;
   RgbaImage(int w, int h) : width(w), height(h), rgba(static_cast<std::size_t>(w) * h * 4) {}
+  /// The four bytes of a pixel.
   std::uint8_t* pixel(int x, int y) {
     return rgba.data() + (static_cast<std::size_t>(y) * width + x) * 4;
   }
@@ -25,14 +26,15 @@ struct RgbaImage {
   }
 };
 
-/// Throws InputError naming `what` when the bytes are not a PNG.
+/// Decodes a PNG file. Throws InputError with the name `what` for other bytes.
 RgbaImage decode_png(std::string_view bytes, const std::string& what);
+/// Returns a PNG file.
 std::string encode_png(const RgbaImage& image);
 
-/// Reads and decodes. Throws InputError naming the file.
+/// Reads and decodes a PNG file. Throws InputError with the name of the file.
 RgbaImage read_png(const std::filesystem::path& path);
 
-/// As decode_png and read_png, but JPEG is understood too.
+/// Like decode_png() and read_png(), for PNG and JPEG files.
 RgbaImage decode_image(std::string_view bytes, const std::string& what);
 RgbaImage read_image(const std::filesystem::path& path);
 

@@ -1,5 +1,5 @@
-// Reads Menge's XML files into descriptions. Only the form is checked here; what elements and
-// attributes mean is checked when a simulation is made.
+// Reads Menge's XML files into descriptions. Checks only the form; elements and attributes are
+// checked when a simulation is created.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace throng::crowd {
 
-/// Reads a file: elements, attributes and their lines; a comment is kept with the element after it;
-/// text between elements means nothing and is dropped. Throws EnvironmentError when the file cannot
-/// be read, InputError (file, line) when it is not well-formed XML. `root_name` is for the message
-/// about a file without elements.
+/// Reads elements, attributes, line numbers and comments, each of which belongs to the element that
+/// follows. Ignores text between elements. `root_name` is the expected root in the message for a
+/// file without elements. Throws EnvironmentError if the file cannot be read, InputError (file,
+/// line) if it is not well-formed XML.
 Description read_description(const std::filesystem::path& file, std::string_view root_name);
 
 SceneDescription read_scene(const std::filesystem::path& file);

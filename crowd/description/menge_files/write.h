@@ -7,8 +7,8 @@
 
 namespace throng::crowd {
 
-/// The file's text, in UTF-8. Reading it gives an equal description. Throws InputError for names
-/// that XML cannot have and for attributes that an element has twice.
+/// Returns the description as XML in UTF-8; read_description() of it gives an equal description.
+/// Throws InputError for names that are invalid in XML and for duplicate attributes.
 std::string to_xml(const Description& description);
 
 }  // namespace throng::crowd
