@@ -1,4 +1,4 @@
-// The agents' state, one array per quantity, indexed by agent id.
+// The state of all agents: one array per quantity, indexed by agent id.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// Properties that profiles set for each agent and actions change.
+/// Properties that profiles set for each agent and that actions change.
 enum class Property {
   max_speed,
   max_accel,
@@ -25,18 +25,19 @@ enum class Property {
 };
 constexpr std::size_t kPropertyCount = 8;
 
+/// Definition of a Property.
 struct PropertySpec {
-  std::string_view name;  ///< as in the files
-  float initial;          ///< what a profile that does not give it has, in the file's unit
+  std::string_view name;  ///< name in files
+  float initial;          ///< value if a profile does not set it, in the unit of the file
   float min;
   float max;
-  float file_unit;  ///< what one unit of a profile's attribute is in the arrays' unit
+  float file_unit;  ///< factor from the unit of the file to that of the arrays
   std::string_view help;
 };
 
 constexpr float kRadiansPerDegree = 0.017453292519943295F;
 
-/// By Property. The limits hold at any time: what actions do is clamped to them.
+/// Indexed by Property. Values are clamped to these limits at all times.
 constexpr std::array<PropertySpec, kPropertyCount> kProperties = {{
     {"max_speed", 2.5F, 0, 100, 1, "highest speed in m/s"},
     {"max_accel", 2, 0, 1e9F, 1, "highest change of velocity in m/s^2"},
@@ -64,7 +65,7 @@ struct Agents {
   }
 
   std::vector<std::uint8_t> present;  ///< 1: takes part
-  std::vector<std::uint8_t> awaited;  ///< 1: is still to arrive, see Arrivals
+  std::vector<std::uint8_t> awaited;  ///< 1: still to arrive, see Arrivals
   std::vector<std::uint8_t> panicked;
   std::vector<std::uint8_t> fallen;          ///< 1: lies on the ground, see Bodies
   std::vector<std::int32_t> social_group;    ///< index into Crowd::social_groups; -1: alone
@@ -72,24 +73,24 @@ struct Agents {
   std::vector<Eigen::Vector2f> velocity;     ///< m/s
   std::vector<Eigen::Vector2f> orientation;  ///< unit
   std::vector<float> yaw_rad;
-  /// Unit: facing of an agent that stands where it began, see Facing; 0: along its path.
+  /// Initial facing (unit vector) of an agent that stands, see Facing; 0: faces along its path.
   std::vector<Eigen::Vector2f> facing;
 
-  /// Preferred velocity, without other agents: a unit vector and m/s.
+  /// Preferred velocity without other agents: a unit vector, and a speed in m/s.
   std::vector<Eigen::Vector2f> preferred_direction;
   std::vector<float> preferred_speed;
 
   std::array<std::vector<float>, kPropertyCount> properties;
-  std::vector<std::uint32_t> obstacle_mask;  ///< obstacles of these classes are in the way
+  std::vector<std::uint32_t> obstacle_mask;  ///< classes of obstacles that the agent avoids
   std::vector<std::int32_t> agent_class;
-  std::vector<std::uint32_t> profile;  ///< number of the <AgentProfile> in the scene
-  /// Per parameter of the pedestrian model's table, per agent.
+  std::vector<std::uint32_t> profile;  ///< index of the <AgentProfile> in the scene
+  /// Indexed by parameter of the pedestrian model's table, then by agent.
   std::vector<std::vector<float>> model_parameters;
 
   std::vector<std::uint8_t> state;
   std::vector<std::uint8_t> previous_state;
-  std::vector<double> entered_s;     ///< when the state was entered
-  std::vector<std::uint32_t> entry;  ///< how many states were entered, including the first
+  std::vector<double> entered_s;     ///< time of entry into the state
+  std::vector<std::uint32_t> entry;  ///< number of states entered, including the first
   std::vector<std::int32_t> goal;    ///< index into Goals; -1: own_goal
   std::vector<Eigen::Vector2f> own_goal;
   std::vector<GoalId> goal_id;

@@ -1,4 +1,4 @@
-// The state machine: what the plug-in points do, and a behavior file in memory.
+// The state machine: interfaces of its plug-ins, and a behavior file in memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,15 +16,15 @@
 
 namespace throng::crowd {
 
-/// Whether an agent leaves its state. Values that belong to an agent are sampled or looked up when
-/// the agent enters the state; queries may be repeated and come from several threads.
+/// The condition of a transition. Values per agent are sampled or looked up when the agent enters
+/// the state. holds() may be called repeatedly and from several threads.
 class Condition {
  public:
   virtual ~Condition() = default;
-  /// An agent enters the state that this may lead out of. Called for one agent at a time.
+  /// Called when an agent enters a state from which the transition leads; for one agent at a time.
   virtual void enter(const Crowd&, std::size_t /*agent*/) {}
   virtual bool holds(const Crowd& crowd, std::size_t agent) const = 0;
-  /// Whether it holds for everybody at any time, as far as the file tells.
+  /// Whether the condition always holds for all agents, as far as the file determines.
   virtual bool is_always() const { return false; }
 };
 
@@ -33,17 +33,18 @@ struct PreferredVelocity {
   float speed = 0;            ///< m/s
 };
 
-/// Computes an agent's preferred velocity. Fields that it does not set keep their values.
+/// Computes an agent's preferred velocity; fields that it does not set keep their values.
 class VelComponent {
  public:
   virtual ~VelComponent() = default;
-  /// An agent enters a state with this component; its goal is set. Called for one agent at a time.
+  /// Called when an agent enters a state with this component and has its goal; for one agent at a
+  /// time.
   virtual void enter(const Crowd&, std::size_t /*agent*/) {}
-  /// Called for different agents at once: what it remembers, it remembers per agent.
+  /// Called for several agents concurrently; mutable data must be per agent.
   virtual void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) = 0;
 };
 
-/// Changes what a VelComponent said.
+/// Modifies the preferred velocity that a VelComponent computed.
 class VelModifier {
  public:
   virtual ~VelModifier() = default;
@@ -51,8 +52,8 @@ class VelModifier {
                       PreferredVelocity& preferred) const = 0;
 };
 
-/// Changes an agent on entry into a state and, if it is to be undone, on leaving it. Called for
-/// one agent at a time.
+/// Changes an agent when it enters a state and can revert the change when the agent leaves it.
+/// Called for one agent at a time.
 class Action {
  public:
   virtual ~Action() = default;
@@ -60,79 +61,87 @@ class Action {
   virtual void leave(Crowd& crowd, std::size_t agent) = 0;
 };
 
-/// The state that a transition leads to.
+/// Determines the state to which a transition leads.
 class Target {
  public:
   virtual ~Target() = default;
   /// Called for one agent at a time.
   virtual std::uint8_t state(const Crowd& crowd, std::size_t agent) = 0;
-  /// Adds the states that it may lead to; need not name those that an agent has been in anyway.
+  /// Adds the states to which it may lead; states that the agent was in before may be omitted.
   virtual void list_states(std::vector<std::uint8_t>&) const {}
 };
 
-/// Something from outside that events wait for, see Simulation::fire.
+/// An external signal that triggers events, see Simulation::fire().
 struct Signal {
   std::string name;
   bool raised = false;
 };
 
+/// A transition out of a state.
 struct Transition {
   std::unique_ptr<Condition> condition;
   std::unique_ptr<Target> target;
 };
 
+/// A state of a behavior.
 struct MachineState {
   bool final = false;
-  std::optional<bool> lying;        ///< whether people lie on the ground in it, if it says so
-  std::shared_ptr<StateGoal> goal;  ///< several states may share one
+  std::optional<bool> lying;        ///< whether people in it lie on the ground, if declared
+  std::shared_ptr<StateGoal> goal;  ///< may be shared by several states
   std::unique_ptr<VelComponent> velocity;
   std::vector<std::unique_ptr<Action>> actions;
   std::vector<std::unique_ptr<VelModifier>> modifiers;
-  std::vector<Transition> transitions;  ///< in the file's order; the first that holds is taken
+  /// In the order of the file; the first whose condition holds is taken.
+  std::vector<Transition> transitions;
 };
 
+/// A behavior file in memory.
 struct Behavior {
   std::vector<MachineState> states;
-  std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< of all states, after the state's own
-  std::vector<std::unique_ptr<Process>> processes;      ///< in the file's order
+  /// Apply in all states, after those of the state.
+  std::vector<std::unique_ptr<VelModifier>> modifiers;
+  std::vector<std::unique_ptr<Process>> processes;  ///< in the order of the file
   std::vector<std::shared_ptr<Signal>> signals;
-  /// By Agents::profile, after all others.
+  /// Indexed by Agents::profile; apply after all others.
   std::vector<std::vector<std::unique_ptr<VelModifier>>> profile_modifiers;
 };
 
 class Stress;
 
-/// Objects that factories of plug-ins may need.
+/// Objects that factories of plug-ins may use.
 struct BehaviorContext {
-  const Crowd& crowd;  ///< with its agents, obstacles and goals
+  const Crowd& crowd;  ///< agents, obstacles and goals are loaded
   const Goals& goals;
   const std::vector<std::string>& state_names;
   std::size_t agent_count = 0;
   std::uint64_t seed = 1;
-  MengeSequences& sequences;  ///< of random numbers, of compatible runs
-  std::vector<std::shared_ptr<MengeRandom>> set_sequences = {};  ///< the same, per goal set
-  std::vector<std::unique_ptr<Process>> processes = {};          ///< what plug-ins want to be run
-  std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
-  /// A transition from several states is read once for each; this is not the first time. Elements
-  /// that draw have the numbers that they had then.
+  MengeSequences& sequences;  ///< sequences of random numbers, for compatible runs
+  /// Sequences per goal set, for compatible runs.
+  std::vector<std::shared_ptr<MengeRandom>> set_sequences = {};
+  std::vector<std::unique_ptr<Process>> processes = {};  ///< processes that plug-ins add
+  /// Number of the next element that samples, in the order of the file.
+  std::uint64_t next_draws = 0;
+  /// Whether this is a copy: a transition from several states is read once for each of them.
+  /// Elements that sample have the same numbers as in the first reading.
   bool is_copy = false;
-  std::vector<std::shared_ptr<Signal>> signals = {};  ///< that triggers wait for
-  /// Set by a goal selector that shares the one of another state.
+  std::vector<std::shared_ptr<Signal>> signals = {};  ///< signals of external triggers
+  /// Set by a goal selector that shares the goals of another state.
   std::optional<std::uint8_t> shares_goal_of = {};
-  Stress* stress = nullptr;  ///< the process that stresses agents, once an element needs it
-  /// Into these something else than transitions may put agents.
+  Stress* stress = nullptr;  ///< the process for stress; null until an element needs it
+  /// States into which events or other processes may put agents.
   std::vector<std::uint8_t> states_from_outside = {};
 
-  /// The random numbers of one more element; `fixed_seed` is its own seed, if it gives one.
+  /// Returns the random numbers for the next element that samples. `fixed_seed`: seed that the
+  /// element sets.
   Draws make_draws(std::optional<std::uint64_t> fixed_seed = {});
   Sampler make_sampler(const Distribution& distribution);
   Sampler2 make_sampler(const Distribution2& distribution);
-  /// Uniform in [0, 1).
+  /// Returns a sampler of uniform numbers in [0, 1).
   Sampler make_unit_sampler() { return make_sampler({Distribution::Kind::uniform, 0, 1, {}}); }
-  /// The same for choosing among the goals of a set: in compatible runs all who do so share the
-  /// set's sequence.
+  /// Returns a sampler of uniform numbers for choosing among the goals of a set; in compatible
+  /// runs, all selectors of a set share its sequence.
   Sampler make_set_sampler(int set);
-  /// Throws InputError for a name that is no state's.
+  /// Returns the index of a state. Throws InputError if there is no state with this name.
   std::uint8_t require_state(const Element& element, std::string_view attribute,
                              const std::string& name) const;
 };
@@ -151,40 +160,41 @@ const VelComponentRegistry& vel_component_registry();
 const VelModifierRegistry& vel_modifier_registry();
 const ActionRegistry& action_registry();
 const TargetRegistry& target_registry();
-/// There are none; Menge's came from plug-ins.
+/// Returns an empty registry: Menge's tasks came from plug-ins.
 const TaskRegistry& task_registry();
 
-/// The groups that make up the conditions, one file each.
+/// Groups of conditions, one per source file.
 std::vector<ConditionRegistry::Entry> general_conditions();
 std::vector<ConditionRegistry::Entry> place_conditions();
-/// clear_AABB.
+/// The condition clear_AABB.
 std::vector<ConditionRegistry::Entry> aircraft_conditions();
-/// follow, via and proximity: flight from a disaster and following something that leads out
-/// (Huang 2016), with distances, growth and probabilities as the attributes say.
+/// The conditions follow, via and proximity: flight from a disaster and following a guide (Huang et
+/// al. 2016), with distances, growth and probabilities as attributes.
 std::vector<ConditionRegistry::Entry> evacuation_conditions();
 
-/// The groups that make up the goal selectors.
+/// Groups of goal selectors, one per source file.
 std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors();
-/// exit_choice.
+/// The goal selector exit_choice.
 std::vector<GoalSelectorRegistry::Entry> evacuation_goal_selectors();
 
-/// The groups that make up the actions.
+/// Groups of actions, one per source file.
 std::vector<ActionRegistry::Entry> property_actions();
 std::vector<ActionRegistry::Entry> obstacle_actions();
-/// add_obstacle_at.
+/// The action add_obstacle_at.
 std::vector<ActionRegistry::Entry> late_obstacle_actions();
 std::vector<ActionRegistry::Entry> stress_actions();
-/// leave.
+/// The action leave.
 std::vector<ActionRegistry::Entry> presence_actions();
-/// formation.
+/// The velocity modifier formation.
 std::vector<VelModifierRegistry::Entry> formation_modifiers();
-/// `exit_reset`, which actions have whose change can be undone.
+/// Returns the attribute `exit_reset` of actions whose change can be reverted.
 AttributeSpec exit_reset_attribute();
 
-/// The names of a behavior file's states, in its order. Throws InputError when two are equal.
+/// Returns the names of a behavior file's states in the order of the file. Throws InputError for
+/// duplicates.
 std::vector<std::string> load_state_names(const Element& bfsm);
-/// Reads goals into the crowd, then states and transitions; `profile_modifiers` are the scene's,
-/// by profile. Throws InputError.
+/// Reads goals into the crowd, then states and transitions. `profile_modifiers` are those of the
+/// scene, indexed by profile. Throws InputError.
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
                        const std::vector<std::vector<Element>>& profile_modifiers,
                        MengeSequences& sequences, Crowd& crowd);

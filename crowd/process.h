@@ -1,4 +1,5 @@
-// Processes beside the agents' own decisions: moving goals, events, stress, sources.
+// Processes that run in each step beside the agents' decisions: moving goals, events, stress,
+// arrivals.
 #pragma once
 
 #include "crowd/crowd.h"
@@ -7,13 +8,13 @@ namespace throng::crowd {
 
 class Machine;
 
-/// Called once per (sub-)step by one thread, in the order of the files.
+/// A process, called once per (sub-)step by one thread, in the order of the files.
 class Process {
  public:
   virtual ~Process() = default;
-  /// Before the agents decide. time is crowd.time_s().
+  /// Called before the agents decide; `crowd.time_s()` is the time at the start of the step.
   virtual void before_decisions(Crowd&, Machine&) {}
-  /// After they have moved, at the end of the step; crowd.time_s() is the new time.
+  /// Called after the agents have moved; `crowd.time_s()` is the time at the end of the step.
   virtual void after_motion(Crowd&, Machine&) {}
 };
 

@@ -31,9 +31,9 @@ class TrajectoryReader {
   ~TrajectoryReader();
   TrajectoryReader(const TrajectoryReader&) = delete;
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
-  /// Time of the last step.
 
   std::size_t agents() const;
+  /// Time of the last step.
   double end_s() const;
 
   /// Returns the agents at these times, each from 0 to end_s(). Positions between two steps are

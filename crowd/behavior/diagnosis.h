@@ -1,4 +1,4 @@
-// Suspicious but valid parts of a behavior file: each yields a warning at load, with its line.
+// Warnings about suspicious but valid parts of a behavior file, with line numbers.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace throng::crowd {
 
-/// Records the lines of elements while the file is read, and checks the whole in the end.
+/// Records the elements of a behavior while it is read, and checks them at the end.
 class Diagnosis {
  public:
-  /// The next state.
+  /// Records the next state.
   void note_state(const Element& element) { states_.push_back(element); }
-  /// The next transition of state `from`.
+  /// Records the next transition of state `from`.
   void note_transition(const Element& element, std::uint8_t from);
   void note_goal_set(const Element& element, int set) { goal_sets_.push_back({element, set}); }
 
-  /// Warns of states that cannot be left or reached, of transitions that are never looked at or go
-  /// round in every step, and of goal sets that are empty or of no use. `from_outside`: states that
-  /// something else than transitions leads to.
+  /// Warns of states that cannot be left or reached, transitions that are never evaluated or that
+  /// form a cycle in each step, and empty or unused goal sets. `from_outside`: states that agents
+  /// enter other than by transitions.
   void report(const Crowd& crowd, const Behavior& behavior,
               const std::vector<std::string>& state_names,
               const std::vector<std::uint8_t>& from_outside) const;

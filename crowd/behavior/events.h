@@ -1,5 +1,4 @@
-// Events: when something has happened (trigger), something is done (effect) to some agents
-// (target).
+// Events: when a trigger fires, an effect is applied to the agents of a target.
 #pragma once
 
 #include <memory>
@@ -8,7 +7,7 @@
 
 namespace throng::crowd {
 
-/// Whether it is time for an event. Asked once per (sub-)step, before the agents decide.
+/// Decides when an event happens. Called once per (sub-)step, before the agents decide.
 class EventTrigger {
  public:
   virtual ~EventTrigger() = default;
@@ -22,7 +21,7 @@ class EventTarget {
   virtual bool includes(const Crowd& crowd, std::size_t agent) const = 0;
 };
 
-/// The effect on each of them.
+/// The effect of an event on each agent.
 class EventEffect {
  public:
   virtual ~EventEffect() = default;
@@ -37,8 +36,8 @@ const EventTriggerRegistry& event_trigger_registry();
 const EventTargetRegistry& event_target_registry();
 const EventEffectRegistry& event_effect_registry();
 
-/// Reads an <EventSystem> into a process of the context. Throws InputError; when the element says
-/// conservative="0", what is wrong inside of it is left out with a warning instead.
+/// Reads an <EventSystem> into a process of the context. Throws InputError; with conservative="0",
+/// invalid child elements are ignored with a warning instead.
 void load_events(const Element& element, BehaviorContext& context);
 
 }  // namespace throng::crowd

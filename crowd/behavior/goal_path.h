@@ -1,4 +1,4 @@
-// The path of a goal that moves.
+// Paths of moving goals.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,11 +6,11 @@
 
 namespace throng::crowd {
 
-/// From point to point at constant speed; from the last one on to the first (closed), or back the
-/// way it came (open). The rest of a step after a point is spent towards the next.
+/// Moves along points at constant speed: from the last one to the first (closed), or back in
+/// reverse order (open). A step may pass several points.
 class GoalPath {
  public:
-  /// At least two points, in m; they may coincide, and then it rests.
+  /// `points`: at least two, in m; if all coincide, the position is constant.
   GoalPath(std::vector<Eigen::Vector2d> points, double speed_mps, bool closed);
 
   void advance(double dt_s);
@@ -22,9 +22,9 @@ class GoalPath {
   std::vector<Eigen::Vector2d> points_;
   double speed_mps_;
   bool closed_;
-  double lap_m_ = 0;  // until it is back where it was, heading the same way
+  double lap_m_ = 0;  // length of a full period, after which position and direction repeat
   Eigen::Vector2d position_;
-  std::size_t next_ = 1;  // the point that it heads for
+  std::size_t next_ = 1;  // index of the next point
   bool forward_ = true;
 };
 

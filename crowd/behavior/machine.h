@@ -1,4 +1,4 @@
-// Runs the state machine: who changes state when, and where everybody wants to go.
+// Execution of the state machine: transitions and preferred velocities.
 #pragma once
 
 #include <optional>
@@ -8,45 +8,46 @@
 
 namespace throng::crowd {
 
+/// Runs a Behavior for all agents.
 class Machine {
  public:
   explicit Machine(Behavior behavior, std::size_t agent_count);
 
-  /// Puts every agent that is there into its start state and makes it face where it wants to go.
+  /// Puts each present agent into its initial state and makes it face its preferred direction.
   void start(Crowd& crowd);
 
-  /// Takes every transition that is due. The first conditions are evaluated by all in the same
-  /// world; then agents move on in the order of their ids, since they share goals' capacities. An
-  /// agent follows a chain of transitions, but enters no state twice in a step. In compatible runs
-  /// agents both look and move on in the order of their ids, since some of the elements that were
-  /// added to Menge change with every look.
+  /// Takes all transitions whose conditions hold. The first conditions are evaluated for all agents
+  /// in the same state of the crowd; then agents change states in the order of their ids, because
+  /// goals have capacities. An agent follows a chain of transitions but enters no state twice in a
+  /// step. In compatible runs, agents evaluate conditions and change states one after the other,
+  /// because some elements added to Menge change with each evaluation.
   void take_transitions(Crowd& crowd);
 
-  /// Puts an agent into a state from outside, as if a transition led there.
+  /// Puts an agent into a state, as a transition does.
   void change_state(Crowd& crowd, std::size_t agent, std::uint8_t state);
 
-  /// An agent that was awaited is there now: puts it into its start state.
+  /// Puts an awaited agent that has arrived into its initial state.
   void arrive(Crowd& crowd, std::size_t agent);
 
-  /// Gives an agent another goal than its state's selector chose on entry.
+  /// Replaces the goal that the state's selector chose.
   void change_goal(Crowd& crowd, std::size_t agent, int goal);
   const GoalSelector* goal_selector(std::uint8_t state) const {
     return behavior_.states[state].goal->selector();
   }
 
-  /// Raises the signals of this name; whether there are any.
+  /// Raises the signals with this name. Returns whether there are any.
   bool fire(std::string_view name);
 
-  /// Runs the processes beside the agents' decisions, before them and after the agents have moved.
+  /// Run the processes before the agents' decisions and after their motion.
   void run_processes_before(Crowd& crowd);
   void run_processes_after(Crowd& crowd);
 
-  /// Sets everybody's preferred velocity.
+  /// Sets the preferred velocities of all agents.
   void prefer(Crowd& crowd) const;
 
   bool is_final(std::uint8_t state) const { return behavior_.states[state].final; }
   std::optional<bool> is_lying(std::uint8_t state) const { return behavior_.states[state].lying; }
-  /// Whether any transition leads out of a state.
+  /// Whether a transition leads out of a state.
   bool has_exits(std::uint8_t state) const { return !behavior_.states[state].transitions.empty(); }
 
  private:

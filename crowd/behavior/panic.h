@@ -1,4 +1,4 @@
-// Panic, and how it spreads from one to another.
+// Panic and its contagion.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@ namespace throng::crowd {
 
 /// Attributes of <Panic> in a behavior file.
 struct PanicSpec {
-  float radius_m = 3;         ///< how far somebody's panic is noticed
-  double rate_per_s = 0.2;    ///< chance in a second to catch it from each who panics nearby
-  double recovery_per_s = 0;  ///< chance in a second to calm down
-  float speed_factor = 1.5F;  ///< of the preferred speed while in panic
+  float radius_m = 3;         ///< max distance at which panic is noticed
+  double rate_per_s = 0.2;    ///< rate of contagion per person in panic within radius_m
+  double recovery_per_s = 0;  ///< rate of calming down
+  float speed_factor = 1.5F;  ///< factor of the preferred speed during panic
 };
 
 AttributeTable panic_attributes();
@@ -21,18 +21,18 @@ AttributeTable panic_attributes();
 /// Throws InputError.
 PanicSpec load_panic(const Element& element);
 
-/// Spreads and calms panic once in a step, as a stochastic epidemic in space (susceptible,
-/// infected, susceptible again): with n in panic within the radius, somebody calm panics in a
-/// step with probability 1 - exp(-rate n dt). Each agent's fate depends on the seed, the step
-/// and the id only.
+/// Creates the process that spreads and ends panic, once per step: a stochastic spatial epidemic
+/// (susceptible, infected, susceptible). With n people in panic within the radius, a calm person
+/// panics with probability 1 - exp(-rate n dt). Results depend only on the seed, the step and the
+/// id.
 std::unique_ptr<Process> make_panic_contagion(const PanicSpec& spec, std::uint64_t seed);
 
-/// Makes those in panic hurry.
+/// Creates the modifier that increases the speed of people in panic.
 std::unique_ptr<VelModifier> make_panic_modifier(const PanicSpec& spec);
 
-/// panicked: true for who is in panic.
+/// The condition panicked: the agent is in panic.
 std::vector<ConditionRegistry::Entry> panic_conditions();
-/// panic, calm: begin and end it on entry into a state.
+/// The actions panic and calm: begin and end panic when an agent enters a state.
 std::vector<ActionRegistry::Entry> panic_actions();
 
 }  // namespace throng::crowd

@@ -1,4 +1,4 @@
-// Changing a property of an agent, as actions and events do.
+// Changes of properties of agents by actions and events.
 #pragma once
 
 #include <string_view>
@@ -9,27 +9,28 @@ namespace throng::crowd {
 
 enum class Change { set, offset, scale };
 
-/// `property` and the distribution of the operand.
+/// Returns the attributes `property` and the distribution of the operand.
 AttributeTable property_change_attributes();
 
-/// The property of this name, which is one of changeable_properties().
+/// Returns the property with this name, one of changeable_properties().
 Property property_named(std::string_view name);
-/// All but max_neighbors, in the order of Property.
+/// Returns the names of all properties except max_neighbors, in the order of Property.
 std::vector<std::string_view> changeable_properties();
 
-/// `value` within the property's limits.
+/// Clamps `value` to the limits of the property.
 float within_limits(Property property, float value);
 
+/// Sets, offsets or scales a property with a sampled operand.
 class PropertyChange {
  public:
   PropertyChange(Property property, Change change, const Sampler& operand)
       : property_(property), change_(change), operand_(operand) {}
-  /// Throws InputError for an operand that the property cannot be set to.
+  /// Throws InputError for an operand out of the limits of the property.
   static PropertyChange read(const Element& element, const Attributes& attributes, Change change,
                              BehaviorContext& context);
 
   Property property() const { return property_; }
-  /// `draw` is the number of the draw among those for this agent.
+  /// `draw` is the number of the sample for this agent.
   void apply(Crowd& crowd, std::size_t agent, std::uint32_t draw);
 
  private:

@@ -1,4 +1,4 @@
-// Agents' values before an action changed them.
+// Values of agents before an action changed them.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace throng::crowd {
 
-/// Keeps a value per agent, if it is to be given back when they leave the state.
+/// Saves a value per agent if it must be restored when the agent leaves the state.
 template <typename Value>
 class Saved {
  public:

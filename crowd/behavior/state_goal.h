@@ -1,4 +1,4 @@
-// Which goals the agents of a state have.
+// Goals of the agents in a state.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,11 @@
 
 namespace throng::crowd {
 
-/// Chooses an agent's goal on entry into a state.
+/// Chooses the goal of an agent that enters a state.
 class GoalSelector {
  public:
   struct Choice {
-    int goal = -1;  ///< index into Crowd::goals; -1: the point
+    int goal = -1;  ///< index into Crowd::goals; -1: `point` is the goal
     Eigen::Vector2f point = Eigen::Vector2f::Zero();
   };
 
@@ -22,22 +22,22 @@ class GoalSelector {
   virtual Choice select(const Crowd& crowd, std::size_t agent) = 0;
 };
 
-/// Gives agents goals as they enter a state, and takes them back as they leave it: a goal with a
-/// capacity is full while as many agents have it. Several states may share one. An agent that
-/// enters a state in which a member of its social group has a goal already goes there too, if there
-/// is room.
+/// Assigns goals to agents that enter a state and releases them when they leave it; a goal is full
+/// when as many agents have it as its capacity. Several states may share an object. An agent that
+/// enters a state in which a member of its social group has a goal gets the same goal, if there is
+/// room.
 class StateGoal {
  public:
-  /// Without a selector agents stay where they are.
+  /// Without a selector, agents stay at their positions.
   StateGoal(std::unique_ptr<GoalSelector> selector, std::size_t agent_count)
       : selector_(std::move(selector)), kept_(agent_count), is_kept_(agent_count, 0) {}
 
-  /// From now on agents keep their goal for ever, in this state and in those that share it.
+  /// Makes agents keep their goal permanently, in this state and in those that share the object.
   void make_persistent() { persistent_ = true; }
 
   void assign(Crowd& crowd, std::size_t agent);
   void release(Crowd& crowd, std::size_t agent);
-  /// Gives the agent another goal than it was assigned.
+  /// Replaces the assigned goal.
   void change(Crowd& crowd, std::size_t agent, int goal);
 
   const GoalSelector* selector() const { return selector_.get(); }

@@ -1,7 +1,6 @@
-// Stress: how it grows and fades in every agent, and what it does to them.
-// The idea is Selye's general adaptation syndrome, which Kim, Guy, Manocha and Lin ("Interactive
-// simulation of dynamic crowd behaviors using general adaptation syndrome theory", 2012) brought to
-// crowds.
+// Stress: growth and decay per agent, and its effects on properties. Based on Selye's general
+// adaptation syndrome, applied to crowds by Kim, Guy, Manocha and Lin ("Interactive simulation of
+// dynamic crowd behaviors using general adaptation syndrome theory", 2012).
 #pragma once
 
 #include <array>
@@ -14,32 +13,33 @@ namespace throng::crowd {
 class Stressor {
  public:
   virtual ~Stressor() = default;
-  /// From 0 to 1, after another dt_s under it; `level` is what it was.
+  /// Returns the level, 0 to 1, after a further dt_s under the stressor; `level` is the previous
+  /// value.
   virtual float next_level(const Crowd& crowd, std::size_t agent, float level,
                            float dt_s) const = 0;
 };
 
-/// Everybody's stress. At level s a property is its base times 1 + s * delta, where the base is
-/// what files and other actions make it.
+/// The stress of all agents. At level s, a property is base (1 + s delta), where base is the value
+/// that files and other actions set.
 class Stress : public Process {
  public:
   enum Affected { neighbor_dist, max_neighbors, radius, pref_speed, time_horizon };
   static constexpr int kAffectedCount = 5;
   using Deltas = std::array<float, kAffectedCount>;
 
-  /// When the state with the stressor is left.
+  /// Effect of leaving the state with the stressor.
   enum class Exit {
-    reset,       ///< calm at once
-    keep_going,  ///< the stressor stays
-    pause,       ///< the level stays
-    cool_down    ///< the level falls to 0
+    reset,       ///< level becomes 0 immediately
+    keep_going,  ///< stressor stays active
+    pause,       ///< level stays constant
+    cool_down    ///< level decreases to 0
   };
 
   explicit Stress(const Crowd& crowd);
 
-  /// From now on this stressor rules; the level goes on from where it is.
+  /// Makes this stressor active; the level continues from its current value.
   void begin(std::size_t agent, const Stressor& stressor, const Deltas& deltas);
-  /// `cool_s`: how long full stress takes to cool down.
+  /// `cool_s`: duration of cooling down from level 1 to 0.
   void end(Crowd& crowd, std::size_t agent, Exit exit, float cool_s);
 
   void after_motion(Crowd& crowd, Machine& machine) override;
@@ -49,28 +49,28 @@ class Stress : public Process {
 
   struct Value {
     float base = 0;
-    float applied = 0;  // what stress made of it
+    float applied = 0;  // value including stress
   };
 
   struct Patient {
     Mode mode = Mode::calm;
     float level = 0;
-    float cooling = 0;  // of the level, 1/s
+    float cooling = 0;  // decrease of the level, 1/s
     const Stressor* stressor = nullptr;
     Deltas deltas{};
     std::array<Value, kAffectedCount> values{};
   };
 
-  /// Address of an agent's value; null for a model without a time horizon.
+  /// Returns the address of a value; null if the model has no time horizon.
   float* find_value(Crowd& crowd, std::size_t agent, int affected) const;
   void apply(Crowd& crowd, std::size_t agent, Patient& patient) const;
   void calm(Crowd& crowd, std::size_t agent, Patient& patient) const;
 
   std::vector<Patient> patients_;  // per agent
-  int time_horizon_ = -1;          // the model's parameter
+  int time_horizon_ = -1;          // index of the model's parameter; -1: none
 };
 
-/// The process of this load, which is made when it is first asked for.
+/// Returns the stress process of this load, which is created at the first call.
 Stress& stress_process(BehaviorContext& context);
 
 }  // namespace throng::crowd

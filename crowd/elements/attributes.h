@@ -1,5 +1,5 @@
-// The attributes of an element, described by a table: the table is what is checked, what supplies
-// the defaults, and what a list of the vocabulary prints.
+// Tables of the attributes of elements. A table defines the checks, the defaults, and the list of
+// the vocabulary.
 #pragma once
 
 #include <span>
@@ -13,15 +13,16 @@
 
 namespace throng::crowd {
 
-/// Coordinates beyond this (in meters) are mistakes, and floats grow coarse there.
+/// Max absolute value of coordinates (m); greater values are mistakes, and floats are imprecise
+/// there.
 constexpr double kMaxCoordinate = 1e5;
-/// The greatest id of a goal, a goal set or an agent.
+/// Max id of a goal, a goal set or an agent.
 constexpr double kMaxId = 1e9;
 
 enum class AttributeType {
   number,
   integer,
-  boolean,        ///< false or true or an integer, of which 0 is false
+  boolean,        ///< true or false, or an integer: 0 is false
   text,           ///< not empty
   distribution,   ///< a group: <name>dist, <name>min, ...; the attribute's name is the prefix
   distribution_2  ///< a group: dist, x_value, y_value, min_x, ...
@@ -29,22 +30,23 @@ enum class AttributeType {
 
 enum class Presence { required, optional };
 
+/// Definition of an attribute.
 struct AttributeSpec {
   std::string_view name;
   AttributeType type = AttributeType::number;
   std::string_view help;
   Presence presence = Presence::required;
-  /// Value of an optional attribute that is absent; "" means that the reader asks has().
+  /// Value of an absent optional attribute; "": there is no default, and the reader calls has().
   std::string_view default_text = {};
   double min = -kMaxCoordinate;
   double max = kMaxCoordinate;
-  /// For text: the words allowed; empty allows any.
+  /// Permitted words of a text; empty: any text.
   std::vector<std::string_view> words = {};
-  /// Name of an earlier version, which is still read, with a warning; or "". Not of distributions.
+  /// Name in an earlier version, accepted with a warning; may be empty. Not for distributions.
   std::string_view deprecated_name = {};
 };
 
-/// Shorthands for tables.
+/// Functions that create rows of tables.
 AttributeSpec number(std::string_view name, std::string_view help, double min = -kMaxCoordinate,
                      double max = kMaxCoordinate);
 AttributeSpec integer(std::string_view name, std::string_view help, double min, double max);
@@ -55,21 +57,21 @@ AttributeSpec word(std::string_view name, std::vector<std::string_view> words,
 AttributeSpec distribution(std::string_view prefix, std::string_view help,
                            double min = -kMaxCoordinate, double max = kMaxCoordinate);
 AttributeSpec distribution_2(std::string_view help);
-/// The same attribute, optional. Without a default the reader has to ask has().
+/// Makes an attribute optional. Without a default, the reader must call has().
 AttributeSpec optional(AttributeSpec spec, std::string_view default_text = "");
-/// The same attribute, which had another name in an earlier version.
+/// Declares that an attribute had another name in an earlier version.
 AttributeSpec renamed(AttributeSpec spec, std::string_view deprecated_name);
 
 using AttributeTable = std::vector<AttributeSpec>;
 
-/// The checked values of an element's attributes. Throws InputError for an attribute that is
-/// missing, malformed or out of range; one that is not in the table is ignored with a warning.
-/// Asking for one that is not in the table is a bug.
+/// The checked values of an element's attributes. The constructor throws InputError for missing,
+/// malformed and out-of-range attributes; attributes that are not in the table are ignored with a
+/// warning. Access to an attribute that is not in the table aborts the program (see check()).
 class Attributes {
  public:
   Attributes(const Element& element, const AttributeTable& table);
 
-  bool has(std::string_view name) const;  ///< given, or has a default
+  bool has(std::string_view name) const;  ///< whether it is given or has a default
   double number(std::string_view name) const;
   float real(std::string_view name) const { return static_cast<float>(number(name)); }
   long long integer(std::string_view name) const;

@@ -1,5 +1,5 @@
-// Random values as the XML writes them: dist="c" value, dist="u" min max, dist="n" mean stddev, and
-// those that times before moving and walking speeds have in studies of evacuation.
+// Distributions of random values, as files write them: dist="c" value, dist="u" min max, dist="n"
+// mean stddev, and those of pre-movement times and walking speeds in evacuation studies.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,27 +15,27 @@
 
 namespace throng::crowd {
 
-/// A distribution of numbers. Normal values are moved to within three standard deviations, unless
-/// limits are given: then, as with the kinds that follow, only values between those are sampled.
+/// A distribution of numbers. With limits, it is truncated to them. A normal distribution without
+/// limits is clamped to three standard deviations.
 struct Distribution {
   enum class Kind { constant, uniform, normal, lognormal, weibull, gamma, exponential };
 
   Kind kind = Kind::constant;
-  double first = 0;   ///< value, lowest value, mean (of the logarithm) or shape
-  double second = 0;  ///< highest value, standard deviation (of the logarithm) or scale
-  /// Fixes the samples regardless of the run's seed.
+  double first = 0;   ///< value, min, mean (of the logarithm) or shape
+  double second = 0;  ///< max, standard deviation (of the logarithm) or scale
+  /// If set, samples do not depend on the seed of the run.
   std::optional<std::uint64_t> seed;
   double at_least = -std::numeric_limits<double>::infinity();
   double at_most = std::numeric_limits<double>::infinity();
 
   static Distribution constant(double value) { return {Kind::constant, value, 0, {}}; }
 
-  /// The share of values between the limits among those of the distribution without them.
+  /// Probability of values between the limits in the distribution without limits.
   double share_between_limits() const;
 
   double sample(Random random) const;
   double sample(MengeRandom& random) const;
-  /// A whole number; a uniform distribution includes both of its ends.
+  /// Samples an integer; a uniform distribution includes both ends.
   int sample_integer(Random random) const;
   int sample_integer(MengeRandom& random) const;
 
@@ -44,28 +44,29 @@ struct Distribution {
   double quantile_between_limits(double unit) const;
 };
 
-/// How the files write a kind of distribution.
+/// The notation of a kind of distribution in files.
 struct DistributionForm {
   struct Parameter {
     std::string_view name;
-    /// Its limits: those of the property, or these.
+    /// Whether the limits of the property apply; otherwise `min` and `max` do.
     bool is_a_value = true;
     double min = 0;
     double max = 0;
     std::string_view help;
   };
 
-  std::string_view word;  ///< the attribute `dist`
+  std::string_view word;  ///< value of the attribute `dist`
   Distribution::Kind kind;
   std::string_view help;
-  std::span<const Parameter> parameters;  ///< Distribution::first and, if there are two, ::second
-  bool has_limits = false;                ///< takes at_least and at_most
+  /// Meaning of Distribution::first and, if there are two, Distribution::second.
+  std::span<const Parameter> parameters;
+  bool has_limits = false;  ///< whether at_least and at_most are permitted
 };
 
-/// By Distribution::Kind.
+/// Indexed by Distribution::Kind.
 std::span<const DistributionForm> distribution_forms();
 
-/// A distribution of points: one point, or uniform over a rectangle.
+/// A distribution of points: constant, or uniform over a rectangle.
 struct Distribution2 {
   Eigen::Vector2f low = Eigen::Vector2f::Zero();
   Eigen::Vector2f high = Eigen::Vector2f::Zero();
@@ -75,8 +76,8 @@ struct Distribution2 {
   Eigen::Vector2f sample(MengeRandom& x, MengeRandom& y) const;
 };
 
-/// The random numbers of one element of the behavior file. An agent's values depend on how
-/// often it has entered a state, so a decision holds until the agent enters another one.
+/// Random numbers of one element of a file. The numbers of an agent depend on how many states it
+/// has entered, so a decision does not change until the agent enters another state.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : seed_(seed) {}

@@ -10,35 +10,35 @@
 
 namespace throng::crowd {
 
-/// Reads such a file from its beginning to its end. Everything throws InputError (file, line,
-/// found, expected) for what is not there or not within its limits.
+/// Reads a text file of numbers sequentially. Functions throw InputError (file, line, found,
+/// expected) for missing, malformed and out-of-range values.
 class NumberFile {
  public:
-  /// Throws EnvironmentError when the file cannot be read.
+  /// Throws EnvironmentError if the file cannot be read.
   explicit NumberFile(const TextFile& file);
 
-  /// The next number; `what` names it in errors.
+  /// Reads the next number; `what` names it in messages.
   double number(std::string_view what, double min = -kMaxCoordinate, double max = kMaxCoordinate);
   float real(std::string_view what, double min = -kMaxCoordinate, double max = kMaxCoordinate) {
     return static_cast<float>(number(what, min, max));
   }
   int integer(std::string_view what, int min, int max);
-  /// How many records follow, each of `numbers_each` numbers or more: no more than the rest of the
-  /// file can hold, so that one may make room for them.
+  /// Reads the number of records that follow, each of at least `numbers_each` numbers. Refuses more
+  /// than the rest of the file can hold, so callers may allocate for that number.
   int count(std::string_view what, int min, int numbers_each);
-  /// The rest of the next line that is not empty.
+  /// Returns the rest of the next non-empty line.
   std::string line(std::string_view what);
-  /// Whether only white space is left.
+  /// Whether only white space follows.
   bool at_end();
 
-  /// About what was read last.
+  /// Throws an InputError at the position of the last value read.
   [[noreturn]] void fail(std::string found, std::string expected) const;
 
  private:
   void skip_space();
   std::string_view word(std::string_view what);
 
-  std::string name_;  // of the file
+  std::string name_;  // name of the file
   std::string text_;
   std::size_t position_ = 0;
   int line_ = 1;

@@ -1,5 +1,5 @@
-// One table per kind of element that comes in several types: what the file may say, which
-// attributes each type has, and how it is made. Adding a type is one line in such a table.
+// Tables of the types of an element: the type's name, its attributes, and the function that creates
+// it. A new type needs one row of such a table.
 #pragma once
 
 #include <fmt/core.h>
@@ -15,24 +15,24 @@
 
 namespace throng::crowd {
 
-/// One type of a Product; `make` gets the element, its checked attributes and the load's context.
+/// A type of a Product. `make` gets the element, its checked attributes and the context.
 template <typename Product, typename Context>
 struct Plugin {
   using Make = std::unique_ptr<Product> (*)(const Element&, const Attributes&, Context&);
 
-  std::string_view type;  ///< the value of the element's `type` attribute
+  std::string_view type;  ///< value of the element's attribute `type`
   std::string_view help;
   AttributeTable attributes;
   Make make;
 };
 
-/// All types of a Product, in the order in which they are listed.
+/// All types of a Product in the order of the documentation.
 template <typename Product, typename Context>
 class Registry {
  public:
   using Entry = Plugin<Product, Context>;
 
-  /// `common` are attributes that every type has.
+  /// `common` are attributes of all types.
   explicit Registry(std::vector<std::vector<Entry>> groups, const AttributeTable& common = {}) {
     for (std::vector<Entry>& group : groups) {
       for (Entry& entry : group) {
@@ -45,12 +45,13 @@ class Registry {
 
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Makes what the element describes. Throws InputError for an unknown type or bad attributes.
+  /// Creates the Product of an element. Throws InputError for unknown types and invalid attributes.
   std::unique_ptr<Product> make(const Element& element, Context& context) const {
     const Entry& entry = find(element);
     return entry.make(element, Attributes(element, entry.attributes), context);
   }
 
+  /// Returns the type of an element. Throws InputError if it is unknown.
   const Entry& find(const Element& element) const {
     const auto type = element.attribute("type");
     for (const Entry& entry : entries_) {

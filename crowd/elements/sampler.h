@@ -1,4 +1,4 @@
-// The random values of one element of the files.
+// Sampling of the random values of one element.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace throng::crowd {
 
-/// Values of a distribution, one for each entry of an agent into a state. Ask when an agent enters
-/// or leaves a state, not in between: then one thread at a time decides, in the order of ids,
-/// which is what compatible runs draw by. Copies go on with the same random numbers.
+/// Samples a distribution, once per entry of an agent into a state. Must be called when an agent
+/// enters or leaves a state: one thread then handles agents in the order of their ids, on which
+/// compatible runs depend. Copies share the sequence.
 class Sampler {
  public:
-  /// `sequence` is what compatible runs draw from, null in others.
+  /// `sequence` is Menge's sequence in compatible runs, else null.
   Sampler(const Distribution& distribution, Draws draws,
           std::shared_ptr<MengeRandom> sequence = nullptr)
       : distribution_(distribution), draws_(draws), sequence_(std::move(sequence)) {}
@@ -30,7 +30,7 @@ class Sampler {
   std::shared_ptr<MengeRandom> sequence_;
 };
 
-/// The same for points; each coordinate has a sequence of its own.
+/// Samples points; in compatible runs, each coordinate has its own sequence.
 class Sampler2 {
  public:
   Sampler2(const Distribution2& distribution, Draws draws, std::shared_ptr<MengeRandom> x = nullptr,

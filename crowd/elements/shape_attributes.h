@@ -1,4 +1,4 @@
-// How shapes are written in the files.
+// Attributes of shapes in files.
 #pragma once
 
 #include "crowd/elements/attributes.h"
@@ -6,16 +6,17 @@
 
 namespace throng::crowd {
 
-/// min_x, min_y, max_x, max_y
+/// Attributes min_x, min_y, max_x, max_y.
 AttributeTable box_attributes();
-/// Throws InputError when a maximum is below its minimum.
+/// Throws InputError if a max is less than its min.
 Box read_box(const Element& element, const Attributes& attributes);
 
-/// <x>, <y>, width, height, angle; the pivot's attribute names differ between goals and conditions.
+/// Attributes <x>, <y>, width, height, angle. The names of the pivot differ between goals and
+/// conditions.
 AttributeTable turned_box_attributes(std::string_view x, std::string_view y);
 TurnedBox read_turned_box(const Attributes& attributes, std::string_view x, std::string_view y);
 
-/// <x>, <y>, radius
+/// Attributes <x>, <y>, radius.
 AttributeTable circle_attributes(std::string_view x, std::string_view y);
 Circle read_circle(const Attributes& attributes, std::string_view x, std::string_view y);
 

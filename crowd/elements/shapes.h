@@ -1,4 +1,4 @@
-// Regions that goals and conditions share, measured the way one would expect: 0 inside.
+// Regions of goals and conditions. Distances to them are 0 inside.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,6 +16,7 @@ struct Circle {
   bool contains(const Eigen::Vector2f& p) const {
     return (p - center).squaredNorm() <= radius * radius;
   }
+  /// The point nearest to p of the circle with its radius reduced by `margin`.
   Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const {
     const float shrunk = std::max(0.0F, radius - margin);
     const Eigen::Vector2f out = p - center;
@@ -26,12 +27,13 @@ struct Circle {
 
 using Box = geometry::BasicRectangle<float>;
 
-/// A box turned about its lower left corner.
+/// A box rotated about its lower left corner.
 struct TurnedBox {
   Eigen::Vector2f pivot = Eigen::Vector2f::Zero();
   Eigen::Vector2f size = Eigen::Vector2f::Zero();
   Eigen::Vector2f axis = Eigen::Vector2f::UnitX();  ///< unit, along the width
 
+  /// Converts a point to the box's frame, with the pivot at the origin.
   Eigen::Vector2f to_box(const Eigen::Vector2f& p) const {
     const Eigen::Vector2f d = p - pivot;
     return {d.dot(axis), geometry::cross(axis, d)};

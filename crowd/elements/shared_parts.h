@@ -1,4 +1,4 @@
-// Resources that several elements of the files share and that are made once.
+// Cache of resources that several elements of the files share.
 #pragma once
 
 #include <map>
@@ -9,10 +9,11 @@
 
 namespace throng::crowd {
 
-/// Remembers what was made, by its type and a key such as a file's path.
+/// Keeps created objects by their type and a key, such as a file's path. Not thread-safe.
 class SharedParts {
  public:
-  /// The Part of this key; make() makes a std::shared_ptr to it if there is none yet.
+  /// Returns the object with this key; calls make(), which returns a std::shared_ptr<Part>, if
+  /// there is none.
   template <typename Part, typename Make>
   std::shared_ptr<Part> get(const std::string& key, const Make& make) {
     std::shared_ptr<void>& part = parts_[{std::type_index(typeid(Part)), key}];

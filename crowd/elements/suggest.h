@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-/// The names in angle brackets of a text such as "<Goal> or <GoalSet>".
+/// Returns the names in angle brackets of a text such as "<Goal> or <GoalSet>".
 std::vector<std::string_view> names_in_brackets(std::string_view text);
 
 }  // namespace throng::crowd

@@ -1,5 +1,5 @@
-// Half-planes that keep discs clear of discs (van den Berg et al. 2011), for one pair of them
-// (Float is float) or for several, one per lane: what would be a branch is computed on both sides.
+// ORCA's half-planes for pairs of discs (van den Berg et al. 2011): for one pair (Float is float),
+// or for several pairs, one per lane; then both sides of a branch are computed.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace throng::crowd {
 
-/// Moving discs.
+/// Moving discs, one per lane.
 template <typename Float>
 struct DiscLanes {
   Float x;  ///< m
@@ -19,11 +19,12 @@ struct DiscLanes {
   Float radius;
 };
 
-/// How far apart two are taken to be that are in one place, along x, m.
+/// Assumed distance along x of two discs at the same position, m.
 inline constexpr float kOrcaNudge = 1e-3F;
 
-/// The half-planes that keep `self` clear of `other` for 1 / `cutoff` if both do half of what is
-/// needed; where they overlap already, those that part them within 1 / `contact`.
+/// Returns the half-planes of velocities with which `self` avoids `other` for 1 / `cutoff` (s) if
+/// both make half of the change; if the discs overlap, those that separate them within 1 /
+/// `contact` (s).
 template <typename Float>
 PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes<Float>& other,
                                    const Float& cutoff, const Float& contact) {
@@ -38,23 +39,23 @@ PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes
   const auto overlapping = distance_sq <= radius_sq;
   const Float rate = overlapping ? contact : cutoff;
 
-  // The velocity obstacle is a disc at the horizon and the cone behind it: is the disc nearer?
+  // The velocity obstacle is a disc at the horizon and the cone behind it. Which of them is nearer?
   const Float w_x = relative_x - rate * apart_x;
   const Float w_y = relative_y - rate * apart_y;
   const Float w_sq = w_x * w_x + w_y * w_y;
   const Float ahead = w_x * apart_x + w_y * apart_y;
   const auto round = overlapping | ((ahead < 0) & (ahead * ahead > radius_sq * w_sq));
-  // One root and one division serve both.
+  // One root and one division serve both cases.
   const Float leg_sq = distance_sq > radius_sq ? distance_sq - radius_sq : zero;
   const Float length = root(round ? w_sq : leg_sq);
   const Float inverse = 1 / (round ? length : distance_sq);
 
-  // The disc: out along w, or along x when w is 0.
+  // Disc: outward along w, or along x if w is 0.
   const auto moves = length > 0;
   const Float outward_x = moves ? w_x * inverse : zero + 1;
   const Float outward_y = moves ? w_y * inverse : zero;
   const Float out = radius * rate - length;
-  // The cone: the left or the right tangent, away from the other side.
+  // Cone: the left or the right tangent, directed away from the other disc.
   const auto left = apart_x * w_y - apart_y * w_x > 0;
   const Float along = (left ? length : -length) * inverse;
   const Float across = radius * inverse;
@@ -68,7 +69,7 @@ PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes
           round ? -outward_x : leg_y};
 }
 
-/// The grid's values of the agents in kWidth slots.
+/// Loads the discs of the agents in kWidth slots of the grid.
 template <int kWidth>
 DiscLanes<typename Vectors<kWidth>::Float> discs_in(const Grid& grid, const std::uint32_t* slots) {
   DiscLanes<typename Vectors<kWidth>::Float> discs;

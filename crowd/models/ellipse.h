@@ -1,22 +1,22 @@
-// Ellipses that stand for bodies: how near they come to each other and to walls.
+// Ellipses as shapes of bodies: distances at which they touch each other and walls.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace throng::crowd {
 
-/// An ellipse by half its axes, m, and the unit vector along the first of them.
+/// An ellipse: its half axes (m) and the unit vector along the first one.
 struct Ellipse {
   float along = 0;
   float across = 0;
   Eigen::Vector2f direction;
 };
 
-/// How far apart the centers of two ellipses are when one is moved towards the other in this
-/// direction (a unit vector) until they touch, m (Perram and Wertheim 1985).
+/// Distance (m) of the centers of two ellipses that touch when one is moved towards the other in
+/// this direction, a unit vector (Perram and Wertheim 1985).
 float contact_distance(const Ellipse& a, const Ellipse& b, const Eigen::Vector2f& direction);
 
-/// The same for an ellipse and a straight wall across the direction.
+/// Distance (m) of the center from a straight wall perpendicular to the direction when both touch.
 float contact_distance(const Ellipse& ellipse, const Eigen::Vector2f& direction);
 
 }  // namespace throng::crowd

@@ -1,5 +1,5 @@
-// Half-planes of allowed velocities, and the best velocity in all of them: what ORCA and its
-// relatives end with (van den Berg et al. 2011).
+// Half-planes of permitted velocities, and the optimal velocity in their intersection: the last
+// step of ORCA and related models (van den Berg et al. 2011).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +7,13 @@
 
 namespace throng::crowd {
 
-/// The boundary of a half-plane of allowed velocities, which lie on the left of the direction.
+/// The boundary of a half-plane of permitted velocities, which are to the left of the direction.
 struct HalfPlane {
   Eigen::Vector2f point;
   Eigen::Vector2f direction;  ///< unit
 };
 
-/// A list of half-planes, one array per number, so that kernels look at several at a time.
+/// A list of half-planes as a structure of arrays, for vectorized kernels.
 class HalfPlanes {
  public:
   HalfPlanes() = default;
@@ -32,10 +32,10 @@ class HalfPlanes {
   void clear() { size_ = 0; }
   void push_back(const HalfPlane& plane);
 
-  /// Makes them `count`; those that are new are to be written. Kernels may load and store whole
-  /// vectors that begin before the end.
+  /// Changes the number of half-planes; new ones are uninitialized. Arrays have padding, so kernels
+  /// may load and store whole vectors that begin before the end.
   void resize(std::size_t count);
-  /// No allocation up to that many.
+  /// Reserves memory for `count` half-planes.
   void reserve(std::size_t count);
 
   std::vector<float> point_x;
@@ -47,9 +47,9 @@ class HalfPlanes {
   std::size_t size_ = 0;
 };
 
-/// The velocity nearest to `preferred` with at most `max_speed` in all half-planes. When there is
-/// none, the first `hard` half-planes are kept and the largest violation of the others is made as
-/// small as possible. `scratch` saves allocations.
+/// Returns the velocity nearest to `preferred`, of at most `max_speed`, in all half-planes. If
+/// there is none, keeps the first `hard` half-planes and minimizes the max violation of the others.
+/// `scratch` is a reusable buffer.
 Eigen::Vector2f best_velocity(const HalfPlanes& planes, std::size_t hard,
                               const Eigen::Vector2f& preferred, float max_speed,
                               HalfPlanes& scratch);

@@ -1,4 +1,4 @@
-// A few agents and those they see, one agent per lane of a vector.
+// A batch of agents and their neighbors, one agent per lane of a vector.
 #pragma once
 
 #include <algorithm>
@@ -11,23 +11,23 @@
 
 namespace throng::crowd {
 
-/// Kept from batch to batch, so that nothing is allocated. Results for an agent must not
-/// depend on the other agents of the batch.
+/// Reused for successive batches to avoid allocations. Results for an agent must not depend on the
+/// other agents of the batch.
 class LaneBatch {
  public:
   static constexpr std::size_t kAgents = 8;
   using Lanes = std::array<float, kAgents>;
-  using Slots = std::array<std::uint32_t, kAgents>;  ///< in the grid
+  using Slots = std::array<std::uint32_t, kAgents>;  ///< slots of the grid
 
-  /// Room for so many neighbors at first.
+  /// Reserves memory for `neighbors` neighbors per agent.
   explicit LaneBatch(std::size_t neighbors) : others_(neighbors) {}
 
   std::size_t size() const { return size_; }
-  /// How many neighbors there are at most.
+  /// Max number of neighbors of an agent in the batch.
   std::size_t rows() const { return rows_; }
   void clear() { size_ = rows_ = 0; }
 
-  /// Adds one of at most kAgents. Returns its lane.
+  /// Adds an agent, at most kAgents in total. Returns its lane.
   std::size_t add(std::size_t slot, std::span<const Grid::Neighbor> neighbors) {
     if (others_.size() < neighbors.size()) others_.resize(neighbors.size());
     slots_[size_] = static_cast<std::uint32_t>(slot);
@@ -36,7 +36,7 @@ class LaneBatch {
     rows_ = std::max(rows_, neighbors.size());
     return size_++;
   }
-  /// To be called after the last: lanes without an agent become the first one, alone.
+  /// Must be called after the last add(): gives unused lanes the first agent, without neighbors.
   void fill() {
     for (std::size_t lane = size_; lane < kAgents; ++lane) {
       slots_[lane] = slots_[0];
@@ -45,8 +45,8 @@ class LaneBatch {
   }
 
   const Slots& slots() const { return slots_; }
-  const Lanes& neighbors() const { return neighbors_; }  ///< how many
-  /// Everybody's i-th neighbor; oneself for those who have none.
+  const Lanes& neighbors() const { return neighbors_; }  ///< number of neighbors, per lane
+  /// Returns the i-th neighbor of each agent, or the agent itself if it has none.
   Slots row(std::size_t i) const {
     Slots others = others_[i];
     for (std::size_t lane = 0; lane < kAgents; ++lane) {

@@ -1,4 +1,4 @@
-// Common parts of the pedestrian models in which each agent decides alone, from what it sees.
+// Common functions of pedestrian models in which each agent decides from its own view.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,26 +10,26 @@
 
 namespace throng::crowd {
 
-/// Limits a velocity that forces ask for to max_speed; one that is not finite leaves the velocity
-/// as it is.
+/// Limits a velocity that forces demand to max_speed. Returns the current velocity if it is not
+/// finite.
 Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
                                   const Eigen::Vector2f& velocity);
 
-/// v at unit length; `otherwise` when v has none.
+/// Returns v normalized, or `otherwise` if v is 0.
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise);
 
-/// The time in s, not negative, after which a point at `offset` from the center of a disc is in it
-/// if it moves with `velocity`: 0 when it is there already, nothing when it never will be.
+/// Returns the time (s, not negative) until a point at `offset` from the center of a disc, moving
+/// with `velocity`, enters the disc: 0 if it is inside, nothing if it never enters.
 std::optional<float> time_to_disc(const Eigen::Vector2f& offset, const Eigen::Vector2f& velocity,
                                   float radius);
 
-/// The random numbers of an agent in a step.
+/// Returns the random numbers of an agent in the current step.
 Random noise(const Crowd& crowd, std::size_t agent);
 
-/// A unit vector, all directions being equally likely.
+/// Returns a random unit vector, uniform over all directions.
 Eigen::Vector2f any_direction(Random& random);
 
-/// Somebody as they and others see them.
+/// The state of an agent that its model needs.
 struct Walker {
   Walker(const Crowd& crowd, const Grid& grid, std::size_t slot);
 
@@ -44,25 +44,25 @@ struct Walker {
   Eigen::Vector2f preferred_velocity() const { return preferred_speed * preferred_direction; }
 };
 
-/// Position of another agent, seen from a walker.
+/// Position of another agent or of a wall relative to a walker.
 struct BodyOffset {
   BodyOffset(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
   BodyOffset(const Walker& self, const Segment& wall);
 
-  Eigen::Vector2f offset;  ///< from the other, or from the wall's nearest point, to the walker, m
-  float distance;          ///< m
-  /// The offset at unit length. Of two in one place the one with the higher id has the other on
-  /// the left; who stands on a wall goes where it faces.
+  /// From the other agent, or from the nearest point of the wall, to the walker, m.
+  Eigen::Vector2f offset;
+  float distance;  ///< m
+  /// The offset, normalized. For two agents at the same position, the one with the higher id has
+  /// the other on its left; on a wall, the direction in which the wall faces.
   Eigen::Vector2f away;
 };
 
-/// Whether the point of the wall that is nearest to p is another wall's to deal with: of a corner
-/// that two walls share and show to p, only the one that begins there counts.
+/// Whether the point of a wall nearest to p is a corner that another wall handles: if two walls
+/// share a corner and both face p, only the wall that begins there counts.
 bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
                       const Eigen::Vector2f& p);
 
-/// Calls act(wall) for the walls around an agent, nearest first, without those that it sees a
-/// shared corner of.
+/// Calls act(wall) for the walls around an agent, nearest first, and for each shared corner once.
 template <typename Act>
 void for_each_wall(const Crowd& crowd, const Grid& grid, const AgentView& around, const Act& act) {
   const std::vector<Segment>& segments = crowd.obstacles.segments();
@@ -72,7 +72,7 @@ void for_each_wall(const Crowd& crowd, const Grid& grid, const AgentView& around
   }
 }
 
-/// A model whose new velocities are functions of what everybody sees.
+/// A model that computes each new velocity from the agent's own view.
 class LocalModel : public Model {
  public:
   explicit LocalModel(const Crowd& crowd) : neighborhood_(crowd) {}
@@ -80,14 +80,14 @@ class LocalModel : public Model {
   void step(const Crowd& crowd, const Grid& grid, std::span<Eigen::Vector2f> new_velocity) final;
 
  protected:
-  /// The new velocity of around.agent, m/s. Called for different agents at once. A result that
-  /// is not finite leaves the velocity as it is.
+  /// Returns the new velocity of around.agent (m/s). Called for several agents concurrently. If the
+  /// result is not finite, the velocity does not change.
   virtual Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
                                    const AgentView& around) = 0;
-  /// How near walls have to be to matter to the agent of a slot, m; farther than the agent sees
-  /// none do.
+  /// Max distance (m) of walls that matter to the agent in a slot; it is limited to the agent's own
+  /// range.
   virtual float wall_range_m(const Crowd& crowd, const Grid& grid, std::size_t slot) const;
-  /// Before the agents of a step, by the thread that starts it.
+  /// Called once per step before the agents, by the thread that starts the step.
   virtual void prepare() {}
 
  private:

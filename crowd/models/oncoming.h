@@ -1,4 +1,4 @@
-// Counter-flow: which others come towards somebody, and how people keep right of them.
+// Counter-flow: detection of oncoming agents, and keeping to the right of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,11 +6,11 @@
 
 namespace throng::crowd {
 
-/// Cosine between the directions of two people below which they come towards each other.
+/// Cosine of the angle between the directions of two people below which they are oncoming.
 inline constexpr float kOncoming = -0.3F;
 
-/// `direction` (a unit vector) turned right by 2 atan(keep_right density / 2), at most by 1 rad;
-/// `density` is that of those who come towards one, 1/m^2, `keep_right` in rad m^2.
+/// Returns `direction`, a unit vector, turned right by 2 atan(keep_right density / 2), at most 1
+/// rad. `density` is that of oncoming people (1/m^2), `keep_right` is in rad m^2.
 inline Eigen::Vector2f turned_right(const Eigen::Vector2f& direction, float keep_right,
                                     float density) {
   constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of 1 rad

@@ -1,4 +1,4 @@
-// ORCA for several agents at once, one per lane: their half-planes and the best velocities.
+// ORCA for several agents, one per lane: half-planes and optimal velocities.
 #pragma once
 
 #include <vector>
@@ -10,43 +10,43 @@
 
 namespace throng::crowd {
 
-/// A few agents and what they see. Kept from batch to batch, so that nothing is allocated.
+/// A batch of agents with their neighbors. Reused for successive batches to avoid allocations.
 class OrcaBatch {
  public:
   static constexpr std::size_t kAgents = LaneBatch::kAgents;
 
   struct Agent {
-    std::size_t slot = 0;  ///< in the grid
+    std::size_t slot = 0;  ///< slot of the grid
     float horizon_s = 0;
-    Eigen::Vector2f preferred;  ///< velocity
+    Eigen::Vector2f preferred;  ///< preferred velocity
     float max_speed = 0;
   };
 
-  /// Room for so many at first.
+  /// Reserves memory for `neighbors` neighbors and `walls` half-planes of walls per agent.
   OrcaBatch(std::size_t neighbors, std::size_t walls);
 
   void clear();
   std::size_t size() const { return agents_.size(); }
-  /// Adds one of at most kAgents; `walls` are half-planes that it has to keep.
+  /// Adds an agent, at most kAgents in total. `walls` are half-planes that must be kept.
   void add(const Agent& agent, const HalfPlanes& walls, std::span<const Grid::Neighbor> neighbors);
 
-  /// The agents seen, in the order in which they were added; lanes without one are filled.
+  /// Returns the agents and their neighbors in the order of add(), with unused lanes filled.
   const LaneBatch& seen() {
     agents_.fill();
     return agents_;
   }
-  /// Has an agent that was added want something else.
+  /// Replaces time horizon and preferred velocity of the i-th agent.
   void set_wish(std::size_t i, float horizon_s, const Eigen::Vector2f& preferred) {
     cutoff_[i] = 1 / horizon_s;
     preferred_x_[i] = preferred.x();
     preferred_y_[i] = preferred.y();
   }
 
-  /// The new velocity of the i-th agent that was added, once a kernel has run.
+  /// Returns the new velocity of the i-th agent after a call of the kernel.
   Eigen::Vector2f velocity(std::size_t i) const { return {velocity_x_[i], velocity_y_[i]}; }
 
-  /// Computes the velocities; `dt_s` is the time within which those part who overlap. An agent's
-  /// does not depend on who else is in the batch.
+  /// Computes the new velocities. `dt_s` is the time within which overlapping agents separate. The
+  /// result for an agent does not depend on the other agents of the batch.
   using Kernel = void(const Grid& grid, float dt_s, OrcaBatch& batch);
   static Kernel* kernel(InstructionSet set);
 
@@ -54,7 +54,7 @@ class OrcaBatch {
   friend struct OrcaKernel;
   using Lanes = LaneBatch::Lanes;
 
-  /// Half-planes of all agents.
+  /// A half-plane per agent.
   struct Row {
     Lanes point_x;
     Lanes point_y;
@@ -70,10 +70,10 @@ class OrcaBatch {
   Lanes preferred_x_{};
   Lanes preferred_y_{};
   Lanes max_speed_{};
-  Lanes walls_{};  // how many
+  Lanes walls_{};  // number of half-planes of walls
   Lanes velocity_x_{};
   Lanes velocity_y_{};
-  std::vector<Row> planes_;  // of walls, then of others
+  std::vector<Row> planes_;  // those of walls, then those of neighbors
   std::vector<Row> scratch_;
 };
 

@@ -1,5 +1,5 @@
-// Optimal reciprocal collision avoidance (van den Berg et al. 2011): half-planes of velocities
-// that avoid a collision within some time.
+// Optimal reciprocal collision avoidance (van den Berg et al. 2011): half-planes of velocities that
+// avoid a collision within a time horizon.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,37 +12,37 @@
 
 namespace throng::crowd {
 
-/// Negligible beside a speed (m/s) or a sine.
+/// Speeds (m/s) and sines below this value are treated as 0.
 inline constexpr float kOrcaEpsilon = 1e-5F;
 
-/// v turned by 90 degrees counter-clockwise.
+/// Rotates v by 90 degrees counter-clockwise.
 inline Eigen::Vector2f turn_left(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
 
-/// One moving disc as the avoidance sees it.
+/// A moving disc.
 struct Disc {
   Eigen::Vector2f position;
   Eigen::Vector2f velocity;
   float radius = 0;
 };
 
-/// The half-plane that keeps `self` clear of `other` for `horizon_s` if both do half of what is
-/// needed; when they overlap already, the one that parts them within `dt_s`.
+/// Returns the half-plane of velocities with which `self` avoids `other` for `horizon_s` if both
+/// make half of the change; if they overlap, the one that separates them within `dt_s`.
 HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float dt_s);
 
-/// Appends the half-planes that keep `self` clear of the walls for `horizon_s`. `near` is sorted
-/// by distance; a wall that those before it already keep at bay adds nothing.
+/// Appends the half-planes with which `self` avoids the walls for `horizon_s`. `near` must be
+/// sorted by distance; walls behind those of earlier half-planes add nothing.
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
                  std::span<const Obstacles::Near> near, float horizon_s, HalfPlanes& planes);
 
-/// How near (m) a wall has to be so that a disc of this speed can get to it within the horizon:
+/// Returns the distance (m) within which a disc with this speed can reach a wall in `horizon_s`:
 /// farther walls need no half-plane (van den Berg et al. 2011).
 inline float wall_reach_m(float radius, float horizon_s, float speed) {
   constexpr float kRounding = 1.01F;
   return kRounding * (radius + horizon_s * speed);
 }
 
-/// The same for a whole neighborhood at a time: planes that are appended in its order. Two in one
-/// place part along x, the one with the higher id to the right.
+/// Appends the half-planes for all neighbors, in their order. Two agents at the same position
+/// separate along x, the one with the higher id to the right.
 using AvoidDiscs = void(const Grid& grid, std::size_t self, std::span<const Grid::Neighbor> others,
                         float horizon_s, float dt_s, HalfPlanes& planes);
 AvoidDiscs* avoid_discs(InstructionSet set);

@@ -1,8 +1,8 @@
-// The two linear programs of ORCA: incremental in the plane, and with one more dimension for the
-// violation when the first has no solution (de Berg et al. 2008, chapter 4; van den Berg 2011).
-// For one agent (Float is float) or for several at once, one per lane (Float4, Float8): what would
-// be a branch for one is computed for all, as long as any needs it, and kept where it is meant. An
-// agent's result does not depend on the others'.
+// The two linear programs of ORCA: incremental in the plane, and, if that has no solution, with the
+// violation as third dimension (de Berg et al. 2008, chapter 4; van den Berg et al. 2011). For one
+// agent (Float is float) or for several, one per lane (Float4, Float8): both sides of a branch are
+// computed while any lane needs them, and a mask selects the results. The result for an agent does
+// not depend on the others.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// True or false per lane.
+/// Result of a comparison per lane.
 template <typename Float>
 using Mask = decltype((Float{} < Float{}) & (Float{} < Float{}));
 
@@ -31,7 +31,7 @@ inline void write(float value, float* to) { *to = value; }
 inline void write(Float4 value, float* to) { store(value, to); }
 inline void write(Float8 value, float* to) { store(value, to); }
 
-/// A half-plane per lane; one whose direction is 0 allows everything.
+/// A half-plane per lane; a direction of 0 permits all velocities.
 template <typename Float>
 struct PlaneLanes {
   Float point_x;
@@ -39,20 +39,20 @@ struct PlaneLanes {
   Float direction_x;
   Float direction_y;
 
-  /// How far a velocity is on the wrong side; negative when it is allowed.
+  /// Distance of a velocity from the boundary; positive if it is not permitted.
   Float violation(const Float& x, const Float& y) const {
     return direction_x * (point_y - y) - direction_y * (point_x - x);
   }
 };
 
-/// A list of half-planes per lane, in memory of somebody else. A Number is float or const float.
+/// A view of a list of half-planes per lane. Number is float or const float.
 template <typename Number>
 struct PlaneRowsOf {
   Number* point_x = nullptr;
   Number* point_y = nullptr;
   Number* direction_x = nullptr;
   Number* direction_y = nullptr;
-  std::size_t stride = 0;  ///< from one half-plane to the next
+  std::size_t stride = 0;  ///< distance of successive half-planes
 
   operator PlaneRowsOf<const float>() const {
     return {point_x, point_y, direction_x, direction_y, stride};
@@ -87,8 +87,8 @@ class PlaneSolver {
     Float y;
   };
 
-  /// See best_velocity(). `hard` tells how many of a lane's first planes are kept in any case.
-  /// `scratch` has room for as many planes.
+  /// Solves best_velocity() per lane. `hard`: number of a lane's first planes that must be kept.
+  /// `scratch` has memory for `count` planes.
   static Velocity solve(const PlaneRows& planes, std::size_t count, const Float& hard,
                         const Velocity& preferred, const Float& max_speed,
                         const WritablePlaneRows& scratch) {
@@ -106,16 +106,16 @@ class PlaneSolver {
   }
 
  private:
-  static constexpr float kParallel = 1e-5F;  // sines below are those of parallels
+  static constexpr float kParallel = 1e-5F;  // sines below this value are those of parallel lines
 
   struct Failures {
     Mask<Float> lanes;
-    Float at;  // the plane that could not be met
+    Float at;  // index of the plane without a solution
     std::size_t first = 0;
   };
 
-  /// The velocity that is best in the disc and in all planes: as near as possible to `target`, or
-  /// with kAlong as far as possible along it. Starts from v, the best in the disc alone.
+  /// Finds the optimal velocity in the disc of max_speed and all planes: the nearest to `target`,
+  /// or, with kAlong, the farthest in its direction. `v` is the optimum in the disc at first.
   template <bool kAlong>
   static Failures solve_in_disc(const PlaneRows& planes, std::size_t count, const Float& max_speed,
                                 const Velocity& target, Mask<Float> active, Velocity& v) {
@@ -154,8 +154,8 @@ class PlaneSolver {
     }
   }
 
-  /// The part of a plane's boundary that lies within the disc and the planes before it; false when
-  /// there is none.
+  /// Computes the part of a plane's boundary inside the disc and the previous planes; false if it
+  /// is empty.
   static Mask<Float> chord(const PlaneRows& planes, std::size_t index,
                            const PlaneLanes<Float>& plane, const Float& max_speed, Float& low,
                            Float& high) {
@@ -181,9 +181,9 @@ class PlaneSolver {
     return possible & (low <= high);
   }
 
-  /// The boundary of where the violation of `other` is at most that of `plane`. When the two point
-  /// the same way, one of them is always violated more: nothing is bounded. Nor is it where `other`
-  /// allows everything.
+  /// Returns the boundary of the region in which `other` is violated at most as much as `plane`.
+  /// There is no bound if both have the same direction, because the order of the violations is then
+  /// constant, or if `other` permits all velocities.
   static PlaneLanes<Float> bisect(const PlaneLanes<Float>& plane, const PlaneLanes<Float>& other) {
     const Float sine =
         plane.direction_x * other.direction_y - plane.direction_y * other.direction_x;
@@ -204,8 +204,8 @@ class PlaneSolver {
         same ? Float{} : x / length, same ? Float{} : y / length};
   }
 
-  /// The constraint of planes[index] while the violation of planes[of] is minimized: itself where
-  /// hard, else its bisector if it comes before.
+  /// Returns the constraint of planes[index] while the violation of planes[of] is minimized: the
+  /// plane itself if it is hard, else its bisector if it precedes `of`.
   static PlaneLanes<Float> bound(const PlaneRows& planes, std::size_t index, const Float& hard,
                                  std::size_t of) {
     const auto plane = planes.at<Float>(index);
@@ -216,7 +216,7 @@ class PlaneSolver {
             kept ? plane.direction_y : soft.direction_y};
   }
 
-  /// Makes the largest violation of the soft planes as small as possible, where not all can be met.
+  /// Minimizes the max violation of the soft planes in lanes without a solution.
   static void minimize_violation(const PlaneRows& planes, std::size_t count, const Float& hard,
                                  const Failures& failures, const Float& max_speed,
                                  const WritablePlaneRows& scratch, Velocity& v) {
@@ -234,7 +234,7 @@ class PlaneSolver {
       Velocity better{max_speed * inwards.x, max_speed * inwards.y};
       const Failures failed =
           solve_in_disc<true>(scratch, bounds, max_speed, inwards, wrong, better);
-      // Fails through rounding only: the point before it is on the edge of all of them.
+      // Fails only by rounding: the previous point is on the boundary of all planes.
       const Mask<Float> moved = wrong & (failed.lanes == 0);
       v.x = moved ? better.x : v.x;
       v.y = moved ? better.y : v.y;

@@ -1,4 +1,4 @@
-// From new velocities to new places: how fast agents change their velocity and turn.
+// Integration of new velocities, with limits on acceleration and turning.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 
 namespace throng::crowd {
 
-/// Moves those who are present by one (sub-)step: velocities change by at most max_accel, agents
-/// turn by at most max_angle_vel to where they go, or, when they are slow, partly to where they
-/// would like to go. Yaws are within 4e-7 rad of the orientation.
+/// Moves all present agents by one (sub-)step. Velocities change by at most max_accel; agents turn
+/// by at most max_angle_vel towards their velocity or, if they are slow, partly towards their
+/// preferred velocity. Yaws are within 4e-7 rad of the orientation.
 void move(Crowd& crowd, std::span<const Eigen::Vector2f> new_velocity);
 
 }  // namespace throng::crowd

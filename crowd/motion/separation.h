@@ -1,4 +1,4 @@
-// Bodies that never interpenetrate: a projection of the agents' places after they have moved.
+// Hard separation: correction of the positions of overlapping bodies after each step.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,48 +10,48 @@
 
 namespace throng::crowd {
 
-/// Keeps the bodies of those who are present from overlapping by more than kTolerance, for any
-/// time step. Overlapping pairs are moved apart, all at once and again until nobody overlaps any
-/// more; nobody is moved nearer to a wall than their radius, or than they were before the step.
-/// If there is no room for that, those who would overlap stay where they were: if nobody
-/// overlapped before a step, nobody does after it. Agents that overlap in the beginning, or were
-/// moved there, are moved apart as fast as room allows. Velocities become those actually walked.
+/// Prevents the bodies of present agents from overlapping by more than kTolerance, for any time
+/// step. All overlapping pairs are moved apart simultaneously and repeatedly until none overlaps.
+/// An agent is not moved nearer to a wall than its radius, or than before the step. If there is no
+/// room, the overlapping agents return to their positions before the step: a crowd without overlaps
+/// stays without overlaps. Agents that overlap at the start, or were moved so from outside, are
+/// moved apart as fast as room permits. Velocities are set to the actual motion.
 class Separation {
  public:
   static constexpr float kTolerance = 0.01F;  // m
 
   explicit Separation(const Crowd& crowd);
 
-  /// To be called before agents move.
+  /// Must be called before agents move.
   void remember(const Crowd& crowd);
-  /// To be called after they have moved.
+  /// Must be called after agents have moved.
   void separate(Crowd& crowd);
 
  private:
-  /// By slot of the grid.
+  /// State of an agent, by slot of the grid.
   struct Body {
     Eigen::Vector2f position;
-    Eigen::Vector2f push;  // half of all overlaps, away from the others
-    float clearance = 0;   // from walls, m
-    float overlap = 0;     // the worst, m
-    bool stays = false;    // where it was before the step
+    Eigen::Vector2f push;  // half of the sum of overlaps, away from the others
+    float clearance = 0;   // distance from walls, m
+    float overlap = 0;     // max overlap, m
+    bool stays = false;    // whether it returns to the position before the step
   };
 
   void sort(const Crowd& crowd);
-  /// Finds overlaps and pushes; returns the worst overlap.
+  /// Computes overlaps and pushes; returns the max overlap.
   float look_around();
   void look_around(std::size_t slot);
   void push_apart(const Crowd& crowd);
   Eigen::Vector2f kept_off_walls(const Crowd& crowd, std::size_t slot,
                                  const Eigen::Vector2f& wanted,
                                  std::vector<Obstacles::Near>& walls) const;
-  /// Returns agents that still overlap to where they were; false when all of them are.
+  /// Returns overlapping agents to their positions before the step; false if all of them are there.
   bool send_back();
 
-  Grid grid_;        // where everybody was moved to at first
-  float drift_ = 0;  // how far anybody is from there, m
+  Grid grid_;        // positions after the step, before corrections
+  float drift_ = 0;  // max distance of an agent from that position, m
   float largest_radius_ = 0;
-  std::vector<Eigen::Vector2f> before_;  // the step, by agent
+  std::vector<Eigen::Vector2f> before_;  // positions before the step, by agent
   std::vector<float> clearance_before_;  // by agent
   std::vector<Body> bodies_;
   PerThread<std::vector<Obstacles::Near>> walls_;

@@ -1,4 +1,4 @@
-// Paths around all obstacles, without a hand-made mesh or map.
+// Path planning around all obstacles without a given mesh or road map.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -15,29 +15,29 @@
 
 namespace throng::crowd {
 
-/// The paths of all agents that navigate automatically, in any state. Agents that avoid the
-/// same obstacles and are of about the same size share a mesh, which is made when the first of them
-/// enters such a state (when the scene is loaded, unless obstacles or sizes change). Its radius is
-/// rounded up to whole centimeters, at most 1.25 times that of the smallest who use it.
+/// The paths of all agents that navigate automatically, in all states. Agents of similar radius
+/// that avoid the same classes of obstacles share a mesh, which is created when the first of them
+/// enters such a state (usually while the scene is loaded). The radius of a mesh is rounded up to
+/// centimeters and is at most 1.25 times that of its smallest agent.
 ///
-/// An agent walks from bend to bend of the shortest path. Twice a second it looks whether it can go
-/// straight to the bend after the next, whether it still can go straight to the next, and whether
-/// its goal has moved; if need be it looks for a new path. A goal that cannot be reached is
-/// approached as far as possible; who stands inside of an obstacle walks out.
+/// An agent walks along the bends of the shortest path. Twice per second it checks whether it can
+/// go straight to the bend after the next one, whether the next one is still reachable straight,
+/// and whether its goal has moved; if necessary, it plans a new path. It approaches an unreachable
+/// goal as far as possible. An agent inside an obstacle walks out of it.
 class AutoNavigation {
  public:
   AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& options);
 
-  void enter(const Crowd& crowd, std::size_t agent);  ///< the agent has another goal
+  void enter(const Crowd& crowd, std::size_t agent);  ///< called when the goal changes
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
 
   std::size_t mesh_count() const { return grounds_.size(); }
 
  private:
   static constexpr int kMaxBends = 8;
-  static constexpr std::size_t kManyWalls = 1024;  ///< around one corner: room for so many at first
+  static constexpr std::size_t kManyWalls = 1024;  ///< initial capacity for the walls near a corner
 
-  /// For agents that mind the same obstacles, of radii up to the mesh's.
+  /// The mesh for agents that avoid the same obstacles, with radii up to that of the mesh.
   struct Ground {
     std::uint32_t obstacle_mask = 0;
     float radius = 0;
@@ -49,22 +49,22 @@ class AutoNavigation {
           radius(radius_m),
           mesh(std::move(made)),
           finders([this] { return PathFinder(mesh); }) {
-      finders.local();  // this thread's, so that no step has to make it
+      finders.local();  // of this thread, so that no step has to create it
     }
   };
   struct Route {
     int ground = -1;
     bool known = false;
-    bool reaches = false;  ///< the path leads to the goal, not just as near as one gets
-    bool whole = false;    ///< the last bend is the path's end
-    int polygon = -1;      ///< where the agent was last
-    int next = 0;          ///< bend
+    bool reaches = false;  ///< whether the path ends in the goal, not only near it
+    bool whole = false;    ///< whether the last bend is the end of the path
+    int polygon = -1;      ///< last polygon of the agent
+    int next = 0;          ///< index of the next bend
     int count = 0;
-    Eigen::Vector2f target = Eigen::Vector2f::Zero();  ///< the place in the goal
-    int lane_of = -1;                                  ///< bend that `lane` belongs to
+    Eigen::Vector2f target = Eigen::Vector2f::Zero();  ///< target point in the goal
+    int lane_of = -1;  ///< index of the bend to which `lane` belongs
     std::optional<CornerLane> lane;
-    float crowding = 0;                             ///< how much speed others cost lately, 0 to 1
-    Eigen::Vector2f aim = Eigen::Vector2f::Zero();  ///< where to pass the next bend
+    float crowding = 0;  ///< recent loss of speed because of other agents, 0 to 1
+    Eigen::Vector2f aim = Eigen::Vector2f::Zero();  ///< target point at the next bend
     std::array<Eigen::Vector2f, kMaxBends> bends{};
   };
 
@@ -79,11 +79,11 @@ class AutoNavigation {
   void aim(const Crowd& crowd, std::size_t agent, Route& route);
 
   WalkableMeshOptions options_;
-  Box everyone_;  // where agents are at first
+  Box everyone_;  // bounding box of the initial positions
   std::uint32_t all_classes_ = 0;
   std::vector<std::unique_ptr<Ground>> grounds_;
-  std::vector<Route> routes_;                                            // by agent
-  tbb::enumerable_thread_specific<std::vector<Obstacles::Near>> walls_;  // near a corner: scratch
+  std::vector<Route> routes_;                                            // indexed by agent
+  tbb::enumerable_thread_specific<std::vector<Obstacles::Near>> walls_;  // walls near a corner
 };
 
 }  // namespace throng::crowd

@@ -1,4 +1,4 @@
-// The height of the ground.
+// Height of the ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,12 @@
 
 namespace throng::crowd {
 
+/// The height of the ground as a function of the position.
 class Elevation {
  public:
   virtual ~Elevation() = default;
   virtual float height_m(const Eigen::Vector2f& point) const = 0;
-  /// Uphill, m of height per m of path.
+  /// Gradient of the height (m/m); points uphill.
   virtual Eigen::Vector2f gradient(const Eigen::Vector2f& point) const = 0;
 };
 
@@ -22,7 +23,7 @@ struct ElevationContext {
   SharedParts& parts;
 };
 using ElevationRegistry = Registry<Elevation, ElevationContext>;
-/// flat, nav_mesh, height_field.
+/// Types: flat, nav_mesh, height_field.
 const ElevationRegistry& elevation_registry();
 
 ElevationRegistry::Entry height_field_elevation();

@@ -1,4 +1,4 @@
-// Hills drawn as an image.
+// Heights of the ground from an image.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace throng::crowd {
 
-/// Heights at the centers of an image's pixels, interpolated in between; beside the image those of
-/// its rim. The image's first row is its northern one (largest y).
+/// Heights at the centers of pixels, interpolated bilinearly; outside the image, the height of its
+/// border. The first row of the image is the northern one (max y).
 class HeightField : public Elevation {
  public:
-  /// Reads a <HeightField> file (.ht): the image (PNG), the pixels' size, the height of white, and
-  /// the place of the image's corner of least x and y. Throws InputError, EnvironmentError.
+  /// Reads a <HeightField> file (.ht): image (PNG), size of a pixel, height of white, and position
+  /// of the corner with min x and y. Throws InputError, EnvironmentError.
   explicit HeightField(const std::filesystem::path& path);
 
   float height_m(const Eigen::Vector2f& point) const override;
@@ -30,7 +30,7 @@ class HeightField : public Elevation {
   std::vector<float> heights_m_;  // row by row, from the south
 };
 
-/// The same, once per file.
+/// Returns the height field of a file, which is read once.
 std::shared_ptr<const HeightField> shared_height_field(const std::filesystem::path& path,
                                                        SharedParts& parts);
 

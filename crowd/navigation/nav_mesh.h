@@ -1,4 +1,4 @@
-// The walkable area as convex polygons that meet at portals.
+// Navigation meshes: the walkable area as convex polygons connected by portals.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,28 +8,31 @@
 
 namespace throng::crowd {
 
-/// The part of an edge through which one leaves a polygon for another; left and right as seen by
-/// who leaves.
+/// The part of an edge that leads from a polygon to another one; left and right in the direction of
+/// leaving.
 struct Portal {
-  int to = 0;  ///< the polygon behind it
+  int to = 0;  ///< index of the other polygon
   Eigen::Vector2f left;
   Eigen::Vector2f right;
 };
 
+/// A convex polygon of a mesh.
 struct NavPolygon {
   std::vector<Eigen::Vector2f> corners;  ///< counter-clockwise
   std::vector<Portal> portals;
   Eigen::Vector2f center = Eigen::Vector2f::Zero();
-  /// The ground's height is plane.x * x + plane.y * y + plane.z.
+  /// Height of the ground: plane.x * x + plane.y * y + plane.z.
   Eigen::Vector3f plane = Eigen::Vector3f::Zero();
   int group = 0;
-  int island = 0;  ///< polygons of one island can be reached from each other; set by NavMesh
+  int island = 0;  ///< polygons of the same island are connected; set by NavMesh
 };
 
+/// A navigation mesh. Const member functions may be called from several threads.
 class NavMesh {
  public:
+  /// A point on the mesh.
   struct Location {
-    int polygon = -1;  ///< -1: there is none
+    int polygon = -1;  ///< index; -1: none
     Eigen::Vector2f point = Eigen::Vector2f::Zero();
   };
 
@@ -40,16 +43,16 @@ class NavMesh {
     return polygons_[static_cast<std::size_t>(polygon)];
   }
 
-  /// The smallest box around the mesh; an empty mesh has none.
+  /// Returns the bounding box of the mesh, which must not be empty.
   const Box& bounds() const { return bounds_; }
 
   bool contains(int polygon, const Eigen::Vector2f& point) const;
-  /// The polygon that contains the point, -1 if there is none. `hint` is looked at first, then the
-  /// polygons around it: where the point was a moment ago.
+  /// Returns the polygon that contains the point, or -1. `hint` and its neighbors are searched
+  /// first: the polygon at the previous position of the point.
   int find(const Eigen::Vector2f& point, int hint = -1) const;
-  /// The place of the mesh that is nearest to the point and, unless island is -1, on that island.
+  /// Returns the point of the mesh nearest to `point`; on `island` unless that is -1.
   Location nearest(const Eigen::Vector2f& point, int island = -1) const;
-  /// Whether the straight segment from a place to a point stays on the mesh.
+  /// Whether the straight segment from a location to a point stays on the mesh.
   bool is_clear(const Location& from, const Eigen::Vector2f& to) const;
 
  private:

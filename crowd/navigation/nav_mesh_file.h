@@ -1,4 +1,4 @@
-// Menge's files of navigation meshes (.nav).
+// Menge's navigation mesh files (.nav).
 #pragma once
 
 #include <memory>
@@ -12,17 +12,18 @@
 
 namespace throng::crowd {
 
+/// Content of a file.
 struct NavMeshFile {
   NavMesh mesh;
-  std::vector<std::string> groups;                     ///< by NavPolygon::group
-  std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< of the obstacles, solid on the left
+  std::vector<std::string> groups;                     ///< names, indexed by NavPolygon::group
+  std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< outlines of obstacles, solid on the left
 };
 
-/// Reads such a file: corners, portals, obstacles' edges and groups of polygons. Throws InputError
-/// (file, line, found, expected), EnvironmentError when it cannot be read.
+/// Reads corners, portals, edges of obstacles and groups of polygons. Throws InputError (file,
+/// line, found, expected), EnvironmentError if the file cannot be read.
 NavMeshFile load_nav_mesh(const TextFile& source);
 
-/// The same, once per file.
+/// Returns the mesh of a file, which is read once.
 std::shared_ptr<const NavMeshFile> shared_nav_mesh(const TextFile& source, SharedParts& parts);
 
 }  // namespace throng::crowd

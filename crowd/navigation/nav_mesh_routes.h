@@ -1,4 +1,4 @@
-// Agents' paths across a hand-made navigation mesh.
+// Paths of agents on a given navigation mesh.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -14,16 +14,17 @@
 
 namespace throng::crowd {
 
-/// The paths of all agents that use one mesh, in any state. An agent heads for the point where
-/// its path passes the next portal. It plans a new path when it has left the polygons of the old
-/// one or its goal has moved, and straightens what is left of it when pushed off its heading.
+/// The paths of all agents that use one mesh, in all states. An agent heads for the point at which
+/// its path crosses the next portal. It plans a new path when it has left the polygons of its path
+/// or its goal has moved, and straightens the rest of the path when it has been pushed off its
+/// heading.
 class NavMeshRoutes {
  public:
   NavMeshRoutes(std::shared_ptr<const NavMeshFile> file, std::string file_name, Lengths lengths);
 
-  /// The agent has another goal. Throws InputError for one that starts outside of the mesh.
+  /// Called when the goal changes. Throws InputError for an agent that starts outside the mesh.
   void enter(const Crowd& crowd, std::size_t agent);
-  /// `heading_cos`: the cosine of how far an agent may turn from the heading of the path it found.
+  /// `heading_cos`: cosine of the max deviation from the heading of the planned path.
   void prefer(const Crowd& crowd, std::size_t agent, float heading_cos,
               PreferredVelocity& preferred);
 
@@ -32,28 +33,28 @@ class NavMeshRoutes {
 
   struct Route {
     bool known = false;
-    bool whole = false;  ///< the gates lead to the goal's polygon
-    int polygon = -1;    ///< where the agent was last
-    int next = 0;        ///< gate
+    bool whole = false;  ///< whether the gates lead to the polygon of the goal
+    int polygon = -1;    ///< last polygon of the agent
+    int next = 0;        ///< index of the next gate
     int count = 0;
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
-    Eigen::Vector2f end = Eigen::Vector2f::Zero();  ///< the place on the mesh nearest to the target
+    Eigen::Vector2f end = Eigen::Vector2f::Zero();  ///< the point of the mesh nearest to the target
     std::array<Gate, kMaxGates> gates;
-    std::array<Eigen::Vector2f, kMaxGates> headings;  ///< unit; from gate to gate
+    std::array<Eigen::Vector2f, kMaxGates> headings;  ///< unit vectors from gate to gate
   };
 
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
   void straighten(const Eigen::Vector2f& position, Route& route);
   static void take_gates(std::span<const Gate> gates, const Eigen::Vector2f& position, int first,
                          Route& route);
-  /// Unless it is nearer to the portal than `at_portal`.
+  /// False if the agent is nearer to the portal than `at_portal`.
   static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos, float at_portal,
                             const Route& route);
   bool keep_up(const Eigen::Vector2f& position, Route& route) const;
 
   std::shared_ptr<const NavMeshFile> file_;
   std::string file_name_;
-  std::vector<Route> routes_;  // by agent
+  std::vector<Route> routes_;  // indexed by agent
   tbb::enumerable_thread_specific<PathFinder> finders_;
 };
 

@@ -1,4 +1,4 @@
-// Plug-ins for path planning around walls, one file each.
+// Registry entries for path planning, one per source file.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ VelComponentRegistry::Entry nav_mesh_component();
 VelComponentRegistry::Entry road_map_component();
 VelComponentRegistry::Entry vector_field_component();
 
-/// By the length of the path across a mesh.
+/// Goal selectors that use the length of the path on a mesh.
 std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors();
-/// Modifiers of velocity for the ground's slopes.
+/// Velocity modifiers for slopes.
 std::vector<VelModifierRegistry::Entry> slope_modifiers();
 
 }  // namespace throng::crowd

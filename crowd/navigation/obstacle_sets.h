@@ -1,4 +1,4 @@
-// The walls of a scene.
+// Obstacle sets of a scene.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,18 @@
 
 namespace throng::crowd {
 
-/// The polygons of an <ObstacleSet>: solid when their corners are counter-clockwise, outer walls
-/// with people inside when they are clockwise.
+/// The polygons of an <ObstacleSet>: solid if counter-clockwise, outer walls with people inside if
+/// clockwise.
 struct ObstacleSet {
   struct Polygon {
     std::vector<Eigen::Vector2f> corners;
-    Element element;  ///< to complain about
+    Element element;  ///< for messages
   };
   std::vector<Polygon> polygons;
 };
 
-/// The corners that an element's <Vertex> children give, counter-clockwise or clockwise. Throws
-/// InputError for fewer than three, for two in one place, and for a polygon without area.
+/// Reads the corners of a polygon, <Vertex> children of an element. Throws InputError for less than
+/// three corners, equal corners, and a polygon without area.
 std::vector<Eigen::Vector2f> read_polygon(const Element& element);
 
 struct ObstacleSetContext {
@@ -28,21 +28,21 @@ struct ObstacleSetContext {
 };
 
 using ObstacleSetRegistry = Registry<ObstacleSet, ObstacleSetContext>;
-/// explicit, nav_mesh.
+/// Types: explicit, nav_mesh.
 const ObstacleSetRegistry& obstacle_set_registry();
 
-/// Reads the <ObstacleSet>s of a scene.
+/// Reads the <ObstacleSet>s of a scene and checks their orientation.
 class ObstacleSets {
  public:
-  /// Adds a set's polygons to the crowd. Throws InputError.
+  /// Adds the polygons of a set to the crowd. Throws InputError.
   void load(const Element& element, Crowd& crowd);
 
-  /// Warns of polygons on whose wrong side agents stand: an outer wall with nobody inside is
-  /// probably wound the wrong way. To be called once all agents have their places.
+  /// Warns of polygons with agents on the wrong side: an outer wall without agents inside probably
+  /// has the wrong orientation. Must be called when all agents have positions.
   void report(const Crowd& crowd) const;
 
  private:
-  std::vector<Element> elements_;  // by index of the polygon among the crowd's obstacles
+  std::vector<Element> elements_;  // indexed by polygon of Crowd::obstacles
 };
 
 }  // namespace throng::crowd

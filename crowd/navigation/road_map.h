@@ -1,4 +1,4 @@
-// A graph of way points from a file, and agents' paths along it.
+// Road maps: graphs of way points from a file, and paths of agents along them.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -12,34 +12,34 @@
 
 namespace throng::crowd {
 
-/// Way points and the edges between them, which are walked in both directions.
+/// Way points and edges, which are walked in both directions.
 struct RoadMap {
   struct Road {
     int to = 0;
     float length_m = 0;
   };
 
-  std::vector<Eigen::Vector2f> vertices;  ///< at least one
-  std::vector<std::vector<Road>> roads;   ///< by vertex
+  std::vector<Eigen::Vector2f> vertices;  ///< positions of the way points, at least one
+  std::vector<std::vector<Road>> roads;   ///< edges, indexed by way point
 };
 
-/// Reads Menge's format: vertices with the number of their roads, then roads. Throws InputError
-/// (file, line, found, expected), EnvironmentError when the file cannot be read.
+/// Reads Menge's format: way points with the number of their edges, then edges. Throws InputError
+/// (file, line, found, expected), EnvironmentError if the file cannot be read.
 RoadMap load_road_map(const TextFile& source);
 
-/// The shortest path between two way points, by A* (Hart, Nilsson and Raphael 1968). One for each
-/// thread: it keeps its memory.
+/// Finds shortest paths between way points with A* (Hart, Nilsson and Raphael 1968). One object per
+/// thread; it reuses its memory.
 class RoadFinder {
  public:
   explicit RoadFinder(const RoadMap& map);
-  /// Finds a path; false if there is none. The map is the one given to the constructor.
+  /// Finds a path; returns false if there is none. `map` must be that of the constructor.
   bool find(const RoadMap& map, int from, int to);
-  /// The way points of the path found last, from its beginning to its end.
+  /// Way points of the path found last, from start to end.
   const std::vector<int>& vertices() const { return vertices_; }
 
  private:
   struct Node {
-    unsigned search = 0;  // the last that reached it
+    unsigned search = 0;  // number of the last search that reached it
     bool done = false;
     int before = -1;
     float cost = 0;
@@ -50,22 +50,22 @@ class RoadFinder {
   };
 
   std::vector<Node> nodes_;
-  std::vector<Open> open_;  // a heap
+  std::vector<Open> open_;  // heap
   std::vector<int> vertices_;
   unsigned search_ = 0;
 };
 
-/// The paths of all agents that use one map, in any state. An agent begins at the nearest way point
-/// that it sees, goes on to the next as soon as it sees that, and plans a new path when it does
-/// not see the way point it heads for or its goal has moved. Walls hide points that an agent cannot
-/// reach straight. In compatible runs an agent that has lost sight of a way point goes back to
-/// where it last saw it from, and looks for a new path only when it does not see that either; and a
-/// goal's moves are noticed a step later, at the goal's very edge.
+/// The paths of all agents that use one map, in all states. An agent starts at the nearest visible
+/// way point, proceeds to the next one as soon as it sees it, and plans a new path if it does not
+/// see its way point or its goal has moved. Walls hide points that are not reachable straight. In
+/// compatible runs, an agent that no longer sees a way point returns to the position from which it
+/// saw it last, and plans a new path only if it does not see that position either; moves of a goal
+/// are noticed one step later and at the edge of the goal.
 class RoadMapRoutes {
  public:
   explicit RoadMapRoutes(RoadMap map);
 
-  void enter(const Crowd& crowd, std::size_t agent);  ///< the agent has another goal
+  void enter(const Crowd& crowd, std::size_t agent);  ///< called when the goal changes
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
 
  private:
@@ -73,14 +73,15 @@ class RoadMapRoutes {
 
   struct Route {
     bool known = false;
-    bool whole = false;  ///< after the last vertex comes the goal
+    bool whole = false;  ///< whether the goal follows the last way point
     std::size_t next = 0;
     std::size_t count = 0;
-    int end = -1;  ///< the vertex nearest to the goal
+    int end = -1;  ///< way point nearest to the goal
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
-    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next vertex was last seen
-    int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
-    Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
+    /// Position from which the next way point was last seen.
+    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();
+    int noticed_end = -1;  ///< compatible runs: the `end` of the last step
+    Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< nearest point of the goal in that step
     std::array<int, kMaxVertices> vertices{};
   };
 
@@ -96,7 +97,7 @@ class RoadMapRoutes {
   int nearest_visible(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& point) const;
 
   RoadMap map_;
-  std::vector<Route> routes_;  // by agent
+  std::vector<Route> routes_;  // indexed by agent
   tbb::enumerable_thread_specific<RoadFinder> finders_;
 };
 

@@ -1,18 +1,20 @@
-// Common parts of velocity components: the goal's position, and walking straight to a point.
+// Functions for velocity components: target points in goals, and walking straight to a point.
 #pragma once
 
 #include "crowd/behavior.h"
 
 namespace throng::crowd {
 
-/// The place in an agent's goal that is nearest to p, with room for the agent where there is any.
+/// Returns the point of an agent's goal nearest to p, at the agent's radius from the border if
+/// possible.
 Eigen::Vector2f goal_place(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& p);
 
-/// Straight to a place and, on arrival, to rest there.
+/// Sets the preferred velocity straight to `place`, to stop there.
 void head_for(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place,
               PreferredVelocity& preferred);
 
-/// Straight to a place and on from there; what lies within a centimeter keeps the direction.
+/// Sets the preferred velocity straight to `place`, to continue behind it; keeps the direction
+/// within 1 cm of it.
 void head_through(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place,
                   PreferredVelocity& preferred);
 

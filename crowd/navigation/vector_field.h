@@ -1,4 +1,4 @@
-// Directions on a grid, from a file.
+// Vector fields: directions on a grid from a file.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,17 +8,17 @@
 
 namespace throng::crowd {
 
-/// Vectors at the centers of a grid's cells; outside of the grid, the nearest cell's.
+/// Vectors at the centers of the cells of a grid; outside the grid, those of the nearest cell.
 class VectorField {
  public:
-  /// Reads Menge's format: rows and columns, cell size, the corner of least x and y, then the
-  /// vectors row by row. Throws InputError (file, line, found, expected), EnvironmentError when
-  /// the file cannot be read.
+  /// Reads Menge's format: rows and columns, cell size, corner with min x and y, then vectors row
+  /// by row. Throws InputError (file, line, found, expected), EnvironmentError if the file cannot
+  /// be read.
   explicit VectorField(const TextFile& source);
 
-  /// The velocity of the cell that holds the point.
+  /// Returns the vector of the cell that contains the point.
   Eigen::Vector2f nearest(const Eigen::Vector2f& point) const;
-  /// Between the four cells around the point.
+  /// Returns the bilinear interpolation of the four cells around the point.
   Eigen::Vector2f interpolated(const Eigen::Vector2f& point) const;
 
  private:

@@ -1,4 +1,4 @@
-// A navigation mesh made from the obstacles.
+// Creation of a navigation mesh from obstacles.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@
 namespace throng::crowd {
 
 struct WalkableMeshOptions {
-  std::optional<float> cell_m = {};  ///< of the grid that walls are drawn in; a third of the radius
-  float margin_m = 1;                ///< around the obstacles in which the grid lies
+  /// Cell size of the grid in which walls are drawn; default: a third of the radius.
+  std::optional<float> cell_m = {};
+  float margin_m = 1;  ///< width of the grid around the obstacles
 };
 
-/// The free space of a disc of this radius among the obstacles of these classes, as convex polygons
-/// for its center: their outlines are the obstacles' grown by the radius, exact to about a cell.
-/// The mesh also covers the open ground around, to some hundred meters beyond the obstacles and
-/// `everyone`. Cells grow where millions would be needed. The polygons are made with Recast
-/// (Mononen), from a grid on which each obstacle is drawn with its margin. Empty when nothing is
-/// in the way, or everything is.
+/// Returns the free space for the center of a disc with this radius among obstacles of these
+/// classes, as convex polygons: their outlines are those of the obstacles enlarged by the radius,
+/// with an error of about a cell. The mesh also covers open ground for some hundred meters around
+/// the obstacles and `everyone`. Cells are enlarged if millions were needed. Created with Recast
+/// (Mononen) from a grid in which each obstacle is drawn with its margin. Empty if nothing or
+/// everything is blocked.
 NavMesh make_walkable_mesh(const Obstacles& obstacles, std::uint32_t class_mask, float radius,
                            const Box& everyone, const WalkableMeshOptions& options);
 

@@ -1,4 +1,4 @@
-// Fields of the tables that are written for other programs.
+// Cells of CSV tables.
 #pragma once
 
 #include <fmt/core.h>
@@ -9,7 +9,7 @@
 
 namespace throng::crowd {
 
-/// A text as one field, in quotes when it needs them (RFC 4180).
+/// Returns a text as a cell, in quotes if necessary (RFC 4180).
 inline std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
@@ -20,7 +20,7 @@ inline std::string csv_text(std::string_view text) {
   return quoted + "\"";
 }
 
-/// A number with so many decimals; nan without a sign.
+/// Formats a number with `decimals` decimals; NaN as "nan" without a sign.
 inline std::string csv_number(double value, int decimals) {
   return std::isnan(value) ? std::string("nan") : fmt::format("{:.{}f}", value, decimals);
 }

@@ -1,4 +1,4 @@
-// How near bodies come to each other, for reports.
+// Distances between bodies, for reports.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,19 +10,20 @@
 
 namespace throng::crowd {
 
+/// Statistics of the distances between agents.
 struct PairDistances {
-  /// Between two middles; not a number when there are no two.
+  /// Min distance between two centers (m); NaN if there are less than two agents.
   double nearest_m = std::numeric_limits<double>::quiet_NaN();
-  std::size_t overlapping = 0;  ///< pairs nearer than kTouching of the sum of their radii
+  std::size_t overlapping = 0;  ///< pairs nearer than kTouching times the sum of their radii
 };
 
-/// Bodies that only touch do not overlap: as the series that were measured with Menge have it.
+/// Factor below which bodies overlap instead of touching, as in the series measured with Menge.
 constexpr double kTouching = 0.999;
 
-/// Measures pairs in about n log n, not n^2. Keeps its memory for the next time.
+/// Measures all pairs in O(n log n). Reuses its memory.
 class PairDistancesMeter {
  public:
-  /// Over those whose `present` is not 0 and whose position is a number.
+  /// Measures agents whose `present` is not 0 and whose position is finite.
   PairDistances measure(std::span<const Eigen::Vector2f> positions, std::span<const float> radii_m,
                         std::span<const std::uint8_t> present);
 

@@ -1,4 +1,4 @@
-// The groups of a scene: who starts where, with which profile and in which state.
+// Groups of agents in a scene: start positions, profiles and initial states.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace throng::crowd {
 
-/// Objects that the elements of a group refer to.
+/// Objects to which the elements of a group refer.
 struct GroupContext {
   const std::vector<Profile>& profiles;
   const std::vector<std::string>& state_names;
@@ -25,15 +25,15 @@ struct GroupContext {
   std::optional<SocialGroupsSpec> social_groups;
 };
 
-/// Chooses the profile of each agent of a group.
+/// Selects the profile of each agent of a group.
 class ProfileSelector {
  public:
   virtual ~ProfileSelector() = default;
-  /// An index into GroupContext::profiles. Called once per agent, in the order of their ids.
+  /// Returns an index into GroupContext::profiles. Called once per agent, in the order of ids.
   virtual std::size_t select(std::size_t agent) = 0;
 };
 
-/// Chooses the state in which each agent of a group starts.
+/// Selects the initial state of each agent of a group.
 class StateSelector {
  public:
   virtual ~StateSelector() = default;
@@ -42,13 +42,13 @@ class StateSelector {
 
 using ProfileSelectorRegistry = Registry<ProfileSelector, GroupContext>;
 using StateSelectorRegistry = Registry<StateSelector, GroupContext>;
-/// const, random, weighted.
+/// Types: const, random, weighted.
 const ProfileSelectorRegistry& profile_selector_registry();
-/// const.
+/// Type: const.
 const StateSelectorRegistry& state_selector_registry();
 
-/// Adds the agents of an <AgentGroup> to the crowd, and to `processes` what lets them come later.
-/// Throws InputError.
+/// Adds the agents of an <AgentGroup> to the crowd and the process of its <Arrivals>, if any, to
+/// `processes`. Throws InputError.
 void load_group(const Element& group, GroupContext& context, Crowd& crowd,
                 std::vector<std::unique_ptr<Process>>& processes);
 

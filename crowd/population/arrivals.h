@@ -1,4 +1,4 @@
-// Sources: agents who come while the simulation runs.
+// Arrivals: agents that enter during the simulation.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,34 +11,37 @@
 
 namespace throng::crowd {
 
-/// When a group's agents come, in order.
+/// Times at which the agents of a group arrive, ascending.
 struct ArrivalTimes {
   std::vector<double> time_s;
 };
 
+/// Inputs of the factories of ArrivalTimes.
 struct ArrivalContext {
   std::uint64_t seed = 1;
   std::size_t first_agent = 0;
 };
 using ArrivalRegistry = Registry<ArrivalTimes, ArrivalContext>;
-/// rate, table.
+/// Types: rate, table.
 const ArrivalRegistry& arrival_registry();
 
-/// The agents first, first + 1, ... of a group with an <Arrivals> element.
+/// The arrivals of the agents first, first + 1, ... of a group with an <Arrivals> element.
 struct ArrivalPlan {
   std::size_t first = 0;
   std::vector<double> time_s;           ///< one per agent
-  std::vector<Eigen::Vector2f> places;  ///< where they may appear, m
-  std::size_t max_alive = 0;            ///< nobody comes while as many agents are present
+  std::vector<Eigen::Vector2f> places;  ///< possible positions, m
+  std::size_t max_alive = 0;            ///< nobody arrives while this number of agents is present
   double closed_from_s = 0;             ///< agents that have not arrived by then never do
 };
 
-/// Reads an <Arrivals>; the places come from the group's generators. Throws InputError.
+/// Reads an <Arrivals> element; `places` are the positions of the group's generators. Throws
+/// InputError.
 ArrivalPlan load_arrivals(const Element& element, std::vector<Eigen::Vector2f> places,
                           std::size_t first_agent, std::uint64_t seed);
 
-/// Lets the agents in, each at its time or as soon after it as there is room: a place where it
-/// touches nobody, and fewer agents present than allowed. Marks them as awaited at once.
+/// Creates the process that lets agents arrive, each at its time or as soon afterwards as there is
+/// a position where it touches nobody and fewer agents than allowed are present. Marks them as
+/// awaited immediately.
 std::unique_ptr<Process> make_arrivals(ArrivalPlan plan, Crowd& crowd);
 
 }  // namespace throng::crowd

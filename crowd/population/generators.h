@@ -10,29 +10,30 @@
 
 namespace throng::crowd {
 
-/// Agents in a scene; more is taken for a mistake.
+/// Max number of agents in a scene; a greater number is considered a mistake.
 constexpr std::size_t kMaxAgents = 4'000'000;
 
-/// A <Generator>: initial positions, before their noise is added.
+/// A <Generator> of initial positions.
 class Generator {
  public:
   virtual ~Generator() = default;
   virtual std::size_t count() const = 0;
-  /// The place of the index-th agent, moved by `noise` in the generator's own frame.
+  /// Returns the position of the index-th agent, displaced by `noise` in the generator's frame.
   virtual Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const = 0;
 };
 
-/// Objects that exist before a generator makes positions.
+/// Inputs of the factories of generators.
 struct GeneratorContext {
-  const Crowd& crowd;  ///< its walls, and the people who have places already
+  const Crowd& crowd;  ///< with its walls and the agents that already have positions
   std::uint64_t seed = 1;
-  std::size_t first_agent = 0;  ///< id of the first agent who gets a place
+  std::size_t first_agent = 0;  ///< id of the first agent to place
 };
 using GeneratorRegistry = Registry<Generator, GeneratorContext>;
-/// explicit, rect_grid, hex_lattice, nav_mesh_explicit, scatter.
+/// Types: explicit, rect_grid, hex_lattice, nav_mesh_explicit, scatter.
 const GeneratorRegistry& generator_registry();
 
-/// The places of a <Generator>'s agents. Compatible runs draw the noise from `sequences`.
+/// Returns the positions of a <Generator>'s agents. In compatible runs, noise comes from
+/// `sequences`.
 std::vector<Eigen::Vector2f> generate_positions(const Element& element, GeneratorContext context,
                                                 MengeSequences& sequences);
 

@@ -1,4 +1,4 @@
-// Agent profiles: what the agents of a kind have in common, and how they vary.
+// Agent profiles: the common properties of a kind of agent and their distributions.
 #pragma once
 
 #include <array>
@@ -17,29 +17,33 @@ namespace throng::crowd {
 /// The distribution of an agent's property or parameter.
 struct ProfileValue {
   Distribution distribution;
-  std::shared_ptr<MengeRandom> sequence;  ///< where compatible runs draw from it
+  std::shared_ptr<MengeRandom> sequence;  ///< Menge's sequence in compatible runs, else null
 };
 
+/// An <AgentProfile>.
 struct Profile {
   std::string name;
-  std::array<ProfileValue, kPropertyCount> properties;  ///< in the files' units
+  std::array<ProfileValue, kPropertyCount> properties;  ///< in the units of the file
   std::vector<ProfileValue> model_parameters;           ///< in the order of the model's table
   std::uint32_t obstacle_mask = std::numeric_limits<std::uint32_t>::max();
   std::int32_t agent_class = 0;
-  std::vector<Element> modifiers;  ///< its <VelModifier>s, which need the behavior to be made
+  /// The profile's <VelModifier>s, which are created with the behavior.
+  std::vector<Element> modifiers;
 };
 
-/// Reads an <AgentProfile>; `earlier` are those that it may inherit from. Throws InputError.
+/// Reads an <AgentProfile>; `earlier` are the profiles from which it may inherit. Throws
+/// InputError.
 Profile load_profile(const Element& element, const std::vector<Profile>& earlier,
                      const ModelEntry& model, MengeSequences& sequences);
 
-/// Sets the properties of agent `agent` from its profile, sampled with the run's seed.
+/// Sets the properties of an agent to samples of its profile, with the run's seed.
 void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents);
 
-/// Those of <Common> that a <Property> cannot give.
+/// Returns the attributes of <Common> that a <Property> cannot set.
 AttributeTable fixed_common_attributes();
 
-/// The elements that carry other models' parameters, which a scene may always hold.
+/// Whether a name is the element of some pedestrian model; a scene may contain those of unused
+/// models.
 bool is_model_tag(std::string_view name);
 
 }  // namespace throng::crowd

@@ -1,4 +1,4 @@
-// A tree of bounding boxes over static objects: walls, polygons of a mesh.
+// A tree of bounding boxes of static objects: walls, polygons of a mesh.
 #pragma once
 
 #include <array>
@@ -8,22 +8,23 @@
 
 namespace throng::crowd {
 
+/// A binary tree of boxes. Searches may run in several threads after build().
 class BoxTree {
  public:
-  /// Over the boxes of objects 0, 1, ...
+  /// Builds the tree of the boxes of objects 0, 1, ...
   void build(const std::vector<Box>& boxes);
 
-  /// The objects in the order of the leaves; storing them in this order puts neighbors
-  /// together.
+  /// Returns the objects in the order of the leaves. Callers store objects in this order, so that
+  /// near ones are near in memory.
   const std::vector<int>& order() const { return order_; }
 
-  /// Calls visit(i) for every i with the box of order()[i] no farther than sqrt(range_sq) from the
-  /// point; what is nearer comes roughly first, and visit may make range_sq smaller.
+  /// Calls visit(i) for all i for which the box of order()[i] is at most sqrt(range_sq) from the
+  /// point, roughly nearest first. visit may reduce range_sq.
   template <typename Visit>
   void near(const Eigen::Vector2f& point, const float& range_sq, const Visit& visit) const;
 
-  /// Calls visit(i) for every i whose box, made larger by margin, the segment from a to b may
-  /// cross, until visit returns true; returns whether it did.
+  /// Calls visit(i) for all i whose box, enlarged by margin, may cross the segment from a to b,
+  /// until visit returns true. Returns whether it did.
   template <typename Visit>
   bool any_along(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float margin,
                  const Visit& visit) const;
@@ -31,9 +32,9 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    int begin = 0;  // of order_
+    int begin = 0;  // range in order_
     int end = 0;
-    int second = 0;  // the other child; the first follows the node; 0: a leaf
+    int second = 0;  // index of the second child; the first child follows its parent; 0: a leaf
   };
   static constexpr std::size_t kDeepest = 64;  // halving 2^31 objects takes fewer levels
 
@@ -47,7 +48,7 @@ class BoxTree {
     const Eigen::Vector2f high = box.max.array() + margin;
     if ((a.cwiseMax(b).array() < low.array()).any()) return false;
     if ((a.cwiseMin(b).array() > high.array()).any()) return false;
-    // All corners on one side of the line?
+    // Whether all corners are on the same side of the line.
     const Eigen::Vector2f normal(a.y() - b.y(), b.x() - a.x());
     const Eigen::Vector2f half = 0.5F * (high - low);
     const float middle = normal.dot(0.5F * (low + high) - a);

@@ -1,4 +1,4 @@
-// Neighbor search: agents sorted by the cell of a uniform grid without bounds.
+// Neighbor search in an unbounded uniform grid.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,10 @@
 
 namespace throng::crowd {
 
-/// A copy of what neighbors may know of the agents that are present, sorted by cell, so that those
-/// who are near in space are near in memory. Cells are hashed into buckets such that a row's
-/// neighboring cells stay neighbors: a query scans one run of slots per row. If the crowd
-/// fills its area, rows follow each other as they do in space.
+/// Copies of the positions, velocities and radii of present agents, sorted by cell, so that agents
+/// near in space are near in memory. Cells are hashed into buckets that keep the order of a row: a
+/// query scans one run of slots per row. If the crowd fills its area, consecutive rows are adjacent
+/// too. Const member functions may be called from several threads.
 class Grid {
  public:
   struct Neighbor {
@@ -24,16 +24,16 @@ class Grid {
     std::uint32_t slot = 0;
   };
 
-  /// Position and velocity of an agent; kernels load it as four floats.
+  /// Position (m) and velocity (m/s) of an agent; kernels load it as four floats.
   struct Body {
     Eigen::Vector2f position;
     Eigen::Vector2f velocity;
   };
 
-  /// Memory of searches; kept from one to the next, so that they allocate nothing.
+  /// Buffers of a search, reused to avoid allocations; one per thread.
   class Candidates {
    public:
-    /// For searches for at most `max_neighbors` neighbors.
+    /// Reserves memory for searches of at most `max_neighbors` neighbors.
     explicit Candidates(std::size_t max_neighbors = 0);
 
    private:
@@ -48,7 +48,7 @@ class Grid {
 
   explicit Grid(InstructionSet set = best_instruction_set());
 
-  /// Sorts the agents again, on all threads; allocates only when their number has grown.
+  /// Sorts the agents, on all threads. Allocates only if their number has grown.
   void build(const Agents& agents);
 
   std::size_t size() const { return size_; }
@@ -58,15 +58,16 @@ class Grid {
   const Eigen::Vector2f& velocity(std::size_t slot) const { return body_[slot].velocity; }
   float radius(std::size_t slot) const { return radius_[slot]; }
 
-  /// The agents nearest to the one in `slot`, nearer than `range`, at most `max_neighbors`; sorted
-  /// by distance, ties by id. They are in `candidates` until the next search with it. `reach` is a
-  /// guess of how far they are, which is updated for the next time and does not change the result.
+  /// Returns the agents nearest to the one in `slot`, nearer than `range` (m) and at most
+  /// `max_neighbors`, sorted by distance, then by id. The result is valid until the next search
+  /// with `candidates`. `reach` is an estimate of their distance from the previous search; it is
+  /// updated and does not change the result.
   std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t max_neighbors,
                                     float& reach, Candidates& candidates) const {
     return nearest_(*this, slot, range, max_neighbors, reach, candidates);
   }
 
-  /// Calls visit(slot) once for everybody within the range of a point, and for some beyond.
+  /// Calls visit(slot) once for each agent within the range of a point, and for some others.
   template <typename Visit>
   void visit(const Eigen::Vector2f& point, float range, const Visit& visit) const {
     for_each_run(point, range, [&](std::size_t begin, std::size_t end, std::optional<int> row) {
@@ -81,8 +82,8 @@ class Grid {
   using Nearest = std::span<const Neighbor>(const Grid&, std::size_t slot, float range,
                                             std::size_t max_neighbors, float& reach, Candidates&);
 
-  static constexpr float kCellWidth = 1.0F;   // m; a few people fit in
-  static constexpr float kCellHeight = 2.0F;  // m; fewer, longer runs
+  static constexpr float kCellWidth = 1.0F;   // m; holds a few people
+  static constexpr float kCellHeight = 2.0F;  // m; for fewer and longer runs
   static constexpr std::size_t kPadding = 8;  // searches load whole vectors
 
   struct Extent {
@@ -93,7 +94,7 @@ class Grid {
   static Nearest* pick_nearest(InstructionSet set);
   static int column_at(float x) { return cell_of(x / kCellWidth); }
   static int row_at(float y) { return cell_of(y / kCellHeight); }
-  /// Far away, cells are shared.
+  /// Distant cells are merged.
   static int cell_of(float cells) {
     constexpr float kFar = 1e9F;
     const float near = std::min(kFar, std::max(-kFar, cells));  // in this order for NaN
@@ -106,11 +107,12 @@ class Grid {
            bucket_mask_;
   }
 
-  /// Calls look(begin, end, row) for runs of slots that hold everybody within the range of a point.
-  /// With a row, only those of the row count: others share its buckets and would be found twice.
+  /// Calls look(begin, end, row) for runs of slots that contain all agents within the range of a
+  /// point. If row is set, only slots of that row count: other rows share its buckets and would be
+  /// visited twice.
   template <typename Look>
   void for_each_run(const Eigen::Vector2f& point, float range, const Look& look) const {
-    constexpr float kRounding = 1e-3F;  // m; nobody at the edge is missed
+    constexpr float kRounding = 1e-3F;  // m; no agent at the edge is missed
     const float padded = range + kRounding;
     const int first_row = row_at(point.y() - padded);
     const int last_row = row_at(point.y() + padded);
@@ -119,7 +121,7 @@ class Grid {
     const auto buckets = static_cast<std::size_t>(bucket_mask_) + 1;
     const auto columns = static_cast<std::size_t>(last_column - first_column) + 1;
     const auto rows = static_cast<std::size_t>(last_row - first_row) + 1;
-    constexpr std::size_t kRowCost = 8;  // slots that are looked at in the time of a row
+    constexpr std::size_t kRowCost = 8;  // number of slots scanned in the time of starting a row
     if (columns > buckets || rows * kRowCost > size_) {
       look(std::size_t{0}, size_, std::optional<int>());
       return;
@@ -144,18 +146,19 @@ class Grid {
   Nearest* nearest_;
   std::size_t size_ = 0;
   std::uint32_t bucket_mask_ = 0;
-  std::uint32_t row_stride_ = 1;             // buckets from a row to the next
-  std::uint32_t first_cell_ = 0;             // what the first bucket's cell would have without this
-  std::vector<std::uint32_t> bucket_begin_;  // first slot of each bucket, then the end
-  // While sorting.
+  std::uint32_t row_stride_ = 1;             // distance of successive rows, in buckets
+  std::uint32_t first_cell_ = 0;             // hash of the cell of the first bucket
+  std::vector<std::uint32_t> bucket_begin_;  // first slot of each bucket, and the end
+  // Buffers for sorting.
   std::vector<Extent> extents_;
-  int part_shift_ = 0;                    // a part has 2 to this buckets
-  std::size_t parts_ = 1;                 // runs of buckets, sorted one by one
-  std::vector<std::uint32_t> bucket_of_;  // of each agent
-  std::vector<std::uint32_t> by_part_;    // agents' ids, by part and then by id
-  std::vector<std::uint32_t> place_;      // [run of agents][part]: how many; then where in by_part_
-  std::vector<std::uint32_t> part_begin_;  // in by_part_, then the end
-  // By slot; those that are searched end with some padding.
+  int part_shift_ = 0;                    // a part has 2^part_shift_ buckets
+  std::size_t parts_ = 1;                 // number of runs of buckets that are sorted independently
+  std::vector<std::uint32_t> bucket_of_;  // per agent
+  std::vector<std::uint32_t> by_part_;    // ids of agents, sorted by part, then by id
+  // [run of agents][part]: first counts, then positions in by_part_.
+  std::vector<std::uint32_t> place_;
+  std::vector<std::uint32_t> part_begin_;  // positions in by_part_, and the end
+  // Indexed by slot; arrays that are searched have padding at the end.
   std::vector<std::uint32_t> id_;
   std::vector<std::int32_t> row_;
   std::vector<float> x_;

@@ -1,4 +1,4 @@
-// Each agent's view of the others and of the walls; pedestrian models are functions of it.
+// The neighbors and walls that each agent perceives: the input of pedestrian models.
 #pragma once
 
 #include <limits>
@@ -12,21 +12,21 @@
 
 namespace throng::crowd {
 
-/// One agent's view.
+/// The surroundings of one agent.
 struct AgentView {
-  std::size_t agent = 0;                      ///< its id
-  std::size_t slot = 0;                       ///< its place in the grid
+  std::size_t agent = 0;                      ///< id of the agent
+  std::size_t slot = 0;                       ///< slot in the grid
   std::span<const Grid::Neighbor> neighbors;  ///< nearest first, at most max_neighbors
   std::span<const Obstacles::Near> walls;     ///< nearest first
 };
 
-/// Finds everybody's surroundings, step after step, without allocating after the first ones.
+/// Finds the surroundings of agents; allocates memory only in the first steps.
 class Neighborhood {
  public:
   explicit Neighborhood(const Crowd& crowd);
 
-  /// Calls act(surroundings) once for every agent in the grid, on all threads. `wall_range_m` of a
-  /// slot is how near walls have to be to be seen.
+  /// Calls act(view) once for each agent in the grid, on all threads. `wall_range_m(slot)` is the
+  /// max distance of walls that matter.
   template <typename Range, typename Act>
   void for_each(const Crowd& crowd, const Grid& grid, const Range& wall_range_m, const Act& act) {
     prepare(crowd, grid);
@@ -38,14 +38,14 @@ class Neighborhood {
     });
   }
 
-  /// To be called before a loop that looks at single agents, by the thread that starts it.
+  /// Must be called before calls of look() in a loop, by the thread that starts the loop.
   void prepare(const Crowd& crowd, const Grid& grid) {
     found_.prepare();
     if (crowd.compat != Compat::none) tree_.build(grid, crowd.agents.count());
     if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
   }
-  /// One agent's view, with the walls that are nearer than `wall_range_m` and than the agent sees;
-  /// valid until this thread looks at another.
+  /// Returns the view of one agent with the walls that are nearer than `wall_range_m` and than the
+  /// agent's own range. Valid until this thread calls look() again.
   AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot,
                  float wall_range_m = std::numeric_limits<float>::infinity()) {
     return look(crowd, grid, slot, wall_range_m, found_.local());
@@ -72,8 +72,8 @@ class Neighborhood {
                                                   std::size_t slot, std::size_t max_neighbors,
                                                   Found& found);
 
-  MengeTree tree_;            // of compatible runs
-  std::vector<float> reach_;  // per agent, see Grid::nearest
+  MengeTree tree_;            // for compatible runs
+  std::vector<float> reach_;  // per agent, for Grid::nearest()
   PerThread<Found> found_;
 };
 
