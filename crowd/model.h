@@ -51,7 +51,7 @@ const std::vector<ModelEntry>& models();
 /// none.
 const ModelEntry& find_model(std::string_view name);
 
-/// Entries of models(), each defined in models/NAME.cpp.
+/// The entries of models(), defined in models/*.cpp.
 ModelEntry orca_model();
 ModelEntry weidmann_model();
 ModelEntry ttc_model();

@@ -48,7 +48,7 @@ class JsonValue {
   std::string text() const;
   /// Text of at least one character, each a letter, a digit, '_' or '-'.
   std::string identifier() const;
-  /// Returns the elements of an array; records a problem for less than `at_least` elements.
+  /// Returns the elements of an array; records a problem for fewer than `at_least` elements.
   std::vector<JsonValue> items(std::size_t at_least = 0) const;
   /// Returns the elements of an array of `count` elements; otherwise records `expected` and returns
   /// none.
@@ -58,7 +58,7 @@ class JsonValue {
   Eigen::Vector3d vector3(double limit) const;
 
   /// Records a problem with this value: `expected` says what is allowed, `found` what the document
-  /// has (by default a description of the value).
+  /// has (by default a description of the value; a missing value is then no problem).
   void reject(std::string expected) const;
   void reject(std::string found, std::string expected) const;
 

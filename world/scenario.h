@@ -45,7 +45,7 @@ struct Exit {
   /// Time at which a disaster reaches and closes the exit (s).
   double closes_at_s = std::numeric_limits<double>::infinity();
 
-  /// Whether people can leave here at a time of the run (s), the time of a step.
+  /// Whether people can leave here at the time of a step (s).
   bool is_open(double time_s) const {
     constexpr double kRoundingS = 1e-6;
     return open && time_s < closes_at_s - kRoundingS;

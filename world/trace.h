@@ -35,7 +35,7 @@ inline constexpr std::uint8_t kFallen = 4;
 inline constexpr std::uint8_t kFollowing = 8;
 
 /// Whether people in a state with this name lie on the ground, for behaviors that do not declare
-/// it: whether the name contains one of the words in docs/trace.md, in any case.
+/// it: whether the name contains one of the words in docs/trace.md, ignoring case.
 bool implies_lying(std::string_view state_name);
 
 /// Pedestrian model and settings that determine how the people of a run walk; the words are those

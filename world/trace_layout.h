@@ -7,9 +7,9 @@
 namespace throng::world {
 
 inline constexpr const char* kTraceFormat = "throng trace";
-/// Grows with every change that an older reader would misread.
+/// Increases with each change that older readers would misread.
 inline constexpr std::int32_t kTraceVersion = 3;
-/// Fixed width of an event's words, with a final zero.
+/// Fixed width in bytes of the texts of an event, including a final zero.
 inline constexpr std::size_t kEventWordWidth = 32;
 
 }  // namespace throng::world

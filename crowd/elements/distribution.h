@@ -15,8 +15,9 @@
 
 namespace throng::crowd {
 
-/// A distribution of numbers. With limits, it is truncated to them. A normal distribution without
-/// limits is clamped to three standard deviations.
+/// A distribution of numbers. Normal values beyond three standard deviations are set to the nearest
+/// permitted value. With limits, a normal distribution is truncated to them and to three standard
+/// deviations instead, and the kinds that follow it are truncated to the limits.
 struct Distribution {
   enum class Kind { constant, uniform, normal, lognormal, weibull, gamma, exponential };
 

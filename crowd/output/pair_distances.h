@@ -12,7 +12,7 @@ namespace throng::crowd {
 
 /// Statistics of the distances between agents.
 struct PairDistances {
-  /// Min distance between two centers (m); NaN if there are less than two agents.
+  /// Min distance between two centers (m); NaN if there are fewer than two agents.
   double nearest_m = std::numeric_limits<double>::quiet_NaN();
   std::size_t overlapping = 0;  ///< pairs nearer than kTouching times the sum of their radii
 };

@@ -27,7 +27,7 @@ struct Group {
   /// Free speed, m/s; by default that of Weidmann (1993).
   Sampled speed = Sampled::normal(1.34, 0.26).limited(0.58, 2.1);
   double radius_m = 0.2;
-  double aside_m = 0.02;  ///< max random distance between start and place
+  double aside_m = 0.02;  ///< max random offset of the start position per axis
   std::string state = "Walk";
   std::vector<crowd::Node> more = {};  ///< further elements, e.g. <Arrivals>
 };
