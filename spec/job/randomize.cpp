@@ -68,7 +68,7 @@ Quantity enum_quantity(const json& words) {
 Quantity read_quantity(const json& rules) {
   if (rules.contains("enum")) return enum_quantity(rules["enum"]);
   Quantity quantity =
-      number_quantity(rules.at("minimum").get<double>(), rules.at("maximum").get<double>());
+      fields::number_quantity(rules.at("minimum").get<double>(), rules.at("maximum").get<double>());
   if (rules.at("type") != "integer") return quantity;
   quantity.expected.replace(0, std::string_view("a number").size(), "an integer");
   quantity.number = [number = quantity.number](const json& value) {
