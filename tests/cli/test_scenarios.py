@@ -1,4 +1,4 @@
-"""Runs what docs/blueprint.md tells users to do, as it stands there, and the commands on places."""
+"""Runs what docs/blueprint.md tells users to do, as it stands there, and the commands on scenarios."""
 
 import json
 import os
@@ -20,7 +20,7 @@ def throng(*arguments, cwd, code=0):
 
 def test_ten_minutes(folder):
     text = (ROOT / "docs" / "blueprint.md").read_text()
-    blueprints = re.findall(r"Save this as `([a-z_]+\.place\.json)`.*?```json\n(.*?)```", text, re.S)
+    blueprints = re.findall(r"Save this as `([a-z_]+\.blueprint\.json)`.*?```json\n(.*?)```", text, re.S)
     assert [name for name, _ in blueprints] == ["yard.blueprint.json", "yard_fire.blueprint.json"]
     for name, content in blueprints:
         (folder / name).write_text(content)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A shipped scenario of every other place runs for 150 s, and nobody is inside at the end without a reason.
+"""A scenario of every other shipped folder runs for 150 s, and nobody is inside at the end without a reason.
 
 The drones of the scenario hover, as a job without drones has it. 60 people each keep it short; with $THRONG_LONG it is
 every scenario, with 250 people for 300 s, and scripts/studies/shipped_runs.py does the same for 600 s with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
@@ -32,20 +32,20 @@ def shipped():
     """Ids of all scenarios but the paper's own."""
     folder = ROOT / "scenarios"
     for file in sorted(folder.rglob("*.json")):
-        name = re.sub(r"(\.place)?\.json$", "", str(file.relative_to(folder)))
+        name = re.sub(r"(\.blueprint)?\.json$", "", str(file.relative_to(folder)))
         is_scenario = not file.name.endswith(".job.json") and file.name != "study.json"
         if is_scenario and not name.endswith(PAPERS_OWN):
             yield name
 
 
 def sample_of(names):
-    """One of every other place: its emergency, if it has one."""
-    by_place = {}
+    """One of every other folder: its emergency, if it has one."""
+    by_folder = {}
     for name in names:
-        place = name.partition("/")[0]
-        if place not in by_place or name == f"{place}/emergency":
-            by_place[place] = name
-    return list(by_place.values())[::2]
+        folder = name.partition("/")[0]
+        if folder not in by_folder or name == f"{folder}/emergency":
+            by_folder[folder] = name
+    return list(by_folder.values())[::2]
 
 
 def metrics_of(scenario, folder, drones=None):

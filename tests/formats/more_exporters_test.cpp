@@ -429,11 +429,8 @@ TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {
   EXPECT_EQ(value_at<std::int32_t>(flo, 4), 160);
   EXPECT_EQ(value_at<float>(flo, 12 + 8 * 500), 1.5F);
   const std::string exr = read_file(exported("depth-exr") / "run000-d1/run000-d1-000001.exr");
-  EXPECT_EQ(value_at<std::uint32_t>(exr, 0), 20000630U);
-  // The last pixel of the last line ends the file.
-  const images::Raster depth = images::read_raster(root_ / "depth/run000/d1/000001.png");
-  EXPECT_NEAR(value_at<float>(exr, exr.size() - 4), depth.samples.back() / 100.0, 0.005);
-  EXPECT_EQ(exr.size() % 4, (exr.size() - 120 * (8 + 8 + 4 * 160)) % 4);
+  EXPECT_EQ(value_at<std::uint32_t>(exr, 0), 20000630U);  // hand_made_files_test reads one
+  EXPECT_LT(exr.size(), 4U * 160 * 120) << "compressed";
 }
 
 TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {

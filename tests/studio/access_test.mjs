@@ -44,7 +44,7 @@ test("operations of the API are searched, shown and sent", async () => {
   assert.equal(await page.locator("details.source").count(), count);
   await page.getByRole("searchbox").fill("post keys");
   await page.getByText("1 operation", { exact: true }).waitFor();
-  await page.getByRole("searchbox").fill("one of the places");
+  await page.getByRole("searchbox").fill("get a scenario, its floor plan");
   await page.getByText("1 operation", { exact: true }).waitFor();
   await page.locator("details.source summary").focus();
   await page.keyboard.press("Enter");

@@ -131,7 +131,14 @@ try {
     },
     { name: "calibration", address: `/calibrations/${calibration}`, height: 1000, ready: ".board-view circle" },
     { name: "study", address: `/studies/${study}`, height: 1180, ready: ".convergence .series" },
-    { name: "blueprint", address: "/blueprint", height: 980, ready: ".plan-element", start: "city_square/emergency", pending: "checking …" },
+    {
+      name: "blueprint",
+      address: "/blueprint",
+      height: 980,
+      ready: ".plan-element",
+      start: "city_square/emergency",
+      pending: "checking …",
+    },
     { name: "fly", address: `/fly?flight=${flight}`, height: 940, ready: ".badge.recording", action: flyAbout },
   ];
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });

@@ -33,12 +33,12 @@ class Counter : public sim::RunObserver {
   long max_present_ = 0;
 };
 
-void expect_it_runs(ImportedScenario scenario, int people) {
+void expect_it_runs(ImportedScenario imported, int people) {
   const throng::testing::TemporaryFolder folder;
-  const Population population = populate(scenario, {people, 3});
+  const Population population = populate(imported, {people, 3});
   EXPECT_EQ(population.starts.size(), static_cast<std::size_t>(people));
-  const auto file = write_imported_scenario(scenario, population, folder.path());
-  const world::Scenario scenario = scenarios::find_scenario(folder.path(), scenario.name);
+  const auto file = write_imported_scenario(imported, population, folder.path());
+  const world::Scenario scenario = scenarios::find_scenario(folder.path(), imported.name);
   EXPECT_EQ(scenario.exits.size(), population.gates.size());
   for (const scenarios::Finding& finding : scenarios::check_files(file)) {
     EXPECT_NE(finding.severity, scenarios::Severity::error) << finding.text();

@@ -118,7 +118,7 @@ TEST(Sdf, AModelThatIncludesItselfEnds) {
   }
 }
 
-ImportedScenario read_world(const std::string& body, const std::string& before = "",
+ImportedScenario parse_body(const std::string& body, const std::string& before = "",
                             const std::string& version = "1.7") {
   const TemporaryFolder folder;
   write_file_atomically(
@@ -136,7 +136,7 @@ std::string model_text(const std::string& name, const std::string& geometry,
 const std::string kTower = model_text("tower", "<box><size>4 4 6</size></box>");
 
 TEST(Sdf, OneOddElementCostsOnlyItself) {
-  const ImportedScenario scenario = read_world(
+  const ImportedScenario scenario = parse_body(
       kTower + "<model name='lost'><pose>1 two 3 0 0 0</pose><link name='l'/></model>\n" +
       model_text("unsized", "<box><size>one</size></box>") + "<light name='untyped'/>\n" +
       "<model><link name='nameless'/></model>\n<include><uri>model://nowhere</uri></include>" +
@@ -154,12 +154,12 @@ TEST(Sdf, OneOddElementCostsOnlyItself) {
 
 TEST(Sdf, ReadsOldNewAndUntidyFiles) {
   const std::string untidy = "<!-- by hand -->\n<?xml version='1.0' ?>\n";
-  EXPECT_EQ(read_world(kTower, untidy).buildings.size(), 1U);
+  EXPECT_EQ(parse_body(kTower, untidy).buildings.size(), 1U);
   for (const char* version : {"1.3", "1.4", "1.5", "1.6", "1.9", "1.11", "1.12"}) {
-    EXPECT_EQ(read_world(kTower, "", version).buildings.size(), 1U) << version;
+    EXPECT_EQ(parse_body(kTower, "", version).buildings.size(), 1U) << version;
   }
   try {
-    read_world("<model name='m'>\n</world>");
+    parse_body("<model name='m'>\n</world>");
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_NE(error.problems().front().where.find("line"), std::string::npos) << error.what();
@@ -167,7 +167,7 @@ TEST(Sdf, ReadsOldNewAndUntidyFiles) {
 }
 
 TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
-  const ImportedScenario scenario = read_world(
+  const ImportedScenario scenario = parse_body(
       "<model name='hall'><pose>20 0 0 0 0 0</pose><link name='l'><visual name='v'><geometry>"
       "<polyline><point>0 0</point><point>10 0</point><point>0 10</point><height>5</height>"
       "</polyline></geometry></visual></link></model>" +
@@ -186,7 +186,7 @@ TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
 }
 
 TEST(Sdf, ALinkWithoutItsMeshIsDrawnByItsCollisions) {
-  const ImportedScenario scenario = read_world(
+  const ImportedScenario scenario = parse_body(
       "<model name='cafe'><link name='l'><visual name='v'><geometry><mesh>"
       "<uri>model://cafe/cafe.dae</uri></mesh></geometry></visual><collision name='wall'>"
       "<pose>0 0 1.5 0 0 0</pose><geometry><box><size>8 1 3</size></box></geometry></collision>"
@@ -203,7 +203,7 @@ TEST(Sdf, AClosedRoomHasGroundAroundIt) {
              "</pose><geometry><box><size>20.2 0.2 3</size></box></geometry></collision>";
   }
   ImportedScenario scenario =
-      read_world("<model name='room'><link name='l'>" + walls + "</link></model>");
+      parse_body("<model name='room'><link name='l'>" + walls + "</link></model>");
   EXPECT_NE(skipped_with(scenario, "walled up"), nullptr);
   EXPECT_FALSE(populate(scenario, {10, 1}).gates.empty());
   EXPECT_NE(skipped_with(scenario, "no exit can be reached from"), nullptr);

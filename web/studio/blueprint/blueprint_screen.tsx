@@ -3,7 +3,7 @@ import { useEffect, useLayoutEffect, useMemo, useState } from "preact/hooks";
 import type { JsonObject } from "../form/json";
 import { useCheckedBlueprint } from "./check";
 import { type Element, elementsOf, rectangleOf } from "./elements";
-import { OpenBar, storedBlueprint, storeBlueprint, UploadPanel } from "./file";
+import { OpenBar, storeBlueprint, storedBlueprint, UploadPanel } from "./file";
 import { FindingList } from "./findings";
 import { type History, useHistory } from "./history";
 import { kKinds, type Point } from "./kinds";

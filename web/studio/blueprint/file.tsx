@@ -92,7 +92,11 @@ export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (d
       <FileButton accept=".json,application/json" onFiles={([file]) => void readFile(file!)}>
         Open a file
       </FileButton>
-      <a class="button" href={`data:application/json,${encodeURIComponent(textOf(document))}`} download={`${wordOf(document)}.blueprint.json`}>
+      <a
+        class="button"
+        href={`data:application/json,${encodeURIComponent(textOf(document))}`}
+        download={`${wordOf(document)}.blueprint.json`}
+      >
         Save as a file
       </a>
       {error && (

@@ -1,6 +1,6 @@
 // Findings of the check of a blueprint, with the way to each element.
 import { countText } from "../parts/format";
-import type { Finding, BlueprintCheck } from "./check";
+import type { BlueprintCheck, Finding } from "./check";
 import { type Element, elementAt } from "./elements";
 
 interface FindingListProps {

@@ -79,7 +79,7 @@ TEST_P(Projected, IsEastAndNorthOfTheOrigin) {
     ASSERT_EQ(file.points.size(), 1);
     const Vector2d expected = east_north(origin, latitude, longitude);
     // Within 500 m the convergence of meridians is below half a meter up to 70 degrees.
-    EXPECT_LT((file.points[0].scenario - expected).norm(), 0.02 + 0.001 * expected.norm());
+    EXPECT_LT((file.points[0].position - expected).norm(), 0.02 + 0.001 * expected.norm());
     EXPECT_EQ(file.points[0].id, 5);
     EXPECT_EQ(file.points[0].tags.at("natural"), "tree");
   }
@@ -93,7 +93,7 @@ TEST(Projection, HasItsOriginInTheMiddleOfTheBounds) {
   const OsmFile file = read_text(
       "<osm version='0.6'><bounds minlat='50' minlon='8' maxlat='50.01' maxlon='8.02'/>"
       "<node id='1' lat='50.005' lon='8.01'><tag k='a' v='b'/></node></osm>");
-  EXPECT_NEAR(file.points.at(0).scenario.norm(), 0, 0.02);
+  EXPECT_NEAR(file.points.at(0).position.norm(), 0, 0.02);
   EXPECT_TRUE(file.has_bounds);
   const Vector2d high = east_north({50.005, 8.01}, 50.01, 8.02);
   EXPECT_NEAR(file.bounds.max.x(), high.x(), 0.2);
