@@ -1,5 +1,5 @@
-// published.json: where the finished dataset of a job was brought. Written by the task "publish"
-// once everything is there.
+// published.json: the object store that holds the finished dataset of a job. The task "publish"
+// writes the file once all objects have been uploaded.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,18 @@
 
 namespace throng::jobs {
 
+/// An uploaded dataset.
 struct Delivery {
-  std::string address;  ///< s3://...
-  std::int64_t objects = 0;
-  std::int64_t bytes = 0;
+  std::string address;       ///< s3://BUCKET/PREFIX
+  std::int64_t objects = 0;  ///< number of uploaded objects
+  std::int64_t bytes = 0;    ///< total size of the objects
 };
 
-/// Throws EnvironmentError.
+/// Writes published.json into the job's folder, atomically. Throws EnvironmentError.
 void write_delivery(const JobFolder& folder, const Delivery& delivery);
 
-/// Nothing as long as the dataset was not published. Throws EnvironmentError.
+/// Reads published.json; std::nullopt if the dataset has not been published. Throws
+/// EnvironmentError for a damaged file.
 std::optional<Delivery> read_delivery(const JobFolder& folder);
 
 }  // namespace throng::jobs

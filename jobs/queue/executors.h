@@ -1,4 +1,4 @@
-// The executors that there are, by the names that users give them.
+// Table of the available executors by name (option --executor).
 #pragma once
 
 #include <memory>
@@ -11,25 +11,28 @@
 
 namespace throng::jobs {
 
+/// The chosen executor and the options of every kind; each kind reads its own.
 struct ExecutorOptions {
   std::string name = "local";
   LocalProcessesOptions local = {};
   SlurmOptions slurm = {};
 };
 
+/// One row of the table: name, help text, factory and check.
 struct ExecutorKind {
   const char* name;
-  const char* help;  ///< where tasks run
+  const char* help;  ///< tells users where tasks run
   std::unique_ptr<Executor> (*make)(const ExecutorOptions& options);
-  /// Asks whether it can work with these options. Throws InputError; returns why there is no answer
-  /// for now, "" when all is well.
+  /// Checks the options before any task runs, for Slurm by a question to its controller. Throws
+  /// InputError if they are refused. Returns why they could not be checked; "" if they are
+  /// accepted.
   std::string (*check)(const ExecutorOptions& options);
 };
 
-/// All of them, the default first.
+/// All kinds; the default comes first.
 const std::vector<ExecutorKind>& executor_kinds();
 
-/// Throws InputError for a name that there is not.
+/// The kind of this name. Throws InputError for an unknown name.
 const ExecutorKind& executor_kind(const std::string& name);
 
 }  // namespace throng::jobs

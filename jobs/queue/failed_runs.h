@@ -1,4 +1,5 @@
-// Which runs of a job came to no end, for those who gather the others: a file in the job's folder.
+// failed_runs.json: the runs of a job that failed. The task that collects the dataset reads it and
+// leaves these runs out.
 #pragma once
 
 #include <string>
@@ -8,19 +9,20 @@
 
 namespace throng::jobs {
 
+/// A failed run and the task that failed.
 struct FailedRun {
-  int run = 0;
-  std::string task;  ///< that failed
+  int run = 0;       ///< index of the run
+  std::string task;  ///< name of the failed task, e.g. "run000/shard0003"
 };
 
-/// Notes them before the dataset is gathered. Throws EnvironmentError.
+/// Writes the list; call it before the dataset is collected. Throws EnvironmentError.
 void write_failed_runs(const JobFolder& folder, const std::vector<FailedRun>& runs);
 
-/// None when nothing is noted. Throws EnvironmentError.
+/// Reads the list; empty if there is no file. Throws EnvironmentError.
 std::vector<FailedRun> read_failed_runs(const JobFolder& folder);
 
-/// Makes ready for another try: a dataset without them is taken away, and the note. Safe to repeat
-/// after any interruption.
+/// Prepares another try: if runs are listed, removes the dataset that lacks them, then the list.
+/// Safe to repeat after any interruption.
 void forget_failed_runs(const JobFolder& folder);
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// The character library that a job is rendered with: the same from its first frame to its last.
+// Pins the character library of a job, so that all of its frames are rendered with the same one.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 namespace throng::jobs {
 
-/// Notes the population's content hash in the job's folder (work/people), or checks that it is the
-/// one that is noted there: a library that is rebuilt while a job runs must not mix with the old
-/// one. Safe to be called by several workers at once. Throws EnvironmentError naming both.
+/// Records the content hash of the character library in the job's folder (work/people), or compares
+/// it with the hash recorded there, because a library that is rebuilt while a job runs must not mix
+/// with the old one. Safe to call from several workers at once. Throws EnvironmentError that names
+/// both hashes if they differ.
 void pin_library(const JobFolder& folder, const std::string& content_hash);
 
-/// The hash that was noted; empty when no frame has been rendered.
+/// The recorded hash; "" if no worker has recorded one yet.
 std::string pinned_library(const JobFolder& folder);
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// Profile of a job's rendering: every worker writes its own clock beside its log, and the caller
-// adds them up. Nothing of it is part of the dataset.
+// Profile of a job's rendering: every worker writes the times of its stages beside its log, and
+// `throng run --profile` adds them up. The profile is no part of the dataset.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,19 @@
 
 namespace throng::jobs {
 
-/// Set in the environment of workers that shall measure themselves.
+/// Environment variable that makes workers measure their stages; any value counts.
 inline constexpr const char* kProfileVariable = "THRONG_PROFILE";
 
-/// Whether this process shall.
+/// Whether $THRONG_PROFILE is set for this process.
 bool is_profiling();
 
-/// A worker's times, for `images` images: logs/TASK.profile.json.
+/// Writes logs/TASK.profile.json: CPU and wall time per stage, over `images` images. Throws
+/// EnvironmentError.
 void write_profile(const JobFolder& folder, const Task& task, const StageClock& clock,
                    std::int64_t images);
 
-/// A table of all tasks' times by stage, dearest first, as text; says so when there are none.
+/// A text table of the mean times per image by stage, over all render tasks, greatest CPU time
+/// first; a sentence that says so if no task was measured.
 std::string profile_table(const JobFolder& folder, const JobSpec& job);
 
 }  // namespace throng::jobs

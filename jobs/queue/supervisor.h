@@ -1,4 +1,4 @@
-// Brings one job from its spec to its dataset. Used by `throng run` and by the server.
+// Runs all tasks of one job, from its spec to its dataset. `throng run` and the server use it.
 #pragma once
 
 #include <cstdint>
@@ -16,69 +16,70 @@
 
 namespace throng::jobs {
 
-/// Progress of a run.
+/// Stage of a run.
 enum class Stage { waiting, simulating, rendering, rendered, publishing, finished, failed };
 
 std::string_view to_string(Stage stage);
 
-/// How fast images are made, and how long what is left takes at that rate. Nothing is known before
-/// the first image.
+/// Rate of rendering and the time left at that rate.
 struct Pace {
-  double images_per_s = 0;
-  std::optional<double> remaining_s;
+  double images_per_s = 0;            ///< 0 before the first image
+  std::optional<double> remaining_s;  ///< none before the first image
 };
 
 struct RunProgress {
   int run = 0;
   std::uint64_t seed = 0;
   Stage stage = Stage::waiting;
-  double simulated_s = 0;  ///< of CaptureSpec::to_s
-  double duration_s = 0;
+  double simulated_s = 0;        ///< simulated time so far
+  double duration_s = 0;         ///< simulated time at the end: CaptureSpec::to_s
   std::int64_t images_done = 0;  ///< over all cameras
   std::int64_t images_total = 0;
   Pace pace;
 };
 
-/// A shard that somebody works on.
+/// A shard that a worker renders now.
 struct ShardProgress {
   Task task;
   std::int64_t images_done = 0;
   std::int64_t images_total = 0;
   Pace pace;
-  std::string node = {};  ///< of a cluster; "" on this machine
+  std::string node = {};  ///< the worker's cluster node; "" on this machine
 };
 
-/// The way of a job's dataset to an object store.
+/// Progress of the upload of a dataset to an object store.
 struct DeliveryProgress {
   std::string address;  ///< s3://...
   std::int64_t bytes_done = 0;
   std::int64_t bytes_total = 0;              ///< 0: not known yet
-  std::optional<std::int64_t> objects = {};  ///< once all are there
+  std::optional<std::int64_t> objects = {};  ///< number of objects, once all are uploaded
 };
 
+/// Progress of a whole job.
 struct JobProgress {
   std::vector<RunProgress> runs;
-  std::vector<ShardProgress> shards;  ///< begun and not at their end
-  std::vector<NodeWork> nodes = {};   ///< of a cluster, by name
-  Pace pace;
-  std::optional<DeliveryProgress> delivery = {};  ///< of a job that asks for it, from its begin on
+  std::vector<ShardProgress> shards;  ///< shards that have images but not all of them
+  std::vector<NodeWork> nodes = {};   ///< cluster nodes sorted by name; empty without a cluster
+  Pace pace;                          ///< over all runs that have not failed
+  std::optional<DeliveryProgress> delivery = {};  ///< from the start of the upload on, if any
 };
 
 using OnJobProgress = std::function<void(const JobProgress&)>;
 
-/// A run that came to no end: one of its tasks failed for good.
+/// A failed run: one of its tasks failed after all attempts.
 struct RunFailure {
   int run = 0;
-  std::string task;
-  std::string message;
-  int attempts = 0;
+  std::string task;     ///< name of the failed task
+  std::string message;  ///< for people; begins with the task's name
+  int attempts = 0;     ///< at the failed task
 };
 
-/// Does every task of the job whose output is not there yet. Safe to repeat after any interruption;
-/// the result has the same bytes. Runs that fail are left out of the dataset and returned; a
-/// repetition tries them again. `share` says whose job it is. No other supervisor may be at work in
-/// the folder. Throws InputError, EnvironmentError (no run came to its end: says which task and
-/// why), Cancelled.
+/// Runs every task of the job whose output does not exist yet. Safe to repeat after any
+/// interruption; the result has the same bytes. Runs that fail are left out of the dataset and
+/// returned; another call tries them again. `share` names the job's owner. Calls `on_progress` from
+/// the calling thread. Throws InputError for a wrong job, EnvironmentError if all runs failed
+/// (names the task and the cause) or another supervisor works in the folder, and Cancelled after a
+/// stop.
 std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job, Executor& executor,
                                 const OnJobProgress& on_progress = {}, std::stop_token stop = {},
                                 const Share& share = {});

@@ -1,5 +1,5 @@
-// The hash of a run's trace, beside it. A trace that was damaged since is made again; the library
-// that reads it would crash at some damages.
+// Seal of a run's trace: its SHA-256 in the file TRACE.sha256. A trace that no longer matches its
+// seal is simulated again, because the HDF5 library can crash on damaged files.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,15 @@
 
 namespace throng::jobs {
 
-/// Notes the hash of a trace that was just written. Throws EnvironmentError.
+/// Writes the seal of a trace that was just written. Throws EnvironmentError.
 void seal_trace(const std::filesystem::path& trace);
 
-/// SHA-256 of a trace in hex: the one that was noted, or without a seal that of the file. Throws
+/// SHA-256 of a trace in hex, read from its seal; without a seal, computed from the file. Throws
 /// EnvironmentError.
 std::string sealed_hash(const std::filesystem::path& trace);
 
-/// Removes a trace that is no longer what it was when it was sealed; one without a seal is left
-/// alone. Throws EnvironmentError.
+/// Removes a trace and its seal if they do not match; keeps a trace without a seal. Throws
+/// EnvironmentError.
 void remove_if_damaged(const std::filesystem::path& trace);
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// Result of a check of uploaded scenarios.
+// Result of a check of uploaded scenarios, passed as JSON from the confined task to the server.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,17 +9,19 @@
 
 namespace throng::jobs {
 
-/// Something that stops nobody from using the scenarios.
+/// A finding that does not prevent the use of the scenarios.
 struct ScenarioFinding {
-  bool is_error = false;  ///< else a warning
+  bool is_error = false;  ///< false: a warning
   Problem problem;
-  std::string remedy;
+  std::string remedy;  ///< how to fix it
 };
 
+/// The scenarios of one upload.
 struct CheckedScenarios {
-  std::vector<std::string> ids;                ///< below the folder
-  std::vector<ScenarioFinding> findings = {};  ///< of all
-  /// Summary of each for clients (spec/scenarios/scenario_summary.h), in the order of the ids.
+  std::vector<std::string> ids;                ///< relative to the uploaded folder
+  std::vector<ScenarioFinding> findings = {};  ///< over all scenarios
+  /// Summary of each scenario for clients (spec/scenarios/scenario_summary.h), in the order of
+  /// `ids`.
   std::vector<nlohmann::json> summaries = {};
 };
 

@@ -1,4 +1,4 @@
-// One child process whose stdout we read, in a process group of its own.
+// A child process in a process group of its own, with its stdout as a pipe.
 #pragma once
 
 #include <sys/types.h>
@@ -16,32 +16,34 @@ struct ExitStatus {
   int signal = 0;  ///< 0: none
 };
 
-/// This process's variables that reach object stores, for the one child that uses them.
+/// The environment variables of this process with credentials of object stores ($AWS_...), to be
+/// passed only to the child that publishes.
 std::vector<std::pair<std::string, std::string>> credential_variables();
 
+/// Owns one child process. Use from one thread at a time.
 class ChildProcess {
  public:
   using Variables = std::vector<std::pair<std::string, std::string>>;
 
   /// Starts command[0] (searched in PATH) with this process's environment changed by `variables`.
-  /// Credentials of object stores ($AWS_...) are not handed on, unless they are among `variables`;
-  /// the files that hold them are named in $THRONG_PRIVATE_CREDENTIALS
-  /// (jobs/queue/confine/file_fence.h). stderr is appended to the file `log`; stdin is the
-  /// descriptor `input`, or empty. Throws EnvironmentError.
+  /// Credentials of object stores ($AWS_...) are removed from it unless `variables` contains them;
+  /// $THRONG_PRIVATE_CREDENTIALS names their files (jobs/queue/confine/file_fence.h). stderr is
+  /// appended to the file `log`; stdin is the descriptor `input`, or empty for -1. Throws
+  /// EnvironmentError.
   ChildProcess(const std::vector<std::string>& command, const Variables& variables,
                const std::filesystem::path& log, int input = -1);
-  /// Kills what still runs.
+  /// Kills the process group if it still runs.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// The read end of its stdout, to poll.
+  /// The read end of its stdout, for poll(); owned by this object.
   int output() const { return output_; }
-  /// The whole lines that have arrived; never blocks.
+  /// The complete lines that have arrived since the last call, without line breaks; never blocks.
   std::vector<std::string> read_lines();
-  /// Whether the process has ended; it stays to be collected by wait().
+  /// Whether the process has ended; wait() is still required to reap it.
   bool has_ended() const;
-  /// Kills what the process left behind in its group and collects it. Blocks until it has ended.
+  /// Blocks until the process has ended, kills the remaining processes of its group and reaps it.
   ExitStatus wait();
   /// Sends a signal to the process and its children.
   void signal_group(int signal) const;
@@ -49,7 +51,7 @@ class ChildProcess {
  private:
   pid_t pid_ = -1;
   int output_ = -1;
-  std::string pending_;  ///< a line that has not ended yet
+  std::string pending_;  ///< an incomplete line
 };
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// Restricts the files that a child process can access (Landlock, Linux 5.19): code that takes over
-// the reader of a mesh or an image can neither change files of others nor read the service's keys.
+// Restricts the files that a child process can access (Landlock, Linux 5.19): an attacker who takes
+// over the parser of a mesh or an image can neither change other files nor read the service's keys.
 #pragma once
 
 #include <filesystem>
@@ -8,39 +8,44 @@
 
 namespace throng::jobs {
 
-/// The service's data folder, whose files children do not read but for what FileFence names. Unset
-/// for `throng run`: there is nothing to hide.
+/// Environment variable with the service's data folder. Children may read only the parts of it that
+/// their FileFence names. Unset for `throng run`, which has nothing to hide.
 inline constexpr const char* kPrivateFolderVariable = "THRONG_PRIVATE_FOLDER";
-/// Likewise of its databases, where they lie elsewhere: children read nothing of it.
+/// Environment variable with the folder of the service's databases if it is outside the data
+/// folder. Children may read nothing in it.
 inline constexpr const char* kPrivateDatabaseVariable = "THRONG_PRIVATE_DATABASE";
 
-/// Files with credentials of object stores, with colons between them: only the worker that
-/// publishes reads them, and those in ~/.aws.
+/// Environment variable with the files that hold credentials of object stores, separated by colons.
+/// Only the worker that publishes may read them and the files in ~/.aws.
 inline constexpr const char* kPrivateCredentialsVariable = "THRONG_PRIVATE_CREDENTIALS";
 
+/// Rules of access. Everything outside of `hidden` may be read.
 struct FileFence {
-  /// Files and folders that may be written, read and removed; those that do not exist are left out.
+  /// Files and folders that may be written, read and removed; nonexistent ones are ignored.
   std::vector<std::filesystem::path> writable;
-  /// Folders whose content may not be read, except for what is in `writable` and `readable`.
+  /// Files and folders that may not be read, except for the parts listed in the other members.
   std::vector<std::filesystem::path> hidden = {};
+  /// Exceptions from `hidden`.
   std::vector<std::filesystem::path> readable;
 };
 
-/// From now on this process and its children write nothing outside of `writable`, whatever their
-/// user may do; devices of graphics, /dev/null and shared memory are excepted. Since Linux 6.12
-/// they send signals only to each other. Descriptors that are open stay usable. Returns why the
-/// kernel does not allow it, for people; "" when it does.
+/// Applies the fence to this process and its future children for the rest of their lives, whatever
+/// the permissions of their user. Graphics devices, /dev/null and shared memory stay writable, open
+/// descriptors stay usable. From Linux 6.12 on, signals reach only processes within the fence.
+/// Returns why the kernel refuses, for people; "" on success.
 std::string fence_this_process(const FileFence& fence);
 
-/// Whether a child may read the credentials of object stores.
+/// Access to the credentials of object stores.
 enum class Credentials { hidden, readable };
 
-/// The fence of a child that works in a folder: it reads all but $THRONG_PRIVATE_FOLDER
-/// and $THRONG_PRIVATE_DATABASE, of the former the scenarios, and credentials if it may.
+/// The fence of a child that works in `folder`, which is writable. Hidden are
+/// $THRONG_PRIVATE_DATABASE, $THRONG_PRIVATE_FOLDER except for its folders scenarios and uploads,
+/// and, with Credentials::hidden, the credentials.
 FileFence fence_of_folder(const std::filesystem::path& folder,
                           Credentials credentials = Credentials::hidden);
 
-/// Mesa's folder of compiled shaders, by its documentation; "" if it keeps none.
+/// Mesa's folder of compiled shaders, from $MESA_SHADER_CACHE_DIR, $XDG_CACHE_HOME or $HOME as its
+/// documentation says; "" if none of them is set.
 std::filesystem::path shader_cache_folder();
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// A fork server: a process that has loaded the program and its libraries once, and forks a child
-// for every piece of work. A new start of the program takes a hundred times as long as a fork.
+// A fork server: a process that has loaded the program and its libraries once and forks a child
+// for each request, because a start of the program takes a hundred times as long as a fork.
 #pragma once
 
 #include <condition_variable>
@@ -19,19 +19,19 @@ namespace throng::jobs {
 /// The client's side. Safe to use from many threads.
 class ForkServer {
  public:
-  /// `command` runs run_fork_server(); it is started with the first piece of work, and again when
-  /// it has ended.
+  /// `command` is a program that calls run_fork_server(). It is started at the first call of run(),
+  /// and again if it has ended.
   explicit ForkServer(std::vector<std::string> command);
   /// Ends the server and its children.
   ~ForkServer();
   ForkServer(const ForkServer&) = delete;
   ForkServer& operator=(const ForkServer&) = delete;
 
-  /// Has a child do the work in a folder, and waits for its end. The child's stderr is
-  /// in the folder's log.txt. Throws EnvironmentError when there is no server to be had.
+  /// Forks a child that works in the folder `work`, and blocks until it has ended. The child's
+  /// stderr is appended to work/log.txt. Throws EnvironmentError if the server cannot be started.
   ExitStatus run(const std::filesystem::path& work);
 
-  /// Ends the server and its children: who waits for one gets an EnvironmentError, now and later.
+  /// Ends the server and its children. All waiting and later calls of run() throw EnvironmentError.
   void stop();
 
  private:
@@ -45,9 +45,10 @@ class ForkServer {
   bool is_stopped_ = false;                 ///< guarded by mutex_
 };
 
-/// The server's side: forks a child that returns `work`'s exit code for each folder that it is
-/// sent. A child that takes longer than two minutes is ended by SIGALRM. Returns when its client is
-/// gone, or has asked for nothing for some minutes. Call it before any other thread is started.
+/// The server's side: for each folder received on stdin, a socket, forks a child that calls `work`
+/// and exits with its result. SIGALRM ends a child after two minutes. Returns an exit code once the
+/// client is gone or has sent nothing for five minutes while no child ran. Call it before any other
+/// thread is started.
 int run_fork_server(const std::function<int(const std::filesystem::path&)>& work);
 
 }  // namespace throng::jobs

@@ -1,15 +1,15 @@
-// How much memory there is, for this process and its children.
+// Memory of the machine or container, for this process and its children.
 #pragma once
 
 #include <cstdint>
 
 namespace throng::jobs {
 
-/// All memory, in MiB: the machine's, or what the control group (a container) may use if that is
-/// less. 0 where the kernel does not say.
+/// Total memory in MiB: that of the machine, or the limit of the control group (container) if that
+/// is less. 0 if /proc/meminfo cannot be read.
 std::int64_t total_memory_mib();
 
-/// The part of it that is free now, in MiB, without swapping.
+/// Memory in MiB that can be allocated now without swapping, with the same limits.
 std::int64_t available_memory_mib();
 
 }  // namespace throng::jobs

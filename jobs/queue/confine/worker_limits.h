@@ -1,32 +1,33 @@
-// Confinement of a worker process: it reads scenarios and meshes that strangers may have sent.
+// Confinement of worker processes, because they parse scenarios and meshes from untrusted users.
 #pragma once
 
 #include <string>
 
 namespace throng::jobs {
 
-/// How much address space a worker may use, in MiB; unset or 0: any.
+/// Environment variable with the max address space of a worker in MiB; unset or 0: unlimited.
 inline constexpr const char* kMemoryVariable = "THRONG_WORKER_MEMORY_MIB";
 
-/// Likewise of private writable memory, which reserved addresses are not.
+/// Environment variable with the max private writable memory of a worker in MiB (RLIMIT_DATA),
+/// which excludes merely reserved addresses; unset or 0: unlimited.
 inline constexpr const char* kDataVariable = "THRONG_WORKER_DATA_MIB";
 
-/// From now on other processes of the same user cannot read or change this process's memory, nor
-/// read its environment (/proc/PID): workers run code over files of strangers, and the service has
-/// everybody's keys. Children that it forks are protected, programs that it starts are not.
+/// Keeps other processes of the same user from reading or changing this process's memory and from
+/// reading its environment (/proc/PID), because the service holds all users' keys while workers
+/// parse untrusted files. Forked children inherit the protection, started programs do not.
 void protect_this_process();
 
-/// Whether a process may use the network.
+/// Access to the network.
 enum class Network { refused, allowed };
 
-/// From now on this process and its children connect to nothing, unless they may, trace no process,
-/// write no core dumps, gain no privileges, are ended first when memory runs out, and use no more
-/// memory than $THRONG_WORKER_MEMORY_MIB and $THRONG_WORKER_DATA_MIB. Returns what the kernel does
-/// not allow to be limited, for people; "" for nothing.
+/// Restricts this process and its future children: no network unless allowed, no tracing of other
+/// processes, no core dumps, no further privileges, first to be killed when memory runs out, and no
+/// more memory than $THRONG_WORKER_MEMORY_MIB and $THRONG_WORKER_DATA_MIB. Returns the restrictions
+/// that the kernel refuses, for people; "" if it accepts all.
 std::string limit_this_process(Network network = Network::refused);
 
-/// How many processes the kernel has killed since it started because memory ran out; 0 where it
-/// does not say.
+/// The number of processes that the kernel has killed since boot because memory ran out; 0 if
+/// /proc/vmstat does not say.
 long long kills_for_memory();
 
 }  // namespace throng::jobs

@@ -1,7 +1,6 @@
-// A dataset as one tar or zip file that exists only while it is read: every byte's place follows
-// from the manifest, so the length is known before the first byte, any part can be read on its own,
-// and nothing is copied. (libarchive writes archives front to back only; reading them is tested
-// with it.)
+// A dataset as a virtual tar or zip file: the manifest determines the offset of every byte, so the
+// length is known before the first byte, any range can be read on its own, and nothing is copied.
+// (libarchive can write archives only from front to back; the tests read ours with it.)
 #pragma once
 
 #include <cstdint>
@@ -17,9 +16,9 @@
 
 namespace throng::jobs {
 
-/// An archive of the chosen files of the manifest and of the manifest itself, sorted by path, below
-/// one folder: equal datasets give equal bytes. In a tar file the first of several files with equal
-/// bytes is there and the others are hard links to it.
+/// An archive of the selected files and the manifest, sorted by path, below one folder. Equal
+/// datasets give equal bytes. In a tar file, files with equal bytes are hard links to the first
+/// one.
 class Archive {
  public:
   /// `root` names the folder inside the archive: at most 100 characters of [A-Za-z0-9._-]. Throws
@@ -32,16 +31,17 @@ class Archive {
       : Archive(dataset, read_manifest(dataset), root, format, selection) {}
 
   std::int64_t size() const { return size_; }
-  /// Whether it holds nothing but the manifest.
+  /// Whether the archive contains only the manifest.
   bool is_empty() const { return files_.size() < 2; }
 
-  /// Fills `buffer` with the bytes from `offset` on; returns how many: less than asked for only at
-  /// the end. Throws EnvironmentError when a file is gone or no longer has its size.
+  /// Fills `buffer` with the bytes from `offset` on and returns their number, which is less than
+  /// the buffer's size only at the end. Throws EnvironmentError if a file is missing or has another
+  /// size than in the manifest.
   std::size_t read(std::int64_t offset, std::span<char> buffer) const;
 
  private:
   enum class PartKind : std::uint8_t { header, content, zeros, entry, end };
-  /// A run of bytes up to where the next part begins.
+  /// A range of bytes that ends at the offset of the next part.
   struct Part {
     std::int64_t offset;
     PartKind kind;
@@ -59,13 +59,13 @@ class Archive {
   std::string root_;
   ArchiveFormat format_;
   std::vector<FileEntry> files_;        ///< sorted by path
-  std::vector<ArchiveMember> members_;  ///< of the same files
+  std::vector<ArchiveMember> members_;  ///< one per file, in the order of files_
   std::vector<Part> parts_;
-  std::string end_;  ///< of a zip file
+  std::string end_;  ///< end record of a zip file
   std::int64_t size_ = 0;
 };
 
-/// A name as a file or folder name: lower-case letters, digits and '-', at most 60 of them.
+/// Converts a name to one for files or folders: at most 60 lower-case letters, digits and '-'.
 std::string slug(const std::string& name);
 
 }  // namespace throng::jobs

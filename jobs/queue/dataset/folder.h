@@ -1,16 +1,16 @@
-// A job's folder: where everything that belongs to one job lies.
+// A job's folder, which contains all files of one job.
 //
-//   job.json                  the job as it was resolved, with all defaults
-//   recorded/                 the trajectories that the job replays, if it does
-//   work/run000/trace.h5      published by the task run000/trace; its hash in trace.h5.sha256
+//   job.json                  the resolved job, with all defaults
+//   recorded/                 recorded trajectories that the job replays, if any
+//   work/run000/trace.h5      output of the task run000/trace; its hash is in trace.h5.sha256
 //   work/run000/metrics/      metrics.json, exits.csv
 //   work/run000/shard0003/    images, density maps, previews, records of its frames
 //   failed_runs.json          runs that the dataset lacks, if any
-//   dataset/                  the result; complete when it is there
-//   published.json            where it was brought, if the job asks for that
-//   (jobs/queue/delivery.h) logs/                     what the workers said; logs/nodes.jsonl: on
-//   which nodes of a cluster attempts/                 of a cluster's workers
-//   (jobs/queue/workers/attempts.h)
+//   dataset/                  the result; complete if it exists
+//   published.json            target of the upload, if the job asks for one (jobs/queue/delivery.h)
+//   logs/                     stderr of the workers
+//   logs/nodes.jsonl          attempts by node of a cluster (jobs/queue/slurm/node_records.h)
+//   attempts/                 files of a cluster's workers (jobs/queue/workers/attempts.h)
 #pragma once
 
 #include <filesystem>
@@ -20,35 +20,36 @@
 
 namespace throng::jobs {
 
+/// Paths within a job's folder; holds no resources.
 class JobFolder {
  public:
   explicit JobFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Creates the folder for a job, or checks that the one there is for the same job (then work that
-  /// it holds is taken up). An address to publish to makes no other job. Throws InputError
-  /// when it holds another job or other files, and EnvironmentError.
+  /// Creates the folder for a job, or continues with an existing folder of the same job; jobs that
+  /// differ only in the address to publish to count as the same. Throws InputError if the folder
+  /// contains another job or other files, and EnvironmentError.
   static JobFolder create(std::filesystem::path path, const ResolvedJob& resolved);
 
-  /// Likewise for a folder that is named after the job, so that it can hold no other: a job.json
-  /// that is gone or damaged is written again.
+  /// As create(), for a folder whose name identifies the job: a job.json that is missing, damaged
+  /// or different is replaced.
   static JobFolder restore(std::filesystem::path path, const ResolvedJob& resolved);
 
-  /// Reads job.json, which was checked when the folder was made. Throws EnvironmentError and
-  /// InputError.
+  /// Reads job.json. Throws EnvironmentError and InputError.
   ResolvedJob read_job() const;
 
-  /// Whether a task has published its output: it appears complete or not at all.
+  /// Whether a task has published its output, which appears whole or not at all.
   bool is_done(const Task& task) const;
 
-  /// Removes what workers that died left half-written. Only while no worker is at work here.
+  /// Removes incomplete output of workers that died. Call it only while no worker runs in the
+  /// folder.
   void remove_leftovers() const;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Output of the task: a file for a simulation, a calibration and a report, else a folder. Not
-  /// for a study's runs (spec/study/study_files.h).
+  /// Path of a task's output: a folder for Task::Kind::measure, render and collect, a file for all
+  /// others. Not for a study's runs (spec/study/study_files.h).
   std::filesystem::path output_of(const Task& task) const;
   std::filesystem::path log_file(const Task& task) const;
-  /// Likewise by the task's name.
+  /// Path of the log of the task with this name.
   std::filesystem::path log_file(std::string task_name) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }
   std::filesystem::path dataset() const { return path_ / "dataset"; }

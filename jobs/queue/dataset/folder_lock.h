@@ -1,4 +1,4 @@
-// A lock on a folder that ends with the process that holds it, however that ends.
+// A lock on a folder. The kernel releases it when the process ends, even by a crash.
 #pragma once
 
 #include <filesystem>
@@ -6,16 +6,18 @@
 
 namespace throng::jobs {
 
+/// Holds the lock until destruction.
 class FolderLock {
  public:
-  /// Locks the file of this name in the folder; `what` names the folder in messages. Throws
-  /// EnvironmentError when another process holds it, or the file cannot be made.
+  /// Locks the file `name` in the folder, creating it if needed; `what` describes the folder in
+  /// messages. Throws EnvironmentError if another process holds the lock or the file cannot be
+  /// created.
   FolderLock(const std::filesystem::path& folder, const char* name, const std::string& what);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Whether others still find the locked file: somebody may have removed it.
+  /// Whether the path still leads to the locked file, which may have been removed or replaced.
   bool is_in_place() const;
 
  private:

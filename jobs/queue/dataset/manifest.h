@@ -1,4 +1,5 @@
-// manifest.json: what a dataset holds. Written last, so a dataset that has one is complete.
+// manifest.json: the list of a dataset's files. It is written last, so a dataset with a manifest is
+// complete.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +11,17 @@ namespace throng::jobs {
 
 inline constexpr const char* kManifestName = "manifest.json";
 
-/// Raised when the meaning of a field of the manifest changes.
+/// Incremented when the meaning of a field of the manifest changes.
 inline constexpr int kManifestVersion = 1;
 
+/// A manifest that was read.
 struct Manifest {
-  std::vector<FileEntry> files;  ///< of the dataset, sorted by path, without the manifest itself
-  FileEntry itself;
+  std::vector<FileEntry> files;  ///< of the dataset, sorted by path, without the manifest
+  FileEntry itself;              ///< entry of the manifest file
 };
 
-/// Needs little more memory than its result, however many files there are. Throws EnvironmentError
-/// when there is no manifest or it is damaged.
+/// Reads the manifest of a dataset with little more memory than the result needs. Throws
+/// EnvironmentError if the manifest is missing or damaged.
 Manifest read_manifest(const std::filesystem::path& dataset);
 
 }  // namespace throng::jobs

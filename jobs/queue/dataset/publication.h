@@ -1,4 +1,4 @@
-// Output of one task: files of the dataset, and a record of them for the collecting task.
+// Output of one task: files of the dataset, and a record of them for the task that collects it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace throng::jobs {
 
-/// Indentation of the JSON files that people may open.
+/// Indentation of JSON files that people read.
 inline constexpr int kJsonIndent = 2;
 
 /// A file of the dataset, as its manifest lists it.
@@ -22,29 +22,30 @@ struct FileEntry {
   std::string path;  ///< relative to the dataset, forward slashes
   std::int64_t bytes = 0;
   std::string sha256;
-  std::optional<std::uint32_t> crc32 =
-      std::nullopt;  ///< not there in what older versions published
+  std::optional<std::uint32_t> crc32 = std::nullopt;  ///< missing in the output of older versions
 };
 
 void to_json(nlohmann::json& value, const FileEntry& file);
 void from_json(const nlohmann::json& value, FileEntry& file);
 
-/// Writes a file that nobody reads before the folder around it is published. Creates folders.
-/// Throws EnvironmentError.
+/// Writes a file directly, without a temporary name: for folders that are not yet published.
+/// Creates the folders of the path. Throws EnvironmentError.
 void write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Output under construction, in a staging folder: appears whole at publish(), or never.
-///   files/...     the dataset's files, at their places in it
-///   record.json   {"files": [...], "others": [...], and what the task has to say}
-/// "others" are the files beside files/, with paths relative to the folder.
+/// Output under construction in a staging folder; it appears whole at publish(), or never.
+///   files/...     files of the dataset, at their paths in it
+///   record.json   {"files": [...], "others": [...], and the members of the task's record}
+/// "others" are the files outside of files/, with paths relative to the folder.
 class Publication {
  public:
   explicit Publication(const std::filesystem::path& output);
 
-  /// Adds a file of the dataset; hashes it from memory.
+  /// Writes a file of the dataset and adds its hashes to the record. Throws EnvironmentError.
   void add(std::string path, std::string_view bytes);
+  /// Writes record.json, with "files" and "others" added to `record`, and moves the folder to its
+  /// final path. Throws EnvironmentError.
   void publish(nlohmann::json record);
-  /// For whatever else the task leaves behind.
+  /// The staging folder, for other files of the task.
   const std::filesystem::path& folder() const { return staging_.path(); }
 
  private:
@@ -52,8 +53,8 @@ class Publication {
   std::vector<FileEntry> files_;
 };
 
-/// Published output that is not as it was published: a file is gone, or has other bytes. Its task
-/// has to be done again.
+/// Thrown for published output that has changed: a file is missing or has other bytes. The task has
+/// to be repeated.
 class DamagedOutput : public EnvironmentError {
  public:
   using EnvironmentError::EnvironmentError;
@@ -66,7 +67,7 @@ nlohmann::json read_record(const std::filesystem::path& output);
 /// Hashes all files of the output again. Throws as read_record().
 void check_published(const std::filesystem::path& output, const nlohmann::json& record);
 
-/// Path of a file of the dataset in published output.
+/// Path of the file with `path` in the dataset within the published output of a task.
 std::filesystem::path published_file(const std::filesystem::path& output, const std::string& path);
 
 }  // namespace throng::jobs

@@ -1,4 +1,5 @@
-// Warnings of a job's runs, kept beside the outputs of their tasks for the end of the job.
+// Warnings of a job's runs, stored beside the outputs of their tasks and shown at the end of the
+// job.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +10,12 @@
 
 namespace throng::jobs {
 
-/// Keeps the texts of a task's warnings beside its output, a trace or figures. Throws
-/// EnvironmentError.
+/// Writes the warnings of a task to OUTPUT.warnings.json, where `output` is its trace or metrics.
+/// Throws EnvironmentError.
 void keep_warnings(const std::filesystem::path& output, const std::vector<std::string>& texts);
 
-/// The warnings of the first `runs` runs of a job, each text once: "run000: ...". Files that
-/// cannot be read are left out.
+/// Reads the warnings of the first `runs` runs of a job. Each text is returned once, with the first
+/// run that has it: "run000: ...". Skips files that cannot be read.
 std::vector<std::string> kept_warnings(const JobFolder& folder, int runs);
 
 }  // namespace throng::jobs

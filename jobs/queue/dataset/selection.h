@@ -1,4 +1,4 @@
-// Which files of a dataset are wanted.
+// Selection of files of a dataset for a download.
 #pragma once
 
 #include <string>
@@ -7,20 +7,21 @@
 
 namespace throng::jobs {
 
-/// Nothing said: everything.
+/// The default selects all files.
 struct Selection {
-  /// Folders and files at the top ("images", "metrics.json"), formats ("yolo-detect") and kinds of
-  /// ground truth ("coco", "depth"); none: all.
+  /// Paths of folders and files ("images", "metrics.json"), formats ("yolo-detect") and kinds of
+  /// ground truth ("coco", "depth"); empty: all.
   std::vector<std::string> include = {};
-  /// Whose own files are wanted, by number; none: all. Files of no single run always are.
+  /// Indices of runs, in rising order; empty: all. Files that belong to no single run are always
+  /// selected.
   std::vector<int> runs = {};
 
-  /// Whether the file with this path in the dataset is among them.
+  /// Whether the selection contains the file with this path in the dataset.
   bool holds(std::string_view path) const;
 };
 
-/// "0-3,7": the numbers in a list of ranges, each below `runs`, rising. Throws InputError that
-/// names `pointer`.
+/// Parses a list of ranges such as "0-3,7" into rising, distinct indices below `runs`. Throws
+/// InputError that names `pointer`.
 std::vector<int> parse_runs(const std::string& text, int runs, const std::string& pointer);
 
 }  // namespace throng::jobs

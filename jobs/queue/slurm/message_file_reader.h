@@ -1,4 +1,4 @@
-// The messages of a worker that writes them to a file, read as they come.
+// Reads the messages that a worker on another machine appends to a file.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@
 
 namespace throng::jobs {
 
+/// Follows one file of messages (jobs/queue/workers/attempts.h).
 class MessageFileReader {
  public:
   explicit MessageFileReader(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Reads what is new; false when nothing is. Opens the file again, which is when a network file
-  /// system asks for what others have written.
+  /// Reads new lines; returns false if there are none. Opens the file again, because network file
+  /// systems revalidate their caches on open.
   bool read();
 
-  /// Steps among what was read last.
+  /// The progress messages of the last read().
   const std::vector<TaskProgress>& steps() const { return steps_; }
   const std::optional<WorkerError>& error() const { return error_; }
   const std::optional<AttemptEnd>& end() const { return end_; }
@@ -28,7 +29,7 @@ class MessageFileReader {
  private:
   std::filesystem::path path_;
   std::int64_t offset_ = 0;
-  std::string pending_;  ///< a line that has not ended yet
+  std::string pending_;  ///< an incomplete line
   std::vector<TaskProgress> steps_;
   std::optional<WorkerError> error_;
   std::optional<AttemptEnd> end_;

@@ -1,6 +1,6 @@
-// Which nodes of a cluster did what: totals of a job, kept in its folder, and of this process.
+// Work of a cluster's nodes: totals per job, from a log in its folder, and of this process.
 //
-// logs/nodes.jsonl has a line per attempt that ended:
+// logs/nodes.jsonl has one line per attempt that ended:
 //   {"task":"run000/shard0003","attempt":1,"node":"n2","slurm_job":"17_3","outcome":"succeeded",
 //    "seconds":12.5,"message":""}
 #pragma once
@@ -20,29 +20,31 @@ struct NodeRecord {
   std::string task;
   int attempt = 1;
   std::string node;
-  std::string slurm_job;  ///< "17_3"
+  std::string slurm_job;  ///< array job and index: "17_3"
   std::string outcome;    ///< "succeeded", "lost", or to_string(Outcome)
-  double seconds = 0;     ///< by its worker, or from when it was first seen running
+  double seconds = 0;     ///< duration as reported by the worker, else since first seen running
   std::string message = {};
 };
 
-/// "succeeded", "out_of_memory"
+/// Name of an outcome: "succeeded", "out_of_memory".
 std::string to_string(Outcome outcome);
 
 /// Safe to use from many threads.
 class NodeRecords {
  public:
+  /// Counts an attempt that starts on a node.
   void begin(const JobFolder& folder, const std::string& node);
-  /// Also appends the line. That it cannot be written is no reason to fail.
+  /// Counts an attempt that has ended and appends its line to the log; ignores errors of writing.
   void end(const JobFolder& folder, const NodeRecord& record);
-  /// It goes on without us, or is given up before it ended: one less runs.
+  /// Stops counting an attempt as running without an end: it goes on without this process, or is
+  /// given up.
   void leave(const JobFolder& folder, const std::string& node);
 
-  /// The work of each node for a job, sorted by name: noted by earlier processes, and running now.
+  /// Work of each node for a job, sorted by name, including what earlier processes have logged.
   std::vector<NodeWork> of(const JobFolder& folder) const;
-  /// Tasks of all jobs that run now.
+  /// The number of running tasks of all jobs.
   int running() const;
-  /// The work of each node for all jobs since this process began.
+  /// Work of each node for all jobs since this process started.
   std::vector<NodeWork> all() const;
 
  private:

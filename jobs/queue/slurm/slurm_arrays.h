@@ -1,9 +1,11 @@
-// Runs tasks as array jobs of Slurm, on nodes that share the job's folder with this machine.
+// Executor that runs tasks as array jobs of Slurm, on nodes that share the job's folder with this
+// machine.
 //
-// A task's attempt is one index of an array that Slurm never restarts; its folder is its right to
-// publish (jobs/queue/workers/attempts.h). Workers say what they do in files there, and Slurm says
-// what has become of them. Tasks of an earlier process are taken up again: their arrays lie in the
-// job's folder. While the controller does not answer, tasks that run go on and nothing fails.
+// An attempt at a task is one index of an array that Slurm never restarts; its folder is its right
+// to publish (jobs/queue/workers/attempts.h). Workers write messages to files there, and Slurm
+// reports the state of their processes. Tasks of an earlier process are taken up again, because
+// their arrays are in the job's folder. While the controller does not answer, running tasks go on
+// and no task fails.
 #pragma once
 
 #include <atomic>
@@ -22,10 +24,11 @@
 
 namespace throng::jobs {
 
-/// Arrays that calls of run() of this process look after, by name. Safe to use from many threads.
+/// Names of the arrays that the calls of run() in this process supervise. Safe to use from many
+/// threads.
 class SlurmArrayNames {
  public:
-  /// False when somebody else has it.
+  /// Takes an array; returns false if another call has it.
   bool take(const std::string& array);
   void give_back(const std::string& array);
 
@@ -34,22 +37,22 @@ class SlurmArrayNames {
   std::set<std::string> names_;
 };
 
-/// Shared by all calls of run().
+/// State shared by all calls of run().
 struct SlurmShared {
   SlurmOptions options;
   SlurmController controller;
   NodeRecords book = {};
   SlurmArrayNames arrays = {};
-  /// Tasks of an array: a controller with a smaller MaxArraySize is found out by its refusals.
+  /// Max number of tasks in an array; lowered when the controller refuses an array for its size.
   std::atomic<std::size_t> max_tasks = kMaxArrayTasks;
   std::atomic<bool> leaves_tasks = false;
 };
 
-/// Datasets are published by processes of this machine: nodes need no way out of the cluster and
-/// see no credentials.
+/// Tasks that publish datasets run on this machine, so that nodes need no access to other networks
+/// and get no credentials.
 class SlurmArrays final : public Executor {
  public:
-  /// `here`: how tasks run on this machine.
+  /// `here` has the options of tasks that run on this machine.
   explicit SlurmArrays(const SlurmOptions& options = {}, LocalProcessesOptions here = {});
 
   using Executor::run;
@@ -67,8 +70,8 @@ class SlurmArrays final : public Executor {
   LocalProcesses here_;
 };
 
-/// Asks Slurm whether it knows partition, account and resources. Throws InputError with its answer
-/// when it refuses them. Returns why it gave no answer; "" when it gave one.
+/// Asks Slurm whether it accepts partition, account and resources. Throws InputError with its
+/// answer if it refuses them. Returns why it did not answer; "" if it accepts.
 std::string check_slurm(const SlurmOptions& options);
 
 }  // namespace throng::jobs

@@ -23,6 +23,7 @@
 
 namespace throng::jobs {
 
+/// One call of SlurmArrays::run(). Use from one thread; all arguments must outlive it.
 class SlurmBatch {
  public:
   SlurmBatch(SlurmShared& shared, const JobFolder& folder, std::span<const Task> tasks,
@@ -36,9 +37,9 @@ class SlurmBatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// A task that has not come to its end.
+  /// Counters of a task.
   struct Ledger {
-    int losses = 0;       ///< attempts that count for nothing
+    int losses = 0;       ///< attempts lost through no fault of the task
     int exhaustions = 0;  ///< attempts that ran out of memory
   };
 
@@ -51,26 +52,26 @@ class SlurmBatch {
   struct Entry {
     Entry(std::size_t its_task, std::size_t its_index, const std::filesystem::path& messages_file)
         : task(its_task), index(its_index), messages(messages_file) {}
-    std::size_t task;   ///< of tasks_
-    std::size_t index;  ///< in its array
+    std::size_t task;   ///< index in tasks_
+    std::size_t index;  ///< index in its array
     MessageFileReader messages;
-    std::string node = {};                         ///< once it was seen running
-    Clock::time_point begun = {};                  ///< likewise
-    Clock::time_point heard = {};                  ///< when it last said something, or could not
-    std::optional<Clock::time_point> ended = {};   ///< since when Slurm says that it has
-    std::optional<Clock::time_point> absent = {};  ///< since when Slurm does not know it
-    bool is_in_accounting = false;                 ///< the accounting was asked for it
+    std::string node = {};                         ///< "" until it was seen running
+    Clock::time_point begun = {};                  ///< when it was first seen running
+    Clock::time_point heard = {};                  ///< time of the last message, or when suspended
+    std::optional<Clock::time_point> ended = {};   ///< since when Slurm reports its end
+    std::optional<Clock::time_point> absent = {};  ///< since when squeue does not list it
+    bool is_in_accounting = false;                 ///< sacct was asked for it
     bool is_open = true;
   };
 
   struct Array {
     std::string name = {};
-    std::string job = {};  ///< array job; "" as long as it is not known
+    std::string job = {};  ///< number of the array job; "" until it is known
     std::optional<std::future<SlurmAnswer>> submission = {};
-    std::optional<std::future<SlurmAnswer>> accounting = {};  ///< of tasks that Slurm has forgotten
+    std::optional<std::future<SlurmAnswer>> accounting = {};  ///< answer of sacct, if asked
     std::vector<std::size_t> to_cancel = {};                  ///< indices, for the next scancel
-    Clock::time_point since = Clock::now();  ///< what Slurm said earlier does not count
-    int looks_without = 0;                   ///< looks that did not find its name
+    Clock::time_point since = Clock::now();  ///< earlier answers of squeue are ignored
+    int looks_without = 0;                   ///< number of looks that did not find its name
     Clock::time_point last_look = {};
     int nice = 0;
     std::list<Entry> entries = {};
@@ -138,14 +139,14 @@ class SlurmBatch {
   std::list<Array> arrays_;
   std::vector<Ledger> ledgers_;
   std::vector<TaskResult> results_;
-  std::string refusal_;  ///< of the last submission; "" if it was accepted
-  int refusals_ = 0;     ///< in a row
+  std::string refusal_;  ///< refusal of the last submission; "" if it was accepted
+  int refusals_ = 0;     ///< consecutive refusals
   std::size_t max_accepted_ = kMaxArrayTasks;
   Clock::time_point next_submission_ = {};
   Clock::time_point next_messages_ = {};
   bool are_messages_due_ = false;           ///< in this look
   std::string pending_;                     ///< reason_to_wait() of the last look
-  std::string reason_;                      ///< that was last given to Share::on_wait
+  std::string reason_;                      ///< reason last passed to Share::on_wait
   std::vector<SlurmQueue::Key> cancelled_;  ///< attempts whose workers may still run
 };
 

@@ -1,6 +1,6 @@
-// The way to Slurm's controller: one thread runs Slurm's programs, one at a time, so that the
-// controller is asked at a bounded rate however many jobs wait for answers. While it does not
-// answer it is asked again with growing pauses.
+// Access to Slurm's controller: one thread runs Slurm's programs one at a time, so that the rate of
+// requests is bounded for any number of jobs. While the controller does not answer, requests are
+// repeated with growing pauses.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@
 
 namespace throng::jobs {
 
-/// Begins the names of all jobs that we submit.
+/// Prefix of the names of all array jobs that throng submits.
 inline constexpr const char* kSlurmPrefix = "throng-";
 
 /// An answer of squeue.
@@ -32,23 +32,23 @@ struct SlurmQueue {
   Clock::time_point asked = {};  ///< when the answer was asked for; the epoch: never
   std::map<Key, SlurmTask> tasks = {};
   std::map<std::string, std::string> jobs = {};  ///< array jobs by name
-  std::string away = {};                         ///< why newer answers are missing; "" when none is
+  std::string away = {};                         ///< why squeue fails now; "" if it does not
 };
 
+/// Result of one of Slurm's programs.
 struct SlurmAnswer {
-  bool is_ok = false;
-  std::string text;  ///< its output, of stdout and stderr
-  bool is_away = false;
+  bool is_ok = false;    ///< exit code 0
+  std::string text;      ///< stdout and stderr
+  bool is_away = false;  ///< the controller did not answer
 };
 
 struct SlurmControllerOptions {
-  double poll_s = 5;              ///< between two looks at the queue
-  double max_pause_s = 60;        ///< while the controller is away
-  double command_timeout_s = 30;  ///< of Slurm's programs
+  double poll_s = 5;              ///< pause between two calls of squeue
+  double max_pause_s = 60;        ///< max pause while the controller does not answer
+  double command_timeout_s = 30;  ///< time limit of Slurm's programs
 };
 
-/// Runs a program and returns what it prints; ends it when it takes too long, or `stop` asks.
-/// Blocks.
+/// Runs a program and returns its output; ends it at the timeout or a request by `stop`. Blocks.
 SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s,
                       const std::stop_token& stop = {});
 
@@ -56,12 +56,12 @@ SlurmAnswer run_slurm(const std::vector<std::string>& command, double timeout_s,
 class SlurmController {
  public:
   explicit SlurmController(SlurmControllerOptions options);
-  /// Cancels what was asked to be cancelled, if the controller can be reached.
+  /// Runs the pending calls of scancel if the controller can be reached.
   ~SlurmController();
   SlurmController(const SlurmController&) = delete;
   SlurmController& operator=(const SlurmController&) = delete;
 
-  /// As long as one exists the queue is looked at.
+  /// squeue is called regularly as long as an object of this class exists.
   class Watch {
    public:
     explicit Watch(SlurmController& controller);
@@ -73,14 +73,15 @@ class SlurmController {
     SlurmController& controller_;
   };
 
-  /// The newest answer.
+  /// The newest answer of squeue; never null.
   std::shared_ptr<const SlurmQueue> queue() const;
 
-  /// Runs sbatch, or sacct, after everything that was asked for before.
+  /// Queues a call of sbatch or sacct behind all earlier ones.
   std::future<SlurmAnswer> run(std::vector<std::string> command);
-  /// Runs scancel or scontrol; until the controller answers, whatever it answers.
+  /// Queues a call of scancel or scontrol and repeats it until the controller answers, whatever the
+  /// answer is.
   void run_until_answered(std::vector<std::string> command);
-  /// The next look at the queue follows what was asked for before, if the controller answers.
+  /// Calls squeue right after the queued calls, if the controller answers.
   void poll_next();
 
  private:
@@ -88,7 +89,7 @@ class SlurmController {
 
   struct Order {
     std::vector<std::string> command;
-    std::optional<std::promise<SlurmAnswer>> promise;  ///< none: nobody waits for the answer
+    std::optional<std::promise<SlurmAnswer>> promise;  ///< none: the answer is not needed
   };
 
   void work(const std::stop_token& stop);
@@ -105,10 +106,10 @@ class SlurmController {
   std::deque<Order> orders_;                 ///< guarded by mutex_
   std::shared_ptr<const SlurmQueue> queue_;  ///< guarded by mutex_
   int watches_ = 0;                          ///< guarded by mutex_
-  int failures_ = 0;                         ///< in a row; guarded by mutex_
+  int failures_ = 0;                         ///< consecutive failures; guarded by mutex_
   Clock::time_point next_look_ = {};         ///< guarded by mutex_
   Clock::time_point next_order_ = {};        ///< while it is away; guarded by mutex_
-  std::jthread thread_;                      ///< last: ends before what it uses
+  std::jthread thread_;                      ///< last member: joined before the others end
 };
 
 }  // namespace throng::jobs

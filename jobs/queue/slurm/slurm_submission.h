@@ -13,41 +13,43 @@
 
 namespace throng::jobs {
 
-/// Tasks of an array job; no more than a controller takes with its default MaxArraySize.
+/// Max number of tasks in an array job: within the controller's default MaxArraySize of 1001.
 inline constexpr std::size_t kMaxArrayTasks = 1000;
 
-/// The needs of one task: those of an array need the same.
+/// Resources of one task; all tasks of an array have equal needs.
 struct SlurmNeed {
-  std::int64_t memory_mib = 0;    ///< 0: the partition's default
-  std::int64_t estimate_mib = 0;  ///< of the task's memory, from which memory_mib comes; rounded up
-  bool renders = false;
+  std::int64_t memory_mib = 0;    ///< memory to request; 0: the partition's default
+  std::int64_t estimate_mib = 0;  ///< Share::memory_mib, rounded up to 512; 0: unknown
+  bool renders = false;           ///< whether it needs SlurmOptions::gres
   auto operator<=>(const SlurmNeed&) const = default;
 };
 
-/// `estimate_mib` as of Share::memory_mib; `doublings` of memory, one per time that it ran out.
+/// The need of a task with the estimate Share::memory_mib. `doublings` is the number of attempts
+/// that ran out of memory; the request doubles with each, up to four times.
 SlurmNeed slurm_need(const Task& task, std::int64_t estimate_mib, int doublings,
                      const SlurmOptions& options);
 
-/// Environment variables of workers with this need.
+/// Environment variables of the workers of tasks with this need.
 std::vector<std::pair<std::string, std::string>> task_variables(const SlurmNeed& need,
                                                                 const SlurmOptions& options);
 
-/// For a priority of -100 to 100: higher ones are less nice. Only administrators may be less nice
-/// than 0.
+/// Slurm's nice value for a priority of -100 to 100: 100 - priority, since only administrators may
+/// use negative nice values.
 int nice_value(int priority);
 
-/// "throng-0f3a…": the array job's name.
+/// The name of an array job: "throng-" and the array's name.
 std::string slurm_job_name(const std::string& array);
 
-/// sbatch with its arguments, for `count` tasks.
+/// sbatch with its arguments, to submit the first `count` indices of an array.
 std::vector<std::string> submission_words(const JobFolder& folder, const std::string& array,
                                           std::size_t count, const SlurmNeed& need, int nice,
                                           const SlurmOptions& options);
 
-/// sbatch that only asks whether such a job could run: partition, account and limits.
+/// sbatch with its arguments, to check partition, account and limits without submitting a job.
 std::vector<std::string> test_submission(const SlurmOptions& options);
 
-/// The text as one word of a shell.
+/// The text quoted as one word of a POSIX shell.
+
 std::string quoted_for_shell(const std::string& text);
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// Many threads' changes to a database in one commit: the disk is waited for once for all that came
-// while it was busy.
+// Group commit: changes of many threads share one transaction, so that all changes that arrive
+// during a disk sync wait for one further sync only.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -12,14 +12,15 @@
 
 namespace throng::jobs {
 
-/// Safe to use from many threads; nobody else may write through the database.
+/// Safe to use from many threads. Nothing else may write through the same connection.
 class GroupCommit {
  public:
+  /// The database must outlive this object.
   explicit GroupCommit(SQLite::Database& database) : database_(database) {}
 
-  /// Runs the change and returns when it is durable. Its exceptions are rethrown here, and then
-  /// none of it has happened; others' changes are not touched by that. When the commit itself
-  /// fails, all that were in it throw.
+  /// Runs the change, perhaps on another caller's thread, and returns when it is durable. If
+  /// `change` throws, it is rolled back alone and the exception is rethrown here. If the commit
+  /// fails, the calls of all changes in it throw.
   void run(const std::function<void()>& change);
 
  private:

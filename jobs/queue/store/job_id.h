@@ -1,4 +1,5 @@
-// Ids of queued jobs: "j", 9 characters of time, 6 random ones; later jobs sort after earlier ones.
+// Ids of queued jobs: "j", 9 characters of time and 6 random characters in Crockford's base 32. Ids
+// sort by time of submission.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +8,11 @@
 
 namespace throng::jobs {
 
-/// The id for a job made at `now_ms` (Unix time). Always greater than `previous` ("" for none),
-/// also when clocks stand still or go back. `random` makes it hard to guess.
+/// The id of a job submitted at `now_ms` (Unix time). It is greater than `previous` ("" for none)
+/// even if the clock stands still or goes back. `random` makes it hard to guess.
 std::string make_job_id(std::int64_t now_ms, std::string_view previous, std::uint32_t random);
 
-/// Whether a text has the form of an id; anything else names no job (and no folder).
+/// Whether a text has the form of an id. Check it before the text becomes part of a path.
 bool is_job_id(std::string_view text);
 
 }  // namespace throng::jobs

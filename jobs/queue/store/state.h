@@ -1,4 +1,5 @@
-// The states of a queued job, and what may follow what. Pure: the store applies it.
+// State machine of a queued job: states, events and transitions. Pure functions; the store applies
+// them.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ enum class JobEvent {
   succeed_partly,
   fail,
   cancel,
-  retry,  ///< of a job that did not come to its end: what it has published is kept
+  retry,  ///< a partial, failed or cancelled job is queued again; its finished tasks are kept
 };
 
 inline constexpr std::array kJobStates = {JobState::queued,    JobState::running,
@@ -33,18 +34,18 @@ inline constexpr std::array kJobEvents = {
     JobEvent::start, JobEvent::resume, JobEvent::succeed, JobEvent::succeed_partly,
     JobEvent::fail,  JobEvent::cancel, JobEvent::retry};
 
-/// The state after the event; nothing when the event cannot happen in this state.
+/// The state after the event; std::nullopt if the event is not allowed in this state.
 std::optional<JobState> next_state(JobState state, JobEvent event);
 
-/// Whether the job waits or runs: something may still happen to it.
+/// Whether the job is queued or running.
 bool is_active(JobState state);
-/// Whether there is a dataset to be had.
+/// Whether a job in this state has a dataset, complete or partial.
 bool has_dataset(JobState state);
 
 std::string_view to_string(JobState state);
-/// Name of the event: "started", "failed".
+/// Name of the event in the past tense: "started", "failed".
 std::string_view to_string(JobEvent event);
-/// The state of this name; nothing for any other word.
+/// The state of this name; std::nullopt for any other text.
 std::optional<JobState> job_state_named(std::string_view name);
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// The durable queue: one SQLite file in the data folder, one server at a time. Results
-// that a call has returned survive the death of the process and of the machine.
+// The durable job queue: one SQLite file in the data folder, open in one server at a time. A change
+// marked "Durable" survives a crash of the process and of the machine once its call has returned.
 #pragma once
 
 #include <array>
@@ -29,22 +29,23 @@ struct JobRow {
   JobKind kind = JobKind::dataset;
   std::string name;
   JobState state = JobState::queued;
-  int attempt = 0;              ///< how often a supervisor took it up
+  int attempt = 0;              ///< how often a supervisor has started or resumed it
   std::string spec_json;        ///< the job with all defaults; a calibration's or study's request
-  std::string progress_json;    ///< the last that was saved; "" for none
+  std::string progress_json;    ///< last saved progress; "" for none
   std::string error_json;       ///< why it failed; "" for none
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t started_ms = 0;  ///< 0: not yet
   std::int64_t ended_ms = 0;    ///< 0: not yet
   int priority = 0;             ///< higher values start first
   std::vector<std::string> labels = {};
-  std::string owner = {};         ///< of whom it is; "" for nobody in particular
-  std::int64_t bytes = 0;         ///< that its files take on disk, as last measured
-  bool keep = false;              ///< never to be removed for its age
-  std::int64_t kept_from_ms = 0;  ///< its end by Store::service_ms(); 0: not yet
+  std::string owner = {};         ///< id of the key that submitted it; "" without keys
+  std::int64_t bytes = 0;         ///< size of its files on disk, as last measured
+  bool keep = false;              ///< excluded from retention
+  std::int64_t kept_from_ms = 0;  ///< when it ended, by Store::service_ms(); 0: not yet
   int people = 0;                 ///< ResolvedJob::people()
-  std::string waiting_for = {};   ///< not stored: why nobody works on it although it is its turn
-  /// Not stored: its state in the store is none. It counts as failed and can only be removed.
+  std::string waiting_for = {};   ///< not stored: why no task of it runs although it is its turn
+  /// Not stored: the state in the file is not a known one. The job counts as failed and can only be
+  /// removed.
   bool is_damaged = false;
 };
 
@@ -55,10 +56,10 @@ struct JobChange {
   bool keep = false;
 };
 
-/// Limits on all jobs of an owner together.
+/// Limits on all jobs of an owner together; another job is refused once one is reached.
 struct OwnerLimits {
-  int max_active = 0;          ///< that may wait or run; 0: any number
-  std::int64_t max_bytes = 0;  ///< that they may take already; 0: any
+  int max_active = 0;          ///< number of queued and running jobs; 0: unlimited
+  std::int64_t max_bytes = 0;  ///< total JobRow::bytes; 0: unlimited
 };
 
 /// A job to be queued.
@@ -69,46 +70,48 @@ struct NewJob {
   int priority = 0;
   std::vector<std::string> labels = {};
   std::string owner = {};
-  /// A second submission of an owner with the same key is the first one's job; "" for none.
+  /// Idempotency key: another submission of the owner with the same key returns the first one's
+  /// job; "" for none.
   std::string key = {};
-  /// The hash of the request, which tells a repetition from a key that is used twice.
+  /// Hash of the request; it distinguishes a repeated submission from a key that is used twice.
   std::string hash = {};
-  OwnerLimits limits = {};  ///< of the owner, before this job
+  OwnerLimits limits = {};  ///< checked against the owner's jobs without this one
   int people = 0;           ///< ResolvedJob::people()
 };
 
-/// A job that was queued again.
+/// Result of Store::retry().
 struct Retried {
-  std::optional<JobRow> row = {};  ///< nothing when someone else was faster
-  std::string over_quota = {};     ///< why it was not queued: the owner has as much as they may
+  std::optional<JobRow> row = {};  ///< none if the job's state has changed or allows no retry
+  std::string over_quota = {};     ///< the limit that the owner has reached; "" for none
 };
 
+/// Result of Store::add().
 struct Added {
-  JobRow row;
-  bool is_new = true;           ///< else the job of an earlier submission with this key
-  bool is_equal = true;         ///< false: and what was sent then was something else
-  std::string over_quota = {};  ///< why nothing was queued: the owner has as much as they may
+  JobRow row;                   ///< empty if over_quota is set
+  bool is_new = true;           ///< false: `row` is the job of an earlier submission with this key
+  bool is_equal = true;         ///< false: the earlier submission had another NewJob::hash
+  std::string over_quota = {};  ///< the limit that the owner has reached; "" for none
 };
 
-/// Jobs with this label are seen by all keys.
+/// Jobs with this label are visible to all keys.
 inline constexpr const char* kSharedLabel = "shared";
 
-/// Which jobs to list.
+/// Criteria and page of Store::list().
 struct JobFilter {
   JobKind kind = JobKind::dataset;
-  std::vector<JobState> states = {};  ///< none: any
+  std::vector<JobState> states = {};  ///< empty: any
   std::string label = {};             ///< "": any
-  std::string name_part = {};         ///< in upper or lower case; "": any
-  bool oldest_first = false;          ///< else newest first
-  std::string after = {};             ///< the id that the last page ended with; "": from the start
+  std::string name_part = {};         ///< substring of the name, case ignored; "": any
+  bool oldest_first = false;          ///< false: newest first
+  std::string after = {};             ///< last id of the previous page; "": first page
   int limit = 50;
-  std::optional<std::string> visible_to = {};  ///< an owner: their own and shared ones only
+  std::optional<std::string> visible_to = {};  ///< only jobs of this owner and shared ones
 };
 
-/// Something that happened to a job. Numbers rise over all jobs and are never used twice.
+/// An event of a job.
 struct EventRow {
-  std::int64_t seq = 0;
-  std::string job;
+  std::int64_t seq = 0;    ///< increases over all jobs; never used twice
+  std::string job;         ///< id
   std::int64_t at_ms = 0;  ///< Unix time
   std::string type;  ///< "submitted", to_string(JobEvent), "changed", "removed" or record_event()'s
   std::string data_json;
@@ -117,72 +120,79 @@ struct EventRow {
 /// Safe to use from many threads.
 class Store {
  public:
-  /// Milliseconds of Unix time.
+  /// Returns Unix time in milliseconds.
   using Clock = std::function<std::int64_t()>;
 
-  /// Opens or creates the store in `folder`. Throws EnvironmentError when another process has it
-  /// open, or when it cannot be read or was written by a newer throng.
-  /// `steady` is that of ServiceClock.
+  /// Opens or creates the store in `folder`. `clock` defaults to the system clock; `steady` is
+  /// passed to ServiceClock. Throws EnvironmentError if another process has it open, if it cannot
+  /// be read, or if a newer version of throng wrote it.
   explicit Store(const std::filesystem::path& folder, Clock clock = {}, Clock steady = {});
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// Queues a job unless one of its key is there. Durable.
+  /// Queues a job, unless the owner has submitted one with the same key or has reached a limit.
+  /// Durable.
   Added add(const NewJob& job);
 
+  /// The job of this id; std::nullopt if there is none.
   std::optional<JobRow> get(const std::string& id) const;
+  /// One page of the jobs that meet the filter.
   std::vector<JobRow> list(const JobFilter& filter) const;
-  /// How many jobs of any kind are in each state.
+  /// The number of jobs of any kind in each state.
   std::map<JobState, std::int64_t> count() const;
-  /// Jobs that may be begun: those that are running, and of each owner the queued one that is next,
-  /// the oldest of their highest priority.
+  /// Jobs that a supervisor may take up: all running ones, then one queued job per owner, namely
+  /// the oldest with the owner's highest priority.
   std::vector<JobRow> startable() const;
 
-  /// Applies an event if the job is still in the state and attempt of `row`, and the state allows
-  /// it; returns the new row. Nothing when someone else was faster. Durable.
+  /// Applies an event if the job is still in the state and attempt of `row` and next_state() allows
+  /// it. Returns the new row; std::nullopt otherwise. Durable.
   std::optional<JobRow> apply(const JobRow& row, JobEvent event,
                               const std::string& error_json = "");
 
-  /// Applies JobEvent::retry within the limits of the job's owner. Durable.
+  /// Applies JobEvent::retry unless the job's owner has reached a limit. Durable.
   Retried retry(const JobRow& row, const OwnerLimits& limits);
 
-  /// Returns the new row, nothing when there is none. Durable.
+  /// Changes a job's properties. Returns the new row; std::nullopt if there is no such job.
+  /// Durable.
   std::optional<JobRow> change(const std::string& id, const JobChange& change);
 
-  /// Remembers how much disk a job's files take.
+  /// Stores JobRow::bytes of a job.
   void set_bytes(const std::string& id, std::int64_t bytes);
 
-  /// Jobs of any kind that have ended and need not be kept, those that ended first before others.
+  /// At most `limit` jobs of any kind that have ended and may be removed (JobRow::keep is false),
+  /// in the order of their ends.
   std::vector<JobRow> ended(int limit) const;
-  /// The size of all jobs' files.
+  /// The sum of JobRow::bytes of all jobs.
   std::int64_t total_bytes() const;
-  /// Forgets events of removed jobs that are older than this. Returns how many.
+  /// Deletes the "removed" events that are older than this Unix time. Returns their number.
   int forget_events(std::int64_t before_ms);
 
-  /// Remembers the progress of a running attempt; nothing happens when the job has moved on. Costs
-  /// a disk sync: call it at most about once a second.
+  /// Stores the progress of a running attempt; has no effect if the job's state or attempt has
+  /// changed. Costs a disk sync: call it at most about once a second.
   void save_progress(const JobRow& row, const std::string& progress_json);
 
-  /// Records that something happened to a running attempt, likewise.
+  /// Records an event of a running attempt; has no effect if the job's state or attempt has
+  /// changed.
   void record_event(const JobRow& row, const std::string& type, const std::string& data_json);
 
-  /// At most `limit` events after number `after`, in their order: of one job, or of all ("").
+  /// At most `limit` events with numbers above `after`, in rising order, of one job or of all ("").
   std::vector<EventRow> events(const std::string& job, std::int64_t after, int limit) const;
   /// The number of the newest event; 0 for none.
   std::int64_t last_event() const;
 
-  /// The time by the store's clock.
+  /// The store's clock: Unix time in milliseconds.
   std::int64_t now_ms() const { return clock_(); }
-  /// The time by which jobs are kept (jobs/queue/store/service_clock.h).
+  /// The clock of the retention rules, in milliseconds (jobs/queue/store/service_clock.h).
   std::int64_t service_ms() const;
-  /// Saves that time for the next process. Call it every minute or so.
+  /// Saves service_ms() for the next process. Call it about once a minute.
   void save_service_clock();
 
-  /// Throws EnvironmentError if the store's files were removed or replaced: changes are refused.
+  /// Throws EnvironmentError if the store's files were removed or replaced.
   void check_files() const;
 
-  /// Forgets a job and what happened to it. False when there is none. Durable.
+  /// Deletes a job and its events and records the event "removed". Returns false if there is no
+  /// such job. Durable.
   bool remove(const std::string& id);
 
  private:

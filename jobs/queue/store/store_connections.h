@@ -1,5 +1,5 @@
-// The job store's connections to its file: one writes; another reads, so that readers never wait
-// for the disk.
+// The job store's two connections to its file: one writes and one reads, so that readers never wait
+// for a disk sync.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -25,11 +25,12 @@ struct Store::Connections {
   /// Opens or creates the file. Throws EnvironmentError and SQLite::Exception.
   Connections(const std::filesystem::path& folder, const Clock& wall, Clock steady);
 
-  /// Throws EnvironmentError if the file or its lock was removed or replaced: changes of a file
-  /// that nobody finds are lost when the service ends.
+  /// Throws EnvironmentError if the file or its lock was removed or replaced: changes to an
+  /// unlinked file would be lost when the service ends.
   void require_files() const;
 
-  // SQLite's errors are the machine's: disk full, file damaged, locked for too long.
+  /// Runs a query on the reading connection, one thread at a time. Throws EnvironmentError: errors
+  /// of SQLite are failures of the machine (disk full, file damaged, locked for too long).
   template <typename Action>
   auto read(const Action& action) {
     const std::lock_guard guard(reader_mutex);
@@ -40,17 +41,17 @@ struct Store::Connections {
     }
   }
 
-  /// Does the change in a transaction; durable when this returns.
+  /// Runs the change in a transaction; it is durable when this returns.
   void write(const std::function<void()>& change);
 
   FolderLock lock;
   std::filesystem::path file;
-  std::optional<std::pair<dev_t, ino_t>> identity;  ///< of the file
+  std::optional<std::pair<dev_t, ino_t>> identity;  ///< device and inode of the file
   std::mutex reader_mutex;
-  SQLite::Database writer;  ///< only within write()
+  SQLite::Database writer;  ///< used only within write()
   SQLite::Database reader;
   GroupCommit commits;
-  std::string last_id;  ///< only within write()
+  std::string last_id;  ///< id of the newest job; used only within write()
   ServiceClock service_clock;
 };
 

@@ -1,4 +1,4 @@
-// Rows of the job store's table as values, and back.
+// Conversion between rows of the job store's tables and values.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -22,38 +22,40 @@ inline constexpr const char* kColumns =
 JobRow read_row(SQLite::Statement& query);
 /// All rows of a query.
 std::vector<JobRow> read_rows(SQLite::Statement& query);
-/// The first row of a query, if there is any.
+/// The first row of a query; std::nullopt if there is none.
 std::optional<JobRow> read_first_row(SQLite::Statement& query);
 
-/// The job of this id, in the transaction's view.
+/// The job of this id, as the current transaction sees it.
 std::optional<JobRow> find_job(SQLite::Database& database, const std::string& id);
-/// The job that was submitted with this key.
+/// The job that this owner submitted with this idempotency key.
 std::optional<JobRow> find_submission(SQLite::Database& database, const std::string& owner,
                                       const std::string& key);
 
-/// The query of Store::list(), whose parameters are :kind, :limit and, where the filter has them,
+/// The query of Store::list(). Its parameters are :kind, :limit and, if the filter sets them,
 /// :after, :label, :name and :viewer.
 std::string list_query(const JobFilter& filter);
 
-/// `job` has what a row does not: the key of its submission.
+/// Inserts a job. `job` supplies the key and hash of the submission, which a row lacks.
 void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job);
 
-/// Moves a job to its next state if it is still as in `row`; returns the new row.
+/// Moves a job to the state `next` if it still has the state and attempt of `row`. Returns the new
+/// row; std::nullopt otherwise.
 std::optional<JobRow> move_to(SQLite::Database& database, JobState next, const JobRow& row,
                               JobEvent event, const std::string& error_json, const ClockMark& now);
 
+/// Appends an event under the next number.
 void write_event(SQLite::Database& database, const std::string& job, std::int64_t at_ms,
                  const std::string& type, const std::string& data_json);
 
-/// The times that were last saved; nothing in a new store.
+/// The last saved times of the service clock; std::nullopt in a new store.
 std::optional<ClockMark> clock_mark(SQLite::Database& database);
 void save_mark(SQLite::Database& database, const ClockMark& mark);
 
-/// Why an owner may have no further active job; "" when they may.
+/// The limit that keeps an owner from having another active job, as a sentence; "" if none does.
 std::string over_quota(SQLite::Database& database, const std::string& owner,
                        const OwnerLimits& limits);
 
-/// NewJob::hash of a stored job.
+/// The stored NewJob::hash of a job.
 std::string hash_of_submission(SQLite::Database& database, const std::string& id);
 
 }  // namespace throng::jobs

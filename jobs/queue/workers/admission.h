@@ -1,11 +1,10 @@
-// Decides which task may begin next where several jobs have tasks and workers and memory are
-// limited. Running tasks are never ended for others: the claim that is ahead gets the next free
-// worker.
+// Admission control: decides which task of which job starts next when workers and memory are
+// limited. Running tasks are never preempted: the first claim gets the next free worker.
 //
-// Order: the higher priority; then the owner with fewer running tasks, and among equals the one who
-// has had less time of the workers (an owner who comes back gets nothing for the time away); then,
-// of one owner's jobs, the one with the fewest tasks left, so that small jobs end early, but every
-// fourth task is the oldest job's, so that large ones end at all.
+// Claims are ordered by higher priority; then by the owner with fewer running tasks, then by the
+// owner with less worker time so far (an owner who returns gets no credit for the time away). Among
+// one owner's jobs, the one with the fewest tasks left comes first, so that small jobs end early,
+// but every fourth task is the oldest job's, so that large jobs end at all.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +20,11 @@
 
 namespace throng::jobs {
 
+/// Limits on all running tasks together.
 struct AdmissionLimits {
-  int workers = 1;              ///< tasks at once
-  std::int64_t memory_mib = 0;  ///< that all tasks may need together; 0: any
-  /// Memory that the machine has left, in MiB; none: not asked.
+  int workers = 1;              ///< max number of running tasks
+  std::int64_t memory_mib = 0;  ///< max sum of the tasks' needs; 0: unlimited
+  /// Returns the memory that the machine has left, in MiB; empty: not checked.
   std::function<std::int64_t()> available_mib = {};
   SteadyNow now = &steady_now;
 };
@@ -38,7 +38,7 @@ class Admission {
   Admission& operator=(const Admission&) = delete;
 
   const AdmissionLimits& limits() const { return limits_; }
-  /// Jobs that have tasks waiting or running.
+  /// The number of jobs that have a Claimant.
   int jobs() const;
 
   class Permit;
@@ -49,15 +49,15 @@ class Admission {
     std::string name = {};
     int claimants = 0;
     int running = 0;
-    double served_s = 0;  ///< time of workers, less what others got while this one was away
-    int turns = 0;        ///< tasks that were begun
+    double served_s = 0;  ///< worker time, raised on return to the least of the active owners
+    int turns = 0;        ///< number of tasks started so far
   };
 
-  /// The kind of memory that a claim lacks that would be next otherwise.
+  /// The kind of memory that keeps a claim from starting.
   enum class Lack {
     none,
-    limit,    ///< of what all tasks may need together
-    machine,  ///< other programs have it
+    limit,    ///< AdmissionLimits::memory_mib is used up
+    machine,  ///< the machine has too little free memory
   };
 
   struct Claim {
@@ -65,8 +65,8 @@ class Admission {
     std::string job;
     int priority = 0;
     std::size_t tasks_left = 0;
-    std::int64_t memory_mib = 0;  ///< of the task that waits
-    /// When it last asked; not waiting if unset.
+    std::int64_t memory_mib = 0;  ///< need of the waiting task
+    /// Time of the last request; unset if no task waits.
     std::optional<SteadyTime> asked = {};
     Lack lack = Lack::none;
     std::optional<SteadyTime> lacks_since = {};  ///< if `lack` is not none
@@ -90,7 +90,7 @@ class Admission {
   std::list<Running> running_;
 };
 
-/// A task may run as long as it is held.
+/// The right to run one task; given back by the destructor.
 class Admission::Permit {
  public:
   Permit(Permit&& other) noexcept : admission_(other.admission_), running_(other.running_) {
@@ -112,7 +112,7 @@ class Admission::Permit {
   std::list<Running>::iterator running_;
 };
 
-/// One job's place in the queue for workers. Use from one thread.
+/// One job in the queue for workers. Use from one thread.
 class Admission::Claimant {
  public:
   Claimant(Admission& admission, const std::string& owner, const std::string& job);
@@ -120,12 +120,12 @@ class Admission::Claimant {
   Claimant(const Claimant&) = delete;
   Claimant& operator=(const Claimant&) = delete;
 
-  /// Asks to begin a task; nothing when it has to wait: ask again within a second, or lose the
-  /// place to others. `tasks_left` counts this task and all that follow in the job.
+  /// Asks to start a task. Returns std::nullopt if it has to wait: ask again within a second, or
+  /// claims that come later go ahead. `tasks_left` counts this task and all later ones of the job.
   std::optional<Permit> request(int priority, std::size_t tasks_left, std::int64_t memory_mib);
-  /// No task waits now.
+  /// Ends the request: no task of the job waits now.
   void withdraw();
-  /// Whether the task that was last asked for waits for memory, and not for a worker.
+  /// Whether the requested task waits for memory rather than for a worker.
   bool waits_for_memory() const;
 
  private:

@@ -1,5 +1,5 @@
-// Executor of tasks: the plug-in point between a job and the machines. All are listed in
-// jobs/queue/executors.h.
+// Interface of executors, which run the tasks of jobs on machines. jobs/queue/executors.h lists all
+// implementations.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,18 @@
 
 namespace throng::jobs {
 
-/// Why a task ended.
+/// Final result of a task. "After retries" means that all attempts failed.
 enum class Outcome {
   succeeded,
   input_error,        ///< the job is wrong: retrying cannot help
-  environment_error,  ///< the machine failed, also after retries
-  crashed,            ///< the worker died, also after retries
-  timed_out,          ///< the worker hung or took too long, also after retries
-  out_of_memory,      ///< likewise
-  cancelled,
+  environment_error,  ///< the machine failed, after retries
+  crashed,            ///< the worker died, after retries
+  timed_out,          ///< the worker hung or took too long, after retries
+  out_of_memory,      ///< the worker ran out of memory, after retries
+  cancelled,          ///< stopped, or given up with its run
 };
 
+/// Outcome of a task and its explanation.
 struct TaskResult {
   Outcome outcome = Outcome::succeeded;
   int attempts = 0;
@@ -34,35 +35,38 @@ struct TaskResult {
   std::vector<Problem> problems;  ///< of an input error
 };
 
-/// A step of one task: `done` of `total`, in the task's own unit (frames, seconds).
+/// Progress of one task: `done` of `total`, in the task's own unit (frames, seconds).
 struct TaskProgress {
   double done = 0;
   double total = 0;
-  std::string what = {};  ///< what is being done, where the task says so
-  std::string node = {};  ///< of a cluster; "" on this machine
+  std::string what = {};  ///< name of the current step; "" if the task does not name it
+  std::string node = {};  ///< the worker's cluster node; "" on this machine
 };
 
-/// The work of a node of a cluster.
+/// Work of one cluster node.
 struct NodeWork {
-  std::string node = {};
-  int running = 0;    ///< tasks now
-  int done = 0;       ///< tasks that succeeded
-  int failed = 0;     ///< attempts that did not, for whatever reason
-  double busy_s = 0;  ///< of attempts that ended, in all
+  std::string node = {};  ///< its name
+  int running = 0;        ///< tasks that run now
+  int done = 0;           ///< tasks that succeeded
+  int failed = 0;         ///< attempts that failed, for any reason
+  double busy_s = 0;      ///< total duration of the attempts that ended
 };
 
-/// Owner, job and needs of tasks: decide the order where several jobs have tasks
+/// Owner, job and needs of a batch of tasks; they decide the order among several jobs
 /// (jobs/queue/workers/admission.h).
 struct Share {
-  std::string owner = {};                            ///< id of a key; "" for nobody in particular
-  std::string job = {};                              ///< id; older jobs have smaller ones
-  std::function<int()> priority = [] { return 0; };  ///< asked again for each task
+  std::string owner = {};                            ///< id of a key; "" without keys
+  std::string job = {};                              ///< id; older jobs have smaller ids
+  std::function<int()> priority = [] { return 0; };  ///< called before each task starts
+  /// Estimated memory of a task in MiB; 0: unknown.
   std::function<std::int64_t(const Task&)> memory_mib = [](const Task&) { return 0; };
-  std::size_t later_tasks = 0;  ///< that follow once these are done
-  /// Gets the reason why no task of the job runs although it could, and "" once one does.
+  std::size_t later_tasks = 0;  ///< number of the job's tasks after this batch
+  /// Receives the reason why no task of the job runs although some are ready, then "" once one
+  /// does.
   std::function<void(const std::string& reason)> on_wait = [](const std::string&) {};
 };
 
+/// Runs tasks of jobs; retries failures of the machine.
 class Executor {
  public:
   using OnProgress = std::function<void(const Task&, const TaskProgress&)>;
@@ -72,28 +76,27 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
   virtual ~Executor() = default;
 
-  /// Runs independent tasks of one job, as many at once as is good, and returns when none runs any
-  /// more; results are in the order of the tasks. Failures of the machine are retried. Once a task
-  /// has failed for good, the others of its run are ended or not begun: they count as cancelled.
-  /// So do all others once `stop` asks, or the job itself turns out to be wrong (an input error).
-  /// Calls `on_progress` from the calling thread. Safe to use from many threads, each with another
-  /// folder or other tasks.
+  /// Runs independent tasks of one job, several at once, and returns when none runs any more; the
+  /// results are in the order of the tasks. Failures of the machine are retried. When a task has
+  /// failed finally, the other tasks of its run are ended or not started, with Outcome::cancelled;
+  /// after an input error or a request by `stop`, all other tasks are. Calls `on_progress` from the
+  /// calling thread. Safe to call from many threads, each with another folder or other tasks.
   virtual std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
                                       const OnProgress& on_progress, std::stop_token stop,
                                       const Share& share) = 0;
-  /// Likewise, of nobody in particular.
+  /// Runs tasks without an owner.
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
                               const OnProgress& on_progress, std::stop_token stop) {
     return run(folder, tasks, on_progress, std::move(stop), Share{});
   }
 
-  /// From now on a stop leaves tasks running that another process can take up: the next run() of
-  /// them, in whatever process, finds them again. Nothing where tasks end with this process.
+  /// From now on, a stop leaves those tasks running that survive this process; the next run() with
+  /// these tasks, in any process, takes them up again. No effect if tasks end with this process.
   virtual void leave_tasks() {}
 
-  /// The work of a cluster's nodes for the job in a folder, and for all since this process began.
-  /// Empty where there is no cluster.
+  /// Work of the cluster's nodes for the job in a folder; empty without a cluster.
   virtual std::vector<NodeWork> nodes_of(const JobFolder& /*folder*/) const { return {}; }
+  /// Work of the cluster's nodes for all jobs since this process started; empty without a cluster.
   virtual std::vector<NodeWork> nodes() const { return {}; }
 };
 

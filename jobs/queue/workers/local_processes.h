@@ -1,4 +1,4 @@
-// Runs tasks as child processes of this one.
+// Executor that runs tasks as child processes of this process.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,38 @@
 
 namespace throng::jobs {
 
+/// Options of LocalProcesses.
 struct LocalProcessesOptions {
   /// Program and first arguments of a worker; " --job FOLDER --task NAME" is appended. Empty: this
   /// program with the argument "worker".
   std::vector<std::string> command = {};
-  /// Workers at once, over all calls of run(); 0: one per core.
+  /// Max number of workers over all calls of run(); 0: one per core.
   int workers = 0;
-  /// That all workers may need together by Share::memory_mib; 0: any.
+  /// Max sum of Share::memory_mib over all running tasks; 0: unlimited.
   std::int64_t memory_mib = 0;
-  /// Whether tasks wait while the machine has less memory left than they need.
+  /// Whether tasks wait while the machine has less free memory than they need.
   bool waits_for_memory = false;
-  /// How often a task is begun before a failure of the machine is final.
+  /// Max number of attempts at a task, unless it fails with an input error.
   int attempts = 3;
-  /// How long a task rests after its first failure; four times as long after each further one.
+  /// Pause before the second attempt at a task; each further pause is four times as long.
   double rest_s = 1;
-  /// A worker that has said nothing for so long is taken for dead and killed.
+  /// A worker that sends no message for this time is considered dead and killed.
   double lease_s = 60;
-  /// The longest that a task may take; 0: any time.
+  /// Max duration of an attempt; 0: unlimited.
   double max_task_s = 0;
-  /// Address space that a worker may use; 0: any.
+  /// Max address space of a worker; 0: unlimited.
   int worker_memory_mib = 0;
-  /// Without that: whether a worker may have twice the memory that its task is expected to need
-  /// (Share::memory_mib) and 2 GiB, as private data, which is what counts of a GPU's driver.
+  /// If worker_memory_mib is 0: whether to limit a worker's private data to twice its task's
+  /// Share::memory_mib plus 2 GiB. (Address space is no measure with a GPU's driver.)
   bool limits_by_need = false;
-  /// How long a worker may take to end after SIGTERM, before SIGKILL.
+  /// Time between SIGTERM and SIGKILL for a worker that is to end.
   double grace_s = 2;
-  /// By which tasks rest, and leases and the longest time of a task are measured.
+  /// Clock of pauses, leases and durations.
   SteadyNow now = &steady_now;
 };
 
-/// Each worker leads a process group of its own, so that ending it ends its children too, and asks
-/// the kernel to end it when this process dies.
+/// Each worker leads a process group of its own, so that its children end with it, and asks the
+/// kernel to end it when this process dies.
 class LocalProcesses final : public Executor {
  public:
   explicit LocalProcesses(LocalProcessesOptions options = {});

@@ -6,14 +6,14 @@
 
 namespace throng::jobs {
 
-/// Begins the attempt of this index in an array: this process's stdout becomes the attempt's
-/// messages, stderr is appended to the task's log, output is staged in the attempt's folder, and
-/// the array's variables are set. Returns the task's name. Throws EnvironmentError when the right
-/// was taken away, or another process has begun the attempt. Call it before there are threads.
+/// Starts the attempt of this index in an array: redirects this process's stdout to the attempt's
+/// messages and stderr to the task's log, stages output in the attempt's folder, and sets the
+/// array's environment variables. Returns the task's name. Throws EnvironmentError if the attempt
+/// was revoked or another process has started it. Call it before any thread is started.
 std::string begin_attempt(const std::filesystem::path& job_folder, const std::string& array,
                           int index);
 
-/// Says how the attempt ended and what it has published.
+/// Writes the line of AttemptEnd: exit code, duration and published paths.
 void end_attempt(const std::filesystem::path& job_folder, int exit_code);
 
 }  // namespace throng::jobs

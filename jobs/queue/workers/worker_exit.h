@@ -1,4 +1,4 @@
-// Why a worker ended, from its messages and its exit status.
+// Outcome of a worker process, from its messages and its exit status.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,16 @@
 
 namespace throng::jobs {
 
+/// Evidence about a worker that has ended.
 struct EndedWorker {
   ExitStatus status;
-  std::optional<WorkerError> error;  ///< what it said itself
-  std::string timeout;               ///< why its supervisor killed it; "": it did not
-  bool memory_ran_out = false;       ///< the kernel killed processes for memory meanwhile
+  std::optional<WorkerError> error;  ///< error message of the worker
+  std::string timeout;               ///< why the supervisor killed it; "" if it did not
+  bool memory_ran_out = false;       ///< the kernel killed a process for memory while it ran
 };
 
-/// Its outcome and message (attempts are not filled in); the message of a worker that died without
-/// a word ends with the last lines of its log.
+/// Outcome and message of a worker; TaskResult::attempts is not set. If the worker died without an
+/// error message, the result's message ends with the last lines of the log.
 TaskResult task_result(const EndedWorker& end, const std::filesystem::path& log);
 
 }  // namespace throng::jobs

@@ -1,5 +1,4 @@
-// Parts that a worker process shares with its supervisor: the protocol, its messages and its
-// limits.
+// All headers that a worker process shares with its supervisor: protocol, messages, limits.
 #pragma once
 
 #include "jobs/queue/confine/worker_limits.h"

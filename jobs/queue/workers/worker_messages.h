@@ -10,26 +10,27 @@
 
 namespace throng::jobs {
 
-/// Why a worker gives up. `kind` is "input", "environment" or "bug".
+/// The error with which a worker gives up.
 struct WorkerError {
-  std::string kind;
+  std::string kind;  ///< "input", "environment" or "bug"
   std::string message;
   std::vector<Problem> problems;
 };
 
-/// One line: a step, an error, or neither: then it is at least a sign of life.
+/// One line: progress, an error, or neither, which still is a sign of life.
 struct WorkerMessage {
   std::optional<TaskProgress> progress;
   std::optional<WorkerError> error;
 };
 
-/// Lines without line break; always valid UTF-8.
+/// Format one message as a line without line break; always valid UTF-8.
 std::string progress_line(const TaskProgress& progress);
 std::string error_line(const WorkerError& error);
-/// Says that the worker is there. One that is silent for too long is taken for dead.
+/// A message without content. Workers send it regularly, because one without messages for too long
+/// is considered dead.
 std::string sign_of_life_line();
 
-/// Anything that is not a message (a driver may print) gives an empty one.
+/// Parses a line; anything that is not a message, such as output of a driver, gives an empty one.
 WorkerMessage read_worker_message(const std::string& line);
 
 }  // namespace throng::jobs
