@@ -1,5 +1,5 @@
-// How an object store is reached: its endpoint, and the credentials, which come from the
-// environment or from files and from nowhere else.
+// Access to an object store: endpoint and credentials, which are read from the environment and from
+// files only.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace throng::bucket {
 
-/// By the names and files of the AWS command line. Never printed or stored.
+/// Endpoint and credentials, under the names of the AWS command line. Never printed or stored.
 struct Access {
   std::string key_id = {};    ///< $AWS_ACCESS_KEY_ID, or aws_access_key_id of the profile
   std::string secret = {};    ///< $AWS_SECRET_ACCESS_KEY, or aws_secret_access_key
@@ -17,14 +17,15 @@ struct Access {
   std::string endpoint = {};  ///< $AWS_ENDPOINT_URL_S3, $AWS_ENDPOINT_URL, or endpoint_url; "": AWS
 };
 
-/// Reads the environment; what it lacks, from $AWS_SHARED_CREDENTIALS_FILE (default
-/// ~/.aws/credentials) and $AWS_CONFIG_FILE (default ~/.aws/config), in the profile $AWS_PROFILE
-/// (default "default"). Throws EnvironmentError that names what is missing, and InputError for an
-/// endpoint that is no http or https URL, or has a user or password in it.
+/// Reads the environment, and missing values from $AWS_SHARED_CREDENTIALS_FILE (default
+/// ~/.aws/credentials) and $AWS_CONFIG_FILE (default ~/.aws/config), profile $AWS_PROFILE (default
+/// "default"). Throws EnvironmentError that names the missing values, and InputError for an
+/// endpoint that is no http or https URL or contains a user or password.
 Access read_access();
 
-/// URL of the bucket, to which "/" and a key are appended: by path at an endpoint of one's own and
-/// for names with dots, which certificates do not cover, else by the bucket's own host.
+/// URL of the bucket, to which "/" and a key can be appended. The bucket is part of the path for a
+/// custom endpoint and for names with dots, which wildcard certificates do not cover; otherwise it
+/// is part of the host name.
 std::string url_of_bucket(const Access& access, const Address& address);
 
 }  // namespace throng::bucket

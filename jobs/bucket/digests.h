@@ -1,4 +1,4 @@
-// Checksums of parts of files, as object stores compare them.
+// Checksums of files and their parts, as object stores compare them.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace throng::bucket {
 
-/// Digests of some bytes, both from one pass over them.
+/// Digests of a sequence of bytes.
 struct Digest {
   std::string sha256_hex;
-  std::string md5;  ///< 16 bytes
+  std::string md5;  ///< 16 bytes, not hex
 };
 
-/// Digests of a file as a whole and of its parts, read once in blocks.
+/// Digests of a file as a whole and of its parts.
 struct FileDigest {
   Digest whole;
-  std::vector<Digest> parts;  ///< of `part_size_bytes` each, the last one of what is left
+  std::vector<Digest> parts;  ///< of `part_size_bytes` each; the last part may be shorter
 };
 
-/// Throws EnvironmentError when the file cannot be read.
+/// Reads the file once, in blocks. Throws EnvironmentError if it cannot be read.
 FileDigest digest_of_file(const std::filesystem::path& path, std::int64_t part_size_bytes);
 
 Digest compute_digest(std::string_view bytes);
 
-/// The tag that S3 gives an object of several parts: the MD5 of the parts' MD5, and their number.
+/// The ETag that S3 gives an object of several parts: the MD5 of the parts' MD5s, "-", and the
+/// number of parts.
 std::string tag_of_parts(const std::vector<Digest>& parts);
 
 }  // namespace throng::bucket

@@ -1,4 +1,4 @@
-// The XML answers of an object store.
+// Parsers for the XML answers of an object store.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +16,48 @@ struct ListedObject {
   std::string tag;  ///< ETag without quotes
 };
 
+/// A multipart upload that was started and not completed.
 struct ListedUpload {
   std::string key;
   std::string id;
 };
 
+/// A part of a multipart upload that has arrived.
 struct ListedPart {
   int number = 0;
   std::int64_t bytes = 0;
   std::string tag;
 };
 
-/// A page of a listing; with the query parameters that ask for the next one, if there is one.
+/// A page of a listing.
 template <typename Entry>
 struct Page {
   std::vector<Entry> entries;
-  Pairs next;
+  Pairs next;  ///< query parameters of the next page; empty on the last page
 };
 
-/// Entries of an answer of ListObjectsV2, ListMultipartUploads and ListParts. Throw
-/// EnvironmentError when it is no such XML.
+/// Parse the answers to ListObjectsV2, ListMultipartUploads and ListParts. Throw EnvironmentError
+/// for other text.
 Page<ListedObject> read_objects(const std::string& xml);
 Page<ListedUpload> read_uploads(const std::string& xml);
 Page<ListedPart> read_parts(const std::string& xml);
 
-/// The text of a child of the root, for example "UploadId"; "" if there is none.
+/// The text of a child of the root element, for example "UploadId"; "" if there is none.
 std::string read_value(const std::string& xml, const char* name);
 
-/// Why a store refuses a request.
+/// An error answer of a store.
 struct StoreError {
-  std::string code;  ///< "": the text is no error
+  std::string code;  ///< "" if the text is no error
   std::string message;
 };
 
-/// Only these two: others of its elements may hold key ids and what was signed.
+/// Parses an error answer. Ignores its other elements, which may contain key ids and signed text.
 StoreError read_error(const std::string& xml);
 
-/// For people: "AccessDenied: Access Denied", or the status alone.
+/// A text for people: "AccessDenied: Access Denied", or the HTTP status if there is no code.
 std::string error_text(const StoreError& error, long status);
 
-/// The first line of text that a store has sent, of bounded length and without control characters.
+/// The first line of untrusted text, shortened and without control characters.
 std::string first_line(std::string_view text);
 
 std::string without_quotes(std::string_view tag);

@@ -1,4 +1,4 @@
-// The requests of the object store's interface that publishing needs, one function each.
+// The requests to an object store that publishing needs, one function each.
 #pragma once
 
 #include <string>
@@ -9,37 +9,41 @@
 
 namespace throng::bucket {
 
-/// A file's SHA-256, kept with its object.
+/// Header with a file's SHA-256 in hex, stored with its object.
 inline constexpr const char* kHashHeader = "x-amz-meta-sha256";
 
 /// All objects below a prefix.
 std::vector<ListedObject> list_objects(Transfers& store, const std::string& prefix);
 
-/// Uploads below a prefix that were begun and not completed. Empty where the store cannot list them
-/// or these credentials may not.
+/// Uploads below a prefix that were started and not completed. Empty if the store does not support
+/// or the credentials do not permit the listing.
 std::vector<ListedUpload> list_uploads(Transfers& store, const std::string& prefix);
 
-/// Parts of an upload that have arrived. Empty likewise.
+/// Parts of an upload that have arrived. Empty if the store does not support or the credentials do
+/// not permit the listing.
 std::vector<ListedPart> list_parts(Transfers& store, const ListedUpload& upload);
 
-/// An object's headers; nothing when there is none.
+/// An object's headers; std::nullopt if it does not exist.
 std::optional<Response> head_object(Transfers& store, const std::string& key);
 
-/// Sends the whole object; its answer has the tag.
+/// A request that uploads the whole object; its response has the ETag.
 Request put_object(const std::string& key, Payload payload);
 
-/// Begins an object of several parts, of a file with this hash, if it is not ""; returns the
-/// upload's id.
+/// Starts a multipart upload and returns its id. Stores `sha256_hex`, the file's hash, with the
+/// object unless it is "".
 std::string create_upload(Transfers& store, const std::string& key, const std::string& sha256_hex);
 
+/// A request that uploads the part with this number, from 1; its response has the ETag.
 Request put_part(const ListedUpload& upload, int number, Payload payload);
 
-/// Makes the object of parts with these tags, from part 1 on. False when the store does not know
-/// the upload: perhaps an earlier attempt has completed it, and its answer was lost.
+/// Completes an upload from the parts with these ETags, in order from part 1. Returns false if the
+/// store does not know the upload, perhaps because an earlier attempt completed it and the response
+/// was lost.
 bool complete_upload(Transfers& store, const ListedUpload& upload,
                      const std::vector<std::string>& tags);
 
-/// Removes an upload's parts. A store that cannot do so keeps them until its own rules remove them.
+/// Aborts an upload and removes its parts. A store that cannot do so keeps them until its own rules
+/// remove them.
 void abort_upload(Transfers& store, const ListedUpload& upload);
 
 }  // namespace throng::bucket

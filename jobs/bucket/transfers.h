@@ -1,5 +1,5 @@
-// Signed requests to a bucket (Signature Version 4, by libcurl): several at once, each repeated
-// when the network or the store fails.
+// Signed HTTP requests to a bucket (AWS Signature Version 4, by libcurl): several at once, each
+// repeated when the network or the store fails.
 #pragma once
 
 #include <cstdint>
@@ -19,54 +19,59 @@
 
 namespace throng::bucket {
 
-/// Bytes to be sent: a part of a file, read while it is sent, or a text.
+/// Body of a request: a text, or a range of a file that is read during the transfer.
 struct Payload {
   std::string text = {};
-  std::filesystem::path file = {};  ///< "": the text
+  std::filesystem::path file = {};  ///< "" for a text
   std::int64_t offset_bytes = 0;
   std::int64_t size_bytes = 0;
-  Digest digest = compute_digest("");  ///< of what is sent; the store refuses other bytes
+  Digest digest = compute_digest("");  ///< of the body; the store refuses other bytes
 };
 
+/// A payload with the size and digest of a text.
 Payload make_payload(std::string text);
 
+/// Response to a request.
 struct Response {
-  long status = 0;
+  long status = 0;                                               ///< HTTP status
   std::map<std::string, std::string, std::less<>> headers = {};  ///< names in lower case
   std::string body = {};
 
   bool is_success() const;
-  /// "" if there is none.
+  /// The header with this name in lower case; "" if there is none.
   std::string header(std::string_view name) const;
-  /// The object's tag without quotes.
+  /// The object's ETag without quotes.
   std::string tag() const;
-  /// Whether the store encrypts the object with keys of its own service: then its tag is no MD5.
+  /// Whether the store encrypts the object with a key-management service, so that its ETag is no
+  /// MD5.
   bool has_opaque_tag() const;
 };
 
+/// A request to the bucket or to one of its objects.
 struct Request {
   std::string method = "GET";
-  std::string key = {};  ///< "": the bucket itself
+  std::string key = {};  ///< "" for the bucket
   Pairs query = {};
   Pairs headers = {};
   Payload payload = {};
-  std::vector<long> accepted = {};  ///< statuses beside 2xx that are an answer
-  /// Names the fault of an answer, which has the request repeated; "" if there is none.
+  std::vector<long> accepted = {};  ///< statuses besides 2xx that are no errors
+  /// Returns the fault of a response, so that the request is repeated; "" if there is none.
   std::function<std::string(const Response&)> fault = [](const Response&) { return ""; };
 };
 
-/// How often a request is tried where the network or the store fails.
+/// Retries of a request after failures of the network or the store.
 struct RetryPolicy {
   int attempts = 8;
-  double first_rest_s = 0.2;  ///< twice as long after each further failure
-  double max_rest_s = 10;
+  double first_rest_s = 0.2;  ///< pause after the first failure; doubled after each further one
+  double max_rest_s = 10;     ///< max pause
 };
 
-/// Not for several threads at once. All calls throw EnvironmentError when the store cannot be
-/// reached or refuses a request, InputError when there is no such bucket, and Cancelled. Messages
-/// hold the store's code and message and nothing else of its answer.
+/// Use from one thread at a time. All calls throw EnvironmentError if the store cannot be reached
+/// or refuses a request, InputError if the bucket does not exist, and Cancelled. Error messages
+/// contain the store's code and message and no other part of its response.
 class Transfers {
  public:
+  /// A request and the function that receives its response.
   struct Work {
     Request request;
     std::function<void(const Response&)> done;
@@ -77,8 +82,10 @@ class Transfers {
   Transfers(const Transfers&) = delete;
   Transfers& operator=(const Transfers&) = delete;
 
+  /// Sends one request and blocks until its response has arrived.
   Response send(Request request);
-  /// Asks for work as long as there is some, and does several pieces at a time.
+  /// Sends the requests that `next` returns, several at once, until it returns std::nullopt and all
+  /// responses have arrived.
   void run(const std::function<std::optional<Work>()>& next);
 
   const Address& address() const { return address_; }

@@ -1,4 +1,4 @@
-// Keys and queries as they stand in URLs, and are signed.
+// Encoding of keys and queries in URLs and signatures.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@ namespace throng::bucket {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// A key with all but unreserved characters (RFC 3986) and slashes encoded.
+/// Percent-encodes a key, except for unreserved characters (RFC 3986) and slashes.
 std::string encoded_path(std::string_view key);
 
-/// "?name=value&..." with the names sorted, "" for no pairs. libcurl 7.88 signs a query as it is
-/// written, so that it has to have the form of Signature Version 4: sorted, with everything encoded
-/// that is reserved, and with "=" after a name that has no value.
+/// "?name=value&..." sorted by name; "" for no pairs. libcurl 7.88 signs the query as it is, so it
+/// must be in the canonical form of Signature Version 4: sorted, all reserved characters encoded,
+/// and
+/// "=" after a name without a value.
 std::string query_text(Pairs query);
 
 }  // namespace throng::bucket

@@ -1,4 +1,5 @@
-// A job's first run, flown by commands: the same simulation step by step, recorded as a trace.
+// A live flight: the first run of a job, simulated step by step with drones that follow commands,
+// and recorded as a trace.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +19,35 @@
 
 namespace throng::live {
 
-/// Longest flight, in simulated seconds: a job with its set-points can still be sent.
+/// Max duration of a flight in simulated seconds, so that the job with its recorded set-points
+/// stays small enough to be submitted.
 inline constexpr double kMaxFlightS = 600;
 
-/// How a drone is, besides where.
+/// Status of a drone besides its pose.
 struct DroneStatus {
-  bool beacon = false;
-  bool on_mission = true;  ///< else it lands, falls or lies
-  bool running = true;     ///< its rotors
+  bool beacon = false;     ///< whether the beacon is on
+  bool on_mission = true;  ///< false: it lands, falls or is on the ground
+  bool running = true;     ///< whether the rotors turn
 };
 
-/// The newest step and the one before it: everything that is shown.
+/// The newest step and the one before it, with all values that clients are shown.
 struct Moment {
   double time_s = 0;
   double dt_s = 0;
   std::shared_ptr<const world::CrowdStep> before;
   std::shared_ptr<const world::CrowdStep> now;
-  std::vector<float> strides_before;  ///< per agent, made so far
-  std::vector<float> strides_now;
-  world::Trace flown;  ///< only the drones, from the step before on
+  std::vector<float> strides_before;  ///< per agent: strides walked so far, at `before`
+  std::vector<float> strides_now;     ///< per agent: strides walked so far, at `now`
+  world::Trace flown;                 ///< the drones only, from `before` on
   std::vector<DroneStatus> drones;
-  std::uint32_t sequence = 0;  ///< of the newest command in the step
+  std::uint32_t sequence = 0;  ///< number of the newest command applied in the step
 };
 
+/// Use from one thread at a time.
 class Flight {
  public:
-  /// Writes the trace into the folder. Throws InputError and EnvironmentError.
+  /// Starts the run and writes its trace into the folder. The scenario must outlive this object.
+  /// Throws InputError and EnvironmentError.
   Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
          const std::filesystem::path& folder);
   ~Flight();
@@ -55,18 +59,18 @@ class Flight {
   double dt_s() const { return run_->dt_s(); }
   double time_s() const { return run_->time_s(); }
 
-  /// One step, with a command per drone; `sequence` numbers the newest.
+  /// Simulates one step with one command per drone; `sequence` is the number of the newest command.
   std::shared_ptr<const Moment> step(const std::vector<sim::RemoteCommand>& commands,
                                      std::uint32_t sequence);
-  /// The start.
+  /// The moment at the start, before the first step.
   std::shared_ptr<const Moment> moment(std::uint32_t sequence) const;
 
-  /// Events since the last call, as JSON: {"time_s", "type", "drone"}.
+  /// The events since the last call: {"time_s", "type", "drone"}.
   std::vector<nlohmann::json> take_events();
 
-  /// Ends the run: {"duration_s", "steps", "trace_sha256", "drones": [{"id", "csv"}], "job",
-  /// "warnings"}. The job flies the logs, and its trace is equal byte for byte. Call nothing
-  /// afterwards.
+  /// Ends the run and returns {"duration_s", "steps", "trace_sha256", "drones": [{"id", "csv"}],
+  /// "job", "warnings"}. The job replays the logged set-points and gives a trace with the same
+  /// bytes. The last permitted call.
   nlohmann::json finish();
 
  private:

@@ -1,5 +1,5 @@
-// The camera of a drone during a live flight: the job's renderer at draft quality, through a
-// pinhole of 640 x 360, without the sensor's and shutter's effects.
+// The drones' cameras during a live flight: the renderer of jobs at draft quality, through a
+// pinhole camera with 640 x 360 pixels, without effects of sensor and shutter.
 #pragma once
 
 #include <string>
@@ -18,24 +18,24 @@ namespace throng::live {
 inline constexpr int kImageWidth = 640;
 inline constexpr int kImageHeight = 360;
 
-/// The camera that is shown in place of a job's: its direction and field of view.
+/// The camera that replaces a job's camera during a flight: the same direction and field of view.
 camera::CameraSpec shown_camera(const camera::CameraSpec& camera);
 
-/// Owns a GL context: use from the thread that made it.
-/// How much smoke rises from the dangers of a job's first run, 0 to 1.
+/// Amount of smoke from the hazards of a job's first run, 0 to 1.
 double smoke_amount(const jobs::JobSpec& job);
 
+/// Owns a GL context: use from the thread that created it.
 class OnboardCamera {
  public:
-  /// The camera of the job's first run. Throws EnvironmentError and InputError.
+  /// The cameras of the job's first run. Throws EnvironmentError and InputError.
   OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                 const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones);
 
-  /// A JPEG of what a drone's camera sees at a time of the moment's step.
+  /// Renders the view of a drone's camera at a time within the moment's step, as a JPEG file.
   std::string image(const Moment& moment, std::size_t drone, double time_s);
 
  private:
-  /// As the run has it.
+  /// Scenario, light and clothing of the run.
   struct Surroundings {
     world::Scenario scenario;
     render::Environment light;

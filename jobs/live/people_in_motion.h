@@ -1,5 +1,5 @@
-// Poses of people whose future is not known. render::Animator plans each walk from its beginning to
-// its end; here strides follow from the meters walked so far.
+// Poses of people during a live flight. render::Animator plans each walk from a complete trace;
+// here, strides follow from the distance walked so far, because the future is not known.
 #pragma once
 
 #include <vector>
@@ -12,13 +12,14 @@
 
 namespace throng::live {
 
+/// Computes the poses of a run's people; call it with moments in the order of time.
 class PeopleInMotion {
  public:
-  /// The people of a run. The population must outlive it.
+  /// Assigns characters to the people of a run. The population must outlive this object.
   PeopleInMotion(const world::TraceHeader& header, std::uint64_t seed,
                  const skinning::Population& population, const skinning::Styling& styling);
 
-  /// People and dangers at a time of the moment's step.
+  /// The scene with people and hazards at a time within the moment's step.
   render::Scene scene_at(const Moment& moment, double time_s);
 
  private:
@@ -29,7 +30,7 @@ class PeopleInMotion {
   skinning::ClipSet clips_;
   std::vector<world::AgentRole> roles_;
   std::vector<skinning::Appearance> looks_;  ///< per agent
-  std::vector<double> fell_at_s_;            ///< per agent; negative: stands
+  std::vector<double> fell_at_s_;            ///< per agent; negative: has not fallen
 };
 
 }  // namespace throng::live

@@ -1,4 +1,4 @@
-// Messages about the world of a live flight; docs/studio.md describes their bytes.
+// Messages with the state of a live flight; docs/studio.md describes their bytes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,13 +9,14 @@
 
 namespace throng::live {
 
-/// Place, people, drones and image: the first message. `smoke`: how much of it rises, 0 to 1.
+/// The first message: scenario, people, drones and image size. `smoke` is its amount, 0 to 1.
 nlohmann::json make_hello(const Flight& flight, const world::Scenario& scenario, double smoke);
 
-/// Everybody's places at the end of the moment's step.
+/// The message with the positions of all people and drones at the end of the moment's step.
+/// `reached_factor` is the simulated time per real time.
 std::string state_bytes(const Moment& moment, double reached_factor, bool paused);
 
-/// A image of a drone at a time of the moment's step.
+/// The message with a drone's image at a time within the moment's step.
 std::string image_bytes(const Moment& moment, double time_s, std::size_t drone,
                         const std::string& jpeg);
 

@@ -1,6 +1,8 @@
-// The tasks themselves: what a worker does. Each reads what earlier tasks published in the job's
-// folder and publishes its own output atomically, so it can be repeated at any time; doing one
-// whose output is there already changes nothing. Equal jobs give equal bytes.
+// The tasks of a job, as a worker performs them. A task reads the output of earlier tasks from the
+// job's folder and publishes its own output atomically, so it can be repeated at any time; a task
+// whose output exists changes nothing. Equal jobs give equal bytes. All tasks throw InputError and
+// EnvironmentError, and Cancelled after a request by `stop`; `scenarios` is the folder of
+// scenarios.
 #pragma once
 
 #include <filesystem>
@@ -18,37 +20,38 @@ namespace throng::jobs {
 
 using OnTaskProgress = std::function<void(const TaskProgress&)>;
 
-/// Whether the job asks for this kind of ground truth.
+/// Whether the job requests this kind of ground truth.
 bool wants(const JobSpec& job, annotate::GroundTruth kind);
 
 /// Input of the simulation for a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);
 
-/// The drones' missions in a run, with its cameras. `run_job` is that of job_of_run().
+/// The drones' missions in a run, with its cameras. `run_job` must be the result of job_of_run().
 std::vector<sim::DroneMission> make_missions(const JobSpec& run_job, std::uint64_t run_seed);
 
-/// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
+/// Simulates a run and writes work/run000/trace.h5. Progress in simulated seconds.
 void simulate_run(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, int run,
                   const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
 
-/// Escape curve and exits of a run: work/run000/metrics/{metrics.json,exits.csv}.
+/// Computes the metrics of a simulated run: work/run000/metrics/{metrics.json,exits.csv}.
 void measure_run(const JobFolder& folder, const JobSpec& job,
                  const std::filesystem::path& scenarios, int run);
 
-/// Renders and labels the frames of a shard. Progress in images.
+/// Renders and labels the frames of a shard: work/run000/shard0000/. Progress in images.
 void render_shard(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
 
-/// Gathers everything into dataset/ and writes its manifest.
+/// Collects the output of all other tasks in dataset/ and writes its manifest.
 void collect_dataset(const JobFolder& folder, const JobSpec& job);
 
-/// Brings the dataset to the object store that the job names: published.json. Progress in bytes.
+/// Uploads the dataset to the object store that the job names and writes published.json. Progress
+/// in bytes.
 void publish_job(const JobFolder& folder, const JobSpec& job,
                  const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
 
-/// Any task of the job.
+/// Performs any task of the job.
 void do_task(const JobFolder& folder, const ResolvedJob& resolved,
              const std::filesystem::path& scenarios, const Task& task,
              const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});

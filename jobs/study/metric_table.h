@@ -1,4 +1,4 @@
-// The figures of runs as a table with a description of each.
+// HTML table of the metrics of runs, with a description of each metric.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace throng::study {
 
-/// HTML: of each figure the unit, the definition in brief (docs/metrics.md has all of it), and over
-/// the runs the median, the quartiles and the number of runs that have it. At least one run.
+/// An HTML table with one row per metric: unit, short definition (docs/metrics.md has the full
+/// one), and the median, the quartiles and the number of values over the runs. Needs at least one
+/// run.
 std::string metric_table(const std::vector<const metrics::RunMetrics*>& runs);
 
-/// HTML: a name that leads to the definition of a value of metrics.json in definition_list(). Fails
-/// a check where docs/metrics.md has none.
+/// An HTML link with the text `name` to the definition of the value `path` of metrics.json in
+/// definition_list(). Fails a check() if docs/metrics.md does not define the value.
 std::string definition_link(const std::string& path, const std::string& name);
 
-/// HTML: all definitions of a run's values.
+/// An HTML list with the definitions of all values of a run.
 std::string definition_list();
 
 }  // namespace throng::study

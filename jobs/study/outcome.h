@@ -13,7 +13,7 @@
 
 namespace throng::study {
 
-/// Times by which people could have been out (metrics/bounds/run_bound.h); infinite if never.
+/// Bounds of escape times (metrics/bounds/run_bound.h); infinite if the share never gets out.
 struct BestFigures {
   double t50_s = 0;
   double t75_s = 0;
@@ -23,27 +23,28 @@ struct BestFigures {
   double mean_s = 0;
 };
 
+/// Result of one run.
 struct Outcome {
   metrics::EscapeTimes escapes;  ///< as in metrics.json
   metrics::PeopleCounts counts;  ///< as in metrics.json
   int followed = 0;              ///< people who followed a guide at some time
-  BestFigures bound;             ///< with people who know of the alarm at once
-  BestFigures reference;
+  BestFigures bound;             ///< lower bound, if all people know of the alarm at once
+  BestFigures reference;         ///< reference times of metrics::ReferenceSpec
 
-  /// When so many percent are out; infinite if never.
+  /// The time by which `percent` % of the people are out; infinite if never.
   double percentile_s(int percent) const;
-  /// NaN where it is not known.
+  /// Mean of min(escape time, until_s); NaN if it is not known.
   double restricted_mean_s(double until_s) const;
 };
 
 nlohmann::json to_json(const Outcome& outcome);
-/// Throws nlohmann::json::exception for anything that to_json() does not write.
+/// The inverse of to_json(). Throws nlohmann::json::exception for other values.
 Outcome outcome_from(const nlohmann::json& value);
 
-/// Watches a run for its outcome; has seen enough when everybody is out.
+/// Observes a run for its outcome; ends the run once all people are out.
 class OutcomeObserver : public sim::RunObserver {
  public:
-  /// The scenario outlives it. `model`: the pedestrian model of the run (crowd/model.h).
+  /// The scenario must outlive this object. `model` is the run's pedestrian model (crowd/model.h).
   OutcomeObserver(const world::Scenario& scenario, world::Alarm alarm,
                   metrics::ReferenceSpec reference, std::string model);
   ~OutcomeObserver() override;
@@ -52,7 +53,7 @@ class OutcomeObserver : public sim::RunObserver {
   void step(const world::CrowdStep& step) override;
   bool done() const override;
 
-  /// Once the run has ended.
+  /// The outcome; call it once the run has ended.
   Outcome take() const;
 
  private:

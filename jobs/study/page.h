@@ -1,4 +1,4 @@
-// HTML pages with charts, each one file that needs nothing else.
+// Self-contained HTML pages with charts.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,22 +8,22 @@
 
 namespace throng::study {
 
+/// Parts of a page.
 struct Page {
   std::string title;  ///< plain text
   std::string style;  ///< CSS beyond that of all pages
   std::string body;   ///< HTML
 };
 
-/// The page with the charts of web/report.js, drawn in the browser from `figures` wherever the body
-/// has chart_frame()s. Its policy lets it fetch nothing and run no script but its own. Without
-/// scripts, all but the charts is there.
+/// The page as one HTML file. Its script, web/report.js, draws a chart from `figures` at each
+/// chart_frame() of the body. The content security policy forbids all other scripts and all
+/// requests. Without scripts, only the charts are missing.
 std::string page_html(const Page& page, const nlohmann::json& figures);
 
 /// Placeholder of a chart. `data` are attributes that select it: name="value", separated by blanks.
 std::string chart_frame(const std::string& title, const std::string& data);
 
-/// For figures of a page: as near as a chart can show, in few characters. NaN and infinities
-/// become null.
+/// A number rounded for the charts of a page; null for NaN and infinities.
 nlohmann::json rounded(double value, int decimals = 3);
 
 }  // namespace throng::study

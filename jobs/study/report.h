@@ -1,4 +1,4 @@
-// A study's table: what each policy came to in each case, and how it compares with the baseline.
+// Report of a study: the results of each policy in each case, compared with the baseline.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace throng::study {
 
-/// The summary as summary.json holds it.
+/// The content of summary.json.
 nlohmann::json summary_json(const Study& study, const Outcomes& outcomes);
 
-/// Writes summary.csv, summary.json, summary.md, values.json (jobs/study/values.h) and report.html,
-/// which has the tables and the charts of each case, into the folder. Equal outcomes give equal
-/// bytes.
+/// Writes summary.csv, summary.json, summary.md, values.json (jobs/study/values.h) and report.html
+/// (tables and charts of each case) into the folder. Equal outcomes give equal bytes. Throws
+/// EnvironmentError.
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder);
 

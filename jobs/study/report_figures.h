@@ -1,4 +1,4 @@
-// Data of the charts in a report of runs, as read by web/report.js.
+// Data of the charts in a report of runs, which web/report.js draws.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,10 +8,10 @@
 
 namespace throng::study {
 
-/// Meters, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
-/// `place`: the floor plan; `runs`: of each the exits' states over time, density and pressure on
-/// cells of 1 m (rows from the lowest y, from the lowest x), the fundamental diagram and the paths,
-/// from samples once a second.
+/// A JSON object in meters, seconds and percent. `escape` has the escape curves at 0, 1, 2, ... s
+/// with median and quartiles, `place` the floor plan, and `runs` for each run the exits' states
+/// over time, density and pressure in cells of 1 m (row-major, from the lowest y and x), the
+/// fundamental diagram and the trajectories, from samples once a second.
 nlohmann::json report_figures(const world::Scenario& scenario,
                               const std::vector<MeasuredRun>& runs);
 

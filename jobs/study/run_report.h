@@ -1,4 +1,4 @@
-// The report of one or several runs of one place: one HTML file that needs nothing else.
+// Report of one or several runs in one scenario, as a self-contained HTML file.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace throng::study {
 
-/// A run as the report needs it.
+/// A run with its metrics.
 struct MeasuredRun {
   std::string name;
   world::Trace trace;
@@ -19,12 +19,13 @@ struct MeasuredRun {
   metrics::RunMetrics metrics;
 };
 
+/// Computes the exit series and metrics of a trace.
 MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario& scenario);
 
-/// Escape curves and tables of all runs, with median and quartiles; of the run that the reader
-/// chooses the exits' states over time, maps of density and pressure, the fundamental diagram and
-/// everybody's path. Charts are drawn by the page's own script, the rest needs none. Equal runs
-/// give equal bytes. At least one run.
+/// The report as HTML: escape curves and tables of all runs, with median and quartiles, and for the
+/// run that the reader selects the exits' states over time, maps of density and pressure, the
+/// fundamental diagram and all trajectories. The page's own script draws the charts; the rest needs
+/// no script. Equal runs give equal bytes. Needs at least one run.
 std::string html_report(const world::Scenario& scenario, const std::vector<MeasuredRun>& runs);
 
 }  // namespace throng::study

@@ -1,5 +1,5 @@
-// A study of the job service: checked by a confined child, simulated and reported by workers, in a
-// folder whose files spec/study/study_files.h names.
+// Work of the service for a study: a confined child checks it, and workers simulate and report it
+// in a folder whose files are named in spec/study/study_files.h.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,19 @@
 
 namespace throng::study {
 
-/// The plan of the study "study" (a document of docs/guidance.md), with the scenarios in
-/// "scenarios": {"name", "seed", "runs", "baseline", "cases": [{"id", "title", "scenario",
-/// "duration_s", "horizons_s"}], "policies": [{"id", "title"}], "simulations", "people",
-/// "memory_mib"}; the last two are of the largest run. Throws InputError with every mistake.
+/// Checks the study `request`["study"] (docs/guidance.md) with the scenarios in the folder
+/// `request`["scenarios"] and returns its plan: {"name", "seed", "runs", "baseline", "cases":
+/// [{"id", "title", "scenario", "duration_s", "horizons_s"}], "policies": [{"id", "title"}],
+/// "simulations", "people", "memory_mib"}. The last two are those of the largest run. Throws
+/// InputError with every mistake.
 nlohmann::json check_request(const nlohmann::json& request);
 
-/// Simulates the run of this number (StudySize::at) and renews, every now and then, the summary and
-/// the values of what is there so far. Throws InputError and EnvironmentError.
+/// Simulates the run with this number (StudySize::at) and from time to time updates the summary and
+/// the values of the runs so far. Throws InputError and EnvironmentError.
 void simulate_in(const std::filesystem::path& folder, std::size_t number);
 
-/// Writes the report; runs that are missing, or of another version of a scenario, are simulated.
+/// Writes the report. First simulates runs that are missing or were made with another version of a
+/// scenario. Throws InputError and EnvironmentError.
 void report_in(const std::filesystem::path& folder);
 
 }  // namespace throng::study

@@ -1,4 +1,5 @@
-// A study: cases times policies times seeds, compared pair by pair. The file that describes it.
+// A study: runs for each combination of case, policy and seed, compared in pairs; and the parser of
+// its file.
 #pragma once
 
 #include <array>
@@ -15,19 +16,19 @@
 
 namespace throng::study {
 
-/// A place and what happens there.
+/// A scenario with its alarm and duration.
 struct Case {
   std::string id;
   std::string title;
-  world::Alarm alarm;  ///< the scenario's, at the time that the study's file gives, if it does
+  world::Alarm alarm;  ///< the scenario's; its time may be set in the study's file
   double duration_s = 900;
   world::Scenario scenario;
   metrics::ReferenceSpec reference;
-  /// Up to which restricted means are taken, the shorter one first (s from the alarm).
+  /// Horizons of the restricted means, the shorter one first (s from the alarm).
   std::array<double, 2> horizons_s{};
 };
 
-/// One guidance method; or none.
+/// One guidance policy, or none.
 struct PolicyRow {
   std::string id;
   std::string title;
@@ -36,20 +37,20 @@ struct PolicyRow {
 struct Study {
   std::string name;
   std::uint64_t seed = 1;
-  int runs = 24;             ///< paired: run i of every policy has the same seed
-  std::size_t baseline = 0;  ///< index of the policy that the others are compared with
-  /// Index of the case that the others are compared with, if cases are alternatives.
+  int runs = 24;             ///< per case and policy; run i of every policy has the same seed
+  std::size_t baseline = 0;  ///< index of the policy with which the others are compared
+  /// Index of the case with which the others are compared, if cases are alternatives.
   std::optional<std::size_t> baseline_case;
   std::vector<Case> cases;
   std::vector<PolicyRow> policies;
-  std::vector<std::vector<jobs::JobSpec>> jobs;  ///< per case and policy; without drones: none fly
-  int people = 0;                                ///< most that a run begins with
-  /// Per case and policy: of everything that results depend on beside the run's number.
+  std::vector<std::vector<jobs::JobSpec>> jobs;  ///< per case and policy
+  int people = 0;                                ///< max number of people at the start of a run
+  /// Per case and policy: hash of all inputs of the results except for the run's number.
   std::vector<std::vector<std::string>> fingerprints;
 };
 
-/// Reads and checks a study's file (docs/guidance.md). Throws InputError, naming file and JSON
-/// pointer, also for anything that the jobs it makes would be refused for.
+/// Reads and checks a study's file (docs/guidance.md). Throws InputError that names file and JSON
+/// pointer, also for mistakes in the jobs of its cases and policies.
 Study load_study(const std::filesystem::path& file, const std::filesystem::path& scenarios);
 
 /// A case and a policy, by their indices.
@@ -58,8 +59,8 @@ struct Cell {
   std::size_t policy = 0;
 };
 
-/// Likewise from a text; `source` names it in messages. With `only`, jobs and fingerprints of all
-/// other cells stay empty, which takes a fraction of the time.
+/// Parses a study from a text; `source` names it in messages. With `only`, jobs and fingerprints of
+/// all other cells stay empty, which takes a fraction of the time.
 Study read_study(std::string_view text, const std::string& source,
                  const std::filesystem::path& scenarios, const std::optional<Cell>& only = {});
 

@@ -1,4 +1,4 @@
-// The tables of a study's report, as text in cells for Markdown and HTML.
+// Tables of a study's report, as cells of text for Markdown and HTML.
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// The table of one case: a row for each policy with medians, quartiles and comparisons.
+/// The table of one case: one row per policy with medians, quartiles and comparisons.
 Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::size_t one_case);
 
-/// A sentence for each policy of the case in whose runs people left where there is no exit.
+/// One sentence for each policy of the case in whose runs people left where there is no exit.
 std::vector<std::string> case_warnings(const Study& study, const std::vector<SummaryRow>& rows,
                                        std::size_t one_case);
 
-/// T50, T90 and T95 of all cases and policies with the intervals of their means, and whether there
-/// are runs enough.
+/// T50, T90 and T95 of all cases and policies with the intervals of their means, and whether the
+/// number of runs suffices.
 Table interval_table(const Study& study, const std::vector<SummaryRow>& rows);
 
-/// The other cases against the baseline case.
+/// The comparison of all other cases with the baseline case.
 Table case_difference_table(const Study& study, const std::vector<CaseDifference>& differences);
 
 /// Meaning of the cells of case_table().

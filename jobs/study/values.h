@@ -1,4 +1,4 @@
-// The figures of each run of a study: what running means and other statistics are made of.
+// Values of each run of a study, from which running means and other statistics can be computed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +11,12 @@ namespace throng::study {
 /// {"baseline": POLICY, "cases": [{"id", "horizons_s": [a, b], "runs": [0, 1, ...],
 ///   "policies": [{"id", "means_s": [[...], [...]], "t50_s": [...], "t90_s": [...],
 ///   "t95_s": [...], "not_escaped": [...]}]}]}
-/// with one number per run, in the order of "runs": restricted means up to either horizon; times
-/// from the later of alarm and arrival (s), null where that share was never out.
+/// The lists have one number per run, in the order of "runs". "means_s" has the restricted means up
+/// to each horizon. Times are in s from the later of alarm and arrival; null if that share of the
+/// people never got out.
 nlohmann::json values_json(const Study& study, const KnownRuns& runs);
 
-/// All runs of a study that is complete.
+/// The runs of a complete study.
 KnownRuns all_runs(const Outcomes& outcomes);
 
 }  // namespace throng::study

@@ -1,4 +1,4 @@
-// Runs a study's simulations, each of which leaves a file, and gathers what they came to.
+// Runs the simulations of a study, each of which writes a file, and collects their outcomes.
 #pragma once
 
 #include <filesystem>
@@ -12,28 +12,29 @@
 
 namespace throng::study {
 
-/// [case][policy][run].
+/// Outcomes indexed by [case][policy][run].
 using Outcomes = std::vector<std::vector<std::vector<Outcome>>>;
 
 using StudyProgress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Runs what has no result in `folder` yet (runs/CASE/POLICY/000.json, made under the same
-/// fingerprint), at most `threads` at once (0: one per core); kill it at any time and call it
-/// again. Results do not depend on `threads`. `progress` is called from one thread at a time.
-/// Throws Cancelled when `stop` asks, after the runs at work have ended early.
+/// Simulates all runs that have no result in `folder` yet (runs/CASE/POLICY/000.json with the same
+/// fingerprint), at most `threads` at once (0: one per core). Safe to repeat after any
+/// interruption; results do not depend on `threads`. `progress` is called from one thread at a
+/// time. After a request by `stop`, ends the current runs early and throws Cancelled.
 Outcomes do_runs(const Study& study, const std::filesystem::path& folder, int threads,
                  const StudyProgress& progress = {}, const std::stop_token& stop = {});
 
-/// Does one run likewise; of the study only its cell needs to have been read.
+/// Simulates one run in the same way. The study may have been read with `only` this run's cell.
 void do_run(const Study& study, const std::filesystem::path& folder, const StudyRun& run,
             const std::stop_token& stop = {});
 
-/// Results that lie in `folder`, under whatever fingerprint, in the order of their numbers. Of a
-/// case only those that every policy has.
+/// The runs that every policy of a case has, in the order of their numbers.
 struct KnownRuns {
   Outcomes outcomes;
   std::vector<std::vector<int>> numbers;  ///< per case
 };
+/// Reads the results in `folder`, with any fingerprint.
+
 KnownRuns known_runs(const Study& study, const std::filesystem::path& folder);
 
 }  // namespace throng::study

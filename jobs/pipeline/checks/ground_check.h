@@ -1,4 +1,4 @@
-// Checks of what a job wants counted on the ground: cells of fields, zones and lines.
+// Checks of a job's outputs on the ground: cell sizes of fields, counting zones and lines.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace throng::jobs {
 
-/// Adds a problem for areas and cells whose annotation the job does not have, for names that an
-/// exit or another area has, and for cells finer than those of the scenario's fields.
+/// Adds a problem for areas and cell sizes whose kind of ground truth the job does not request, for
+/// areas with the name of an exit or another area, and for cells finer than those of the scenario's
+/// fields.
 void check_ground_outputs(const OutputSpec& outputs, const std::vector<world::Scenario>& scenarios,
                           std::vector<Problem>& problems);
 

@@ -1,5 +1,5 @@
-// Everything that can be said of a job before it runs: every mistake, what it will take, and what
-// will succeed but is probably not meant.
+// Dry run: all that can be checked of a job before it runs, namely its mistakes, its cost, and
+// settings that are valid but probably not intended.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,24 @@
 
 namespace throng::jobs {
 
+/// Result of check_job().
 struct CheckedJob {
   ResolvedJob job;
-  /// Number of people who take part in a run, arrivals included; the mean of the job's scenarios.
+  /// Number of people in a run, arrivals included; the mean over the job's scenarios.
   std::int64_t people = 0;
   JobCost cost = {};
-  std::vector<CameraView> views = {};  ///< of the first run's cameras with a known path
+  std::vector<CameraView> views = {};  ///< of the first run's cameras whose paths are known
   std::vector<Problem> warnings = {};  ///< JSON pointers into the job
 };
 
-/// Resolves a job's text like resolve_job(), loads its crowd and follows its drones' planned paths;
-/// simulates and renders nothing. Throws InputError with all mistakes, EnvironmentError.
+/// Resolves a job's text as resolve_job() does, loads its crowd and evaluates its drones' planned
+/// paths; renders nothing. `source` names the text in messages, `scenarios` is the folder of
+/// scenarios. Throws InputError with all mistakes, and EnvironmentError.
 CheckedJob check_job(std::string_view json, const std::string& source,
                      const std::filesystem::path& scenarios);
 
-/// {"runs", "shards", "frames", "people", "estimate", "views", "warnings", "job"}: the answer of
-/// dry runs.
+/// The answer to a dry run: {"runs", "shards", "frames", "people", "estimate", "views", "warnings",
+/// "job"}.
 nlohmann::json to_json(const CheckedJob& checked);
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// Warnings: jobs that can run, but whose result is probably not what was meant.
+// Warnings about jobs that can run, but whose result is probably not intended.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,14 @@
 
 namespace throng::jobs {
 
-/// Settings without effect: rain in dry weather, ground truth that is part of a kind that is not
-/// asked for, splits and scenarios without runs. JSON pointers in `where`, no source.
+/// Warnings about settings without effect: rain in dry weather, options of a kind of ground truth
+/// that is not requested, splits and scenarios without runs. `where` has JSON pointers; `source` is
+/// empty.
 std::vector<Problem> warnings_of_settings(const JobSpec& job);
 
-/// A job in one of its scenarios: smoke without hazards, drones far away, and cameras that show
-/// nobody, or people of a few pixels, in any image. Looks at a few runs from `first_run` on.
+/// Warnings about a job in one of its scenarios: smoke without hazards, drones far away, and
+/// cameras that show nobody, or only people of a few pixels, in all images. Checks a few runs from
+/// `first_run` on.
 std::vector<Problem> scenario_warnings(const JobSpec& job, const world::Scenario& scenario,
                                        const StartingCrowd& crowd, int first_run);
 

@@ -1,4 +1,4 @@
-// Whether a camera's lens can be rendered.
+// Checks whether a camera's lens can be rendered.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace throng::jobs {
 
-/// Adds a problem if the lens does not show what the image needs: its model folds or ends within
-/// the image, or it is so wide that no flat image covers it; or if the image is larger than this
-/// machine's device renders in that quality. `pointer` is the camera's place in the job.
+/// Adds a problem if the lens does not cover the image, because its distortion model folds or ends
+/// within it, if the field of view is too wide for a planar image, or if the image exceeds the size
+/// that this machine's device can render in that quality. `pointer` is the camera's JSON pointer in
+/// the job.
 void check_lens(const camera::CameraSpec& run_camera, render::Quality quality,
                 const std::string& pointer, std::vector<Problem>& problems);
 

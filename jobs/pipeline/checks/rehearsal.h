@@ -1,4 +1,5 @@
-// Warnings about a run's figures before it: by its place, and by its first seconds.
+// Warnings about the metrics of a run before it is simulated as a whole: from its scenario and from
+// its first seconds.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +11,16 @@
 
 namespace throng::jobs {
 
-/// Findings of scenarios::check_figures() about a job's scenario, as warnings about the job.
+/// Findings of scenarios::check_figures() about a job's scenario, as warnings at /scenario.
 std::vector<Problem> figure_warnings(const world::Scenario& scenario);
 
-/// A run's warnings with those of its scenario behind them.
+/// `warnings` of a run followed by figure_warnings() of its scenario.
 std::vector<Problem> with_figure_warnings(std::vector<Problem> warnings,
                                           const world::Scenario& scenario);
 
-/// Simulates a run of a job in its scenario until somebody notices the alarm, and returns what a
-/// run says that ends without (sim/people/people_watch.h). It takes a second at most: a crowd that
-/// is too large for that, or notices later, is taken to notice.
+/// Simulates a run of a job in its scenario until a person notices the alarm. If nobody does,
+/// returns the warnings of such a run (sim/people/people_watch.h). The effort is limited to about a
+/// second; larger crowds and later reactions give no warning.
 std::vector<Problem> rehearse(const JobSpec& job, const world::Scenario& scenario, int run,
                               std::int64_t people);
 

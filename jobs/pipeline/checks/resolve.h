@@ -1,5 +1,5 @@
-// From what a job says to a job that can be run: its files are read, and it is checked against its
-// scenario: lenses, drones, people, formats. Done once per job; workers do not repeat it.
+// Resolution of a job: reads the files that it names and checks it against its scenario (lenses,
+// drones, people, formats). Done once per job; workers do not repeat it.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,20 @@
 
 namespace throng::jobs {
 
-/// Resolves a job in its scenario. Loads the scenario's crowd if the job says how many people take
-/// part. Throws InputError with all problems (JSON pointers into `source`, the job's file or "").
+/// Resolves a job in its scenario. Loads the scenario's crowd if the job sets the number of people.
+/// Throws InputError with all problems; their JSON pointers lead into `source`, the job's file or
+/// "".
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source);
 
-/// Drones of a job that names none.
+/// Drones of a job that does not list any.
 enum class DefaultDrones {
-  of_scenario,  ///< those of the scenario; without any the job is one for figures
-  none          ///< nobody flies, and nothing is rendered
+  of_scenario,  ///< those of the scenario; if it has none, the job renders nothing
+  none          ///< no drones: the job renders nothing
 };
 
-/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. All
-/// problems are reported together: where the text breaks the schema, the rest of it is checked,
-/// too.
+/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. Throws
+/// InputError with all problems together: parts of the text that obey the schema are checked even
+/// if others break it.
 ResolvedJob resolve_job(std::string_view json, const std::string& source,
                         const std::filesystem::path& scenarios,
                         DefaultDrones default_drones = DefaultDrones::of_scenario);

@@ -1,4 +1,4 @@
-// Whether the scenarios that somebody has sent can be used.
+// Check of uploaded scenarios.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace throng::jobs {
 
-/// Reads every scenario in a folder as a job would: the file, its crowd's scene and behavior with
-/// all that these name, and its meshes, with what these name. Everything has to lie in the folder,
-/// links followed. Throws InputError with every problem, files named as they lie in the folder, and
-/// EnvironmentError. Other findings of scenarios::check are returned.
+/// Reads every scenario in a folder as a job would: its file, the scene and behavior files of its
+/// crowd, its meshes, and all files that these name. All files must be within the folder after
+/// links are resolved. Throws InputError with every problem, with paths relative to the folder, and
+/// EnvironmentError. Returns the other findings of scenarios::check().
 CheckedScenarios check_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::jobs

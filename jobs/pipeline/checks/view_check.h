@@ -1,5 +1,5 @@
-// The views of a job's cameras, as far as they are known before the simulation: which part of the
-// place they show, how large people are in them, and whether anybody can be in them at all.
+// Predicted views of a job's cameras, before the simulation: which part of the scenario they show,
+// how large people appear, and whether any person can be visible.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,25 +13,24 @@
 
 namespace throng::jobs {
 
-/// Positions (m) and speeds (m/s) of people as the run begins; those who arrive later may be
-/// anywhere.
+/// People at the start of a run.
 struct StartingCrowd {
-  std::vector<Eigen::Vector2d> places = {};
-  double max_speed_mps = 0;
-  bool has_arrivals = false;
+  std::vector<Eigen::Vector2d> places = {};  ///< positions, m
+  double max_speed_mps = 0;                  ///< greatest preferred speed
+  bool has_arrivals = false;                 ///< people arrive later, at unknown positions
 };
 
-/// A camera's images over the capture.
+/// Predicted content of a camera's images over the capture.
 struct CameraView {
-  std::string drone;
-  double max_area_share = 0;  ///< largest share of the scenario's `inside` in one image, 0 to 1
-  double max_person_px = 0;   ///< largest height of a person in an image, pixels; 0: nobody
-  double mean_people = 0;     ///< of those at the start who would be in an image, over the images
+  std::string drone;          ///< id
+  double max_area_share = 0;  ///< greatest share of the scenario's `inside` in one image, 0 to 1
+  double max_person_px = 0;   ///< greatest height of a person in an image, pixels; 0: nobody
+  double mean_people = 0;     ///< mean number of people of StartingCrowd per image
 };
 
-/// The views of a run's cameras. Nothing of drones whose path depends on the people they see.
-/// Buildings hide nobody here, and people walk straight at up to twice their speed: a person who is
-/// not in these views is in no image.
+/// The views of a run's cameras; std::nullopt for drones whose paths depend on the people they see.
+/// The prediction is an upper bound: buildings hide nobody, and people walk straight at up to twice
+/// their speed. A person who is not in these views is in no image.
 std::vector<std::optional<CameraView>> views_of_run(const JobSpec& job,
                                                     const world::Scenario& scenario,
                                                     const StartingCrowd& crowd, int run);

@@ -1,4 +1,4 @@
-// State of a drone when one of its images is captured: the truth, and its sensors' readings.
+// State of a drone when one of its images is captured: true values and sensor readings.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,11 +13,11 @@
 
 namespace throng::jobs {
 
-/// The sensors of one of the job's drones in a run.
+/// Simulates the sensors of one of the job's drones in a run; `drone` is its index in the job.
 sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
                               const std::vector<world::DroneSample>& truth, std::size_t drone);
 
-/// A drone and its camera at one time, and what is said of them then.
+/// A drone and its camera at one time: true values and sensor readings.
 struct FlightMoment {
   world::DroneSample truth;
   sim::ViewAngles view;
@@ -26,15 +26,15 @@ struct FlightMoment {
   sim::ViewAngles gimbal_reading;
 };
 
-/// The rows (OpenCV's pixels, in the image that the lens would make without distortion) in which
-/// the horizon of level ground crosses the first and the last column; null where it crosses no
-/// columns, since the camera looks straight down.
+/// The rows in which the horizon of level ground crosses the first and the last column, in pixels
+/// by OpenCV's convention of the image without lens distortion; null if the camera looks straight
+/// down, so that the horizon crosses no column.
 nlohmann::json horizon_rows(const camera::Camera& camera);
 
 /// The object `flight` of an image: "true" and "measured" (docs/formats.md).
 nlohmann::json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise = {});
 
-/// All readings of a drone beside the truth, as a table with a line per sample
+/// A CSV table of a drone's sensor readings and true values, one line per sample
 /// (sensors/run000/d1.csv).
 std::string sensors_csv(const std::vector<world::DroneSample>& truth, const sim::SensorLog& log);
 

@@ -1,4 +1,4 @@
-// Takes a run's images: each camera of the job at any of its frames.
+// Renders the images of a run: any frame of any camera of the job.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +19,35 @@
 
 namespace throng::jobs {
 
+/// An image with the metadata of its record.
 struct CapturedFrame {
   render::Frame frame;
-  std::string sensor;    ///< a JSON object: what sensor and shutter did
-  std::string flight;    ///< a JSON object: the drone then, and what its sensors say
-  nlohmann::json drawn;  ///< an object: the samples of this frame alone
+  std::string sensor;    ///< a JSON object: sensor noise, exposure and shutter
+  std::string flight;    ///< a JSON object: true state of the drone and its sensor readings
+  nlohmann::json drawn;  ///< an object: random values sampled for this frame alone
 };
 
-/// Everything given must outlive it. Images do not depend on which were taken before.
+/// Images do not depend on the order of the calls. Use from the renderer's thread.
 class FrameCapture {
  public:
+  /// All arguments passed by reference must outlive this object. `clock` may be null.
   FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
                const skinning::Population& population, render::Renderer& renderer,
                StageClock* clock);
 
-  /// Frames of a drone are best taken one after another: where flow's occlusion is asked for, the
-  /// next one is captured as well, and kept.
+  /// Renders a frame of a drone; `drone` is its index in the job. Ask for a drone's frames in
+  /// rising order: if the occlusion of optical flow is requested, the next frame is rendered as
+  /// well and cached.
   CapturedFrame take(std::size_t drone, std::int64_t frame);
 
-  /// Takes an image that is not needed any more, for its memory.
+  /// Takes back an image that is no longer needed, to reuse its memory.
   void recycle(CapturedFrame&& captured);
 
  private:
   CapturedFrame capture(std::size_t drone, std::int64_t frame);
-  /// The times of the frames that this frame's flow leads to.
+  /// The times of the frames to which this frame's optical flow leads.
   render::NeighborTimes neighbors_of(std::int64_t frame) const;
-  /// A camera's view at a time around that of one of its frames, in the scene of this index.
+  /// A camera's view at a time near that of one of its frames, in the scene with this index.
   render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
                                   double time_s);
   sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,
@@ -56,17 +59,17 @@ class FrameCapture {
   const JobSpec* job_;
   std::uint64_t run_seed_;
   const world::Trace* trace_;
-  StageClock* clock_;  ///< of how long stages take; may be null
+  StageClock* clock_;  ///< measures the stages; may be null
   render::Animator animator_;
   render::Lens lens_;
   std::vector<camera::CameraSpec> cameras_;          ///< this run's
   std::vector<sim::GimbalLog> gimbals_;              ///< one per camera
-  std::vector<sim::SensorLog> sensors_;              ///< one per camera: its drone's
+  std::vector<sim::SensorLog> sensors_;              ///< one per camera, of its drone
   std::vector<std::size_t> drones_;                  ///< index in the trace
   std::vector<render::AirframeShape> shapes_;        ///< of the drones
-  std::shared_ptr<const render::Scene> scene_;       ///< of the frame that was taken last
-  bool looks_ahead_ = false;                         ///< has the next frame captured, for occlusion
-  std::vector<std::optional<CapturedFrame>> ahead_;  ///< each drone's next frame, if it is captured
+  std::shared_ptr<const render::Scene> scene_;       ///< of the last frame
+  bool looks_ahead_ = false;                         ///< renders the next frame, too, for occlusion
+  std::vector<std::optional<CapturedFrame>> ahead_;  ///< each drone's next frame, if rendered
 };
 
 }  // namespace throng::jobs

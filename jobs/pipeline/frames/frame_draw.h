@@ -1,4 +1,4 @@
-// Differences between the frames of one camera: sampled for each from the run's seed.
+// Random offsets of a camera, sampled for each frame from the run's seed.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace throng::jobs {
 
-/// Offsets of one frame. Of `run_camera`, nothing is left to be sampled. Frames do not depend on
-/// each other.
+/// Samples the offsets of one frame, independently of other frames. `run_camera` must be the result
+/// of camera_of_run().
 camera::FrameOffsets draw_of_frame(const camera::CameraSpec& run_camera, std::uint64_t run_seed,
                                    std::size_t drone, std::int64_t frame);
 
-/// The camera of that frame.
+/// The camera with the offsets applied.
 camera::CameraSpec camera_of_frame(const camera::CameraSpec& run_camera,
                                    const camera::FrameOffsets& draw);
 
-/// For an image's `drawn`: "frame.yaw_deg" and so on, as far as the camera has them.
+/// Members of an image's `drawn`: "frame.yaw_deg" and so on, for the offsets that the camera has.
 nlohmann::json to_json(const camera::CameraSpec& run_camera, const camera::FrameOffsets& draw);
 
 }  // namespace throng::jobs

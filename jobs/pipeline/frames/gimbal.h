@@ -8,11 +8,11 @@
 
 namespace throng::jobs {
 
-/// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
-/// pitches with it. Of `spec`, nothing is left to be sampled (camera_of_run).
+/// The camera on an ideal gimbal below a drone: it follows the drone's heading but not its roll and
+/// pitch. `spec` must be the result of camera_of_run().
 camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec);
 
-/// The same, looking where its gimbal has turned it.
+/// The camera of a drone with the given angles of its gimbal.
 camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec,
                          const sim::ViewAngles& view);
 

@@ -1,4 +1,4 @@
-// The trajectory file of people who are replayed instead of simulated.
+// Trajectory file of people who are replayed instead of simulated.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace throng::jobs {
 
-/// Fills in the file's hash, or adds to `problems` that there is no such file or that it is not the
-/// one whose hash the job gives; without a file the hash is "".
+/// Sets `recorded.sha256` to the file's hash, or to "" if there is no file. Adds a problem if the
+/// file does not exist or its hash differs from the one in the job.
 void identify_recording(RecordedSpec& recorded, std::vector<Problem>& problems);
 
-/// The people, as a trace without states and intents. Throws InputError and EnvironmentError.
+/// Reads the people as a trace without states and intents. Throws InputError and EnvironmentError.
 world::Trace read_recording(const RecordedSpec& recorded);
 
 }  // namespace throng::jobs

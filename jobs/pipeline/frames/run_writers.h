@@ -1,5 +1,5 @@
-// Contributions of each kind of ground truth to a run's output. One table; those to each frame are
-// written by annotate/frame_writers.h.
+// Table of the kinds of ground truth that write files per run. annotate/frame_writers.h has those
+// that write per frame.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace throng::jobs {
 
-/// A run on its way into the dataset.
+/// A run and the publication that receives its files.
 struct RunOutput {
   const JobSpec& job;
   int run = 0;
@@ -24,12 +24,13 @@ struct RunOutput {
   Publication& publication;
 };
 
+/// A row of the table: the function that adds the files of a kind.
 struct RunWriter {
   annotate::GroundTruth kind{};
   void (*write)(RunOutput& output) = nullptr;
 };
 
-/// In the order of the kinds. Kinds that are not here have no part in a run's output.
+/// The table, in the order of the kinds; other kinds write nothing per run.
 std::span<const RunWriter> run_writers();
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// The sensor's part of an image's record.
+// Metadata of the image sensor in an image's record.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace throng::jobs {
 
-/// The object `sensor` of an image: what its camera's sensor did, and how it was exposed.
+/// The object `sensor` of an image: properties of the camera's sensor and the exposure.
 nlohmann::json sensor_record(const camera::CameraSpec& run_camera, const render::Exposed& exposed,
                              int jpeg_quality);
 

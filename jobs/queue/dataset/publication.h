@@ -22,7 +22,8 @@ struct FileEntry {
   std::string path;  ///< relative to the dataset, forward slashes
   std::int64_t bytes = 0;
   std::string sha256;
-  std::optional<std::uint32_t> crc32 = std::nullopt;  ///< missing in the output of older versions
+  std::optional<std::uint32_t> crc32 =
+      std::nullopt;  ///< missing in output that an older version has published
 };
 
 void to_json(nlohmann::json& value, const FileEntry& file);
