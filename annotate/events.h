@@ -1,4 +1,4 @@
-// Events of a run: escapes, falls, collisions and the like.
+// Events of a run, such as escapes, falls and collisions.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace throng::annotate {
 
-/// One JSON object a line, by time (docs/formats_pixels.md#events): the trace's events, and those
-/// that its people's states and flags show: arrival, notice, start and end of lying, panic and
-/// following a drone, escape, departure. `frame_times_s` are the times of the run's frames; an
-/// event has the number of the last frame that is not after it.
+/// JSON lines, sorted by time (docs/formats_pixels.md#events): the events recorded in the trace,
+/// and those derived from its people's states and flags: arrival, notice, start and end of lying,
+/// panic and following a drone, escape, departure. `frame_times_s` are the times of the run's
+/// frames, in rising order; an event gets the index of the last frame that is not after it.
 std::string events_jsonl(const world::Trace& trace, const world::Scenario& scenario, int run,
                          std::span<const double> frame_times_s);
 

@@ -1,6 +1,5 @@
-// Contributions of each kind of ground truth to a frame's output: files, or values of its COCO
-// record. One table; those to a whole run's output are written by
-// jobs/pipeline/frames/run_writers.h.
+// Table of the kinds of ground truth that write files or members of the COCO record per frame.
+// jobs/pipeline/frames/run_writers.h has those that write per run.
 #pragma once
 
 #include <functional>
@@ -20,31 +19,32 @@
 
 namespace throng::annotate {
 
-/// A frame on its way into the dataset.
+/// A frame, its labels, and the destination of its files.
 struct FrameOutput {
   const render::Frame& frame;
   FrameLabels& labels;
-  CocoImage& record;  ///< run, camera and frame name the files; written after all kinds
-  const ExitView* exits = nullptr;       ///< null where the records hold no exits
-  const ActionFacts* actions = nullptr;  ///< null where the records hold none
-  const HazardView* hazards = nullptr;   ///< at the frame's time; null where there are none
-  const std::vector<CountZone>* zones = nullptr;  ///< to count people in; null where none are
-  double density_sigma_px = 0;
+  CocoImage& record;  ///< its run, camera and frame name the files; written after all kinds
+  const ExitView* exits = nullptr;                ///< null if records have no exits
+  const ActionFacts* actions = nullptr;           ///< null if records have no actions
+  const HazardView* hazards = nullptr;            ///< at the frame's time; null without hazards
+  const std::vector<CountZone>* zones = nullptr;  ///< counting zones; null without zones
+  double density_sigma_px = 0;                    ///< kernel width of the density map
   /// Adds a file of the dataset.
   std::function<void(const std::string& path, std::string_view bytes)> add;
   /// Assigns the time since the last call to a stage (base/compute/stage_clock.h).
   std::function<void(std::string_view stage)> lap;
 
-  /// The frame's file of a kind.
+  /// Path in the dataset of the frame's file of a kind.
   std::string ground_truth_file(GroundTruth kind) const;
 };
 
+/// A row of the table: the function that writes a kind.
 struct FrameWriter {
   GroundTruth kind{};
   void (*write)(FrameOutput& output) = nullptr;
 };
 
-/// In the order of the kinds. Kinds that are not here have no part of their own in a frame.
+/// The table, in the order of the kinds; other kinds write nothing per frame.
 std::span<const FrameWriter> frame_writers();
 
 }  // namespace throng::annotate

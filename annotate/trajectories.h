@@ -1,4 +1,4 @@
-// Positions of all people of a run at the times of its frames, seen by cameras or not.
+// Positions of all people of a run at the times of its frames, whether cameras see them or not.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace throng::annotate {
 
-/// Values of a person at a time: x, y (m), heading (rad, counter-clockwise from +x), number of the
-/// behavior's state (TraceHeader::state_names).
+/// Number of values of a person at a time: x, y (m), heading (rad, counter-clockwise from +x), and
+/// the index of the behavior's state in TraceHeader::state_names.
 inline constexpr int kTrajectoryValues = 4;
 
+/// Trajectories sampled at the frames of a run.
 struct Trajectories {
-  std::vector<std::uint32_t> agents;  ///< people of the run, in ascending order
+  std::vector<std::uint32_t> agents;  ///< ids of the run's people, in ascending order
   std::size_t frames = 0;
-  /// (frames, agents, kTrajectoryValues), row-major; NaN where a person has not arrived or has
-  /// left.
+  /// Row-major, shape (frames, agents, kTrajectoryValues); NaN before a person arrives and after
+  /// they leave.
   std::vector<float> values;
 };
 
-/// Positions of the people whom the renderer draws, linear between the steps of the trace as in
-/// images.
+/// Samples the trajectories of people and attackers at these times, interpolated linearly between
+/// the steps of the trace as in images.
 Trajectories trajectories_at(const world::Trace& trace, std::span<const double> times_s);
 
-/// The bytes of a .npy file, float32, C order.
+/// The bytes of a .npy file, float32, C order, with the shape of Trajectories::values.
 std::string npy_bytes(const Trajectories& trajectories);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// A dataset's own description: dataset.json for programs and README.md for people.
+// Dataset card: dataset.json for programs and README.md for people.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace throng::formats {
 
-/// Counts while it is fed, and describes the dataset at the end.
+/// Counts images and labels, then writes the description of the dataset.
 class DatasetCard : public Exporter {
  public:
-  /// `manifest` is what manifest.json will say, but for its files.
+  /// `manifest` is the content of manifest.json without the list of files. `info` must outlive this
+  /// object.
   DatasetCard(const DatasetInfo& info, nlohmann::json manifest, Output output);
 
   void add(const Image& image) override;
@@ -22,11 +23,11 @@ class DatasetCard : public Exporter {
   void finish() override;
 
  private:
-  /// Counts the character of a track, at its first annotation.
+  /// Counts the character of a track at its first annotation.
   void add_character(const Person& person);
-  /// Annotations of a category that is not people's.
+  /// The number of annotations of a category other than people.
   std::int64_t count_annotations(int category) const;
-  /// Names of the COCO file's categories, by id.
+  /// Names of the COCO file's categories by id.
   nlohmann::json classes() const;
   nlohmann::json statistics() const;
   nlohmann::json description() const;
@@ -43,13 +44,13 @@ class DatasetCard : public Exporter {
   std::int64_t max_in_image_ = 0;
   std::map<std::string, std::int64_t> by_height_;
   std::map<std::string, std::int64_t> by_visibility_;
-  std::map<std::string, std::int64_t> by_count_;  ///< images by people in them
-  std::map<std::string, std::int64_t> by_light_;  ///< images by where the sun is
+  std::map<std::string, std::int64_t> by_count_;  ///< images by number of people
+  std::map<std::string, std::int64_t> by_light_;  ///< images by position of the sun
   std::map<std::string, std::int64_t> by_weather_;
   std::map<std::string, std::int64_t> by_state_;
   std::map<std::string, std::int64_t> by_split_;
-  std::set<std::int64_t> tracks_;     ///< that were looked at for their characters
-  std::set<std::string> characters_;  ///< of the library, that images show
+  std::set<std::int64_t> tracks_;     ///< tracks whose characters have been counted
+  std::set<std::string> characters_;  ///< characters of the library that occur in images
 };
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// Several datasets as one.
+// Merges several datasets into one.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,19 @@
 
 namespace throng::formats {
 
+/// Size of the merged dataset.
 struct MergedCounts {
   std::int64_t runs = 0;
   std::int64_t images = 0;
   std::int64_t annotations = 0;
 };
 
-/// Makes one dataset of several, in their order: their runs are counted on, and so are the ids of
-/// images, annotations and tracks; other files are hard links where the file system can. Splits
-/// stay what they are. The job of the result says what all jobs say; their times, drones, kinds of
-/// ground truth and classes must be equal. Formats below formats/ are left out: they are exported
-/// again. Throws InputError, and EnvironmentError where the folder cannot be written; nothing is
-/// left then.
+/// Merges datasets in the given order into the new folder `output`. Runs are renumbered
+/// consecutively, and so are the ids of images, annotations and tracks; other files are hard links
+/// if the file system supports them. Splits are kept. The job of the result has the members on
+/// which all jobs agree; their times, drones, kinds of ground truth and classes must be equal.
+/// Exports below formats/ are left out. Throws InputError, and EnvironmentError if the folder
+/// cannot be written; `output` then does not exist.
 MergedCounts merge_datasets(const std::vector<std::filesystem::path>& datasets,
                             const std::filesystem::path& output);
 

@@ -1,5 +1,5 @@
-// COCO instances JSON, streamed: records are written as they come and never rewritten, so memory
-// does not grow with the number of frames.
+// Writer for COCO instances JSON. It streams: records are written at once and never changed, so
+// memory does not grow with the number of frames.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 
 namespace throng::annotate {
 
+/// Record of an image. Members that hold JSON are inserted as they are.
 struct CocoImage {
   std::int64_t id = 0;
   std::string file_name;  ///< relative to the image root, forward slashes
@@ -25,25 +26,25 @@ struct CocoImage {
   std::int64_t frame_index = 0;
   double time_s = 0;
   camera::Camera camera;           ///< K, R, t are written with the image
-  int run_index = 0;               ///< number of the run in the dataset: keeps track ids apart
-  std::string environment;         ///< a JSON object: light and weather; "" when not known
-  std::string drawn;               ///< a JSON object: the samples of the run; "" without any
-  std::string sensor;              ///< a JSON object: sensor and exposure; "" when not known
-  std::string flight;              ///< a JSON object: the drone and its sensors; "" when not known
-  std::string exits;               ///< a JSON array: exits in the image; "" when not known
-  std::string density_file;        ///< like file_name; "" when the frame has no density map
-  std::int64_t density_count = 0;  ///< heads that the density map sums to
-  std::string hazards;             ///< JSON, or ""
-  std::string zones;               ///< a JSON array: people visible in zones, or ""
-  const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known
-  /// Ids of the run's drones, by number; null when there are none to be seen.
+  int run_index = 0;               ///< index of the run in the dataset; part of track ids
+  std::string environment;         ///< a JSON object: light and weather; "" to omit
+  std::string drawn;               ///< a JSON object: random values of run and frame; "" to omit
+  std::string sensor;              ///< a JSON object: sensor and exposure; "" to omit
+  std::string flight;              ///< a JSON object: the drone and its sensors; "" to omit
+  std::string exits;               ///< a JSON array: exits in the image; "" to omit
+  std::string density_file;        ///< path like file_name; "" if there is no density map
+  std::int64_t density_count = 0;  ///< number of heads, the sum of the density map
+  std::string hazards;             ///< a JSON array: hazards so far; "" to omit
+  std::string zones;               ///< a JSON array: people visible in zones; "" to omit
+  const PersonFacts* facts = nullptr;  ///< of the run's people; null to omit
+  /// Ids of the run's drones by index; null if drones are not labeled.
   const std::vector<std::string>* drone_ids = nullptr;
-  bool whole_masks = false;  ///< write the whole masks of people, drones and vehicles, too
+  bool whole_masks = false;  ///< also write the amodal masks of people, drones and vehicles
 };
 
 inline constexpr int kPersonCategory = 1;
 
-/// A category of what is no person.
+/// A category other than people.
 struct ObjectCategory {
   int id = 0;
   std::string_view name;
@@ -56,20 +57,20 @@ inline constexpr std::array kObjectCategories = {
 };
 inline constexpr int kDroneCategory = kObjectCategories.front().id;
 
-/// The categories beside people's of a dataset where drones may see each other, or that has
-/// vehicles.
+/// The categories other than people of a dataset with drones in view or with vehicles.
 std::vector<ObjectCategory> object_categories(bool drones, bool vehicles);
 
-/// Agents that one run may have, so that ids stay unique: annotation id = image id *
-/// kMaxAgentsPerRun + agent id + 1.
+/// Max number of agents in a run, so that ids are unique: annotation id = image id *
+/// kMaxAgentsPerRun
+/// + agent id + 1.
 inline constexpr std::int64_t kMaxAgentsPerRun = 100'000;
-/// The last of these numbers are drones': drone i is counted as agent kFirstDroneNumber + i. Those
-/// before are vehicles', counted in the same way.
+/// The last agent ids are reserved: drone i has the id kFirstDroneNumber + i, and vehicle i the id
+/// kFirstVehicleNumber + i.
 inline constexpr std::int64_t kMaxDronesPerRun = 16;
 inline constexpr std::int64_t kFirstDroneNumber = kMaxAgentsPerRun - kMaxDronesPerRun;
 inline constexpr std::int64_t kMaxVehiclesPerRun = 4096;
 inline constexpr std::int64_t kFirstVehicleNumber = kFirstDroneNumber - kMaxVehiclesPerRun;
-/// Ids are exact in readers whose numbers are doubles (JavaScript).
+/// Max image id, so that annotation ids are exact in programs that read numbers as doubles.
 inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgentsPerRun - 1;
 /// A person's track_id, equal in all frames and cameras of a run: agent id + 1 + run_index *
 /// kTrackIdsPerRun.
@@ -78,10 +79,10 @@ constexpr std::int64_t track_id(std::int64_t run_index, std::uint32_t agent) {
   return agent + 1 + run_index * kTrackIdsPerRun;
 }
 
-/// Writes the records of one shard of frames: `images.jsonl`, `annotations.jsonl` and, of who is in
-/// them, `tracks.jsonl` in a folder, one JSON object per line, and `coco_shard.json`, which counts
-/// them and says that the shard is whole. Ids depend on image and agent only, never on how frames
-/// are sharded.
+/// Writes the records of one shard into a folder: `images.jsonl`, `annotations.jsonl` and, for the
+/// people in them, `tracks.jsonl`, each with one JSON object per line, and `coco_shard.json`, which
+/// counts the records and marks the shard as complete. Ids depend on image and agent only, not on
+/// the division into shards.
 class CocoShardWriter {
  public:
   /// Creates the folder; replaces the files of an earlier attempt. Throws EnvironmentError.
@@ -89,10 +90,11 @@ class CocoShardWriter {
   ~CocoShardWriter();
   CocoShardWriter(const CocoShardWriter&) = delete;
   CocoShardWriter& operator=(const CocoShardWriter&) = delete;
-  /// Image ids are unique over the dataset and at most kMaxImageId. Throws EnvironmentError when
-  /// the disk refuses.
+  /// Appends the records of an image. Its id must be unique in the dataset and at most kMaxImageId.
+  /// Throws EnvironmentError if the files cannot be written.
   void add(const CocoImage& image, const FrameLabels& labels);
-  /// Flushes, closes and declares the shard whole; throws EnvironmentError when the disk refused.
+  /// Flushes and closes the files and marks the shard as complete. Throws EnvironmentError if the
+  /// files cannot be written.
   void finish();
 
  private:
@@ -100,20 +102,21 @@ class CocoShardWriter {
   std::unique_ptr<Files> files_;
 };
 
+/// Content of the COCO file's `categories`.
 struct CocoCategories {
-  bool keypoints = false;  ///< that of people names theirs
-  bool drones = false;     ///< there is one of drones
-  bool vehicles = false;   ///< there are those of vehicles
-  bool skeletons = false;  ///< that of people names joints and bones
+  bool keypoints = false;  ///< the category of people names COCO's keypoints
+  bool drones = false;     ///< there is a category of drones
+  bool vehicles = false;   ///< there are categories of vehicles
+  bool skeletons = false;  ///< the category of people names joints and bones
 };
 
-/// Everything of the COCO file before its records: `info`, `licenses` and `categories`.
-/// `description` becomes info.description. With "}" it is a JSON object.
+/// The beginning of the COCO file up to its records: `info`, `licenses` and `categories`.
+/// `description` becomes info.description. With "}" appended it is a JSON object.
 std::string coco_head(const std::string& description, const CocoCategories& categories);
 
-/// One linear pass over shard folders, in the given order, which is by run, into one COCO file
-/// (written beside and renamed). `description` becomes info.description. Throws EnvironmentError
-/// naming file and line when a shard is unfinished, truncated or damaged, or when the disk refuses.
+/// Concatenates shards, which must be in the order of their runs, into one COCO file, in one pass
+/// and atomically. `description` becomes info.description. Throws EnvironmentError that names file
+/// and line if a shard is incomplete or damaged, or if the file cannot be written.
 void merge_coco(const std::vector<std::filesystem::path>& shard_folders,
                 const std::filesystem::path& output, const std::string& description,
                 const CocoCategories& categories = {});

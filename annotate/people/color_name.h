@@ -1,4 +1,4 @@
-// Names of colors, as people call those of clothes.
+// Names of colors in plain English, for clothes and hair.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,10 @@
 
 namespace throng::annotate {
 
-/// One of black, white, gray, red, orange, yellow, green, blue, purple, pink, brown (the basic
-/// color terms of Berlin and Kay 1969) and beige, for an sRGB color: by lightness, chroma and hue
-/// angle in CIELAB. The limits, which are ours, are in the function.
+/// The name of an sRGB color, given as three bytes: one of black, white, gray, red, orange, yellow,
+/// green, blue, purple, pink, brown (the basic color terms of Berlin and Kay 1969) and beige, by
+/// lightness, chroma and hue angle in CIELAB. The limits were chosen for throng; see the source
+/// file.
 std::string_view color_name(const std::uint8_t* rgb);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// Hazards of a scenario in image records, and the danger that they are to people.
+// Hazards of a scenario in image records, and the danger that they pose to people.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,19 @@
 
 namespace throng::annotate {
 
+/// The hazards at the current time, which only advances.
 class HazardView {
  public:
-  /// The trace outlives the view.
+  /// The trace must outlive this object.
   HazardView(const world::Scenario& scenario, const world::Trace& trace);
 
-  /// Goes on to a time, which is not before the last one.
+  /// Sets the current time, which must not be before the previous one.
   void advance(double time_s);
 
-  /// A JSON array of the hazards that have begun (docs/formats_coco.md).
+  /// A JSON array of the hazards that have started, as `camera` sees them (docs/formats_coco.md).
   std::string json(const camera::Camera& camera) const;
 
-  /// The danger for somebody at `position`; none before a hazard has begun.
+  /// The danger for an agent at `position` (m); std::nullopt before the first hazard has started.
   std::optional<Danger> danger(std::uint32_t agent, const Eigen::Vector2d& position) const;
 
  private:
@@ -36,7 +37,7 @@ class HazardView {
     double radius_m = 0;
   };
 
-  /// Hazards that have begun at a time, as they are then.
+  /// The extents at a time of the hazards that have started.
   std::vector<Reach> reaches_at(double time_s) const;
   Eigen::Vector2d hazard_center(const world::Disaster& hazard, double time_s) const;
 

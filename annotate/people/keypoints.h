@@ -1,5 +1,4 @@
-// Joints of the people in a frame, COCO's 17 keypoints or all of them, with what the image shows of
-// them.
+// Keypoints (COCO's 17) and joints (all) of the people in a frame, with their visibility.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace throng::annotate {
 
-/// COCO's bones between the keypoints, as numbers from 1.
+/// COCO's skeleton: pairs of keypoints, as indices from 1.
 inline constexpr std::array<std::pair<int, int>, 19> kSkeleton = {{{16, 14},
                                                                    {14, 12},
                                                                    {17, 15},
@@ -31,13 +30,13 @@ inline constexpr std::array<std::pair<int, int>, 19> kSkeleton = {{{16, 14},
                                                                    {4, 6},
                                                                    {5, 7}}};
 
-/// Sets the keypoints of everybody in `labels`, which are the frame's. A keypoint is visible if,
-/// within a pixel of its place, the image shows the person at its depth: as deep inside the body
-/// as the joint lies, and no deeper.
+/// Sets the keypoints of all people in `labels`, which must be the labels of `frame`. A keypoint is
+/// visible if, within a pixel of its projection, the image shows the person's surface in front of
+/// the joint by no more than the joint's depth inside the body.
 void add_keypoints(const render::Frame& frame, FrameLabels& labels);
 
-/// Sets all joints in the same way. One that is not visible is hidden by the own body if the image
-/// shows the person at its place.
+/// Sets all joints by the same rule. A joint that is not visible is self_hidden if the image shows
+/// the person at its projection.
 void add_joints(const render::Frame& frame, FrameLabels& labels);
 
 }  // namespace throng::annotate

@@ -1,4 +1,5 @@
-// People of one frame who look alike and are near each other: where trackers exchange identities.
+// Lookalikes: people in one frame who look alike and are near each other, so that trackers may swap
+// their identities.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,33 +12,34 @@
 
 namespace throng::annotate {
 
-/// Mean CIELAB colors of the upper and the lower half of what an image shows of somebody.
+/// Mean CIELAB colors of the upper and the lower half of a person's visible pixels.
 struct Look {
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();
 };
 
-/// Below this, halves have no color that could be compared.
+/// Min number of visible pixels in each half for a comparison.
 inline constexpr int kMinLookPixels = 15;
-/// CIE 1976 color difference of each half below which people look alike; 2.3 is just noticeable.
+/// Max CIE 1976 color difference of each half for people who look alike; 2.3 is just noticeable.
 inline constexpr double kMaxLookDifference = 6;
-/// How far apart people are compared, in the mean of the heights of their whole boxes.
+/// Max distance of lookalikes in the image, in units of the mean height of their amodal boxes.
 inline constexpr double kMaxLookalikeHeights = 3;
 
-/// Halves are those of the mask's box. Nothing if one has less than kMinLookPixels pixels.
+/// The look of a person with these visible pixels, halved at the middle of the mask's box.
+/// std::nullopt if a half has fewer than kMinLookPixels pixels.
 std::optional<Look> describe_look(const ColorImage& image, const render::PixelMask& mask);
 
-/// The larger one of the color differences of the halves.
+/// The greater of the color differences of the two halves.
 double look_difference(const Look& a, const Look& b);
 
-/// Look and place of a person in an image, for comparisons.
+/// Look and position of a person in an image.
 struct PersonLook {
-  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< of the whole box
-  double height_px = 0;                                 ///< of the whole box
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  ///< center of the amodal box
+  double height_px = 0;                                 ///< height of the amodal box
   std::optional<Look> look = std::nullopt;
 };
 
-/// For each person the indices of those who look alike and are near, the nearest first.
+/// For each person, the indices of the lookalikes, nearest first.
 std::vector<std::vector<std::size_t>> group_lookalikes(std::span<const PersonLook> people);
 
 }  // namespace throng::annotate

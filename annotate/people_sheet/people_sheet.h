@@ -1,6 +1,6 @@
-// A sheet of a population, for people to judge it by: everybody from the front and from the side,
-// a crowd as drones see it, gaits, levels of detail, and how tall people are. All people
-// are rendered by the renderer of datasets.
+// Contact sheet of a character library, for visual inspection: portraits from the front and the
+// side, a crowd as drones see it, gaits, levels of detail, and the distribution of heights. It uses
+// the same renderer as datasets.
 #pragma once
 
 #include <cstdint>
@@ -14,35 +14,39 @@
 
 namespace throng::annotate {
 
+/// Content and size of a sheet.
 struct SheetOptions {
-  std::vector<std::uint32_t> portraits;  ///< characters; at least one
+  std::vector<std::uint32_t> portraits;  ///< characters of the portraits; at least one
   std::vector<std::uint32_t> crowd;      ///< characters of the drones' views; at least one
-  std::uint64_t seed = 1;                ///< of colors, of the crowd and of the heights
-  int width_px = 2400;                   ///< of the sheet, 800 to 8000
+  std::uint64_t seed = 1;                ///< of colors, the crowd and the heights
+  int width_px = 2400;                   ///< width of the sheet, 800 to 8000
   render::DeviceChoice device;
 };
 
-/// One drawn image of the sheet.
+/// One image of the sheet.
 struct SheetCell {
   std::string label;
-  int x = 0;  ///< of its upper left corner
+  int x = 0;  ///< upper left corner in the sheet, px
   int y = 0;
   int width = 0;
   int height = 0;
-  std::uint64_t person_px = 0;  ///< pixels that show somebody
+  std::uint64_t person_px = 0;  ///< number of pixels that show a person
 };
+
+/// The rendered sheet.
 
 struct Sheet {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  ///< rows top-down, sRGB
+  std::vector<std::uint8_t> rgb;  ///< sRGB, three bytes per pixel, row by row from the top
   std::vector<SheetCell> cells;
 };
 
-/// Called between images with the share that is done; may throw to end the work.
+/// Called between images with the finished share, 0 to 1, and the name of the next step; may throw
+/// to cancel the work.
 using SheetProgress = std::function<void(double share, std::string_view what)>;
 
-/// Throws EnvironmentError when this machine cannot render.
+/// Renders the sheet. Throws EnvironmentError if this machine cannot render.
 Sheet draw_people_sheet(const skinning::Population& population, const SheetOptions& options,
                         const SheetProgress& progress = {});
 

@@ -1,5 +1,5 @@
-// Crowd density in the image: a Gaussian per head, each normalized inside the image, so that the
-// map's sum is the count exactly.
+// Density map of an image: one Gaussian per head, each normalized within the image, so that the
+// map's sum is the number of heads.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 
 namespace throng::annotate {
 
+/// A density map (Lempitsky and Zisserman 2010).
 struct DensityMap {
   int width = 0;
   int height = 0;
@@ -18,21 +19,22 @@ struct DensityMap {
   double sum() const;
 };
 
-/// Heads in box coordinates (pixel i covers [i, i + 1)); heads outside the image do not count.
-/// `sigma_px` > 0; the kernel is cut off at 4 sigma and renormalized at the borders.
+/// The density map of heads in box coordinates (pixel i covers [i, i + 1)); heads outside of the
+/// image are ignored. `sigma_px` > 0 is the kernel's width; the kernel is cut off at 4 sigma and
+/// normalized within the image.
 DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
                        double sigma_px);
 
-/// The same with a width of its own for each head.
+/// The density map of heads with one kernel width each.
 DensityMap density_map(std::span<const Eigen::Vector2d> heads, std::span<const double> sigmas_px,
                        int width, int height);
 
 /// The bytes of a NumPy .npy version 1.0 file: float32, C order.
 std::string npy_bytes(std::span<const int> shape, std::span<const float> values);
-/// That of a map, shape (height, width).
+/// The bytes of a .npy file of a map with the shape (height, width).
 std::string npy_bytes(const DensityMap& map);
-/// A compressed NumPy .npz file of one array, "density": a small part of npy_bytes(), since most
-/// pixels of a map are 0.
+/// The bytes of a compressed NumPy .npz file with one array, "density". It is much smaller than a
+/// .npy file, because most pixels of a map are 0.
 std::string npz_bytes(const DensityMap& map);
 
 }  // namespace throng::annotate

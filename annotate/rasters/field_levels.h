@@ -1,4 +1,4 @@
-// Fields on the ground on grids with cells of other sizes.
+// Ground fields resampled to grids with other cell sizes.
 #pragma once
 
 #include <string>
@@ -7,23 +7,25 @@
 
 namespace throng::annotate {
 
-/// A grid with the corner of a GroundGrid and cells of any size, as many as cover its ground.
+/// A grid with the origin of a GroundGrid and another cell size.
 struct FieldLevel {
   double cell_m = 1;
   int columns = 1;
   int rows = 1;
 };
+/// The level with as many cells of this size as cover the grid.
 FieldLevel field_level(const GroundGrid& grid, double cell_m);
 
-/// The field on the level's grid: what each cell of `grid` holds is shared out among the level's
-/// cells by the areas that they have in common. So densities times the area of a cell sum to
-/// `people`; velocities are the means of the people in a cell.
+/// Resamples a field from `grid` to the level: the people of each cell are distributed to the
+/// level's cells in proportion to the areas of overlap, so that densities times the area of a cell
+/// still sum to `people`. Velocities are means over the people in a cell.
 GroundField field_on(const FieldLevel& level, const GroundGrid& grid, const GroundField& field);
 
-/// The bytes of a .npy file, like those of a GroundGrid's field.
+/// The bytes of a .npy file, float32, C order, shape (4, rows, columns): density, velocity x, y,
+/// Voronoi density.
 std::string npy_bytes(const FieldLevel& level, const GroundField& field);
 
-/// The folder below fields/RUN/ of the fields with such cells: "cell_2", "cell_0.5".
+/// Name of the folder below fields/RUN/ for this cell size: "cell_2", "cell_0.5".
 std::string level_folder(double cell_m);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// How crowded the ground is and how people move on it, on a grid: density and velocity fields.
+// Density and velocity fields of the crowd on a grid over the ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@
 
 namespace throng::annotate {
 
-/// Distance at which the kernel exp(-r²/h²) has fallen to 1/e (m); it is cut off at three times it.
+/// Width h of the kernel exp(-r²/h²) (m); the kernel is cut off at 3 h.
 inline constexpr double kFieldKernelM = 0.7;
 
-/// Size of the cells of a ground's grid (m): 0.25 m, doubled until there are at most 131 072.
+/// Cell size of a ground's grid (m): 0.25 m, doubled until there are at most 131 072 cells.
 double ground_cell_m(const world::Rectangle& ground);
 
-/// Cells over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
+/// A grid over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
 /// cell in x and origin + [row, row + 1) · cell in y.
 class GroundGrid {
  public:
-  /// Cells of ground_cell_m().
+  /// A grid with the cell size ground_cell_m().
   explicit GroundGrid(const world::Scenario& scenario);
 
   const Eigen::Vector2d& origin() const { return origin_; }  ///< m
@@ -38,21 +38,22 @@ class GroundGrid {
   double cell_m_;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<bool> walkable_;  ///< whether a cell's middle is outside of all buildings
+  std::vector<bool> walkable_;  ///< per cell: its center is outside of all buildings
   metrics::VoronoiCutter cutter_;
 };
 
+/// Fields at one time; one value per cell, row-major.
 struct GroundField {
-  /// People per m²: each person's kernel is scaled so that it sums to 1 over the cells of the
-  /// ground where one can walk; times a cell's area these sum to `people`.
+  /// People per m². Each person's kernel is normalized over the walkable cells, so that the
+  /// densities times the area of a cell sum to `people`.
   std::vector<float> density;
-  std::vector<float> velocity_x;  ///< m/s, mean by the same kernel; 0 where nobody is near
+  std::vector<float> velocity_x;  ///< m/s, mean weighted by the same kernel; 0 if nobody is near
   std::vector<float> velocity_y;
-  std::vector<float> voronoi;  ///< people per m² by Voronoi cells (metrics/density/voronoi.h)
-  std::int64_t people = 0;     ///< on the ground, seen by cameras or not
+  std::vector<float> voronoi;  ///< people per m² from Voronoi cells (metrics/density/voronoi.h)
+  std::int64_t people = 0;     ///< on the ground, whether cameras see them or not
 };
 
-/// Everybody who is there at `time_s`, between the trace's steps, too.
+/// The fields of all people present at `time_s`; positions are interpolated between steps.
 GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, double time_s);
 
 /// The bytes of a .npy file, float32, C order, shape (4, rows, columns): density, velocity x, y,

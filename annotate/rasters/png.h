@@ -1,5 +1,5 @@
-// Ground truth per pixel as lossless PNG files; what their values mean is in docs/formats.md. ISA-L
-// compresses several times faster than zlib, at nearly the same size.
+// Ground truth per pixel as lossless PNG files; docs/formats.md defines their values. Compressed by
+// ISA-L, which is several times faster than zlib at nearly the same size.
 #pragma once
 
 #include <cstdint>
@@ -10,54 +10,55 @@
 
 namespace throng::annotate {
 
-/// Samples of an image, row by row from the top, channels interleaved.
+/// Shape of an image whose samples are stored row by row from the top, with interleaved channels.
 struct Raster {
   int width = 0;
   int height = 0;
   int channels = 1;  ///< 1 (gray) or 3 (RGB)
 };
 
-/// The bytes of a PNG file. Checks that there are width * height * channels samples.
+/// The bytes of a PNG file. Fails a check() unless there are width * height * channels samples.
 std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples);
 std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples);
 
-/// Depth in depth_png() of one meter.
+/// Scale of depth_png(): values per meter.
 inline constexpr float kDepthPerMeter = 100;
 
-/// 16-bit gray: camera z in centimeters, rounded; 0 for the sky and whatever is farther than
-/// 655.35 m.
+/// 16-bit gray: z in the camera frame in centimeters, rounded; 0 for the sky and beyond 655.35 m.
 std::string depth_png(const render::Frame& frame);
 
-/// 8-bit RGB: red + 256 * green + 65536 * blue is the instance: 0 sky, agent + 1 for a person, and
-/// for static objects the id buffer's highest byte << 16 with its lowest 16 bits.
+/// 8-bit RGB: the instance is red + 256 * green + 65536 * blue: 0 for the sky, agent id + 1 for a
+/// person; for a static object, the highest byte of its id in the buffer << 16 plus its lowest 16
+/// bits.
 std::string instance_png(const render::Frame& frame);
 
-/// 8-bit gray: a world::SemanticClass for each pixel (docs/formats_pixels.md#semantic). Checks that
-/// the frame has them.
+// The following functions fail a check() if the frame lacks their buffer.
+
+/// 8-bit gray: world::SemanticClass (docs/formats_pixels.md#semantic).
 std::string semantic_png(const render::Frame& frame);
 
-/// 8-bit gray: render::BodyPart. Checks that the frame has parts.
+/// 8-bit gray: render::BodyPart.
 std::string part_png(const render::Frame& frame);
 
-/// 8-bit RGB: Frame::normal as it is. Checks that the frame has normals.
+/// 8-bit RGB: the bytes of Frame::normal.
 std::string normal_png(const render::Frame& frame);
 
-/// 16-bit RGB in KITTI's format: 32768 + 64 * motion, rounded, right and down; blue 1, or all 0
-/// where the flow is unknown or leaves the format's range of +-512 pixels. Checks that the frame
-/// has flow.
+/// Optical flow as 16-bit RGB in KITTI's format: red and green are 32768 + 64 * motion to the right
+/// and down in pixels, rounded, and blue is 1; all are 0 if the flow is unknown or outside of the
+/// format's range of +-512 pixels.
 std::string flow_png(const render::Frame& frame);
 
-/// The same of Frame::flow_backward.
+/// Frame::flow_backward in the same format.
 std::string flow_backward_png(const render::Frame& frame);
 
-/// 8-bit gray: render::FlowTarget. Checks that the frame has them.
+/// 8-bit gray: render::FlowTarget.
 std::string flow_occlusion_png(const render::Frame& frame);
 
-/// 8-bit RGB: Frame::hazard_opacity as it is. Checks that the frame has it.
+/// 8-bit RGB: the bytes of Frame::hazard_opacity.
 std::string hazard_opacity_png(const render::Frame& frame);
 
-/// 16-bit RGB: 32768 + 1000 * motion in the world (m), rounded; all 0 where it is unknown or
-/// farther than 32.7 m. Checks that the frame has it.
+/// Scene flow as 16-bit RGB: 32768 + 1000 * motion in world coordinates (m), rounded; all 0 if the
+/// motion is unknown or exceeds 32.7 m.
 std::string scene_flow_png(const render::Frame& frame);
 
 }  // namespace throng::annotate

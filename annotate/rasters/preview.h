@@ -1,4 +1,4 @@
-// Images for people: the frame with boxes, ids and counts drawn on it.
+// Preview images for visual inspection: the frame with boxes and counts drawn on it.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace throng::annotate {
 
-/// The frame's colors with each visible person's box (color by track id) and a caption line
-/// (time, visible count). Returns RGB, same size.
+/// The frame with the box of each visible person, colored by agent id, and a caption with time and
+/// counts. Returns RGB rows of the same size.
 std::vector<std::uint8_t> draw_preview(const render::Frame& frame, const FrameLabels& labels);
 
-/// JPEG bytes of RGB rows (libjpeg-turbo). Quality 1..100; 4:2:0.
+/// Encodes RGB rows as JPEG with 4:2:0 subsampling and a quality of 1 to 100. The bytes are the
+/// same on machines with and without SIMD. Throws EnvironmentError.
 std::string jpeg_bytes(const std::vector<std::uint8_t>& rgb, int width, int height, int quality);
 
 }  // namespace throng::annotate

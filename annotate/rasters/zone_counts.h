@@ -1,5 +1,5 @@
-// Counts of people in zones and across lines of the ground, frame by frame, with their identities:
-// what counting individuals in videos is scored against.
+// Counts of people in zones and across lines of the ground per frame, with their identities: ground
+// truth for the counting of individuals in videos.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,25 @@
 
 namespace throng::annotate {
 
-/// Id of the zone that is all of the ground.
+/// Id of the zone that covers all of the ground.
 inline constexpr const char* kGroundZone = "ground";
 
-/// Those of a job, before them the zone of all ground and the scenario's doors; inward is into the
-/// place.
+/// The zone kGroundZone, a line for each exit of the scenario, with the inward direction into the
+/// building, and the areas of the job, in this order.
 CountAreas count_areas(const world::Scenario& scenario, const CountAreas& of_job);
 
-/// counts/RUN.csv: a row per frame and area. A zone has the people `inside` at the frame's time,
-/// and who `entered` and `left` since the frame before (at the first, all inside entered). A line
-/// has who crossed it since the frame before, each time they did, step by step of the trace.
-/// People are those of trajectories_at(), by track id of run `run_index`.
+/// The content of counts/RUN.csv: one row per frame and area, with people as track ids. A zone
+/// lists the people `inside` at the frame's time and those who `entered` and `left` since the
+/// previous frame; at the first frame, all people inside have entered. A line lists the people who
+/// crossed it since the previous frame, once per crossing, from the trace's steps. The people are
+/// those of trajectories_at().
 std::string counts_csv(const world::Trace& trace, const CountAreas& areas,
                        std::span<const double> times_s, std::int64_t run_index);
 
-/// counts/RUN.json: the areas with their places.
+/// The content of counts/RUN.json: the areas with their coordinates.
 std::string counts_json(const CountAreas& areas);
 
-/// A JSON array of the zones with how many people with a visible pixel stand in them.
+/// A JSON array with the number of people in each zone who have at least one visible pixel.
 std::string visible_in_zones(const FrameLabels& labels, const std::vector<CountZone>& zones);
 
 }  // namespace throng::annotate

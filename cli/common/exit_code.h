@@ -1,11 +1,11 @@
-// Exit codes of the program, and the one place that turns errors into them.
+// Exit codes of the program and the mapping from exceptions to them.
 #pragma once
 
 #include <functional>
 
 namespace throng::cli {
 
-/// Documented in `throng --help`.
+/// Exit codes, as documented in `throng --help`.
 enum ExitCode : int {
   exit_ok = 0,
   exit_input = 2,        ///< the input is wrong
@@ -13,7 +13,8 @@ enum ExitCode : int {
   exit_cancelled = 130,
 };
 
-/// Runs a program; reports an error that it throws on stderr and returns the error's exit code.
+/// Calls `program` and returns its exit code. If it throws, reports the error on stderr and returns
+/// the error's exit code.
 int run_program(const std::function<int()>& program);
 
 }  // namespace throng::cli

@@ -1,6 +1,6 @@
-// Options of `throng scenario import`, which the program hands on to throng-import (cli/import): a
-// program of its own, because the libraries that read Gazebo's worlds take as long to start as all
-// others together.
+// Options of `throng scenario import`, which the program passes on to throng-import (cli/import).
+// That is a separate program, because loading the libraries that read Gazebo's worlds takes as long
+// as loading all others together.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,19 @@ class App;
 
 namespace throng::cli {
 
+/// Values of the options.
 struct ImportOptions {
-  std::string file;
-  std::string folder;
-  int people = 100;
+  std::string file;    ///< file to import
+  std::string folder;  ///< folder of the new scenario
+  int people = 100;    ///< number of people
   std::uint64_t seed = 1;
   std::vector<std::string> exits;   ///< x1,y1,x2,y2 in meters
-  std::vector<std::string> models;  ///< folders for model://
-  std::string origin;               ///< latitude,longitude in degrees; empty: the middle
+  std::vector<std::string> models;  ///< folders in which model:// URIs are searched
+  std::string origin;               ///< latitude,longitude in degrees; "": center of the map
 };
 
-/// `options` must live as long as the command.
+/// Adds the options to a command. `options` must outlive it.
+
 void add_import_options(CLI::App& command, ImportOptions& options);
 
 }  // namespace throng::cli

@@ -1,4 +1,4 @@
-// Checks a finished dataset against itself: every rule that its formats promise (docs/formats.md).
+// Checks a finished dataset for consistency, by the rules of docs/formats.md.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace throng::formats {
 
-/// Reads all of the dataset once. Memory does not grow with its images, but for the lists of its
-/// files and ids. Throws InputError when it is no finished dataset at all.
+/// Reads all files of the dataset once and returns the findings. Memory grows with the number of
+/// images only by the lists of files and ids. Throws InputError if `root` is no finished dataset.
 Validation validate_dataset(const std::filesystem::path& root);
 
 }  // namespace throng::formats

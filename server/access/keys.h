@@ -1,5 +1,5 @@
-// API keys: who may do what. They lie in a file of their own in the data folder, so that
-// `throng keys` works beside a running server. Of a key only a hash is kept.
+// API keys and their permissions. They are stored in a file of their own, so that `throng keys`
+// works while a server runs. Only hashes of the keys are stored.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,31 @@
 
 namespace throng::server {
 
-/// Jobs have priorities from -kMaxPriority to this; administrators may give them any.
+/// Priorities of jobs range from -kMaxPriority to kMaxPriority; administrators may use all of them.
 inline constexpr int kMaxPriority = 100;
 
 /// Permissions of a caller; each includes those before it.
 enum class Scope : std::uint8_t {
-  anybody,  ///< nothing but ask whether the service lives
-  read,     ///< look at everything
-  submit,   ///< queue jobs and change one's own
-  admin     ///< change everybody's
+  anybody,  ///< health checks only
+  read,     ///< read access
+  submit,   ///< submit jobs and change the own ones
+  admin     ///< change all jobs, keys and settings
 };
 
 std::string_view to_string(Scope scope);
-/// read, submit or admin; nothing for any other word.
+/// The scope named read, submit or admin; std::nullopt for any other text.
 std::optional<Scope> scope_named(std::string_view name);
 
 /// Sender of a request.
 struct Caller {
-  std::string key_id;  ///< "" where no keys are needed
+  std::string key_id;  ///< "" if no keys are required
   Scope scope = Scope::anybody;
-  int max_active = 0;          ///< jobs that may wait or run at once; 0: any number
-  std::int64_t max_bytes = 0;  ///< disk that their jobs may take; 0: any
-  int max_priority = 0;        ///< of their jobs
+  int max_active = 0;          ///< max number of queued and running jobs; 0: unlimited
+  std::int64_t max_bytes = 0;  ///< max size of all jobs' files; 0: unlimited
+  int max_priority = 0;        ///< max priority of their jobs
 };
 
+/// A key as stored; the limits are those of Caller.
 struct KeyRow {
   std::string id;
   std::string name;
@@ -44,35 +45,36 @@ struct KeyRow {
   std::int64_t max_bytes = 0;
   int max_priority = 0;
   std::int64_t created_ms = 0;  ///< Unix time
-  std::int64_t revoked_ms = 0;  ///< 0: it is good
+  std::int64_t revoked_ms = 0;  ///< Unix time; 0: valid
 };
 
-/// Whether somebody may use this text as a key of their own making: 32 to 128 characters of a
+/// Whether a text may be used as a key that was not made by create(): 32 to 128 characters of a
 /// bearer token (RFC 6750).
 bool is_own_key(std::string_view text);
 
-/// Safe to use from many threads, and by many processes at once. Throws EnvironmentError.
+/// The file of keys. Safe to use from many threads and processes. All members throw
+/// EnvironmentError.
 class Keys {
  public:
-  /// Opens or creates the file in the data folder, which only its owner may read.
+  /// Opens or creates the file in the folder `data`; only the file's owner may read it.
   explicit Keys(const std::filesystem::path& data);
   ~Keys();
   Keys(const Keys&) = delete;
   Keys& operator=(const Keys&) = delete;
 
-  /// Makes a key and returns what the caller has to send: it can never be asked for again.
+  /// Creates a key and returns its text, which is not stored and cannot be retrieved later.
   std::string create(const std::string& name, Scope scope, int max_active = 0,
                      std::int64_t max_bytes = 0, int max_priority = 0);
-  /// Adds a key that the caller has chosen, for which is_own_key() holds.
+  /// Adds the given key, for which is_own_key() must hold.
   void add(const std::string& name, Scope scope, const std::string& token);
   std::vector<KeyRow> list() const;
-  /// False when there is no good key of this id.
+  /// Revokes a key. Returns false if there is no valid key with this id.
   bool revoke(const std::string& id);
 
-  /// Whether a key has ever been made: from then on every caller needs one.
+  /// Whether a key has ever been created; from then on, every caller needs one.
   bool are_needed() const;
-  /// Owner of the key; nothing when the key is invalid. If no keys are required, everybody is an
-  /// administrator.
+  /// The caller with this key; std::nullopt if the key is invalid. If no keys are required, every
+  /// caller is an administrator.
   std::optional<Caller> caller_of(std::string_view token) const;
 
  private:

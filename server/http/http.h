@@ -1,4 +1,4 @@
-// cpp-httplib, without the macro _res of <resolv.h>, which it brings along and Eigen cannot bear.
+// cpp-httplib without the macro _res of <resolv.h>, which conflicts with names in Eigen.
 #pragma once
 
 #include <httplib.h>
