@@ -1,4 +1,4 @@
-// Numbers of instances in a dataset: the id buffer's ids in 24 bits.
+// Instance numbers of a dataset: the ids of the id buffer, packed into 24 bits.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace throng::annotate {
 
-/// The value of instances/*.png where the id buffer has `id` (docs/formats_pixels.md).
+/// The value in instances/*.png for an id of the id buffer (docs/formats_pixels.md).
 inline std::uint32_t instance_of_id(std::uint32_t id) {
   constexpr std::uint32_t kLow16 = 0xFFFFU;
   if (id >= render::kIdBuilding) return (id >> 24U << 16U) | (id & kLow16);

@@ -6,7 +6,7 @@
 
 namespace throng::annotate {
 
-/// L*, a*, b* of a pixel.
+/// L*, a*, b* of a pixel given as three bytes.
 Eigen::Vector3f cielab_of_srgb(const std::uint8_t* rgb);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// Names of colors in plain English, for clothes and hair.
+// Names of colors in plain English, for the attributes of clothing.
 #pragma once
 
 #include <cstdint>

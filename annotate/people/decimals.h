@@ -1,5 +1,5 @@
-// Numbers of JSON records, which have so many of them that a formatting library's generality costs
-// more than all else.
+// Fast output of rounded numbers: the records hold so many of them that a general formatting
+// library would dominate the time of writing.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,23 +7,24 @@
 
 namespace throng::annotate {
 
-/// Decimals of places, m.
+/// Decimals of positions (m).
 inline constexpr int kMeterDecimals = 3;
-/// Decimals of what bodies are as a whole: boxes (m), velocities (m/s), headings (radians).
+/// Decimals of 3-D boxes (m), velocities (m/s) and headings (rad).
 inline constexpr int kBodyDecimals = 2;
-/// Decimals of pixels. Boxes of other formats are compared to 0.01 pixels.
+/// Decimals of pixel coordinates. Boxes of other formats are compared to 0.01 pixels.
 inline constexpr int kPixelDecimals = 2;
-/// Decimals of shares.
+/// Decimals of shares (0 to 1).
 inline constexpr int kShareDecimals = 4;
 
-/// The number that append_decimal() writes: for what must agree with a record to the last bit.
+/// The value that append_decimal() writes, for values that must agree with a record to the last
+/// bit.
 double rounded(double value, int decimals);
 
-/// Appends the number rounded to `decimals` (0 to 9), last zeros left out. Numbers beyond 1e9 and
-/// those that are none fail check(): JSON has no NaN.
+/// Appends the number rounded to `decimals` (0 to 9), without trailing zeros. Fails a check() for
+/// NaN, infinities and values beyond 1e9.
 void append_decimal(std::string& text, double value, int decimals);
 
-/// The same of a vector, in brackets.
+/// Appends a vector as a JSON array of such numbers.
 template <typename Vector>
 void append_decimals(std::string& text, const Vector& values, int decimals) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {

@@ -1,4 +1,4 @@
-// How hard people are to see in a frame, and what is in front of them.
+// Difficulty of the people in a frame, and the objects that occlude them.
 #pragma once
 
 #include "annotate/people/labels.h"
@@ -6,11 +6,11 @@
 
 namespace throng::annotate {
 
-/// Sets the difficulty of everybody in `labels`, which are the frame's.
+/// Sets the difficulty of all people in `labels`, which must be the labels of `frame`.
 void add_difficulty(const render::Frame& frame, FrameLabels& labels);
 
-/// Sets the occluders of everybody in `labels`: what the frame shows within their whole masks,
-/// which it must have (render::RenderOptions).
+/// Sets the occluders of all people in `labels`: the instances that the frame shows within their
+/// amodal masks. The frame must have these masks (render::RenderOptions).
 void add_occluders(const render::Frame& frame, FrameLabels& labels);
 
 }  // namespace throng::annotate

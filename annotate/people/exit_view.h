@@ -1,5 +1,5 @@
-// Exits as a camera sees them: where their doorways and control zones are in the image, and what
-// happens there.
+// Exits in image records: outlines of their doorways and control zones in the image, and their
+// state.
 #pragma once
 
 #include <span>
@@ -12,29 +12,29 @@
 
 namespace throng::annotate {
 
+/// The exits of one run.
 class ExitView {
  public:
-  /// `exits` are those of the scenario, with samples at `step_times_s`.
+  /// `exits` must be the series of the scenario's exits, sampled at `step_times_s`.
   ExitView(const world::Scenario& scenario, std::vector<metrics::ExitSeries> exits,
            std::vector<double> step_times_s);
 
-  /// A JSON array with an object for each exit (docs/formats.md). Polygons lie on the ground and
-  /// are in box coordinates, cut off where they pass behind the camera or where its lens shows
-  /// nothing, and not at the image's borders; empty when nothing of them would be in the image.
+  /// A JSON array with an object for each exit (docs/formats.md). Its polygons on the ground are as
+  /// in append_ground_polygon().
   std::string json(const camera::Camera& camera, double time_s) const;
 
  private:
   struct Outlines {
     std::string id;                     ///< JSON
-    std::vector<Eigen::Vector2d> door;  ///< m, on the ground
-    std::vector<Eigen::Vector2d> zone;
+    std::vector<Eigen::Vector2d> door;  ///< on the ground, m
+    std::vector<Eigen::Vector2d> zone;  ///< on the ground, m
   };
   std::vector<Outlines> outlines_;
   std::vector<metrics::ExitSeries> exits_;
   std::vector<double> step_times_s_;
 };
 
-/// The index of the last step at or before a time, or 0.
+/// The index of the last step at or before a time; 0 if there is none.
 std::size_t step_at(std::span<const double> step_times_s, double time_s);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// The box of each person's head, and how much of what it holds of them is visible.
+// Boxes of people's heads and their visibility.
 #pragma once
 
 #include "annotate/people/labels.h"
@@ -6,8 +6,8 @@
 
 namespace throng::annotate {
 
-/// Sets the heads of everybody in `labels`, which are the frame's. It must have whole masks
-/// (render::RenderOptions).
+/// Sets the heads of all people in `labels`, which must be the labels of `frame`. The frame must
+/// have amodal masks (render::RenderOptions).
 void add_heads(const render::Frame& frame, FrameLabels& labels);
 
 }  // namespace throng::annotate

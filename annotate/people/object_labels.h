@@ -1,4 +1,4 @@
-// Labels of the drones and vehicles that a frame shows, from its id buffer: boxes, masks,
+// Labels of the visible drones and vehicles in one frame, from its id buffer: boxes, masks,
 // visibility.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace throng::annotate {
 
-/// A label for each object with a visible pixel, by id.
+/// One label for each object with a visible pixel, sorted by id.
 std::vector<ObjectLabel> label_objects(const render::Frame& frame);
 
 }  // namespace throng::annotate

@@ -27,27 +27,27 @@ enum class Activity : std::uint8_t {
 };
 std::string_view to_string(Activity activity);
 
-/// The activity of somebody in a behavior's state of this name, with the trace's flags, whose body
-/// is rendered in such a motion: falling, lying or getting up where that shows it, and lying with
-/// world::kFallen where it shows neither; else panicking with world::kPanicked, else by
-/// speed: below 0.2 m/s they wait; faster they follow if the state's name says so, and above
-/// 2.07 m/s they run (Hreljac, 1993: where people change from walking to running).
+/// The activity of a person from the name of their behavior's state, the trace's flags, the actions
+/// of the rendered body and the speed, by the first rule that applies: falling, lying or getting up
+/// if the body does so; lying with world::kFallen; panicking with world::kPanicked; waiting below
+/// 0.2 m/s; following if the state's name says so; running above 2.07 m/s (transition from walking
+/// to running, Hreljac 1993); walking.
 Activity classify_activity(std::string_view state, std::uint8_t flags, skinning::Actions actions,
                            double speed_mps);
 
+/// The attributes of all people of a run.
 class PersonFacts {
  public:
-  /// The trace must outlive it; the population and the styling are those that the run is rendered
-  /// with.
+  /// The trace must outlive this object. `population` and `styling` must be those of the rendering.
   PersonFacts(const world::Trace& trace, const skinning::Population& population,
               const skinning::Styling& styling);
 
-  /// Appends `,"state":..,"behaviour":..,"exit":..` of an agent at a time (docs/formats.md); the
-  /// last two only where there are any.
+  /// Appends `,"state":..,"behaviour":..,"exit":..` of an agent at a time (docs/formats.md); omits
+  /// the last two if the agent has none.
   void append(std::string& text, std::uint32_t agent, double time_s, skinning::Actions actions,
               double speed_mps) const;
 
-  /// Appends `,"group":..,"attributes":{..}`: what stays the same all run long.
+  /// Appends `,"group":..,"attributes":{..}`, which are constant during the run.
   void append_track(std::string& text, std::uint32_t agent) const;
 
  private:

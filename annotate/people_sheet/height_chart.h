@@ -1,4 +1,5 @@
-// How tall the adults of a population are, against the distribution that they are sampled from.
+// Chart of the heights of a population's adults and of the distribution from which people are
+// sampled.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +9,9 @@
 
 namespace throng::annotate {
 
-/// Fills an RGB image: bars are the barefoot heights of people sampled with this seed, curves
-/// the normal distributions less what age takes (skinning/wardrobe/person.h), ticks below the axis
-/// the population's own adults as they stand in their shoes. Women and men in two colors.
+/// Draws the chart into an RGB image. Bars show the barefoot heights of people sampled with this
+/// seed, curves the normal distributions corrected for age (skinning/wardrobe/person.h), and ticks
+/// below the axis the population's adults with their shoes. Women and men have different colors.
 void draw_height_chart(cv::Mat image, const skinning::Population& population, std::uint64_t seed);
 
 }  // namespace throng::annotate

@@ -1,4 +1,4 @@
-// The images of a people's sheet: cameras, people before them and their poses.
+// Images of a contact sheet: cameras, people and their poses.
 #pragma once
 
 #include <string>
@@ -11,39 +11,40 @@
 
 namespace throng::annotate {
 
+/// One image to render.
 struct SheetShot {
   std::string label;
   camera::Camera camera;
   std::vector<render::PersonInstance> people;
 };
 
-/// Images side by side, as wide together as the sheet, or less.
+/// Images side by side, together at most as wide as the sheet.
 struct SheetRow {
-  std::string title;  ///< empty where the row above goes on
+  std::string title;  ///< "" for the continuation of the row above
   std::vector<SheetShot> shots;
 };
 
-/// Everybody from the front and from the side.
+/// Portraits from the front and the side.
 std::vector<SheetRow> portrait_rows(const skinning::Population& population,
                                     const SheetOptions& options);
 
-/// A crowd as drones see it that fly 15, 30 and 50 m high and look down by 45 degrees.
+/// A crowd seen by drones at heights of 15, 30 and 50 m that look down by 45 degrees.
 SheetRow drone_row(const skinning::Population& population, const SheetOptions& options);
 
-/// The first of the portraits' people in eight moments of each gait, then in other
-/// poses.
+/// The first character of the portraits at eight phases of each gait, then in other poses.
 std::vector<SheetRow> motion_rows(const skinning::Population& population,
                                   const SheetOptions& options);
 
-/// As many of the portraits' people as fill a row, each level of detail as a character of its own,
-/// in order: level 0 of the first person, level 1, ..., level 0 of the second, ...
+/// Characters of the portraits with each level of detail as a character of its own, in this order:
+/// level 0 of the first person, level 1, ..., level 0 of the second, ...
 struct LevelsApart {
   skinning::Population population;
-  std::vector<std::string> labels;
+  std::vector<std::string> labels;  ///< per character
 };
+/// The levels of as many characters as fill a row.
 LevelsApart levels_apart(const skinning::Population& population, const SheetOptions& options);
 
-/// All those levels, walking.
+/// All these levels, walking.
 std::vector<SheetRow> level_rows(const LevelsApart& apart, const SheetOptions& options);
 
 }  // namespace throng::annotate

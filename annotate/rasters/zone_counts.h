@@ -16,8 +16,8 @@ namespace throng::annotate {
 /// Id of the zone that covers all of the ground.
 inline constexpr const char* kGroundZone = "ground";
 
-/// The zone kGroundZone, a line for each exit of the scenario, with the inward direction into the
-/// building, and the areas of the job, in this order.
+/// The zone kGroundZone, a line for each exit of the scenario, with its inward direction opposite
+/// to Exit::outward, and then the zones and lines of the job.
 CountAreas count_areas(const world::Scenario& scenario, const CountAreas& of_job);
 
 /// The content of counts/RUN.csv: one row per frame and area, with people as track ids. A zone

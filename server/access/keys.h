@@ -20,7 +20,7 @@ enum class Scope : std::uint8_t {
   anybody,  ///< health checks only
   read,     ///< read access
   submit,   ///< submit jobs and change the own ones
-  admin     ///< change all jobs, keys and settings
+  admin     ///< see and change all jobs, keys and webhooks
 };
 
 std::string_view to_string(Scope scope);

@@ -1,4 +1,4 @@
-// JSON answers of the API.
+// JSON values in responses of the API.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,14 @@
 
 namespace throng::server {
 
-/// RFC 3339 in UTC with milliseconds; null for 0, which is "not yet".
+/// A time by RFC 3339 in UTC with milliseconds; null for 0 ("not yet").
 nlohmann::json time_json(std::int64_t unix_ms);
 
-/// {"stage", "frames_done", "frames_total", "runs": [...]}; "publishing" of a job that asks for it
+/// {"stage", "frames_done", "frames_total", "runs": [...]}, and "publishing" for a job that
+/// publishes its dataset.
 nlohmann::json progress_json(const jobs::JobProgress& progress);
 
-/// The part of the progress that makes an event: {"stage", "runs": {"run000": stage}}
+/// The part of the progress whose changes are events: {"stage", "runs": {"run000": stage}}
 nlohmann::json stages_json(const jobs::JobProgress& progress);
 
 /// {"seq", "job", "at", "type", "data"}
@@ -35,20 +36,20 @@ nlohmann::json partial_error_json(const std::vector<jobs::RunFailure>& failures)
 /// [{"pointer", "found", "expected", "message"}]
 nlohmann::json problems_json(const std::vector<Problem>& problems);
 
-/// A calibration as GET /v1/calibrations/{id} shows it; its camera is there once it has succeeded.
+/// A calibration as in GET /v1/calibrations/{id}; with its camera once it has succeeded.
 nlohmann::json calibration_json(const jobs::JobRow& row, const Retention& retention);
 
-/// A study as GET /v1/studies shows it.
+/// A study as in GET /v1/studies.
 nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
 
-/// A job as GET /v1/jobs/{id} shows it.
+/// A job as in GET /v1/jobs/{id}.
 nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
 
 /// A problem document (RFC 9457).
 nlohmann::json problem_document(int status, const std::string& detail,
                                 const std::vector<Problem>& problems = {});
 
-/// JSON text that is valid UTF-8 whatever the strings hold.
+/// The text of a JSON value; invalid UTF-8 in its strings is replaced.
 std::string dump_text(const nlohmann::json& value);
 
 }  // namespace throng::server

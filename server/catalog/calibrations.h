@@ -1,4 +1,4 @@
-// Calibrations that users have sent: queued like jobs, and cameras for these.
+// Calibrations submitted by users. They are queued like jobs, and jobs may use their cameras.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,30 @@ struct Upload {
   std::string bytes;
 };
 
-/// Whose submission it is, and what all of theirs may be.
+/// Owner of a submission and the limits on all of the owner's jobs (jobs::OwnerLimits).
 struct Quota {
-  std::string owner = {};      ///< the id of the caller's key
-  int max_active = 0;          ///< that may wait or run; 0: any number
-  std::int64_t max_bytes = 0;  ///< that all may take already; 0: any
+  std::string owner = {};      ///< id of the caller's key
+  int max_active = 0;          ///< max number of queued and running jobs; 0: unlimited
+  std::int64_t max_bytes = 0;  ///< max size of all jobs; 0: unlimited
 };
 
 /// Safe to use from many threads.
 class Calibrations {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   Calibrations(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
                const ConfinedChecks& confined)
       : folders_(folders), store_(store), state_(state), confined_(confined) {}
 
-  /// Queues a calibration (camera/calibration/request.h) of the files that came with it; durable
-  /// when it returns. Counts among the owner's jobs. Throws InputError and QuotaError.
+  /// Queues a calibration (camera/calibration/request.h) with its files; durable when this returns.
+  /// It counts as one of the owner's jobs. Throws InputError and QuotaError.
   jobs::JobRow submit(std::string_view request_json, const std::vector<Upload>& files,
                       const Quota& quota = {});
 
-  /// The memory that the calibration in a folder needs, in MiB.
+  /// Estimated memory of the calibration in a folder, in MiB.
   static std::int64_t estimate_memory_mib(const std::filesystem::path& folder);
 
-  /// The camera of one that has succeeded. Throws EnvironmentError saying why there is none.
+  /// The camera of a successful calibration. Throws EnvironmentError that says why there is none.
   nlohmann::json image_camera(const std::string& id) const;
 
  private:

@@ -1,5 +1,5 @@
-// Work outside the service's own process: everything that loads a scenario or needs the engine runs
-// in a confined child (jobs/pipeline/confined_work.h).
+// Work in confined child processes (jobs/pipeline/confined_work.h): all work that loads a scenario
+// or needs the simulation.
 #pragma once
 
 #include <cstdint>
@@ -16,41 +16,43 @@
 
 namespace throng::server {
 
-/// Safe to use from many threads; each call waits for its child. All throw InputError with every
-/// problem, also when the child was ended at a limit, and EnvironmentError.
+/// Safe to use from many threads; each call blocks until its child has ended. All calls throw
+/// InputError with every problem, also if the child exceeded a limit, and EnvironmentError.
 class ConfinedChecks {
  public:
-  /// Folders for the children's files are made in `data`, and removed. Jobs, calibrations and
+  /// Temporary folders for the children's files are created in `data`. Jobs, calibrations and
   /// studies with a task that needs more than `max_task_mib` of memory
-  /// (spec/estimates/task_memory.h) are refused; 0: none are.
+  /// (spec/estimates/task_memory.h) are refused; 0: no limit.
   ConfinedChecks(jobs::ConfinedTask task, const std::filesystem::path& data,
                  std::int64_t max_task_mib = 0);
 
-  /// The scenarios in a folder.
+  /// Checks the scenarios in a folder.
   jobs::CheckedScenarios scenarios(const std::filesystem::path& folder) const;
-  /// The job, resolved with the scenarios in a folder. Violations of the schema are refused before
-  /// a child is started.
+  /// Resolves a job with the scenarios in a folder. A job that violates the schema is refused
+  /// without a child.
   jobs::ResolvedJob job(std::string_view job_json, const std::filesystem::path& scenarios) const;
   /// Checks and estimates of a job before it runs (jobs/pipeline/checks/job_check.h), as JSON.
   /// Violations of the schema are reported with all other mistakes.
   nlohmann::json dry_run(std::string_view job_json, const std::filesystem::path& scenarios) const;
-  /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
+  /// Floor plans as SVG: of a scenario, and of a resolved job with its drones' paths.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
-  /// Scenarios as clients see them (spec/scenarios/scenario_summary.h), in the order of the ids; of
-  /// one that cannot be loaded an object with an "error".
+  /// Summaries of scenarios for clients (spec/scenarios/scenario_summary.h), in the order of the
+  /// ids; an object with an "error" for a scenario that cannot be loaded.
   std::vector<nlohmann::json> summaries(const std::vector<std::string>& ids,
                                         const std::filesystem::path& scenarios) const;
-  /// The blueprint that a scenario was made from, with what it extends; null: there is none.
+  /// The blueprint of a scenario, merged with the ones that it extends; null if there is none.
   nlohmann::json blueprint(const std::string& id, const std::filesystem::path& scenarios) const;
-  /// A calibration's request, whose files lie in the folder. Returns the memory it needs, in MiB.
+  /// Checks a calibration's request, whose files are in the folder. Returns its need of memory in
+  /// MiB.
   std::int64_t calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
-  /// The plan of a study (jobs/study/service_work.h): its cases, policies and number of
-  /// simulations, and the memory that the largest needs.
+  /// Checks a study and returns its plan (jobs/study/service_work.h): cases, policies, number of
+  /// simulations, and memory of the largest one.
   nlohmann::json study(const nlohmann::json& document,
                        const std::filesystem::path& scenarios) const;
-  /// Names that jobs may use (jobs/pipeline/checks/catalog.h); queried once.
+  /// Names that jobs may use (jobs/pipeline/checks/catalog.h); computed once.
   const nlohmann::json& catalog() const;
+  /// The character library (jobs/pipeline/checks/catalog.h), or null.
   nlohmann::json people() const;
 
  private:

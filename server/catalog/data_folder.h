@@ -8,13 +8,13 @@
 
 namespace throng::server {
 
-/// Folders of jobs and calibrations that the store knows nothing of are moved to DATA/quarantine,
-/// never deleted: somebody may have put an older store back. Entries older than a month, and the
-/// remains of half-finished uploads and removals, are removed. Throws EnvironmentError.
+/// Moves folders of jobs and calibrations that are not in the store to DATA/quarantine, because an
+/// older store may have been restored. Removes entries of the quarantine older than a month and the
+/// remains of interrupted uploads and removals. Throws EnvironmentError.
 void tidy_data_folder(const std::filesystem::path& data, const jobs::Store& store);
 
-/// Disk that everything in a folder takes; files with several names count once. 0 when there is
-/// none.
+/// Disk usage of a folder in bytes; files with several hard links count once. 0 if there is no
+/// folder.
 std::int64_t measure_disk_bytes(const std::filesystem::path& folder);
 
 }  // namespace throng::server

@@ -1,4 +1,4 @@
-// Wakes those who wait for something to happen.
+// Counter of events on which threads can wait.
 #pragma once
 
 #include <atomic>
@@ -20,10 +20,11 @@ class EventCounter {
     changed_.notify_all();
   }
 
-  /// How often it has rung: ask before looking, and what happens in between wakes the waiting.
+  /// The number of events so far. Read it before the state that is waited for, so that wait() does
+  /// not miss an event in between.
   std::uint64_t count() const { return count_; }
 
-  /// Until it has rung more often than `before`; false when that takes too long.
+  /// Waits until the count differs from `before`; returns false if it does not until `end`.
   bool wait(std::uint64_t before, std::chrono::steady_clock::time_point end) {
     std::unique_lock lock(mutex_);
     return changed_.wait_until(lock, end, [&] { return count_ != before; });

@@ -1,5 +1,4 @@
-// State of the queue shared by the parts of the service: the active jobs, whether the queue is
-// paused, and the signals that something has happened.
+// State of the queue that the parts of the service share: active jobs, pause, and notifications.
 #pragma once
 
 #include <atomic>
@@ -22,64 +21,63 @@ namespace throng::server {
 /// Safe to use from many threads.
 class QueueState {
  public:
-  /// The store must outlive it.
+  /// The store must outlive this object.
   explicit QueueState(jobs::Store& store) : store_(store) {}
 
-  // --- what happens to jobs
+  // --- events of jobs
 
-  /// Changes a job's state and records the event; nothing when it is in another state than `row`.
+  /// Applies an event as Store::apply() does and notifies the waiting threads.
   std::optional<jobs::JobRow> apply(const jobs::JobRow& row, jobs::JobEvent event,
                                     const std::string& error_json = "");
-  /// Queues a job again that has ended, within its owner's limits.
+  /// Queues a job again as Store::retry() does and notifies the waiting threads.
   jobs::Retried retry(const jobs::JobRow& row, const jobs::OwnerLimits& limits);
-  /// Records an event of a job. That it cannot be recorded is only logged.
+  /// Records an event of a job; logs a warning if it cannot be recorded.
   void record_event(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
-  /// Wakes those who wait for events.
+  /// Wakes the threads that wait for events.
   void notify_event();
-  /// Changes with every event and with progress.
+  /// A number that changes with every event and with progress.
   std::uint64_t revision() const { return revision_; }
-  /// Rings with every event.
+  /// The counter of all events.
   EventCounter& event_counter() const { return event_counter_; }
 
-  // --- the jobs that are being worked on
+  // --- active jobs, which a supervisor works on
 
-  /// Begins to work on the job that `start` returns, unless the queue is paused. Nobody else looks
-  /// at the active jobs meanwhile. Nothing when there is none.
+  /// Makes the job that `start` returns active, unless the queue is paused. The active jobs are
+  /// locked during the call of `start`. Returns std::nullopt if there is no job.
   std::optional<jobs::JobRow> begin(const std::function<std::optional<jobs::JobRow>()>& start,
                                     const std::stop_source& stop);
-  /// Nobody works on the job any more.
+  /// Removes a job from the active ones.
   void finish(const std::string& id);
-  /// The jobs that are being worked on.
   std::vector<jobs::JobRow> active_jobs() const;
-  /// The priority of a job that is being worked on; 0 for others.
+  /// The priority of an active job; 0 for other jobs.
   int priority_of(const std::string& id) const;
   void set_priority(const std::string& id, int priority);
-  /// Why no task of the job runs although it is being worked on; "" when one does.
+  /// Sets the reason why no task of an active job runs; "" if one does.
   void set_waiting(const std::string& id, const std::string& reason);
-  /// Asks for the end of the work on a job and returns when nobody works on it any more. Throws
-  /// EnvironmentError when that takes too long.
+  /// Requests a stop of a job and blocks until it is no longer active. Throws EnvironmentError if
+  /// that takes too long.
   void end_work_on(const std::string& id);
   void set_progress(const jobs::JobRow& row, std::string progress_json);
-  /// Adds what only this process knows: the newest progress, and why the job waits.
+  /// Adds the values that are not in the store: the newest progress, and why the job waits.
   void complete(jobs::JobRow& row) const;
-  /// As long as it is held no work is begun.
+  /// A lock; no job becomes active while it is held.
   std::unique_lock<std::mutex> hold() const { return std::unique_lock(mutex_); }
 
-  // --- what the runner waits for
+  // --- waiting of the runner
 
-  /// A job was queued, or may be begun now.
+  /// Notifies the runner that a job was queued or may be started now.
   void notify_queued();
-  /// Until a job may be begun; false when a stop is requested.
+  /// Blocks until a job may be started; returns false after a stop request.
   bool wait_for_queued(const std::stop_token& stop);
-  /// Until the queue does not rest; false when a stop is requested.
+  /// Blocks while the queue is paused; returns false after a stop request.
   bool wait_while_paused(const std::stop_token& stop);
-  /// For so long, or until a stop is requested.
+  /// Blocks for a time or until a stop request.
   void wait(const std::stop_token& stop, std::chrono::milliseconds time);
 
-  /// Pauses the queue for a reason, or resumes it (""). The active jobs are stopped: what they have
-  /// published stays.
+  /// Pauses the queue for a reason, or resumes it (""). A pause stops the active jobs; the output
+  /// that they have published is kept.
   void pause(const std::string& reason);
-  /// Why the queue is paused; "" when it is not.
+  /// The reason of the pause; "" if the queue is not paused.
   std::string paused() const;
 
  private:
@@ -90,8 +88,8 @@ class QueueState {
 
   jobs::Store& store_;
   mutable std::mutex mutex_;
-  std::condition_variable_any changed_;   ///< something was queued, a job ended, a pause
-  bool queued_ = true;                    ///< there may be something to do; guarded by mutex_
+  std::condition_variable_any changed_;   ///< a job was queued or ended, or the pause changed
+  bool queued_ = true;                    ///< a job may be ready to start; guarded by mutex_
   std::string paused_;                    ///< guarded by mutex_
   std::map<std::string, Active> active_;  ///< by id; guarded by mutex_
   mutable EventCounter event_counter_;

@@ -1,4 +1,4 @@
-// How long jobs are kept once they have ended. Pure: the job service applies it.
+// Retention of ended jobs by age and size. Pure functions; the service applies them.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,19 @@
 
 namespace throng::server {
 
+/// The rules.
 struct Retention {
-  std::int64_t max_wait_ms = 0;  ///< after a job's end; 0: for good
-  std::int64_t max_bytes = 0;    ///< that all jobs may take together; 0: any
+  std::int64_t max_wait_ms = 0;  ///< max age, counted from a job's end; 0: unlimited
+  std::int64_t max_bytes = 0;    ///< max size of all jobs together; 0: unlimited
 };
 
-/// When the job will be removed for its age, by the time of jobs::ServiceClock (ms); nothing when
-/// it will not. It may go earlier where all jobs together take too much.
+/// When the job will be removed for its age, by jobs::ServiceClock (ms); std::nullopt if it will
+/// not. It may be removed earlier if all jobs together are too large.
 std::optional<std::int64_t> expiry_ms(const jobs::JobRow& row, const Retention& retention);
 
-/// Selects the jobs to remove now (by the same time), among ended jobs that need not be kept, in
-/// the order in which they ended: jobs that are too old, and then the oldest until the others fit.
+/// Ids of the jobs to remove at `now_ms` (by jobs::ServiceClock). `ended` are the ended jobs that
+/// may be removed, in the order of their ends (Store::ended()), `total_bytes` is the size of all
+/// jobs: selects the jobs that are too old, then the oldest ones until the others fit.
 std::vector<std::string> expired(const std::vector<jobs::JobRow>& ended, std::int64_t total_bytes,
                                  std::int64_t now_ms, const Retention& retention);
 

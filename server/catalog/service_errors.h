@@ -1,11 +1,11 @@
-// Refusals of the service that are nobody's mistake.
+// Refusals of valid requests because of the state of the service.
 #pragma once
 
 #include <stdexcept>
 
 namespace throng::server {
 
-/// Somebody has as many jobs as they may have. Answered with 429.
+/// The owner has reached a limit on their jobs. Answered with 429.
 class QuotaError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

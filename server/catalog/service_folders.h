@@ -1,4 +1,4 @@
-// Folders of a service.
+// Paths of a service's folders.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ namespace throng::server {
 /// Safe to use from many threads.
 class ServiceFolders {
  public:
-  /// The service's data folder, and that of the scenarios that come with throng.
+  /// `data` is the service's data folder, `shipped` the folder of shipped scenarios.
   ServiceFolders(std::filesystem::path data, std::filesystem::path shipped);
 
   const std::filesystem::path& data() const { return data_; }
-  /// Search path of all scenarios: shipped ones and uploads.
+  /// Folder with all scenarios: shipped ones and uploads.
   const std::filesystem::path& scenarios() const { return scenarios_; }
   const std::filesystem::path& shipped() const { return shipped_; }
   /// Folder of a job (jobs/queue/dataset/folder.h).
   std::filesystem::path job_folder(const std::string& id) const { return data_ / "jobs" / id; }
-  /// Folder of a job's dataset once it has succeeded.
+  /// Folder of a job's dataset, which exists once the job has succeeded.
   std::filesystem::path dataset_folder(const std::string& id) const;
   std::filesystem::path calibrations() const { return data_ / "calibrations"; }
-  /// Folder of a calibration's results once it has succeeded.
+  /// Folder of a calibration and its results.
   std::filesystem::path calibration_folder(const std::string& id) const {
     return calibrations() / id;
   }
@@ -35,7 +35,7 @@ class ServiceFolders {
   /// The folder of a job, a calibration or a study.
   std::filesystem::path ground_truth_folder(const jobs::JobRow& row) const;
 
-  /// A message without the places of this machine's folders.
+  /// Messages without the paths of this machine's folders.
   std::string without_paths(std::string message) const;
   std::vector<Problem> without_paths(std::vector<Problem> problems) const;
 

@@ -1,4 +1,5 @@
-// Studies that users have sent: queued like jobs, worked off run by run (server/jobs/study_work.h).
+// Studies submitted by users. They are queued like jobs; each run is a task
+// (server/jobs/study_work.h).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,21 +17,22 @@ namespace throng::server {
 /// Safe to use from many threads.
 class Studies {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   Studies(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
           const Uploads& uploads, const ConfinedChecks& confined)
       : folders_(folders), store_(store), state_(state), uploads_(uploads), confined_(confined) {}
 
-  /// The plan of a study (jobs/study/service_work.h) that nothing is wrong with. Throws InputError.
+  /// Checks a study and returns its plan (jobs/study/service_work.h). Throws InputError.
   nlohmann::json checked(const nlohmann::json& document) const;
 
-  /// Queues a study; durable when it returns. Counts among the owner's jobs. Throws InputError and
-  /// QuotaError.
+  /// Queues a study; durable when this returns. It counts as one of the owner's jobs. Throws
+  /// InputError and QuotaError.
   jobs::JobRow submit(const nlohmann::json& document, const Quota& quota);
 
-  /// The plan that a study was queued with, and its summary: of the runs that every policy of a
-  /// case has so far, with "took_s"; null while there are none.
+  /// The plan with which a study was queued.
   nlohmann::json plan_of(const jobs::JobRow& row) const;
+  /// The summary of the runs that every policy of a case has so far, with "took_s"; null if there
+  /// are none.
   nlohmann::json summarize(const jobs::JobRow& row) const;
 
  private:

@@ -1,4 +1,4 @@
-// Cache of texts, for many clients that request the same.
+// Cache of responses that many clients request.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace throng::server {
 
-/// Texts of one revision of everything: with the next, all are forgotten. Safe to use from many
-/// threads.
+/// Texts of one revision of the queue's state; a new revision clears the cache. Safe to use from
+/// many threads.
 class TextCache {
  public:
   using Text = std::shared_ptr<const std::string>;
 
-  /// Null when there is none of this revision.
+  /// The text of this name; null if there is none for this revision.
   Text find(std::uint64_t revision, const std::string& name) const;
 
-  /// `revision` is what it was before the text was made.
+  /// Stores a text. `revision` must have been read before the text was created.
   void put(std::uint64_t revision, const std::string& name, Text text);
 
  private:

@@ -1,4 +1,4 @@
-// The machine's clock.
+// The system clock.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace throng::server {
 
-/// Milliseconds of Unix time.
+/// The present Unix time in milliseconds.
 inline std::int64_t unix_ms_now() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();

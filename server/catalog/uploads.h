@@ -1,4 +1,4 @@
-// Scenarios that users have sent, kept as long as jobs need them.
+// Uploaded scenarios and their use by jobs: uploads that jobs need are not removed.
 #pragma once
 
 #include <set>
@@ -17,22 +17,23 @@ namespace throng::server {
 /// Safe to use from many threads.
 class Uploads {
  public:
-  /// Bundles that no job names are removed. All but the limits must outlive it.
+  /// Removes bundles that no job names. All arguments but the limits must outlive this object.
   Uploads(const ServiceFolders& folders, jobs::Store& jobs, const ConfinedChecks& confined,
           UploadLimits limits);
 
   ScenarioStore& scenarios() { return scenarios_; }
 
-  /// Removes an upload. False when there is none. Throws ConflictError while an active job uses it.
+  /// Removes an upload. Returns false if there is none. Throws ConflictError if an active job uses
+  /// it.
   bool remove(const std::string& name);
-  /// Removes a job's own bundle, unless other jobs name it.
+  /// Removes the bundle that was sent with a removed job, unless other jobs name it.
   void drop_bundle_of(const jobs::JobRow& removed);
 
-  /// As long as it is held no upload goes: while a job that may name one is added.
+  /// A lock to hold while a job that may name an upload is added: no upload is removed meanwhile.
   std::shared_lock<std::shared_mutex> hold() const { return std::shared_lock(mutex_); }
 
-  /// A bundle that came with a request: it is there as long as this is; afterwards, if a job names
-  /// it. Throws InputError and UploadsFull.
+  /// A bundle that was sent with a request. It exists during the lifetime of this object, and
+  /// longer if keep() was called. The constructor throws InputError and UploadsFull.
   class Pinned {
    public:
     Pinned(Uploads& uploads, std::string_view bundle, const std::string& owner);
@@ -40,7 +41,7 @@ class Uploads {
     Pinned(const Pinned&) = delete;
     Pinned& operator=(const Pinned&) = delete;
 
-    /// A job names it from now on.
+    /// Keeps the bundle, because a job names it now.
     void keep() { is_kept_ = true; }
 
    private:
@@ -56,12 +57,14 @@ class Uploads {
 
   jobs::Store& jobs_;
   ScenarioStore scenarios_;
-  /// Held together while a job that may name an upload is added, alone while uploads go.
+  /// Shared while a job that may name an upload is added, exclusive while uploads are removed.
   mutable std::shared_mutex mutex_;
-  std::multiset<std::string> pinned_;  ///< bundles that requests work with; guarded by mutex_
+  std::multiset<std::string> pinned_;  ///< bundles of current requests; guarded by mutex_
 };
 
-/// The job with its "bundle/NAME" as the bundle's own name. Throws InputError when it names none.
+/// The job with "bundle/" in its scenario replaced by the bundle's name. Throws InputError if its
+/// scenario does not begin with that.
+
 std::string naming_bundle(std::string_view bundle, std::string_view job_json);
 
 }  // namespace throng::server

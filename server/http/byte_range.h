@@ -1,4 +1,4 @@
-// Byte range that a client requests (RFC 9110, section 14).
+// Parser for byte ranges of requests (RFC 9110, section 14).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct ByteRange {
   bool operator==(const ByteRange&) const = default;
 };
 
-/// Answer to a range request: everything, a part, or that there is no such part.
+/// Answer to a range request: the whole file, a part, or status 416.
 struct RangeAnswer {
   enum class Kind { whole, part, unsatisfiable };
   Kind kind = Kind::whole;
@@ -22,9 +22,9 @@ struct RangeAnswer {
   bool operator==(const RangeAnswer&) const = default;
 };
 
-/// Reads the value of a Range header ("" for none) for a file of `size` bytes. `if_range` is the
-/// If-Range header ("" for none): unless it is `etag`, the whole file is meant. More than one
-/// range, and what is no range of bytes, is answered with the whole file, as the standard allows.
+/// Interprets a Range header ("" for none) for a file of `size` bytes. `if_range` is the If-Range
+/// header ("" for none); if it differs from `etag`, the answer is the whole file. So is the answer
+/// to several ranges and to other units than bytes, as the standard permits.
 RangeAnswer range_answer(const std::string& range, const std::string& if_range,
                          const std::string& etag, std::int64_t size);
 

@@ -1,8 +1,7 @@
-// The filter between a client's socket and cpp-httplib, which reads requests loosely. This class
-// reads a request's head from the socket, has it checked (server/http/request_head.h), and hands
-// the library a head and a body that cannot be misread: the library gets no byte that is not of
-// this request, and after it has left one unread the connection is of no more use. Heads and bodies
-// have limits in bytes and in time.
+// Filter between a client's socket and cpp-httplib, whose parser is lenient. It reads a request's
+// head from the socket, checks it (server/http/request_head.h), and passes a canonical head and the
+// body to the library. The library gets only bytes of this request; if it leaves some unread, the
+// connection cannot be used for another request. Heads and bodies have limits in size and time.
 #pragma once
 
 #include <array>
@@ -17,27 +16,28 @@
 
 namespace throng::server {
 
+/// One client's connection. The limits must outlive it; it does not own the socket.
 class Connection : public httplib::Stream {
  public:
   Connection(socket_t socket, const ConnectionLimits& limits) : socket_(socket), limits_(limits) {}
 
-  /// Nothing can be read or sent any more.
+  /// The connection is closed or broken.
   struct Ended {};
   /// Reads the next request's head from the socket.
   std::variant<RequestHead, HeadError, Ended> read_head();
-  /// From now on the library reads this request, its body included.
+  /// Makes read() return this request, head and body.
   void begin_request(const RequestHead& head);
-  /// Whether the library has read the request to its end, so that another may follow.
+  /// Whether the library has read the whole request, so that another one may follow.
   bool is_consumed() const { return head_next_ == head_.size() && body_left_ == 0; }
-  /// Whether bytes wait that have been received with the last request.
+  /// Whether bytes after the last request have been received.
   bool has_pending() const { return next_ < end_; }
-  /// False once the connection has broken.
+  /// Sends all bytes; returns false if the connection breaks.
   bool write_all(std::string_view bytes);
 
   bool is_readable() const override;
-  /// Whether the client still listens.
+  /// Whether the client still accepts bytes.
   bool is_writable() const override;
-  /// -1 at the request's end, once a bound has been broken, and for broken connections.
+  /// Returns -1 at the request's end, after a limit was exceeded, and for broken connections.
   ssize_t read(char* bytes, std::size_t size) override;
   ssize_t write(const char* bytes, std::size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override;
@@ -53,19 +53,19 @@ class Connection : public httplib::Stream {
 
   socket_t socket_;
   const ConnectionLimits& limits_;
-  std::array<char, kMaxHeadBytes> buffer_{};  ///< received; [next_, end_) has not been handed on
+  std::array<char, kMaxHeadBytes> buffer_{};  ///< received bytes; [next_, end_) are unread
   std::size_t next_ = 0;
   std::size_t end_ = 0;
-  std::string head_;  ///< as the library reads it
+  std::string head_;  ///< canonical text for the library
   std::size_t head_next_ = 0;
-  std::size_t body_left_ = 0;   ///< bytes that the library has not read yet
-  std::size_t body_bytes_ = 0;  ///< that it has read
+  std::size_t body_left_ = 0;   ///< bytes of the body that the library has not read yet
+  std::size_t body_bytes_ = 0;  ///< bytes of the body that it has read
   bool awaits_continue_ = false;
-  Clock::time_point began_;  ///< the head, then the body
+  Clock::time_point began_;  ///< start of the head, then of the body
 };
 
-/// Ends a connection so that the last answer arrives though the client still sends: closing with
-/// unread bytes would make its system throw the answer away.
+/// Closes a connection so that the last response arrives even if the client still sends: a close
+/// with unread bytes resets the connection, and the client's system would discard the response.
 void close_gently(socket_t socket);
 
 }  // namespace throng::server

@@ -8,6 +8,7 @@
 
 namespace throng::server {
 
+/// Thrown by handlers; the API responds with this status (RFC 9457).
 struct HttpError {
   int status;
   std::string detail;

@@ -1,7 +1,7 @@
-// cpp-httplib behind a filter. Debian's 0.11.4 needs care in its defaults (8 threads, 5 requests
-// per connection) and reads requests loosely: server/http/connection.h and
-// server/http/request_head.h close that in front of it. It speaks no TLS and counts no requests per
-// client: the bare port is for loopback.
+// HTTP server: cpp-httplib behind a strict filter (server/http/connection.h,
+// server/http/request_head.h), because Debian's version 0.11.4 has a lenient parser and small
+// limits (8 threads, 5 requests per connection). It has no TLS and no rate limits per client, so
+// the port should be reachable from loopback only.
 #pragma once
 
 #include <cstddef>
@@ -17,42 +17,44 @@
 
 namespace throng::server {
 
+/// Address and limits of a server.
 struct HttpOptions {
   std::string host = "127.0.0.1";
-  int port = 0;  ///< 0: any that is free
-  /// Bytes that a request's body may have; asked for each that has one, when its head has been read
-  /// and before any of its body is. The request holds method, path and headers. A longer body is
-  /// refused with 413. Throws HttpError to refuse the request.
+  int port = 0;  ///< 0: any free port
+  /// Returns the max size of a request's body in bytes; a larger body is refused with 413. Called
+  /// after the head was read and before the body; the request has method, path and headers. May
+  /// throw HttpError to refuse the request.
   std::function<std::size_t(const httplib::Request&)> max_body_bytes = {};
-  /// Bytes that all bodies above a megabyte may have together while they are read and worked on;
-  /// one more is refused with 503.
+  /// Max total size of all bodies above 1 MiB that are being read or handled; a further one is
+  /// refused with 503.
   std::int64_t max_all_body_bytes = 512 << 20;
-  ConnectionLimits connection = {};  ///< of each
+  ConnectionLimits connection = {};  ///< of each connection
 };
 
 /// Whether an address can only be reached from this machine.
 bool is_loopback(const std::string& host);
 
+/// The server, with routes that the caller adds.
 class HttpServer {
  public:
-  /// Writes the answer to a request that was refused before a handler saw it.
+  /// Writes the response to a request that was refused before it reached a handler.
   using ErrorWriter =
       std::function<void(const httplib::Request&, httplib::Response&, const HttpError& error)>;
 
-  /// Binds at once: clients may connect, and wait until run(). Throws EnvironmentError.
+  /// Binds the port: clients can connect and wait until run() is called. Throws EnvironmentError.
   HttpServer(const HttpOptions& options, const ErrorWriter& write_error);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// To add routes to, before run().
+  /// The library's server, to add routes before run().
   httplib::Server& routes();
   int port() const { return port_; }
 
-  /// Serves until stop(). Once only.
+  /// Serves until stop(). Call it once only.
   void run();
-  /// Makes run() return, from another thread and also when it is only about to begin; open
-  /// connections end.
+  /// Makes run() return and closes open connections. Safe to call from another thread, also just
+  /// before run().
   void stop();
 
  private:

@@ -1,4 +1,4 @@
-// LRU cache of values that are expensive to create, for many clients that request the same.
+// LRU cache of values that are expensive to create and requested by many clients.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace throng::server {
 
-/// Values by name: keeps the most recently requested ones, and all in use. Safe to use from many
-/// threads; each value is created once.
+/// Keeps the most recently requested values and all that are in use. Safe to use from many threads;
+/// values are created one at a time.
 template <typename Value>
 class LruCache {
  public:
   explicit LruCache(std::size_t kept) : capacity_(kept) {}
 
-  /// The value of the name; the result of `make` when there is none.
+  /// The value with this name; the result of `make` if there is none.
   template <typename Make>
   std::shared_ptr<const Value> get(const std::string& name, const Make& make) {
     const std::lock_guard lock(mutex_);
@@ -37,7 +37,7 @@ class LruCache {
   std::size_t capacity_;
   std::mutex mutex_;
   std::map<std::string, std::weak_ptr<const Value>> used_;
-  std::deque<std::shared_ptr<const Value>> kept_;  ///< the last one last
+  std::deque<std::shared_ptr<const Value>> kept_;  ///< most recently used value last
 };
 
 }  // namespace throng::server

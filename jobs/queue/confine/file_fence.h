@@ -11,8 +11,8 @@ namespace throng::jobs {
 /// Environment variable with the service's data folder. Children may read only the parts of it that
 /// their FileFence names. Unset for `throng run`, which has nothing to hide.
 inline constexpr const char* kPrivateFolderVariable = "THRONG_PRIVATE_FOLDER";
-/// Environment variable with the folder of the service's databases if it is outside the data
-/// folder. Children may read nothing in it.
+/// Environment variable with the folder of the service's databases, which may be the data folder.
+/// It is hidden from children in the same way.
 inline constexpr const char* kPrivateDatabaseVariable = "THRONG_PRIVATE_DATABASE";
 
 /// Environment variable with the files that hold credentials of object stores, separated by colons.
