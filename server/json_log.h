@@ -7,6 +7,7 @@
 
 namespace throng::server {
 
+/// Formatter for spdlog.
 class JsonLogFormatter final : public spdlog::formatter {
  public:
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override;

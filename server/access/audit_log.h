@@ -1,5 +1,5 @@
-// The log of changes and refusals: DATA/audit.log, a JSON object per line, which only the
-// service's user may read. Keys, queries and bodies are never in it.
+// Audit log of changes and refusals: DATA/audit.log, one JSON object per line, readable only by the
+// service's user. It never contains keys, queries or bodies.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace throng::server {
 
+/// One request.
 struct AuditEntry {
-  std::string key;  ///< id; "" for a caller without one
+  std::string key;  ///< id of the caller's key; "" without a key
   std::string method;
   std::string path;
   int status = 0;
-  std::string address;  ///< of the other end of the connection
+  std::string address;  ///< address of the peer
   std::string
-      forwarded_for;  ///< that a proxy has named; anybody may claim anything where there is none
+      forwarded_for;  ///< X-Forwarded-For; to be trusted only if all requests come through a proxy
 };
 
 /// Safe to use from many threads.
 class AuditLog {
  public:
-  /// A file of more than `max_bytes` becomes audit.log.1 and replaces the one before: strangers who
-  /// are refused all day fill no disk.
+  /// Rotation bounds the size of the log: a file of more than `max_bytes` is renamed to audit.log.1
+  /// and replaces the previous one.
   explicit AuditLog(const std::filesystem::path& data, std::int64_t max_bytes = 64 << 20);
 
-  /// Throws nothing: an entry that cannot be written is a warning in the service's log.
+  /// Appends an entry. Throws nothing: logs a warning if the entry cannot be written.
   void record(const AuditEntry& entry);
 
  private:

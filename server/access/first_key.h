@@ -1,4 +1,4 @@
-// The first key of a service in a container, which nobody has made beforehand.
+// Creation of the administrator's key at the first start of a service in a container.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace throng::server {
 
-/// Name of the environment variable that names a file with the administrator's key.
+/// Environment variable with the path of a file that holds the administrator's key.
 inline constexpr const char* kAdminKeyFileVariable = "THRONG_ADMIN_KEY_FILE";
 
-/// Whether this process runs in a container: $THRONG_CONTAINER is set, as our image does, or there
-/// is the mark of Docker or Podman.
+/// Whether this process runs in a container: $THRONG_CONTAINER is set, as in throng's image, or a
+/// marker file of Docker or Podman exists.
 bool is_in_container();
 
-/// Makes the administrator's key where there is none yet: the one in $THRONG_ADMIN_KEY_FILE if that
-/// is set, else, in a container, a random one. Returns what to tell the person who started the
-/// service: the key, shown only now, and the address to use it at; "" where nothing is to be said.
-/// Throws InputError if the file cannot be read or holds no key.
+/// Adds the administrator's key if there is no key yet: the one in $THRONG_ADMIN_KEY_FILE if that
+/// is set, otherwise, in a container, a random one. Returns a message for the operator with the
+/// random key, which is not shown again, and the service's address; "" if no random key was made.
+/// Throws InputError if the file cannot be read or holds no valid key.
 std::string make_first_key(Keys& keys, int port);
 
 }  // namespace throng::server

@@ -1,4 +1,4 @@
-// A small SQLite file of the server's own, which only its owner may read.
+// A SQLite file that only its owner may read.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -14,10 +14,11 @@
 
 namespace throng::server {
 
-/// Safe to use from many threads, one after the other.
+/// Safe to use from many threads; actions run one at a time.
 class PrivateDatabase {
  public:
-  /// `what` it holds is for messages; `set_up` gets the new database. Throws SQLite::Exception.
+  /// Opens or creates the file; `set_up`, called with the database, creates its tables. `what`
+  /// names the content in messages. Throws SQLite::Exception.
   template <typename SetUp>
   PrivateDatabase(const std::filesystem::path& path, std::string what, const SetUp& set_up)
       : what_(std::move(what)),
@@ -27,7 +28,8 @@ class PrivateDatabase {
     set_up(database_);
   }
 
-  /// Result of `action` on the database. SQLite's errors become EnvironmentError.
+  /// Calls `action` with the database and returns its result. Throws EnvironmentError for errors of
+  /// SQLite.
   template <typename Action>
   auto with(const Action& action) {
     const std::lock_guard lock(mutex_);

@@ -1,4 +1,5 @@
-// Secrets for callers: never repeated, unlike what base/compute/random.h makes.
+// Random text for keys and tokens, from the system's entropy and not from base/compute/random.h,
+// whose values can be reproduced.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 
 namespace throng::server {
 
-/// Small letters and digits, of 5 random bits each.
+/// A random text of lower-case letters and digits with 5 random bits per character.
 std::string random_text(std::size_t length);
 
 }  // namespace throng::server

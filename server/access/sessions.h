@@ -1,6 +1,6 @@
-// Sessions of browsers: a key is entered once and becomes a cookie that scripts cannot read. They
-// are kept in memory and end with the service; a revoked key's sessions end at once, because the
-// key is looked up at each request.
+// Sessions of browsers: a user enters a key once, and the browser keeps a session cookie that
+// scripts cannot read. Sessions are kept in memory and end with the service. Sessions of a revoked
+// key end at once, because the key is checked at each request.
 #pragma once
 
 #include <map>
@@ -17,10 +17,10 @@ class Sessions {
  public:
   explicit Sessions(SteadyNow now = &steady_now);
 
-  /// Begins a session with a key and returns its token. There may be 1000 at once; the one that was
-  /// not used for the longest time ends for another.
+  /// Opens a session for a key and returns its token. The number of sessions is limited to 1000; a
+  /// further one replaces the least recently used one.
   std::string open(std::string key);
-  /// Key of the session; "" when there is no such session or it was unused for a week.
+  /// The key of a session; "" if there is no such session or it was not used for a week.
   std::string key_of(std::string_view token);
   void close(std::string_view token);
 

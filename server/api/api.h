@@ -1,8 +1,8 @@
-// The HTTP API, version 1: routes onto the job service.
-// (server/openapi.json describes each for its users).
+// The HTTP API, version 1: routes to the parts of the service. server/openapi.json describes them
+// for users.
 //
-// Whatever goes wrong is answered with a problem document (RFC 9457); "errors" lists each mistake
-// in a job with its JSON pointer.
+// Errors are answered with a problem document (RFC 9457), whose "errors" list each mistake in a job
+// with its JSON pointer.
 #pragma once
 
 #include <span>
@@ -17,14 +17,14 @@
 
 namespace throng::server {
 
-/// Every operation there is.
+/// All operations of the API.
 std::span<const Route> routes();
 
-/// Serves the API on a port of its own. Service, keys and webhooks must outlive it.
+/// Serves the API on a port. Service, keys and webhooks must outlive this object.
 class Api {
  public:
-  /// Binds at once, to the address in `options`. Unless the address is loopback, requests may name
-  /// any Host. Throws EnvironmentError.
+  /// Binds the address in `options`. If it is a loopback address, requests must name such a Host.
+  /// Throws EnvironmentError.
   Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options);
 
   int port() const { return server_.port(); }

@@ -1,5 +1,4 @@
-// Routes of calibrations: /v1/calibrations. A calibration is queued with its files and worked off
-// like a job.
+// Routes of calibrations: /v1/calibrations. A calibration is queued and run like a job.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -9,8 +8,8 @@ namespace throng::server {
 
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
-/// A request as multipart/form-data (a part "request" with JSON, and one per file, each with its
-/// file name), or as JSON whose "files" hold texts by their names.
+/// Accepts multipart/form-data (a part "request" with JSON, and one part per file with its file
+/// name), or JSON whose "files" map names to texts.
 void submit_calibration(const RequestContext& context, const httplib::Request& request,
                         httplib::Response& response);
 void list_calibrations(const RequestContext& context, const httplib::Request& request,
@@ -19,10 +18,10 @@ void send_calibration(const RequestContext& context, const httplib::Request& req
                       httplib::Response& response);
 void remove_calibration(const RequestContext& context, const httplib::Request& request,
                         httplib::Response& response);
-/// camera, opencv, ros, residuals or points.
+/// Sends one of the results camera, opencv, ros, residuals and points.
 void send_calibration_result(const RequestContext& context, const httplib::Request& request,
                              httplib::Response& response);
-/// An image of a board, as it was sent.
+/// Sends an image of a board as it was submitted.
 void send_calibration_image(const RequestContext& context, const httplib::Request& request,
                             httplib::Response& response);
 

@@ -1,4 +1,4 @@
-// Downloads of a finished job: its archive, its figures, each of its files.
+// Downloads of a job: archive, metrics, single files, traces, reports and logs.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ void send_archive(const RequestContext& context, const httplib::Request& request
                   httplib::Response& response);
 void send_manifest(const RequestContext& context, const httplib::Request& request,
                    httplib::Response& response);
-/// A file of the dataset, by its path in the manifest.
+/// Sends a file of the dataset by its path in the manifest.
 void send_file(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
-/// A page of the images, and how many each camera took in each run.
+/// Sends a page of the list of images, with the number of images of each camera in each run.
 void list_images_of_job(const RequestContext& context, const httplib::Request& request,
                         httplib::Response& response);
 void send_metrics(const RequestContext& context, const httplib::Request& request,
@@ -26,25 +26,25 @@ void send_run_metrics(const RequestContext& context, const httplib::Request& req
                       httplib::Response& response);
 void send_run_metrics_csv(const RequestContext& context, const httplib::Request& request,
                           httplib::Response& response);
-/// A run's trace (docs/trace.md), whatever becomes of the job.
+/// Sends a run's trace (docs/trace.md), in any state of the job.
 void send_run_trace(const RequestContext& context, const httplib::Request& request,
                     httplib::Response& response);
 
-/// The run of a job that the path names. Throws HttpError 404.
+/// The index of the run in the request's path. Throws HttpError 404 if the job has no such run.
 int requested_run(const httplib::Request& request, const jobs::JobRow& row);
-/// The trace of a run. Throws HttpError 409 until it was simulated.
+/// Path of the trace of a run. Throws HttpError 409 if the run was not simulated yet.
 std::filesystem::path trace_file(const RequestContext& context, const jobs::JobRow& row, int run);
 
-/// The report of all runs as one HTML page; 202 as long as it is being made.
+/// Sends the report of all runs as an HTML page; 202 while it is being created.
 void send_report(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
 
-/// Logs of the workers, and the images with annotation overlays: also while the job is running.
+// Logs of the workers and preview images, also while the job is running.
 void list_logs(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
 void send_log(const RequestContext& context, const httplib::Request& request,
               httplib::Response& response);
-/// The name of the preview that was written last; empty while there is none.
+/// The name of the newest preview; "" if there is none.
 std::string newest_preview(const std::filesystem::path& job_folder);
 void list_previews(const RequestContext& context, const httplib::Request& request,
                    httplib::Response& response);

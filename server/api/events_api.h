@@ -6,14 +6,14 @@
 
 namespace throng::server {
 
-/// GET /v1/jobs/{id}/events and GET /v1/events. With "Accept: text/event-stream" Server-Sent Events
-/// that begin after Last-Event-ID (or ?after=): past events come first, in order, then new ones
-/// with the job's progress in between; they end when the job has ended. Else at most ?limit= events
-/// after ?after= as JSON, for which ?wait_s= waits.
+/// GET /v1/jobs/{id}/events and GET /v1/events. With "Accept: text/event-stream", sends Server-Sent
+/// Events after Last-Event-ID (or ?after=): past events in order, then new ones with the job's
+/// progress in between, until the job has ended. Otherwise sends at most ?limit= events after
+/// ?after= as JSON and waits up to ?wait_s= for the first one.
 void send_events(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
 
-/// GET /v1/studies/{id}/events, likewise.
+/// GET /v1/studies/{id}/events, in the same formats.
 void send_study_events(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 

@@ -1,4 +1,4 @@
-// Jobs over HTTP: submit, list, look at, change, cancel, try again, copy, remove.
+// Routes of jobs: submit, list, show, change, cancel, retry, copy, remove.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -6,7 +6,7 @@
 
 namespace throng::server {
 
-/// POST /v1/jobs?priority=&label=&label=, Idempotency-Key; with ?dry_run only checked.
+/// POST /v1/jobs?priority=&label=&label=, with the header Idempotency-Key; ?dry_run only checks.
 void submit_job(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);
 /// GET /v1/jobs?state=&label=&name=&sort=&limit=&after=
@@ -21,7 +21,7 @@ void cancel_job(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);
 void retry_job(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
-/// A new job like this one, changed by a JSON merge patch (RFC 7396) in the body.
+/// Submits a copy of a job, changed by a JSON merge patch (RFC 7396) in the body.
 void clone_job(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
 void remove_job(const RequestContext& context, const httplib::Request& request,

@@ -1,5 +1,6 @@
-// Keys over HTTP, for administrators. The first key is made on the service's machine (`throng keys
-// create`): until then everybody there may do everything, and nobody can lock the others out.
+// Routes of keys, for administrators. The first key has to be created on the service's machine
+// (`throng keys create`); without keys, every caller is an administrator, and no caller can lock
+// out the others by a first key.
 #pragma once
 
 #include "server/api/request_context.h"

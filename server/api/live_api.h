@@ -1,5 +1,5 @@
-// Routes of live flights: /v1/live. A flight goes on while somebody reads its stream; the page and
-// programs fly it by commands.
+// Routes of live flights: /v1/live. A flight continues while a client reads its stream; Studio and
+// other programs control it by commands.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -9,19 +9,19 @@ namespace throng::server {
 
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
-/// {"job": {...}}: 201.
+/// Starts a flight of {"job": {...}} and responds with 201.
 void begin_live(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);
 void list_live(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
 void send_live(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
-/// Messages (spec/live/messages.h) as they come.
+/// Streams the flight's messages (spec/live/messages.h).
 void stream_live(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
 void command_live(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
-/// The outcome: pilot logs, and the job that repeats the flight.
+/// Ends the flight and sends the outcome: pilot logs, and the job that replays the flight.
 void stop_live(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
 void remove_live(const RequestContext& context, const httplib::Request& request,

@@ -1,4 +1,4 @@
-// One request to the service: who makes it, and what its handler may use.
+// Context of a request: the caller and the parts of the service that handlers use.
 #pragma once
 
 #include "server/access/keys.h"

@@ -1,4 +1,4 @@
-// Changes of a job or a study that is there: priority, labels, keep.
+// Changes of an existing job or study: priority, labels, keep.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace throng::server {
 
-/// Throws HttpError 400 for too many labels, or one that is empty, long or not printable; `pointer`
-/// says where they are.
+/// Throws HttpError 400 for too many labels, or a label that is empty, too long or not printable.
+/// `pointer` is their JSON pointer.
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer);
 
-/// Throws HttpError 403 for a priority that the caller may not give; `pointer` says where it is.
+/// Throws HttpError 403 for a priority that the caller may not use. `pointer` is its JSON pointer.
 void require_priority(const RequestContext& context, int priority, const std::string& pointer);
 
-/// The row's values with those in the body of a PATCH: {"priority", "labels", "keep"} or some of
-/// them. Throws HttpError 400, 403 and 415.
+/// The row's properties, changed by the body of a PATCH request with some of {"priority", "labels",
+/// "keep"}. Throws HttpError 400, 403 and 415.
 jobs::JobChange describe_change(const RequestContext& context, const httplib::Request& request,
                                 const jobs::JobRow& row);
 

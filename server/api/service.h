@@ -1,4 +1,4 @@
-// The service without HTTP: its parts, put together.
+// The service without HTTP: composition of its parts.
 #pragma once
 
 #include <filesystem>
@@ -22,26 +22,27 @@
 
 namespace throng::server {
 
+/// Options of the parts.
 struct ServiceOptions {
-  std::filesystem::path data;           ///< holds a folder per job; one service at a time
-  std::filesystem::path database = {};  ///< of the store; "": that of `data`
-  std::filesystem::path scenarios;      ///< those that come with throng
-  jobs::ConfinedTask confined;          ///< checks of what users send
+  std::filesystem::path data;           ///< data folder, used by one service at a time
+  std::filesystem::path database = {};  ///< folder of the job store; "": `data`
+  std::filesystem::path scenarios;      ///< folder of the shipped scenarios
+  jobs::ConfinedTask confined;          ///< checks user input in confined child processes
   UploadLimits uploads = {};
   HousekeepingOptions housekeeping = {};
-  int max_active_jobs = 16;       ///< worked on at once (server/jobs/job_runner.h)
-  std::int64_t max_task_mib = 0;  ///< memory for a task (server/catalog/confined_checks.h); 0: any
-  PublishTargets publish_to = PublishTargets();  ///< that jobs may name
-  LiveLimits live = {};                          ///< of live flights
-  jobs::Store::Clock clock = {};                 ///< default: the system's
-  jobs::Store::Clock steady = {};                ///< of jobs::ServiceClock
+  int max_active_jobs = 16;       ///< max number of running jobs (server/jobs/job_runner.h)
+  std::int64_t max_task_mib = 0;  ///< max memory of a task (ConfinedChecks); 0: unlimited
+  PublishTargets publish_to = PublishTargets();  ///< addresses to which jobs may publish
+  LiveLimits live = {};
+  jobs::Store::Clock clock = {};   ///< default: the system clock
+  jobs::Store::Clock steady = {};  ///< clock of jobs::ServiceClock
 };
 
 /// The parts are safe to use from many threads.
 class Service {
  public:
-  /// Opens the data folder and goes on with what it finds there: jobs that were running are
-  /// resumed, queued ones stay queued. The executor must outlive the service.
+  /// Opens the data folder, resumes running jobs and starts queued ones. The executor must outlive
+  /// the service.
   Service(const ServiceOptions& options, jobs::Executor& executor);
 
   const ServiceFolders& folders() const { return folders_; }
@@ -59,7 +60,7 @@ class Service {
 
  private:
   const jobs::Executor& executor_;
-  // Each uses those above it.
+  // Each member uses only members above it.
   ServiceFolders folders_;
   PublishTargets publish_to_;
   jobs::Store store_;

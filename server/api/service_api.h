@@ -1,4 +1,5 @@
-// The service itself: health, figures for Prometheus, and what jobs can name.
+// Routes of the service itself: health, metrics for Prometheus, schemas, and names that jobs may
+// use.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -8,10 +9,10 @@ namespace throng::server {
 
 void send_health(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
-/// 503 with the reason when jobs could not be taken in or worked on.
+/// Responds with 503 and the reason if jobs cannot be accepted or run.
 void send_readiness(const RequestContext& context, const httplib::Request& request,
                     httplib::Response& response);
-/// Prometheus' text format.
+/// Sends metrics in the text format of Prometheus.
 void send_figures(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void send_version(const RequestContext& context, const httplib::Request& request,
@@ -25,14 +26,14 @@ void send_file_schema(const RequestContext& context, const httplib::Request& req
 void send_openapi(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 
-// Each list comes with the part of the job's schema for selecting one.
+// Each list includes the part of the job's schema in which an entry is selected.
 void list_airframes(const RequestContext& context, const httplib::Request& request,
                     httplib::Response& response);
 void list_formats(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void list_policies(const RequestContext& context, const httplib::Request& request,
                    httplib::Response& response);
-/// The character library that frames are rendered with.
+/// Sends the character library.
 void list_people(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
 

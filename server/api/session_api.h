@@ -1,4 +1,4 @@
-// Sign-in of browsers, and the identity of a request's sender.
+// Sign-in of browsers, and authentication of requests.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,17 @@
 
 namespace throng::server {
 
-/// Sender of a request, by the key in its Authorization header, or else by its session's cookie;
-/// nothing when a key is required and missing. A cookie counts only for requests of the service's
-/// own pages: it is also sent with those of other ports of this host.
+/// The caller of a request, from the key in its Authorization header or else its session cookie;
+/// std::nullopt if a required key is missing or invalid. A cookie counts only for requests from the
+/// service's own pages, because browsers also send it with requests from other ports of this host.
 std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions,
                                 const httplib::Request& request);
 
-/// Whether a request came with a key or a session, good or not.
+/// Whether a request has a key or a session cookie, valid or not.
 bool has_credentials(const httplib::Request& request);
 
-/// 204: for proxies that ask before they read a body (docker/nginx.conf). The route refuses others.
+/// Responds with 204 to callers with sufficient scope, for proxies that check access before they
+/// read a body (docker/nginx.conf).
 void confirm_access(const RequestContext& context, const httplib::Request& request,
                     httplib::Response& response);
 

@@ -1,4 +1,4 @@
-// Routes of studies: /v1/studies. A study is queued and worked off like a job.
+// Routes of studies: /v1/studies. A study is queued and run like a job.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -8,15 +8,15 @@ namespace throng::server {
 
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
-/// A study's document (docs/guidance.md) as JSON; with ?dry_run it is only checked.
+/// Submits a study's document (docs/guidance.md) as JSON; ?dry_run only checks it.
 void submit_study(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void list_studies(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
-/// With its plan, and the summary of what is there so far.
+/// Sends a study with its plan and the summary of its runs so far.
 void send_study(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);
-/// PATCH with {"priority", "labels", "keep"}, as of a job.
+/// PATCH with {"priority", "labels", "keep"}, as for a job.
 void change_study(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void cancel_study(const RequestContext& context, const httplib::Request& request,
@@ -27,7 +27,7 @@ void remove_study(const RequestContext& context, const httplib::Request& request
                   httplib::Response& response);
 void send_study_report(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
-/// summary.json, summary.csv, summary.md, values.json or runs/CASE/POLICY/000.json.
+/// Sends summary.json, summary.csv, summary.md, values.json or runs/CASE/POLICY/000.json.
 void send_study_file(const RequestContext& context, const httplib::Request& request,
                      httplib::Response& response);
 

@@ -1,6 +1,6 @@
-// Studio, the web page of the service (web/studio): its files are part of the program, compressed
-// by the build. The page is public, as are its scripts; what they show is fetched from the API in
-// the session of the person in front of it (server/api/session_api.h).
+// Studio, the web page of the service (web/studio). Its files are embedded in the program,
+// compressed by the build. Page and scripts are public; they fetch their data from the API with the
+// user's session (server/api/session_api.h).
 #pragma once
 
 #include <span>
@@ -16,25 +16,25 @@ namespace throng::server {
 struct StudioFile {
   std::string_view name;  ///< "index.html", or with a hash of its content: "main-4K2VXQ7A.js"
   std::string_view type;  ///< media type
-  std::string_view etag;  ///< with its quotes
+  std::string_view etag;  ///< including its quotes
   std::string_view bytes;
-  std::string_view gzip;  ///< the same, compressed
+  std::string_view gzip;  ///< the same bytes, compressed by gzip
 };
 
-/// Paths of the page, apart from those of the API. Screens are paths too, so that they can be
-/// linked; the scripts tell them apart.
+/// Routes of the page. Its screens have paths of their own, so that they can be linked; all of them
+/// get the same page, whose scripts show the screen.
 std::span<const Route> studio_routes();
 
 void send_studio(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
-/// Throws HttpError 404.
+/// Sends a script or another file of the page. Throws HttpError 404.
 void send_studio_asset(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 
-/// Whether a request for a path that does not exist comes from a person's browser, for which the
-/// page says so.
+/// Whether a request for an unknown path comes from browser navigation and should be answered with
+/// the page.
 bool is_for_studio(const httplib::Request& request);
-/// The page, without changing the status of the answer.
+/// Sets the page as the response's body without changing its status.
 void write_studio(const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

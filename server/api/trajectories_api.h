@@ -1,4 +1,4 @@
-// Everybody's places in a run, for clients that draw them.
+// Positions of all people in a run, for clients that draw them.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -6,8 +6,8 @@
 
 namespace throng::server {
 
-/// GET /v1/jobs/{id}/runs/{n}/trajectories?from_s=&to_s=&every_s= : compact binary (docs/api.md),
-/// of the run's trace, whatever becomes of the job.
+/// GET /v1/jobs/{id}/runs/{n}/trajectories?from_s=&to_s=&every_s= : sends positions from the run's
+/// trace in a compact binary format (docs/api.md), in any state of the job.
 void send_trajectories(const RequestContext& context, const httplib::Request& request,
                        httplib::Response& response);
 

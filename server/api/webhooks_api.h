@@ -1,5 +1,5 @@
-// Webhooks over HTTP: receivers of events, and the delivery log. Administrators only: the server
-// calls whatever address they name.
+// Routes of webhooks and their delivery log. For administrators only, because the server calls the
+// addresses that they choose.
 #pragma once
 
 #include "server/api/request_context.h"
@@ -19,7 +19,7 @@ void remove_webhook(const RequestContext& context, const httplib::Request& reque
                     httplib::Response& response);
 void list_deliveries(const RequestContext& context, const httplib::Request& request,
                      httplib::Response& response);
-/// Sends a ping now and answers with how that went.
+/// Sends a ping now and responds with the result.
 void ping_webhook(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 

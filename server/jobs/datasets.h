@@ -1,5 +1,5 @@
-// Cache for downloaded datasets: manifests and the plans of archives. With hundreds of thousands of
-// files they take a second and much memory to make, and clients ask for many ranges.
+// Cache of manifests and archive layouts for downloads. With hundreds of thousands of files, they
+// take a second and much memory to create, and clients request many ranges.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,12 @@
 
 namespace throng::server {
 
-/// Safe to use from many threads. Published datasets do not change; one that is published in place
-/// of another is noticed.
+/// Safe to use from many threads. Detects that a dataset was replaced by another one.
 class Datasets {
  public:
-  /// Throws EnvironmentError.
+  /// The manifest of a dataset. Throws EnvironmentError.
   std::shared_ptr<const jobs::Manifest> manifest_of(const std::filesystem::path& dataset);
-  /// Throws EnvironmentError.
+  /// The archive of a dataset with these parameters (jobs::Archive). Throws EnvironmentError.
   std::shared_ptr<const jobs::Archive> archive_of(const std::filesystem::path& dataset,
                                                   const std::string& root,
                                                   jobs::ArchiveFormat format,

@@ -1,4 +1,4 @@
-// Watches whether a disk can be written to.
+// Monitor of the free space of a disk.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,20 @@ struct DiskState {
   bool is_read_only = false;
 };
 
+/// Checks the disk in a thread of its own. Safe to use from many threads.
 class DiskWatch {
  public:
+  /// Measures the disk.
   using Look = std::function<DiskState()>;
-  /// Called with the reason why nothing more should be written, and with "" once there is free
-  /// space again.
+  /// Receives the reason why no more files should be written, and "" once there is free space
+  /// again.
   using OnChange = std::function<void(const std::string& reason)>;
 
-  /// Checks twice a second. There is free space again when a quarter more than `min_bytes` (0:
-  /// 1 MiB) is free, so that it does not change with every file.
+  /// Checks twice a second. After a lack of space, space counts as free again only if `min_bytes`
+  /// (0: 1 MiB) plus a quarter are free, so that the state does not change with every file.
   DiskWatch(Look look, std::int64_t min_bytes, OnChange on_change);
 
-  /// Checks now. The reason why nothing can be written; "" when it can.
+  /// Checks now. Returns the reason why no files should be written; "" if there is none.
   std::string look();
 
  private:
@@ -36,8 +38,8 @@ class DiskWatch {
   std::int64_t min_bytes_;
   OnChange on_change_;
   std::mutex mutex_;
-  std::string reason_;   ///< look()'s last answer; guarded by mutex_
-  std::jthread thread_;  ///< last: ends before what it uses
+  std::string reason_;   ///< result of the last look(); guarded by mutex_
+  std::jthread thread_;  ///< last member: joined before the others end
 };
 
 /// The state of the disk that holds a folder. Throws EnvironmentError.

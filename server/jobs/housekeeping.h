@@ -1,4 +1,4 @@
-// Housekeeping: retention, free disk space (the queue is paused when it runs out), trash.
+// Housekeeping: retention, pause of the queue when disk space runs out, removal of files.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,15 @@ namespace throng::server {
 
 struct HousekeepingOptions {
   Retention retention = {};
-  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue is paused
-  DiskWatch::Look disk = {};                  ///< default: of the data folder's disk
+  std::int64_t min_free_bytes = 512LL << 20;  ///< the queue is paused below this free space
+  DiskWatch::Look disk = {};                  ///< default: measures the data folder's disk
 };
 
 /// Safe to use from many threads.
 class Housekeeping {
  public:
-  /// Tidies the data folder (server/catalog/data_folder.h). All must outlive it.
+  /// Tidies the data folder (server/catalog/data_folder.h). All references must outlive this
+  /// object.
   Housekeeping(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
                Uploads& uploads, HousekeepingOptions options);
   Housekeeping(const Housekeeping&) = delete;
@@ -33,12 +34,13 @@ class Housekeeping {
 
   const Retention& retention() const { return options_.retention; }
 
-  /// Ends the job if it is active and removes it with all its files. False when there is none.
+  /// Stops the job if it is active and removes it with all its files. Returns false if there is
+  /// none.
   bool remove(const std::string& id);
-  /// Removes what has been kept for long enough. Done by itself every minute.
+  /// Removes expired jobs; called automatically once a minute.
   void remove_expired();
 
-  /// The reason why nothing can be written; "" when it can.
+  /// Checks the disk now (DiskWatch::look()).
   std::string look_at_disk() { return disk_.look(); }
 
  private:
@@ -50,7 +52,7 @@ class Housekeeping {
   Uploads& uploads_;
   HousekeepingOptions options_;
   DiskWatch disk_;
-  std::jthread sweeper_;  ///< last: ends before what it uses
+  std::jthread sweeper_;  ///< last member: joined before the others end
 };
 
 }  // namespace throng::server

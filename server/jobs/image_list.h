@@ -1,4 +1,4 @@
-// Images of a dataset, from the files of its manifest.
+// List of a dataset's images, from its manifest.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace throng::server {
 
-/// images/RUN/CAMERA/FRAME.jpg
+/// The file images/RUN/CAMERA/FRAME.jpg.
 struct ImageFile {
   std::string_view run;
   std::string_view camera;
@@ -20,13 +20,14 @@ struct ImageFile {
   const jobs::FileEntry* file = nullptr;
 };
 
-/// Frames that a camera took in a run.
+/// Frames of a camera in a run.
 struct CameraFrames {
   std::int64_t images = 0;
   int first = 0;
   int last = 0;
 };
 
+/// Filter and page of a list.
 struct ImageQuery {
   std::string run;     ///< "": all
   std::string camera;  ///< "": all
@@ -34,14 +35,16 @@ struct ImageQuery {
   std::int64_t limit = 100;
 };
 
+/// A page of images and an overview of all frames.
 struct ImageList {
-  std::vector<ImageFile> images;  ///< [offset, offset + limit) of those that fit, by their paths
-  std::int64_t total = 0;         ///< that fit
+  std::vector<ImageFile> images;  ///< matches [offset, offset + limit), sorted by path
+  std::int64_t total = 0;         ///< number of all matches
   /// All frames of the dataset, by run and camera.
   std::map<std::string_view, std::map<std::string_view, CameraFrames>> runs;
 };
 
-/// `files` are sorted by path and outlive the result. Other files below images/ are left out.
+/// Lists images. `files` must be sorted by path and outlive the result; files below images/ with
+/// other names are ignored.
 ImageList list_images(std::span<const jobs::FileEntry> files, const ImageQuery& query);
 
 }  // namespace throng::server

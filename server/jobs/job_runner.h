@@ -1,5 +1,5 @@
-// The queue at work: several jobs at once, each supervised by a thread of its own. How they share
-// the workers is the executor's affair (jobs/queue/workers/admission.h).
+// Runs the queued jobs: several at once, each supervised by a thread of its own. The executor
+// decides how they share the workers (jobs/queue/workers/admission.h).
 #pragma once
 
 #include <atomic>
@@ -20,18 +20,19 @@
 
 namespace throng::server {
 
+/// Runs jobs in threads from construction to destruction.
 class JobRunner {
  public:
-  /// Checks the disk: the reason why it has no free space, "" when it has.
+  /// Returns the reason why the disk has no free space; "" if it has.
   using LookAtDisk = std::function<std::string()>;
 
-  /// Goes on with what it finds in the store: jobs that were running are resumed. Beyond
-  /// `max_active` jobs one is begun only for an owner who has none that is active, or with a
-  /// priority above all that are. All must outlive it.
+  /// Resumes the jobs that are running in the store. With `max_active` active jobs or more, starts
+  /// a further one only for an owner without active jobs, or with a priority above all active ones.
+  /// All references must outlive this object.
   JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
             jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
             const PublishTargets& publish_to);
-  /// Ends the workers; the jobs they were at stay "running" in the store, to be resumed.
+  /// Ends the workers; active jobs stay "running" in the store and are resumed at the next start.
   ~JobRunner() = default;
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -66,8 +67,8 @@ class JobRunner {
   LookAtDisk look_at_disk_;
   int max_active_;
   const PublishTargets& publish_to_;
-  std::list<Supervisor> supervisors_;  ///< of the dispatching thread
-  std::jthread thread_;                ///< last: ends before what it uses
+  std::list<Supervisor> supervisors_;  ///< used by the dispatching thread only
+  std::jthread thread_;                ///< last member: joined before the others end
 };
 
 }  // namespace throng::server

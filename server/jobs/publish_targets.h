@@ -1,5 +1,5 @@
-// Addresses in object stores that jobs may publish their datasets to: the operator's choice, since
-// the service's credentials are used.
+// Addresses in object stores to which jobs may publish their datasets. The operator chooses them,
+// because the service's credentials are used.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace throng::server {
 
+/// The permitted addresses.
 class PublishTargets {
  public:
-  /// `allowed` as `throng serve --publish-to` has them. Throws InputError.
+  /// Parses the addresses of `throng serve --publish-to`. Throws InputError.
   explicit PublishTargets(const std::vector<std::string>& allowed = {});
 
   bool are_there() const { return !allowed_.empty(); }
-  /// Throws InputError unless a job's address is one of them or below it; nothing for "".
+  /// Throws InputError unless a job's address is "", a permitted address or below one.
   void require(const std::string& address) const;
 
  private:

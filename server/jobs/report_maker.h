@@ -1,4 +1,4 @@
-// Reports of jobs (throng report), made when somebody first asks for one.
+// Reports of jobs (throng report), created at the first request.
 #pragma once
 
 #include <chrono>
@@ -18,25 +18,25 @@
 namespace throng::server {
 
 struct ReportMakerOptions {
-  int at_once = 2;               ///< a report that hangs does not hold back the next
-  std::size_t max_waiting = 32;  ///< not yet made; more are refused
+  int at_once = 2;               ///< number of threads, so that one that hangs blocks no others
+  std::size_t max_waiting = 32;  ///< max number of unfinished reports; more are refused
 };
 
-/// Reports are tasks like those of jobs (jobs/queue/workers/executor.h), made in threads of their
-/// own: reading thousands of frames takes longer than a request may. Safe to use from many threads.
+/// Creates reports as tasks (jobs/queue/workers/executor.h) in threads of its own, because that
+/// takes longer than a request may. Safe to use from many threads.
 class ReportMaker {
  public:
-  /// The executor must outlive it.
+  /// The executor must outlive this object.
   explicit ReportMaker(jobs::Executor& executor, ReportMakerOptions options = {});
 
-  /// The report's file, which is kept in the job's folder; nothing when it is not there after
-  /// `timeout`: then it is waited for or being made, ask again. Throws EnvironmentError when
-  /// making it has failed (asked again, it is tried again), or when too many wait.
+  /// The report's file in the job's folder, created if needed. std::nullopt if it is not finished
+  /// after `timeout`: call again. Throws EnvironmentError if the creation has failed (the next call
+  /// tries again) or too many reports wait.
   std::optional<std::filesystem::path> report_of(const std::filesystem::path& job,
                                                  const jobs::Share& share,
                                                  std::chrono::milliseconds timeout);
 
-  /// Removes the report of a job whose results change.
+  /// Removes the report of a job whose results will change.
   static void forget(const std::filesystem::path& job);
 
  private:
@@ -56,7 +56,7 @@ class ReportMaker {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Order> orders_;
-  std::map<std::filesystem::path, std::string> failures_;  ///< not yet reported
+  std::map<std::filesystem::path, std::string> failures_;  ///< failures not reported yet
   std::vector<std::jthread> workers_;
 };
 

@@ -1,4 +1,4 @@
-// A live flight: the process that flies it (jobs/live/session.h), and those who look at it.
+// A live flight: its process (jobs/live/session.h) and its viewers.
 #pragma once
 
 #include <chrono>
@@ -23,16 +23,17 @@ namespace throng::server {
 enum class LiveState { starting, flying, ended, failed };
 const char* to_string(LiveState state);
 
+/// Parameters of a flight.
 struct LiveFlightSpec {
   std::string id;
-  std::string owner;  ///< id of the key
-  std::string name;   ///< of the job
-  std::vector<std::string> drones;
-  std::string job_json;              ///< resolved
-  std::int64_t memory_mib = 0;       ///< estimate; 0: not limited
-  std::filesystem::path folder;      ///< of all flights; the flight's own is made and removed in it
+  std::string owner;                 ///< id of the key
+  std::string name;                  ///< name of the job
+  std::vector<std::string> drones;   ///< ids
+  std::string job_json;              ///< the resolved job
+  std::int64_t memory_mib = 0;       ///< estimated memory; 0: not limited
+  std::filesystem::path folder;      ///< folder in which the flight's temporary folder is created
   std::vector<std::string> command;  ///< the program; the flight's folder is appended
-  SteadyNow now = &steady_now;       ///< for the time since somebody has looked
+  SteadyNow now = &steady_now;       ///< clock of unseen()
 };
 
 /// Safe to use from many threads.
@@ -40,7 +41,7 @@ class LiveFlight {
  public:
   /// Starts the process.
   explicit LiveFlight(LiveFlightSpec spec);
-  /// Ends it.
+  /// Ends the process.
   ~LiveFlight();
   LiveFlight(const LiveFlight&) = delete;
   LiveFlight& operator=(const LiveFlight&) = delete;
@@ -53,22 +54,21 @@ class LiveFlight {
 
   LiveState state() const;
   int viewers() const;
-  /// Simulated seconds so far.
+  /// Simulated time so far.
   double time_s() const;
-  /// The result or the failure, once there is one.
+  /// The result or the failure; null while the flight goes on.
   nlohmann::json outcome() const;
-  /// How long nobody has looked.
+  /// Time since the last viewer left.
   SteadyTime::duration unseen() const;
 
-  /// False when it has ended.
+  /// Sends commands to the flight; returns false if it has ended.
   bool command(const live::Commands& commands);
-  /// Ends the flight and waits for the outcome; false when that takes too long.
+  /// Ends the flight and waits for the outcome; returns false if that takes too long.
   bool stop();
-  /// Ends it without an outcome; viewers hear of it.
+  /// Ends the flight without an outcome and informs the viewers.
   void end();
 
-  /// Somebody who looks: gets the messages from the first on, of states and images only the
-  /// newest.
+  /// A viewer receives all messages from the first on, but only the newest state and image.
   class Viewer {
    public:
     explicit Viewer(std::shared_ptr<LiveFlight> flight);
@@ -76,12 +76,13 @@ class LiveFlight {
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    /// All new messages, or after a moment without any a sign of life; "" at the end.
+    /// Blocks for new messages and returns all of them, or a sign of life if there are none for a
+    /// while; "" at the end.
     std::string next();
 
    private:
     std::shared_ptr<LiveFlight> flight_;
-    std::uint64_t seen_ = 0;  ///< number of the newest message that was handed over
+    std::uint64_t seen_ = 0;  ///< number of the newest message returned so far
   };
 
  private:
@@ -98,15 +99,15 @@ class LiveFlight {
 
   LiveFlightSpec spec_;
   StagingFolder folder_;
-  int input_read_ = -1;       ///< of the process; until it has started
-  mutable std::mutex mutex_;  ///< of all below
+  int input_read_ = -1;       ///< read end of the process's stdin; open until it has started
+  mutable std::mutex mutex_;  ///< guards all members below
   std::condition_variable changed_;
-  int input_ = -1;  ///< to the process
+  int input_ = -1;  ///< write end of the process's stdin
   LiveState state_ = LiveState::starting;
   int viewers_ = 0;
   SteadyTime last_seen_;
   double time_s_ = 0;
-  std::uint64_t count_ = 0;  ///< of messages
+  std::uint64_t count_ = 0;  ///< number of messages so far
   Numbered hello_;
   Numbered world_;
   Numbered image_;
@@ -114,7 +115,7 @@ class LiveFlight {
   Numbered end_;
   nlohmann::json outcome_;
   bool should_end_ = false;
-  std::jthread thread_;  ///< that reads from the process
+  std::jthread thread_;  ///< reads from the process
 };
 
 }  // namespace throng::server

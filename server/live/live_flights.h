@@ -1,4 +1,4 @@
-// All live flights of the service: how many there may be, and those that nobody looks at end.
+// All live flights of the service. Limits their number and ends flights without viewers.
 #pragma once
 
 #include <chrono>
@@ -17,17 +17,18 @@
 
 namespace throng::server {
 
+/// Limits on live flights.
 struct LiveLimits {
-  std::vector<std::string> command = {"/proc/self/exe", "live"};
+  std::vector<std::string> command = {"/proc/self/exe", "live"};  ///< program of a flight
   std::size_t max_per_owner = 2;
   std::size_t max_all = 4;
-  std::chrono::milliseconds unseen{30'000};  ///< after which a flight ends
-  std::chrono::milliseconds ended{600'000};  ///< after which an outcome is forgotten
-  std::int64_t max_task_mib = 0;             ///< memory of a flight; 0: any
-  SteadyNow now = &steady_now;               ///< by which those times are measured
+  std::chrono::milliseconds unseen{30'000};  ///< time without viewers until a flight ends
+  std::chrono::milliseconds ended{600'000};  ///< time for which an outcome is kept
+  std::int64_t max_task_mib = 0;             ///< max memory of a flight; 0: unlimited
+  SteadyNow now = &steady_now;               ///< clock of these times
 };
 
-/// There are as many flights as there may be, or there is too little memory.
+/// Thrown if the limits on flights are reached or memory is short.
 struct LiveFlightsFull {
   std::string why;
 };
@@ -35,18 +36,18 @@ struct LiveFlightsFull {
 /// Safe to use from many threads.
 class LiveFlights {
  public:
-  /// Folders of flights are made below `data`.
+  /// Creates the folders of flights below `data`.
   LiveFlights(const std::filesystem::path& data, LiveLimits limits);
   ~LiveFlights();
   LiveFlights(const LiveFlights&) = delete;
   LiveFlights& operator=(const LiveFlights&) = delete;
 
-  /// Throws LiveFlightsFull and EnvironmentError.
+  /// Starts a flight. Throws LiveFlightsFull and EnvironmentError.
   std::shared_ptr<LiveFlight> begin(const jobs::ResolvedJob& job, const std::string& owner);
-  /// Null when there is none.
+  /// The flight with this id; null if there is none.
   std::shared_ptr<LiveFlight> find(const std::string& id) const;
   std::vector<std::shared_ptr<LiveFlight>> all() const;
-  /// Ends a flight; false when there is none.
+  /// Ends and removes a flight; returns false if there is none.
   bool remove(const std::string& id);
 
  private:
@@ -56,7 +57,7 @@ class LiveFlights {
   std::filesystem::path folder_;
   LiveLimits limits_;
   mutable std::mutex mutex_;
-  std::condition_variable_any begun_;                           ///< a flight
+  std::condition_variable_any begun_;                           ///< a flight was started
   std::map<std::string, std::shared_ptr<LiveFlight>> flights_;  ///< by id; guarded by mutex_
   std::jthread thread_;
 };

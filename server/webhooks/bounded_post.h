@@ -1,5 +1,5 @@
-// One POST to an address that a user has named. Bounded whatever the other side does: in time from
-// the name's resolution to the answer's status line, and in what is read of the answer.
+// One POST to an address that a user has chosen. Its time, from name resolution to the status line,
+// and the bytes read of the response are bounded whatever the other side does.
 #pragma once
 
 #include <chrono>
@@ -11,29 +11,29 @@
 namespace throng::server {
 
 struct PostOptions {
-  std::chrono::milliseconds timeout{10'000};  ///< for everything together
+  std::chrono::milliseconds timeout{10'000};  ///< total time of the request
   /// Whether addresses that are not public may be called (server/webhooks/public_address.h).
   bool allow_private = false;
 };
 
 struct PostResult {
-  int status = 0;     ///< of the answer, whose other parts are not read; 0: there was none
-  std::string error;  ///< why there was none
+  int status = 0;     ///< HTTP status; 0: no response
+  std::string error;  ///< why there was no response
 };
 
 using PostHeaders = std::vector<std::pair<std::string, std::string>>;
 
-/// Sends a JSON body to an http or https URL; redirections are not followed. The name is resolved
-/// once, and the connection made to the very address that was checked. Certificates are checked
-/// against those of the system ($SSL_CERT_FILE). Ends soon after a stop is requested.
+/// Sends a JSON body to an http or https URL without following redirections. The host name is
+/// resolved once, and the connection uses the address that was checked. Certificates are verified
+/// with those of the system ($SSL_CERT_FILE). Ends soon after a stop request.
 PostResult bounded_post(const std::string& url, const PostHeaders& headers, const std::string& body,
                         const PostOptions& options, const std::stop_token& stop);
 
-/// Whether the URL can be called at all: http or https, a host, a port from 1 to 65535.
+/// Whether the URL is valid: http or https, a host, a port from 1 to 65535.
 bool is_callable_url(const std::string& url);
 
-/// Whether the URL's host is written as an address, and that is not public. Names are known only
-/// once they are resolved.
+/// Whether the URL's host is a literal address that is not public. Host names are checked only when
+/// they are resolved.
 bool names_private_address(const std::string& url);
 
 }  // namespace throng::server

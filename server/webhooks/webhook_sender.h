@@ -1,4 +1,4 @@
-// Delivers events to webhooks: in their order, each until it is taken, for a day at most.
+// Delivery of events to webhooks: in order, each repeated until it is accepted, for at most a day.
 //
 //   POST URL
 //   Throng-Event: succeeded
@@ -6,10 +6,10 @@
 //   Throng-Signature: t=SECONDS,v1=HEX    server/webhooks/webhooks.h
 //   {"seq": 17, "job": ID, "at": TIME, "type": "succeeded", "data": {...}, "links": {"job": PATH}}
 //
-// Any answer from 200 to 299 takes it; redirections are not followed. Of an answer only the status
-// is read, and each attempt has ten seconds (server/webhooks/bounded_post.h). An event may come
-// twice, where the answer was lost. After a failure it is tried again after 1, 2, 4... seconds, at
-// last every ten minutes; a webhook that has failed for a day is taken out of use.
+// A status from 200 to 299 accepts the event; redirections are not followed. Only the status of a
+// response is read, and each attempt is limited to ten seconds (server/webhooks/bounded_post.h). An
+// event may be delivered twice if a response was lost. Failed attempts are repeated after 1,
+// 2, 4... seconds, at last every ten minutes; a webhook that has failed for a day is disabled.
 #pragma once
 
 #include <chrono>
@@ -28,15 +28,16 @@
 namespace throng::server {
 
 struct WebhookSenderOptions {
-  std::chrono::milliseconds first_rest{1000};  ///< after a first failure; doubles with each
-  std::chrono::milliseconds max_pause{600'000};
-  std::chrono::milliseconds timeout{86'400'000};  ///< with a webhook that fails
-  PostOptions post = {};                          ///< of each attempt
+  std::chrono::milliseconds first_rest{1000};     ///< pause after a failure; doubles with each
+  std::chrono::milliseconds max_pause{600'000};   ///< max pause between attempts
+  std::chrono::milliseconds timeout{86'400'000};  ///< time of failures until it is disabled
+  PostOptions post = {};                          ///< options of each attempt
 };
 
+/// Delivers events in one thread per webhook. Safe to use from many threads.
 class WebhookSender {
  public:
-  /// Those of the service's data folder; the queue must outlive it.
+  /// Opens the webhooks in the folder `data`. The queue must outlive this object.
   WebhookSender(const JobQueue& queue, const std::filesystem::path& data,
                 WebhookSenderOptions options = {});
   ~WebhookSender();
@@ -44,16 +45,16 @@ class WebhookSender {
   WebhookSender& operator=(const WebhookSender&) = delete;
 
   Webhooks& webhooks() { return webhooks_; }
-  /// Whether webhooks may lead to addresses that are not public (server/webhooks/public_address.h).
+  /// Whether webhooks may have addresses that are not public (server/webhooks/public_address.h).
   bool allows_private() const { return options_.post.allow_private; }
 
-  /// Ends what is being sent; nothing is sent any more.
+  /// Cancels current deliveries and prevents further ones.
   void stop();
 
-  /// Takes note of webhooks that have come or gone.
+  /// Starts and stops deliveries after webhooks were created, changed or removed.
   void refresh();
 
-  /// Sends a ping at once and logs how that went; nothing when there is no such webhook.
+  /// Sends a ping at once and logs the attempt; std::nullopt if there is no such webhook.
   std::optional<Delivery> ping(const std::string& id);
 
  private:
