@@ -1,4 +1,5 @@
-// Ids of datasets that become one: those of the second go on where those of the first end.
+// Renumbering of ids when datasets are merged: the ids of a dataset follow those of the previous
+// one.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +11,19 @@
 
 namespace throng::formats {
 
-/// The text of a run's file in the folder `kind` with its track ids shifted; nothing for files
-/// without track ids, which stay what they are. Throws InputError.
+/// The content of a run's file in the folder `kind` with its track ids shifted; std::nullopt for
+/// kinds without track ids. Throws InputError.
 std::optional<std::string> with_shifted_tracks(const std::filesystem::path& file,
                                                const std::string& kind, std::int64_t shift);
 
-/// A COCO file of the datasets.
+/// The COCO file of one dataset.
 struct CocoPart {
   std::filesystem::path file;
   std::int64_t track_shift = 0;
-  std::function<std::string(const std::string&)> new_run;  ///< name in the result of a run
+  std::function<std::string(const std::string&)> new_run;  ///< maps a run's name to the new one
 };
 
-/// Writes one COCO file of several, record by record. Throws InputError.
+/// Concatenates COCO files into one, record by record. Throws InputError.
 void join_coco_files(const std::vector<CocoPart>& parts, const std::string& description,
                      const std::filesystem::path& output);
 

@@ -1,5 +1,4 @@
-// A chessboard in the renderer's world, and cameras that see it: what throng calibrate selftest
-// photographs.
+// Scene of `throng calibrate selftest`: a chessboard, and cameras that see it.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +12,17 @@
 
 namespace throng::cli {
 
-/// A board of squares of this side (m), upright, high above an empty place.
+/// Side of the board's squares (m). The board stands upright, high above empty ground.
 inline constexpr double kBoardSquareM = 0.25;
 
-/// Writes the board as a mesh (OBJ and its materials) into `folder` and returns the place it is in.
+/// Writes the board as a mesh (OBJ and its materials) into `folder` and returns its scenario.
 world::Scenario board_place(const std::filesystem::path& folder, const calibrate::Board& board);
 
-/// The board's inner corners in the world, row by row.
+/// The board's inner corners in the world (m), row by row.
 std::vector<Eigen::Vector3d> board_corners_in_world(const calibrate::Board& board);
 
-/// Poses from which the camera sees the whole board: near and far, tilted by up to 45 degrees, in
-/// all parts of the image. Drawn by the seed.
+/// Samples `count` poses from which the camera sees the whole board: near and far, tilted by up to
+/// 45 degrees, in all parts of the image. The seed determines them.
 std::vector<camera::Pose> board_views(const calibrate::CameraFile& camera,
                                       const calibrate::Board& board, int count, std::uint64_t seed);
 

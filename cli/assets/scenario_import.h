@@ -1,4 +1,4 @@
-// The subcommand of `throng scenario` that is a program of its own.
+// `throng scenario import`, the subcommand that is a program of its own (cli/import).
 #pragma once
 
 namespace CLI {

@@ -1,5 +1,5 @@
-// `throng crowd --list`: the vocabulary of the crowd engine's files, for people, programs and the
-// documentation.
+// `throng crowd --list`: elements and attributes of the crowd simulation's files, as text for
+// people, JSON for programs and Markdown for the documentation.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace throng::cli {
 
-/// `format` is text, json or markdown.
+/// The list; `format` is text, json or markdown.
 std::string crowd_vocabulary(std::string_view format);
 
 }  // namespace throng::cli

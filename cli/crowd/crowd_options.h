@@ -1,4 +1,4 @@
-// Options of `throng crowd`: a project file with overrides from the command line.
+// Options of `throng crowd`: a project file, overridden by the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -38,7 +38,7 @@ struct CrowdArguments {
 
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments);
 
-/// The project with the command line's changes. Throws InputError.
+/// Reads the project and applies the command line's overrides. Throws InputError.
 crowd::Project load_project(const CrowdArguments& arguments);
 
 }  // namespace throng::cli

@@ -1,4 +1,4 @@
-// Options of commands that work jobs off: on which machines.
+// Options of commands that run jobs: the executor.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,7 @@
 
 namespace throng::cli {
 
-/// --executor and the --slurm-... options.
+/// Adds --executor and the --slurm-... options. `options` must outlive the command.
 void add_executor_options(CLI::App& command, jobs::ExecutorOptions& options);
 
 }  // namespace throng::cli

@@ -1,4 +1,4 @@
-// The report of a job in its folder, for the command line and for workers.
+// Report of the job in a folder, for the command line and for workers.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace throng::cli {
 
-/// The HTML file. Throws InputError and EnvironmentError.
+/// The report as HTML. Throws InputError and EnvironmentError.
 std::string report_of_job(const std::filesystem::path& folder);
 
 }  // namespace throng::cli

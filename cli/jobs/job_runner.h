@@ -1,5 +1,5 @@
-// Shared by `throng run` and `throng render`: a job folder worked off, with a progress bar and
-// Ctrl-C.
+// Functions that `throng run` and `throng render` share: run the job of a folder with a progress
+// bar, until Ctrl-C.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,27 +18,28 @@ struct JobArguments {
   int workers = 0;
   jobs::ExecutorOptions executor = {};
   bool profile = false;
-  std::string publish;  ///< instead of the job's outputs.publish; "": that
+  std::string publish;  ///< replaces the job's outputs.publish unless ""
 };
 
-/// The options JOB, --output, --workers, --profile, --publish, and those of executors.
+/// Adds the options JOB, --output, --workers, --profile, --publish, and those of executors.
+/// `arguments` must outlive the command.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
-/// The job file's text, with the cameras of the calibration files that it names. Throws InputError
-/// if there is no such file, or it holds something else.
+/// The job file's text, with calibration files that it names replaced by their cameras. Throws
+/// InputError if the file does not exist or is not a job.
 std::string read_job_text(const std::string& path);
 
-/// Reads the job file and resolves the job. Throws InputError (also when there is no such file).
+/// Reads the job file and resolves the job. Throws InputError, also if the file does not exist.
 jobs::ResolvedJob read_job_file(
     const std::string& path, jobs::DefaultDrones default_drones = jobs::DefaultDrones::of_scenario);
 
-/// The job with the address of --publish, if that is given. Before anything is written or
-/// simulated, it looks whether a dataset can be brought there, unless the output folder holds it
-/// already. Throws InputError and EnvironmentError.
+/// The job with the address of --publish, if that is given. Checks in advance whether a dataset can
+/// be uploaded there, unless the output folder holds the dataset already. Throws InputError and
+/// EnvironmentError.
 jobs::ResolvedJob with_target(const jobs::ResolvedJob& resolved, const JobArguments& arguments);
 
-/// Works the folder's job off, then prints where the dataset is, and where the time went if asked
-/// for. Throws like jobs::run_job.
+/// Runs the folder's job, then prints the path of the dataset and, with --profile, the times of the
+/// stages. Throws as jobs::run_job().
 void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,
                 const JobArguments& arguments);
 

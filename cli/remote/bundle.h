@@ -1,4 +1,4 @@
-// Scenarios as they are sent to a server: one file of many.
+// Bundles of scenarios for upload to a server.
 #pragma once
 
 #include <filesystem>
@@ -6,14 +6,16 @@
 
 namespace throng::cli {
 
+/// An archive and its name.
 struct Bundle {
-  std::string name;  ///< of the folder or file, as a server takes it: [a-z0-9_]
+  std::string name;  ///< from the name of the folder or file, converted to [a-z0-9_]
   std::string bytes;
 };
 
-/// A zip, tar or tar.gz file as it is; a folder's files as a tar file whose bytes follow from them
-/// alone (names in order, no times, no owners). Hidden files and links stay out. Throws InputError
-/// when there is no such file or folder, or when it has more than 64 MiB, which servers refuse.
+/// Reads a zip, tar or tar.gz file, or packs the files of a folder as a tar file whose bytes depend
+/// on their names and contents only (sorted, no times, no owners). Leaves out hidden files and
+/// links. Throws InputError if there is no such file or folder, or if the bundle exceeds 64 MiB,
+/// the limit of servers.
 Bundle read_bundle(const std::filesystem::path& from);
 
 }  // namespace throng::cli

@@ -1,5 +1,5 @@
-// The words of a command line before the parser sees them: renamed options, `throng help`, and
-// misspelled commands, which the parser would report as a missing one.
+// Preprocessing of the command line before the parser: renamed options, `throng help`, and
+// misspelled commands, which the parser would report as a missing command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// Without the program's name.
+  /// The words without the program's name.
   std::span<const std::string> words() const { return std::span(words_).subspan(1); }
   int count() const { return static_cast<int>(words_.size()); }
   const char* const* pointers() const { return pointers_.data(); }
@@ -27,11 +27,11 @@ class CommandLine {
   std::vector<const char*> pointers_;  ///< into words_
 };
 
-/// The answer to `help [COMMAND...]`; nothing if the words are another command. Throws InputError
-/// on an unknown command.
+/// The help for `help [COMMAND...]`; std::nullopt for other words. Throws InputError for an unknown
+/// command.
 std::optional<std::string> help_text(const CLI::App& app, std::span<const std::string> words);
 
-/// Throws InputError if a word that should name a command does not, with the nearest one.
+/// Throws InputError for a misspelled command; the message suggests the nearest one.
 void check_commands(const CLI::App& app, std::span<const std::string> words);
 
 }  // namespace throng::cli

@@ -1,4 +1,4 @@
-// The commands of the program as a tree, for its manual page and the completion of shells.
+// Traversal of the program's commands, for the manual page and shell completion.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,12 +8,11 @@
 
 namespace throng::cli {
 
-/// Subcommands that users start, in the order of the help; workers are started by the service.
+/// Subcommands for users, in the order of the help; internal ones such as workers are left out.
 std::vector<const CLI::App*> user_subcommands(const CLI::App& command);
 
-/// Visits the command and all that users start below it, each before its own, with the words that
-/// start it
-/// ("throng scenario check").
+/// Visits the command and its subcommands for users in pre-order. `words` are the words of the
+/// command ("throng scenario check").
 void for_each_command(const CLI::App& command, const std::string& words,
                       const std::function<void(const CLI::App&, const std::string&)>& visit);
 

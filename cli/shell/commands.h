@@ -7,8 +7,8 @@ class App;
 
 namespace throng::cli {
 
-// Each adds its subcommand with a callback that does the work. Callbacks throw InputError,
-// EnvironmentError or Cancelled; main() turns these into messages and exit codes.
+// Each function adds its subcommand with a callback that performs it. Callbacks throw InputError,
+// EnvironmentError or Cancelled; run_program() turns these into messages and exit codes.
 void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_simulate(CLI::App& app);
@@ -38,11 +38,11 @@ void add_calibrate(CLI::App& app);
 void add_completion(CLI::App& app);
 void add_manual(CLI::App& app);
 
-// Subcommands of `throng people` with files of their own.
+// Subcommands of `throng people` in files of their own.
 void add_people_import(CLI::App& people);
 void add_people_sheet(CLI::App& people);
 
-/// The subcommand of `throng calibrate` with a file of its own.
+// The subcommand of `throng calibrate` in a file of its own.
 void add_calibrate_selftest(CLI::App& calibrate);
 
 }  // namespace throng::cli

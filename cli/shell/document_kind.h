@@ -1,5 +1,5 @@
-// Kinds of JSON files that a user writes, recognized by their content: for messages where one is
-// given in place of another.
+// Kinds of JSON files that users write, recognized by their content, for messages about a wrong
+// kind.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@ namespace throng::cli {
 
 enum class DocumentKind : std::uint8_t { unknown, job, scenario, blueprint, study };
 
-/// By the fields at its top; `file` is its name, as blueprints end in .blueprint.json. Unknown for
-/// a text that is no JSON object, too.
+/// The kind of a document, from its top-level members and the ending of its name `file`
+/// (.blueprint.json). `unknown` also for text that is no JSON object.
 DocumentKind document_kind(std::string_view text, const std::string& file);
 
-/// Throws InputError if the text is clearly of another kind, with the command that takes such a
-/// file.
+/// Throws InputError if the text is clearly of another kind; the message names the command for that
+/// kind.
 void require_kind(DocumentKind expected, std::string_view text, const std::string& file);
 
-/// The same for a scenario, which a blueprint is, too.
+/// As require_kind() for scenarios; accepts blueprints, too.
 void require_scenario(std::string_view text, const std::string& file);
 
-/// "a job", for messages.
+/// The name of a kind for messages: "a job".
 std::string_view to_string(DocumentKind kind);
 
 }  // namespace throng::cli

@@ -1,4 +1,4 @@
-// Files that are given where another kind is expected, recognized by what is in them.
+// Checks of the kind of a file by its content, with helpful messages for a wrong kind.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace throng::cli {
 
-/// Throws InputError unless the file is HDF5, as traces are: what it is instead ("a job") and what
-/// makes or takes such a file. Of a folder it says where its traces are.
+/// Throws InputError unless the file is HDF5, the format of traces. The message names the kind of
+/// the file ("a job") and the command for it; for a folder, the traces in it.
 void require_trace(const std::filesystem::path& file);
 
-/// Throws InputError if a file of trajectories is a trace, or a job and the like.
+/// Throws InputError if a file given as trajectories is a trace, a job or another known kind.
 void refuse_as_trajectory(const std::filesystem::path& file);
 
-/// Throws InputError unless the name of a file to write ends as its contents do. Devices have any
-/// name.
+/// Throws InputError unless the name of a file to write ends with one of `endings`; devices are
+/// accepted. `option` names the option in the message.
 void check_ending(const std::string& option, const std::filesystem::path& file,
                   std::initializer_list<std::string_view> endings);
 

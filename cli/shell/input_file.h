@@ -11,16 +11,16 @@
 
 namespace throng::cli {
 
-/// Throws InputError unless the file or folder is there: a wrong name is no failure of the machine.
+/// Throws InputError unless the file or folder exists.
 inline void check_input_file(const std::string& name, const std::string& expected) {
   if (!std::filesystem::exists(name)) throw InputError({name, "", "no such file", expected});
 }
 
-/// Throws InputError if a file to be written is one of those that the command reads.
+/// Throws InputError if the output file is one of the input files.
 inline void check_output_file(const std::string& option, const std::string& output,
                               const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
-    std::error_code error;  // of files that are not there: others report them
+    std::error_code error;  // missing files are reported elsewhere
     if (!output.empty() && std::filesystem::equivalent(output, input, error)) {
       throw InputError({option, "", output + ", which is an input", "another file"});
     }

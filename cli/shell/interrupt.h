@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM as a stop_token, so that long work can end cleanly.
+// Ctrl-C and SIGTERM as a std::stop_token, so that long work can end cleanly.
 #pragma once
 
 #include <stop_token>
@@ -6,8 +6,8 @@
 
 namespace throng::cli {
 
-/// While it lives, SIGINT and SIGTERM request a stop; a second one ends the program at once. One
-/// at a time.
+/// During the lifetime of this object, SIGINT and SIGTERM request a stop; a second signal ends the
+/// program at once. Only one object may exist at a time.
 class Interrupt {
  public:
   Interrupt();

@@ -1,4 +1,4 @@
-// The answer of a dry run as text for terminals.
+// Result of a dry run as text for terminals.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,8 +6,8 @@
 
 namespace throng::cli {
 
-/// Prints the answer of a dry run (jobs/pipeline/checks/job_check.h) to stdout: counts, estimates,
-/// views and warnings. `file` is the job's, for the warnings; times are for `cores` cores.
+/// Prints the result of a dry run (jobs/pipeline/checks/job_check.h) to stdout: counts, estimates,
+/// views and warnings. `file` is the job's file, named in warnings; times are for `cores` cores.
 void print_job_summary(const nlohmann::json& answer, const std::string& file, int cores);
 
 }  // namespace throng::cli

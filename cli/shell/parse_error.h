@@ -1,4 +1,4 @@
-// Messages for command lines that the parser refuses, in the form of all other errors.
+// Messages for invalid command lines, in the form of all other errors.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Progress of long work on stderr: a bar on a terminal, a line now and then elsewhere.
+// Progress on stderr: a bar on a terminal, otherwise a line for each tenth.
 #pragma once
 
 #include <chrono>
@@ -8,13 +8,14 @@
 
 namespace throng::cli {
 
-/// A line of a bar of at most `columns` - 1 characters.
+/// The text of a bar, at most `columns` - 1 characters long.
 std::string progress_line(std::string_view title, double fraction, std::string_view note,
                           std::size_t columns);
 
-/// Note of a transfer: "12 of 340 MB".
+/// The note of a transfer: "12 of 340 MB".
 std::string format_megabytes(std::int64_t done_bytes, std::int64_t total_bytes);
 
+/// Shows the progress of one task until destruction.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string title);

@@ -1,4 +1,4 @@
-// A scenario as a user names it.
+// Scenarios that a user names on the command line.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,15 @@
 
 namespace throng::cli {
 
-/// Throws InputError for a file that is not there; its path may end with the id of a scenario.
+/// Throws InputError for a missing file; suggests a scenario whose id the path ends with.
 [[noreturn]] inline void refuse_missing_scenario(const std::string& name) {
   const auto id = world::scenario_id_in(world::scenarios_folder(), name);
   throw InputError({name, "", "no such file",
                     id ? "a scenario file, or its id: \"" + *id + '"' : "a scenario file"});
 }
 
-/// A file where the name ends like one (.json), else the id of a shipped scenario. Throws
-/// InputError.
+/// Loads a scenario from a file if the name ends with .json, otherwise the shipped scenario with
+/// this id. Throws InputError.
 inline world::Scenario scenario_named(const std::string& name) {
   const std::filesystem::path file(name);
   if (file.extension() != ".json") return scenarios::find_scenario(world::scenarios_folder(), name);
@@ -30,8 +30,8 @@ inline world::Scenario scenario_named(const std::string& name) {
   return scenarios::load_scenario(file, world::id_from_file(file));
 }
 
-/// The scenario that the user names; where `name` is empty the one that the trace holds, else the
-/// shipped one of its id. Throws InputError.
+/// The scenario that the user names. If `name` is "", the scenario stored in the trace, or else the
+/// shipped one with the trace's scenario id. Throws InputError.
 inline world::Scenario scenario_of_trace(const std::string& name, const world::TraceHeader& header,
                                          const std::string& file) {
   if (!name.empty()) return scenario_named(name);

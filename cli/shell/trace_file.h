@@ -1,4 +1,4 @@
-// Traces that a command line names: files that may be damaged.
+// Reader for traces named on the command line, which may be damaged.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,9 @@
 
 namespace throng::cli {
 
-/// world::read_trace() of a file that may be damaged anywhere. The HDF5 library crashes on some
-/// files whose internal addresses or sizes are wrong, so a child process reads the file first.
-/// Throws InputError where there is no such file or the child crashed or did not end, and what
-/// read_trace() throws. Reading takes twice as long.
+/// Calls world::read_trace() after a child process has read the file, because the HDF5 library
+/// crashes on some damaged files. This doubles the time. Throws InputError if there is no such file
+/// or the child crashes or does not end, and the exceptions of read_trace().
 world::Trace read_trace_file(const std::filesystem::path& path);
 
 }  // namespace throng::cli

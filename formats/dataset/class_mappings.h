@@ -1,5 +1,5 @@
-// The classes of other datasets that semantic classes map to: Cityscapes (Cordts et al. 2016) and
-// UAVid (Lyu et al. 2020).
+// Mappings from semantic classes to the classes of Cityscapes (Cordts et al. 2016) and UAVid (Lyu
+// et al. 2020).
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct CityscapesClass {
   std::array<std::uint8_t, 3> color;
 };
 
-/// A class of UAVid, with the color that stands for it in that dataset's labels.
+/// A class of UAVid and its color in label images.
 struct UavidClass {
   std::string_view name;
   std::array<std::uint8_t, 3> color;

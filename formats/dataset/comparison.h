@@ -1,4 +1,4 @@
-// Compares files that are made again with those that are there.
+// Comparison of recreated files with the existing ones.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace throng::formats {
 
-/// Says which files below a folder are not what is made again, and which are not made at all.
+/// Reports files below a folder that differ from the recreated ones, or that were not recreated.
 class Comparison {
  public:
   using Report = std::function<void(const std::string& path, const std::string& what)>;
@@ -18,10 +18,11 @@ class Comparison {
   Comparison(std::filesystem::path folder, Report report)
       : folder_(std::move(folder)), report_(std::move(report)) {}
 
+  /// Compares the file `path` with the recreated bytes.
   void bytes(const std::filesystem::path& path, std::string_view made);
-  /// The file at `made` is to be that at `path`: the same one or one with equal bytes.
+  /// Compares the file `path` with the file at `made`, which may be the same file.
   void file(const std::filesystem::path& path, const std::filesystem::path& made);
-  /// Reports the files that nothing was compared with.
+  /// Reports the files that were not compared.
   void finish() const;
 
  private:
@@ -32,7 +33,8 @@ class Comparison {
   std::set<std::string> seen_;
 };
 
-/// A folder for what is made again, removed with all that is in it. Throws EnvironmentError.
+/// A temporary folder for recreated files, removed with its content. The constructor throws
+/// EnvironmentError.
 class ScratchFolder {
  public:
   ScratchFolder();

@@ -1,5 +1,5 @@
-// A finished dataset, read image by image with its annotations: what every exporter is fed.
-// Memory does not grow with the number of images.
+// Reader for finished datasets: images with their annotations, one by one, as input of all
+// exporters. Memory does not grow with the number of images.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 
 namespace throng::formats {
 
-/// x, y, width and height in box coordinates: pixel i covers [i, i + 1).
+/// A rectangle in box coordinates: pixel i covers [i, i + 1).
 struct Box {
   double x = 0;
   double y = 0;
@@ -34,10 +34,10 @@ struct Keypoint {
   int visibility = 0;
 };
 
-/// Somebody in an image, another drone or a vehicle; docs/formats.md says what the values mean.
+/// A person, vehicle or other drone in an image; docs/formats.md defines the values.
 struct Person {
-  nlohmann::json record;  ///< the annotation as it stands in the COCO file
-  /// That of `tracks`: what stays the same all run long. Empty if it has none; never null.
+  nlohmann::json record;  ///< the annotation in the COCO file
+  /// The entry of `tracks`, constant during the run; an empty object if there is none, never null.
   std::shared_ptr<const nlohmann::json> track;
   std::int64_t id = 0;
   std::int64_t track_id = 0;
@@ -48,22 +48,22 @@ struct Person {
   double visibility = 0;
   double truncation = 0;
   std::optional<Eigen::Vector2d> head;    ///< box coordinates
-  std::optional<Box> head_box;            ///< none without `heads`, or where the camera sees none
-  std::optional<double> head_visibility;  ///< the same
+  std::optional<Box> head_box;            ///< none without `heads`, or if not in the camera's view
+  std::optional<double> head_visibility;  ///< none in the same cases
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   Eigen::Vector3d box_middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();
   std::string state;
-  std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has none
+  std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has no keypoints
   std::size_t category = 0;         ///< index into DatasetInfo::class_names()
-  /// What track_id says of the person within its run, from 1: also in images of instances.
+  /// Number of the person within the run, from 1, as in images of instances.
   std::int64_t number_in_run() const { return track_id % annotate::kTrackIdsPerRun; }
-  bool is_ignored = false;  ///< fails the filters: to be written as an ignore region
+  bool is_ignored = false;  ///< fails the filters; to be written as an ignore region
 };
 
-/// Somebody in the camera's view of whom nothing is visible.
+/// A person in the camera's view without a visible pixel.
 struct HiddenPerson {
   std::int64_t track_id = 0;
   Box amodal;
@@ -71,10 +71,11 @@ struct HiddenPerson {
   bool is_ignored = false;
 };
 
+/// An image with its labels.
 struct Image {
-  nlohmann::json record;
+  nlohmann::json record;  ///< the image's record in the COCO file
   std::int64_t id = 0;
-  std::string file;  ///< below the dataset's root
+  std::string file;  ///< path relative to the dataset's root
   int width = 0;
   int height = 0;
   std::string run;
@@ -83,20 +84,21 @@ struct Image {
   double time_s = 0;
   Split split = Split::train;
   std::vector<Person> people;
-  std::vector<Person> objects;  ///< drones and vehicles: what people have in common with them
+  std::vector<Person> objects;  ///< drones and vehicles; members of people only are unset
   std::vector<HiddenPerson> hidden;
   Eigen::Matrix3d camera_matrix = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
-  /// "run000-d1": one camera's images of one run, in order.
+  /// Name of the sequence of one camera's images in one run: "run000-d1".
   std::string sequence() const { return run + "-" + camera; }
-  /// "run000-d1-000012": unique over the dataset, fit for a file's name.
+  /// A name that is unique in the dataset and valid for files: "run000-d1-000012".
   std::string stem() const;
-  /// Id of the run's scenario, in a dataset of several; else "".
+  /// Id of the run's scenario in a dataset of several scenarios; else "".
   std::string scenario() const;
 };
 
+/// Properties of a dataset and options of an export.
 struct DatasetInfo {
   std::filesystem::path root;
   std::string name;
@@ -105,61 +107,62 @@ struct DatasetInfo {
   double rate_hz = 1;
   double from_s = 0;  ///< time of the first frame
   double density_sigma_px = 4;
-  std::vector<double> field_cells_m;  ///< of the grids of fields beside the usual one
+  std::vector<double> field_cells_m;  ///< additional cell sizes of ground fields
   nlohmann::json count_areas = nlohmann::json::object();  ///< the job's outputs.counts
-  std::string scenario;                                   ///< its id; "" of a dataset of several
+  std::string scenario;                                   ///< its id; "" for several scenarios
   std::int64_t frames_per_camera = 0;
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
-  std::vector<std::string> formats;      ///< that it has below formats/
+  std::vector<std::string> formats;      ///< exports below formats/
   std::vector<std::string> categories;   ///< names of people's classes to write
-  /// Those of drones, if they may see each other, and vehicles, if the dataset has them: classes
-  /// after people's.
+  /// Classes of drones in view and vehicles, if the dataset has them; they follow people's classes.
   std::vector<annotate::ObjectCategory> object_categories;
   ExportOptions options;
 
   bool has(annotate::GroundTruth kind) const;
-  /// People's classes, then those of objects.
+  /// Names of people's classes, then of objects' classes.
   std::vector<std::string> class_names() const;
-  /// Drone, car or train, of one of an image's objects.
+  /// The class of one of an image's objects: drone, car or train.
   world::SemanticClass surface_material(const Person& object) const;
   /// The splits that have runs.
   std::vector<Split> splits() const;
   Split split_of(const std::string& run) const;
 };
 
-/// The image's record with `annotations`, its people's and objects' records with what their tracks
-/// say, in which `category` names their class and `ignored` is true of who fails the filters:
-/// everything about an image in one object.
+/// All data of an image in one JSON object: its record, and in `annotations` the records of its
+/// people and objects, merged with their tracks, with the class's name as `category` and `ignored`
+/// for those that fail the filters.
 nlohmann::json webdataset_sample(const Image& image, const DatasetInfo& info);
 
-/// The splits, filters and classes that the dataset's other formats were written with.
+/// The splits, filters and classes with which the dataset's exports were written.
 ExportOptions export_options(const nlohmann::json& manifest);
 
-/// Describes a dataset by its manifest. Throws InputError when it has no COCO annotations, or when
+/// Describes a dataset from its manifest. Throws InputError if it has no COCO annotations, or if
 /// the options name runs that it does not have.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
                              const ExportOptions& options);
 
-/// Reads manifest.json. Throws InputError when `root` is not a finished dataset.
+/// Reads manifest.json. Throws InputError if `root` is not a finished dataset.
 nlohmann::json read_manifest(const std::filesystem::path& root);
 
-/// The error to throw where reading a value of the manifest threw `error`.
+/// The error to throw if a value of the manifest could not be read because of `error`.
 InputError bad_manifest(const std::filesystem::path& root, const nlohmann::json::exception& error);
 
-/// Path of a dataset's COCO file, below its root.
+/// Path of a dataset's COCO file, relative to its root.
 inline constexpr const char* kCocoFile = "annotations/instances.json";
 
+/// Reads the COCO file record by record. `info` must outlive it.
 class DatasetReader {
  public:
-  /// Throws InputError when the COCO file is not one that throng wrote.
+  /// Throws InputError if the COCO file was not written by throng.
   explicit DatasetReader(const DatasetInfo& info);
   ~DatasetReader();
   DatasetReader(const DatasetReader&) = delete;
   DatasetReader& operator=(const DatasetReader&) = delete;
 
-  /// The next image, in the file's order: by run, frame, camera. False after the last. Throws
-  /// InputError naming file and line of a damaged record, or one whose image is not there.
+  /// Reads the next image in the file's order (run, frame, camera); returns false after the last
+  /// one. Throws InputError that names file and line of a damaged record or a record of a missing
+  /// image.
   bool next(Image& image);
 
  private:
@@ -169,7 +172,7 @@ class DatasetReader {
   std::unique_ptr<Tracks> tracks_;
   std::unique_ptr<Lines> images_;
   std::unique_ptr<Lines> annotations_;
-  nlohmann::json waiting_;  ///< the annotation after those of the last image; null: none
+  nlohmann::json waiting_;  ///< first annotation of the next image; null if there is none
 };
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// Heads of an image as formats with head boxes have them.
+// Heads of the people in an image, for formats with head boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,20 +8,20 @@
 
 namespace throng::formats {
 
-/// The head of somebody who passes the filters.
+/// The head of a person who passes the filters.
 struct Head {
-  const Person* person = nullptr;  ///< of the image
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  const Person* person = nullptr;                   ///< points into Image::people
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< center, box coordinates
   Box box;
-  double visibility = 0;  ///< of what the person has in the box; of the person if that is nothing
+  double visibility = 0;  ///< of the person's pixels in the box; of the person if there are none
 };
 
-/// Whether a place in box coordinates is in the image.
+/// Whether a point in box coordinates is in the image.
 bool is_in_image(const Image& image, const Eigen::Vector2d& place);
 
-/// Heads whose middles are in the image, as density maps and other formats of points count them,
-/// but for those that the camera sees nothing of (`head_box` is null). They refer to people of the
-/// image. Throws InputError where a record has no `head_box`.
+/// Heads with centers in the image, as counted by density maps and point formats, except for those
+/// outside of the camera's view (`head_box` is null). The image must outlive the result. Throws
+/// InputError if a record has no `head_box`.
 std::vector<Head> heads_with_boxes(const Image& image);
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// The camera of a dataset's image, with its lens.
+// Camera of a dataset's image, with lens distortion.
 #pragma once
 
 #include "camera/camera.h"
@@ -6,18 +6,17 @@
 
 namespace throng::formats {
 
-/// As the image's record says it.
+/// The camera in the image's record.
 camera::Camera image_camera(const Image& image);
 
-/// Pixels that an object of this size covers at a point of the world: for a pinhole fx size / z;
-/// with a lens the mean of two directions at right angles to the line of sight, as the lens shows
-/// them, or the pinhole's where it shows nothing. Points nearer to the camera's plane than 0.1 m
-/// count as that far.
+/// Size in pixels of an object of `size_m` at a point of the world: fx size / z for a pinhole
+/// camera; with lens distortion, the mean over two directions perpendicular to the line of sight,
+/// or the pinhole's value outside of the lens model's range. Depths below 0.1 m count as 0.1 m.
 double pixels_across(const camera::Camera& camera, const Eigen::Vector3d& world, double size_m);
 
-/// The place in bbox_amodal for a point of the body, in box coordinates. bbox_amodal is cut off one
-/// size of the image beyond its borders (a quarter with a lens): the point is moved to there along
-/// each axis, and then lies in bbox_amodal wherever the point is.
+/// A point of a body in box coordinates, clamped to the limits of bbox_amodal, so that it lies in
+/// that box. bbox_amodal is cut off one image size beyond the borders (a quarter with lens
+/// distortion).
 Eigen::Vector2d in_amodal_limit(const Image& image, const Eigen::Vector2d& point);
 
 /// Whether bbox_amodal is cut off.

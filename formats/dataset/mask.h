@@ -1,4 +1,4 @@
-// Masks: COCO's compressed run lengths, as runs and as pixels.
+// Masks: COCO's compressed run lengths, runs, and bitmaps.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,30 @@ namespace throng::formats {
 /// well-formed and sum to `pixels`.
 std::vector<std::uint32_t> decode_runs(std::string_view counts, std::uint64_t pixels);
 
-/// Compressed counts of such runs.
+/// The compressed counts of such runs.
 std::string encode_counts(const std::vector<std::uint32_t>& runs);
 
-/// The pixels of a part of an image, row by row.
+/// A mask of a part of an image, row by row.
 struct Bitmap {
-  int x = 0;  ///< of its left upper corner in the image
+  int x = 0;  ///< upper left corner in the image
   int y = 0;
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> set;  ///< 0 or 1
 
-  /// Image coordinates; false outside.
+  /// Whether the pixel at these image coordinates is set; false outside of the bitmap.
   bool at(int column, int row) const;
   std::uint64_t area() const;
 };
 
-/// A mask of an image `image_height` pixels high, cut to its bounds; width 0 for an empty one.
+/// The bitmap of a mask in an image of this height, cropped to its bounds; width 0 for an empty
+/// mask.
 Bitmap decode_bitmap(const std::vector<std::uint32_t>& runs, int image_height);
 
-/// Pixels of the same place, as annotations take them.
+/// The same pixels as the type that annotate/ uses.
 render::PixelMask to_pixel_mask(const Bitmap& bitmap);
 
-/// Run lengths of the union of bitmaps of one image.
+/// The run lengths of the union of bitmaps in an image of this size.
 std::vector<std::uint32_t> decode_runs(const std::vector<Bitmap>& bitmaps, int width, int height);
 
 }  // namespace throng::formats

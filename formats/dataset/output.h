@@ -1,4 +1,4 @@
-// The output of an exporter: files below one folder, which nobody reads before all of it is there.
+// Output of an exporter: files below one folder, which is published as a whole.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,12 @@ namespace throng::formats {
 
 class Comparison;
 
-/// A text that is written front to back.
+/// A file that is written sequentially. All members throw EnvironmentError if it cannot be written.
 class OutputStream {
  public:
-  /// Creates the folder around it. Throws EnvironmentError, as all of these do, when the disk
-  /// refuses.
+  /// Creates the file and its folder.
   explicit OutputStream(std::filesystem::path path);
-  /// The same, to be held against the file at `compared`, and removed, when it is closed.
+  /// Creates a file that close() compares with the file `compared` and then removes.
   OutputStream(std::filesystem::path path, Comparison* comparison, std::filesystem::path compared);
   void write(std::string_view text);
   void close();
@@ -29,9 +28,11 @@ class OutputStream {
   std::filesystem::path compared_;
 };
 
+/// Writes files below a folder, or compares them with existing files. All members throw
+/// EnvironmentError.
 class Output {
  public:
-  /// With a comparison, nothing stays in the folder: all is held against what is there already.
+  /// With a comparison, no file stays in the folder: all are compared with the existing files.
   explicit Output(std::filesystem::path folder, Comparison* comparison = nullptr)
       : folder_(std::move(folder)), comparison_(comparison) {}
 
@@ -40,9 +41,9 @@ class Output {
   OutputStream open(const std::filesystem::path& path) const {
     return {folder_ / path, comparison_, path};
   }
-  /// To be called for a file that was written without a stream, below folder(), and is closed.
+  /// Call it after a file below folder() was written without OutputStream and closed.
   void written(const std::filesystem::path& path) const;
-  /// The same file under another name: a hard link, or a copy where links do not work.
+  /// Adds `source` under the name `path`: as a hard link, or as a copy if links do not work.
   void link(const std::filesystem::path& path, const std::filesystem::path& source) const;
 
  private:

@@ -1,4 +1,4 @@
-// The dataset's values per pixel: where their files are, and ids of instances.
+// Files of a dataset with values per pixel: paths, instances and semantic classes.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace throng::formats {
 
-/// One number per pixel of an image of this size, in a file of instances: red + 256 * green + 65536
-/// * blue. Throws like images::read_raster(), and for another kind of PNG and another size.
+/// Reads a file of instances of an image of this size: one number per pixel, red + 256 * green +
+/// 65536 * blue. Throws as images::read_raster(), and for another kind of PNG or another size.
 std::vector<std::uint32_t> read_instances(const std::filesystem::path& path, int width, int height);
 
-/// The class of each pixel of an image of this size, in a file of semantic/. Throws like
-/// images::read_raster(), and for another kind of PNG, another size, and numbers that are no class.
+/// Reads a file of semantic/ of an image of this size: one class per pixel. Throws as
+/// images::read_raster(), and for another kind of PNG, another size and values that are no class.
 std::vector<world::SemanticClass> read_classes(const std::filesystem::path& path, int width,
                                                int height);
 
-/// Path of the values of this kind of an image: "images/a/b.jpg" and "depth" give
-/// "depth/a/b.png".
+/// Path of an image's file of this kind: "images/a/b.jpg" and "depth" give "depth/a/b.png" below
+/// `root`.
 std::filesystem::path raster_path(const std::filesystem::path& root, const char* kind,
                                   const std::string& image_file);
 

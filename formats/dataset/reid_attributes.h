@@ -1,4 +1,4 @@
-// The table of what re-identification's identities look like.
+// Table with the appearance of re-identification identities.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace throng::formats {
 
-/// Heads of the columns, with a line's end.
+/// The header line, with its line break.
 std::string reid_attribute_columns();
 
-/// The line of an identity, as the tracks' `attributes` say; what is not known is empty.
+/// The line of an identity, from the `attributes` of tracks; unknown values are empty.
 std::string reid_attribute_line(int number, ReidSide side, const Person& person);
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// People of a dataset as identities of re-identification, for training or for the test.
+// Assignment of a dataset's people to re-identification identities, for training or test.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,22 @@ namespace throng::formats {
 enum class ReidSide : std::uint8_t { train, test };
 inline const char* to_string(ReidSide side) { return side == ReidSide::train ? "train" : "test"; }
 
-/// An identity is a look: the character and the colors that it is rendered in. Two people who look
-/// exactly alike, as characters without colors of their own do, are one identity in all runs, since
-/// no image tells them apart. Identities of one character are all on one side: a body and a face
-/// that training has seen do not come in the test, in whatever clothes.
+/// An identity is an appearance: a character and its colors. People with the same appearance are
+/// one identity in all runs, because no image distinguishes them. All identities of a character are
+/// on one side, so that the test has no bodies and faces of the training, in whatever clothes.
 class ReidIdentities {
  public:
   explicit ReidIdentities(std::uint64_t seed) : seed_(seed) {}
 
-  /// The side of somebody's character. Characters are dealt out in pairs, in the order in which
-  /// they are first asked for; the seed says who of a pair is for training.
+  /// The side of a person's character. Characters are assigned in pairs, in the order of first
+  /// calls; the seed determines which one of a pair is for training.
   ReidSide side_for(const Person& person);
 
   struct Number {
     int number = 0;  ///< from 1, in the order of first calls
     bool is_new = false;
   };
-  /// The number of somebody's identity.
+  /// The number of a person's identity.
   Number number_of(const Person& person);
 
   std::size_t count() const { return numbers_.size(); }
@@ -37,7 +36,7 @@ class ReidIdentities {
  private:
   std::uint64_t seed_;
   std::map<std::string, ReidSide> sides_;  ///< by character
-  std::map<std::string, int> numbers_;     ///< by look
+  std::map<std::string, int> numbers_;     ///< by appearance
 };
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// events/RUN.jsonl, and what follows from it elsewhere.
+// Reader for events/RUN.jsonl, and checks against other files.
 #pragma once
 
 #include <filesystem>
@@ -18,23 +18,24 @@ struct RunEvent {
   nlohmann::json record;
 };
 
-/// The events of a dataset's run, in the file's order. Throws InputError, and what JSON throws.
+/// The events of a dataset's run, in the file's order. Throws InputError and
+/// nlohmann::json::exception.
 std::vector<RunEvent> read_run_events(const std::filesystem::path& root, const std::string& run);
 
-/// Takes what is wrong with an event, by its number, or with none.
+/// Receives a finding and the index of its event, or kNoEvent.
 using EventReport = std::function<void(std::size_t event, const std::string& what)>;
 inline constexpr std::size_t kNoEvent = static_cast<std::size_t>(-1);
 
-/// Reports events that are of no type, lack what their type has, or begin what has begun.
+/// Reports events of unknown types, events without members of their type, and repeated starts.
 void check_event_records(const std::vector<RunEvent>& events, const EventReport& report);
 
-/// Reports events that the run's figures (metrics/RUN.json) do not have, and the reverse: notices,
-/// escapes, falls, and what happens to drones. `first_track` is the track id of agent 0.
+/// Reports differences between the events and the run's metrics (metrics/RUN.json): notices,
+/// escapes, falls, and events of drones. `first_track` is the track id of agent 0.
 void check_events_against_figures(const std::vector<RunEvent>& events,
                                   const nlohmann::json& figures, std::int64_t first_track,
                                   const EventReport& report);
 
-/// Reports arrivals and departures that the trajectories do not show, and the reverse.
+/// Reports differences between arrivals and departures and the trajectories.
 void check_events_against_trajectories(const std::vector<RunEvent>& events,
                                        const RunTrajectories& trajectories,
                                        const EventReport& report);
@@ -42,7 +43,7 @@ void check_events_against_trajectories(const std::vector<RunEvent>& events,
 /// Track id of a run's agent 0.
 std::int64_t first_track(const DatasetInfo& info, const std::string& run);
 
-/// The figures of a run, metrics/RUN.json; an empty object if that is not there or no JSON.
+/// The metrics of a run, metrics/RUN.json; an empty object if the file is missing or no JSON.
 nlohmann::json run_figures(const std::filesystem::path& root, const std::string& run);
 
 }  // namespace throng::formats

@@ -1,4 +1,5 @@
-// trajectories/RUN.npy and RUN.json: everybody's positions at the times of a run's frames.
+// Reader for trajectories/RUN.npy and RUN.json: positions of all people at the times of a run's
+// frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +12,7 @@
 
 namespace throng::formats {
 
-/// x, y, heading, state (docs/formats_pixels.md).
+/// Number of values per person and frame: x, y, heading, state (docs/formats_pixels.md).
 inline constexpr std::size_t kTrajectoryValues = 4;
 
 struct RunTrajectories {
@@ -20,7 +21,7 @@ struct RunTrajectories {
   std::vector<std::string> states;
   std::vector<float> values;  ///< (frames, people, kTrajectoryValues), row-major
 
-  /// The kTrajectoryValues values of a person.
+  /// The kTrajectoryValues values of a person in a frame.
   const float* at(std::size_t frame, std::size_t person) const {
     return values.data() + (frame * tracks.size() + person) * kTrajectoryValues;
   }
@@ -33,8 +34,8 @@ struct RunTrajectories {
   }
 };
 
-/// Reads the trajectories of a dataset's run. Throws InputError for files of another shape, and
-/// what JSON and the disk throw.
+/// Reads the trajectories of a dataset's run. Throws InputError for files with other shapes,
+/// EnvironmentError, and nlohmann::json::exception.
 RunTrajectories read_run_trajectories(const std::filesystem::path& root, const std::string& run);
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// Lists of what is in each split, a text each.
+// Lists of the content of each split, one text file each.
 #pragma once
 
 #include <map>
@@ -10,11 +10,11 @@
 
 namespace throng::formats {
 
-/// Texts that are there for splits with lines only.
+/// Writes the lists; a split without lines has no file.
 class SplitLists {
  public:
-  /// `pattern` with SPLIT for the split's name is the text's path: "SPLIT.txt". The output outlives
-  /// the lists.
+  /// The path of a list is `pattern` with SPLIT replaced by the split's name: "SPLIT.txt". `output`
+  /// must outlive this object.
   SplitLists(const Output& output, std::string pattern)
       : output_(&output), pattern_(std::move(pattern)) {}
 

@@ -1,4 +1,4 @@
-// The list of labels that CVAT's files for images and for videos begin with.
+// The list of labels at the beginning of CVAT's files for images and for videos.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace throng::formats {
 
-/// Shares of a body that is hidden below this do not count as occluded in CVAT.
+/// Min hidden share of a body that counts as occluded in CVAT.
 inline constexpr double kCvatOccluded = 0.005;
 
-/// The element <labels>: the classes, with text attributes of these names.
+/// The element <labels> with all classes, each with text attributes of these names.
 std::string cvat_labels(const DatasetInfo& info, const std::vector<std::string_view>& attributes);
 
 }  // namespace throng::formats

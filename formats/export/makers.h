@@ -1,4 +1,4 @@
-// The exporters, one file each; format_table.cpp lists them in one table.
+// Factories of all exporters, which have one file each; format_table.cpp lists them.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// For formats with one text per sequence, which is one camera's images of one run.
+// Text files per sequence, which is the series of one camera's images in one run.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,13 +12,13 @@
 
 namespace throng::formats {
 
-/// Open texts of the sequences of one run: there are as many as a run has cameras.
+/// Keeps the files of one run's sequences open, one per camera.
 class SequenceTexts {
  public:
   explicit SequenceTexts(const Output& output) : output_(&output) {}
 
-  /// The text of a sequence at `path`; those of an earlier run are closed. `is_new` says whether
-  /// the sequence begins here.
+  /// The file of a sequence at `path`; closes the files of other runs. Sets `is_new` to whether
+  /// this call has opened the file.
   OutputStream& of(const std::string& run, const std::string& path, bool& is_new) {
     if (run != run_) close();
     run_ = run;
@@ -28,7 +28,8 @@ class SequenceTexts {
     return texts_.emplace(path, output_->open(path)).first->second;
   }
 
-  /// The text of an image's sequence, at the place that VisDrone and similar formats have.
+  /// The file of an image's sequence, at the path of VisDrone and similar formats.
+
   OutputStream& annotations_of(const Image& image) {
     bool is_new = false;
     return of(image.run,

@@ -1,5 +1,5 @@
-// A ROS 1 bag, written through Debian's librosbag-storage. ROS' headers are C++17 at most, so this
-// one, and bag_file.cpp, which is all that sees them, do without anything later.
+// Writer for ROS 1 bags, through Debian's librosbag-storage. ROS's headers require C++17, so this
+// header and bag_file.cpp, the only file that includes them, use no later features.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,13 +20,14 @@ struct BagPose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
+/// Pose of the frame `child` in the frame `parent`.
 struct BagTransform {
   std::string parent;
   std::string child;
   BagPose pose;
 };
 
-/// A drone's motion: its pose in the world, and velocity and rates in its own axes.
+/// A drone's motion: pose in the world; velocity and angular rates in the body frame.
 struct BagMotion {
   BagPose pose;
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
@@ -36,23 +37,24 @@ struct BagMotion {
 /// An upright box in the world.
 struct BagBox {
   std::int32_t id = 0;
-  BagPose pose;  ///< of its middle
+  BagPose pose;  ///< of its center
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
 };
 
-/// Stamps are seconds since the run's start. A bag has no time 0, so that what is stamped with it
-/// is recorded at one nanosecond. All functions throw std::runtime_error when the disk refuses.
+/// Times are seconds since the run's start. Bags cannot hold time 0, so messages at 0 s are
+/// recorded at 1 ns. All functions throw std::runtime_error if the file cannot be written.
 class BagFile {
  public:
-  /// Replaces the file. Chunks are compressed with LZ4 if `is_compressed`.
+  /// Creates or replaces the file. Chunks are compressed with LZ4 if `is_compressed`.
   BagFile(const std::filesystem::path& path, bool is_compressed);
   ~BagFile();
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
 
-  /// sensor_msgs/CompressedImage: the JPEG's bytes as they are.
+  /// sensor_msgs/CompressedImage with the bytes of a JPEG file.
   void add_image(const std::string& topic, const std::string& frame, double time_s,
                  const std::string& jpeg);
+  /// sensor_msgs/CameraInfo.
   void add_lens(const std::string& topic, const std::string& frame, double time_s,
                 const camera::Intrinsics& lens);
   /// tf2_msgs/TFMessage on /tf.
@@ -63,7 +65,7 @@ class BagFile {
   /// sensor_msgs/Imu without an orientation: rad/s and m/s^2 in the body's axes.
   void add_imu(const std::string& topic, const std::string& frame, double time_s,
                const Eigen::Vector3d& rates, const Eigen::Vector3d& acceleration);
-  /// visualization_msgs/MarkerArray: one that clears the earlier ones, then a cube per box.
+  /// visualization_msgs/MarkerArray: a marker that deletes the earlier ones, then a cube per box.
   void add_boxes(const std::string& topic, const std::string& frame, double time_s,
                  const std::vector<BagBox>& boxes);
   /// std_msgs/String.

@@ -1,4 +1,4 @@
-// Fields of JSON records in CSV files.
+// Conversion of JSON members to CSV fields.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,8 +6,7 @@
 
 namespace throng::formats {
 
-/// A member of a record as CSV: texts in quotes where they need them; empty for null and for
-/// members that are not there.
+/// A member of a record as a CSV field, quoted if needed; "" for null and missing members.
 inline std::string csv_field(const nlohmann::json& record, const char* key) {
   const auto found = record.find(key);
   if (found == record.end() || found->is_null()) return "";

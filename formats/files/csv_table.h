@@ -1,4 +1,4 @@
-// Tables of comma-separated values (RFC 4180) that a dataset has.
+// Reader for CSV tables of a dataset (RFC 4180).
 #pragma once
 
 #include <filesystem>
@@ -8,19 +8,20 @@
 
 namespace throng::formats {
 
+/// A table with a header line.
 struct CsvTable {
-  std::vector<std::string> columns;            ///< names, of the first line
-  std::vector<std::vector<std::string>> rows;  ///< as many cells as there are columns
+  std::vector<std::string> columns;            ///< names from the header line
+  std::vector<std::vector<std::string>> rows;  ///< one cell per column
 
-  /// The number of a column, or the number of columns if there is none of this name.
+  /// The index of a column; columns.size() if there is none with this name.
   std::size_t find(const std::string& name) const;
 };
 
-/// Throws InputError naming the line when the file is not there or a line has another number of
-/// cells than the first.
+/// Reads a table. Throws InputError if the file does not exist or is empty, or if a line, which the
+/// message names, has another number of cells than the header.
 CsvTable read_csv(const std::filesystem::path& path);
 
-/// The cell's number; NaN if it is none.
+/// The cell as a number; NaN for other text.
 double parse_number(const std::string& cell);
 
 }  // namespace throng::formats

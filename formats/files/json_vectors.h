@@ -1,4 +1,4 @@
-// Arrays of numbers in JSON records as vectors.
+// Conversion of JSON arrays to vectors.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace throng::formats {
 
-/// The first N numbers of a JSON array. Throws nlohmann::json::exception where one is missing.
+/// The first N numbers of a JSON array. Throws nlohmann::json::exception if there are fewer.
 template <int N>
 Eigen::Matrix<double, N, 1> numbers_at(const nlohmann::json& array) {
   Eigen::Matrix<double, N, 1> vector;
@@ -16,7 +16,7 @@ Eigen::Matrix<double, N, 1> numbers_at(const nlohmann::json& array) {
   return vector;
 }
 
-/// A quaternion's w, x, y, z.
+/// A quaternion from the array [w, x, y, z].
 inline Eigen::Quaterniond quaternion_at(const nlohmann::json& array) {
   const Eigen::Vector4d q = numbers_at<4>(array);
   return {q[0], q[1], q[2], q[3]};

@@ -1,4 +1,4 @@
-// MATLAB's .mat files, version 5, as far as points and boxes need them.
+// Writer for MATLAB's .mat files, version 5, with points and matrices.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +10,18 @@
 
 namespace throng::formats {
 
-/// A file whose variable `image_info` is a cell that holds a struct with `location` (N x 2) and
-/// `number` (N). The points are written as they are.
+/// The bytes of a file whose variable `image_info` is a cell with a struct of `location` (N x 2,
+/// the points unchanged) and `number` (N).
 std::string image_info_mat(std::span<const Eigen::Vector2d> points);
 
-/// Numbers, row by row.
+/// A matrix, row-major, with the name of its variable.
 struct NamedMatrix {
   std::string_view name;
   std::size_t columns = 1;
   std::span<const double> values;
 };
 
-/// A file with these variables.
+/// The bytes of a file with these variables.
 std::string matrices_mat(const std::vector<NamedMatrix>& matrices);
 
 }  // namespace throng::formats

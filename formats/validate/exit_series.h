@@ -1,4 +1,4 @@
-// The rows of one exit in exits/RUN.csv against each other: docs/metrics.md defines the columns.
+// Consistency of the rows of one exit in exits/RUN.csv; docs/metrics.md defines the columns.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,13 @@
 
 namespace throng::formats {
 
-/// Definitions of docs/metrics.md, stated here once more: checks do not rely on what they check.
-inline constexpr double kCapacityPerMs = 1.3;  ///< of a door, people per meter and second
-inline constexpr double kWaitWindowS = 20;     ///< predicted waits: the flow of the last seconds,
-inline constexpr double kWaitPriorS = 10;      ///< with this time at the capacity
-inline constexpr double kMinLaneM = 0.8;       ///< of at least this part of the door
+// Constants of docs/metrics.md, repeated so that the checks do not depend on the checked code.
+inline constexpr double kCapacityPerMs = 1.3;  ///< capacity of a door, people per meter and second
+inline constexpr double kWaitWindowS = 20;     ///< predicted wait: window of the measured flow
+inline constexpr double kWaitPriorS = 10;      ///< predicted wait: time at capacity as a prior
+inline constexpr double kMinLaneM = 0.8;       ///< predicted wait: min width of the door for it
 
+/// A row of the file.
 struct ExitRow {
   std::size_t line = 0;                 ///< in the file, from 1
   std::map<std::string, double> value;  ///< by column; NaN for texts
@@ -29,7 +30,7 @@ struct ExitRow {
 /// Rows of one exit in one run, by frame.
 using ExitSeries = std::map<std::int64_t, ExitRow>;
 
-/// Columns that follow from others of their row, and rows that follow from earlier ones.
+/// Checks columns that follow from others of their row, and rows that follow from earlier rows.
 void check_exit_series(const std::string& file, const std::string& exit, const ExitSeries& series,
                        Findings& findings);
 

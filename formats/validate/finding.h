@@ -7,17 +7,18 @@
 
 namespace throng::formats {
 
-/// Something that a dataset promises and does not keep.
+/// A violation of a rule.
 struct Finding {
-  std::string rule;    ///< a word, as list in docs/formats.md
-  std::string file;    ///< below the dataset's root
+  std::string rule;    ///< name of the rule, as listed in docs/formats.md
+  std::string file;    ///< path relative to the dataset's root
   std::string record;  ///< "annotation 12", "line 3" or ""
-  std::string what;
+  std::string what;    ///< description for people
 };
 
+/// Result of validate_dataset().
 struct Validation {
   std::vector<Finding> findings;  ///< in the order of the files; the first kMaxFindings
-  std::size_t found = 0;          ///< all of them
+  std::size_t found = 0;          ///< number of all findings
   std::size_t images = 0;
   std::size_t annotations = 0;
 };

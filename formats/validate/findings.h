@@ -1,4 +1,4 @@
-// Collects the findings of a dataset's checks.
+// Collection of findings, and checks of single images.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 namespace throng::formats {
 
+/// Adds findings to a validation, at most kMaxFindings; further ones are only counted.
 class Findings {
  public:
   explicit Findings(Validation& validation) : validation_(&validation) {}
@@ -25,7 +26,7 @@ class Findings {
     validation_->findings.push_back(
         {std::move(rule), std::move(file), std::move(record), std::move(what)});
   }
-  /// About an annotation of the COCO file.
+  /// Adds a finding about an annotation of the COCO file.
   void add(std::string rule, const Person& person, std::string what) {
     add(std::move(rule), kCocoFile, "annotation " + std::to_string(person.id), std::move(what));
   }
@@ -34,7 +35,7 @@ class Findings {
   Validation* validation_;
 };
 
-/// People, drones and vehicles.
+/// People, drones and vehicles of an image.
 inline std::vector<Person> list_objects(const Image& image) {
   std::vector<Person> objects = image.people;
   objects.insert(objects.end(), image.objects.begin(), image.objects.end());
@@ -44,36 +45,37 @@ inline std::vector<Person> list_objects(const Image& image) {
 /// The value of a person, drone or vehicle in images of instances.
 std::uint32_t instance_id(const Person& object);
 
-/// One image's annotations by themselves: boxes, masks, visibility, keypoints.
+/// Checks each annotation of an image by itself: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
 
-/// Positions of an image's people in the world, against their boxes.
+/// Compares the positions of an image's people in the world with their boxes.
 void check_bodies(const Image& image, Findings& findings);
 
-/// Everything below formats/, dataset.json and README.md, made again from the annotations and
-/// compared byte by byte; of a dataset that this version of the program wrote.
+/// Recreates all files below formats/, dataset.json and README.md from the annotations and compares
+/// them byte by byte, for datasets written by this version of the program.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
-/// Names and numbers of the COCO file's categories.
+/// Checks names and ids of the COCO file's categories.
 void check_categories(const DatasetInfo& info, Findings& findings);
 
-/// R is a rotation, and the center is where R and t put it.
+/// Checks that R is a rotation and that the camera's center agrees with R and t.
 void check_camera(const Image& image, Findings& findings);
 
-/// The run's calibration files against the image's lens.
+/// Compares the run's calibration files with the image's lens.
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings);
 
-/// A density map against the heads of the records.
+/// Compares a density map with the heads of the records.
 void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,
                             double sigma_px, Findings& findings);
 
-/// Depth where the ground shows against where the plane z = 0 is; of a plain image.
+/// Compares the depth of ground pixels with the plane z = 0, in an image for which is_plain()
+/// holds.
 void check_ground_depth(const Image& image, const std::string& path,
                         const std::vector<std::uint32_t>& ids,
                         const std::vector<std::uint16_t>& centimeters, Findings& findings);
 
-/// Boxes, tracks and ignored people in other formats' texts below formats/, as far as they have
-/// them as lines of numbers: YOLO, MOT and VisDrone.
+/// Checks boxes, tracks and ignore regions in the exports YOLO, MOT and VisDrone, which consist of
+/// lines of numbers.
 class FormatCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings);
@@ -89,18 +91,18 @@ class FormatCheck {
   static void check_yolo(const DatasetInfo& info, const Image& image,
                          const std::filesystem::path& folder, bool with_drones, Findings& findings);
 
-  std::map<std::string, std::ifstream> texts_;  ///< of sequences, read as far as their images
+  std::map<std::string, std::ifstream> texts_;  ///< by sequence, read up to the current image
 };
 
-/// The corners of a person's upright box, m, in the camera's axes; 1 cm farther out than recorded,
-/// since that is rounded.
+/// The corners of a person's upright box in the camera frame (m), enlarged by 1 cm because the
+/// recorded box is rounded.
 Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& person);
 
-/// Whether the file alone says where objects appear: without a lens's distortion or a rolling
-/// shutter.
+/// Whether the image has neither lens distortion nor a rolling shutter, so that K, R and t
+/// determine all projections.
 bool is_plain(const Image& image);
 
-/// Whether all rows show the same instant.
+/// Whether all rows were exposed at the same time.
 bool is_shot_at_once(const Image& image);
 
 }  // namespace throng::formats

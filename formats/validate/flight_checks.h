@@ -1,4 +1,4 @@
-// The drone that carries the camera: its record with each image, and the tables of its sensors.
+// Checks of the drone that carries the camera: its record in each image, and its sensor tables.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@
 
 namespace throng::formats {
 
-/// The truth of a moment and what the sensors read then: m, m/s, rad/s, m/s², µT, Pa; body's frame
-/// where the sensor has it.
+/// True state and sensor readings at one time, in m, m/s, rad/s, m/s², µT and Pa. Rates, specific
+/// force, gyro, accelerometer and magnetometer are in the body frame.
 struct SensorSample {
   Eigen::Vector3d position;
   Eigen::Vector3d velocity;
@@ -28,28 +28,28 @@ struct SensorSample {
   double height_m;
   Eigen::Vector3d gps_position;
   Eigen::Vector3d gps_velocity;
-  double max_jump_mps = 0;  ///< by which contact may have changed the velocity at once
+  double max_jump_mps = 0;  ///< max sudden change of the velocity by contact
 };
 
-/// Whether the drone's figures in metrics/RUN.json say that it may have touched something:
-/// collisions are of 0.3 m/s and more, slower touches near misses. A drone without figures may not.
+/// Whether the drone may have touched an object, by its metrics in metrics/RUN.json: contacts of
+/// 0.3 m/s and more are collisions, slower ones near misses. False for a drone without metrics.
 bool may_have_touched(const DatasetInfo& info, const std::string& run, const std::string& drone);
 
-/// Names a reading beyond six standard deviations of the sensors' errors; "" if there is none. The
-/// readings are at most `age_s` older than the truth, the GPS fix `gps_age_s`.
+/// Describes a reading beyond six standard deviations of the sensors' errors; "" if there is none.
+/// Readings are at most `age_s` older than the true state, the GPS fix at most `gps_age_s`.
 std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
                                 double gps_age_s);
 
-/// An image's flight record: camera, gimbal, sensors. Of a drone that may have touched something,
-/// velocity may jump.
+/// Checks an image's flight record: camera, gimbal, sensors. `may_touch` permits jumps of the
+/// velocity.
 void check_flight(const Image& image, Findings& findings, bool may_touch = false);
 
-/// Flight records of consecutive frames of one camera.
+/// Compares the flight records of consecutive frames of one camera.
 void check_flight_between(const Image& before, const Image& after, Findings& findings,
                           bool may_touch = false);
 
-/// sensors/RUN/DRONE.csv: rows follow from each other, readings from the truth, and the flight
-/// records of the images are between the rows.
+/// Checks sensors/RUN/DRONE.csv: each row against the previous one, readings against the true
+/// state, and the flight records of the images against the rows.
 class SensorTableCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;

@@ -1,5 +1,5 @@
-// The checks of `throng validate` for each kind of ground truth: one table. Checks of the COCO
-// records, and of several kinds or images against each other, are in formats/validate/shot.h and
+// Table of the checks of `throng validate` for each kind of ground truth. Checks of the COCO
+// records, and comparisons of kinds or images, are in formats/validate/shot.h and
 // formats/validate/findings.h.
 #pragma once
 
@@ -16,30 +16,32 @@
 
 namespace throng::formats {
 
-/// Checks one kind of ground truth of one dataset, image by image in the order of the COCO file.
+/// Checks one kind of ground truth of a dataset, image by image in the order of the COCO file.
 class GroundTruthCheck {
  public:
   GroundTruthCheck() = default;
   virtual ~GroundTruthCheck() = default;
   GroundTruthCheck(const GroundTruthCheck&) = delete;
   GroundTruthCheck& operator=(const GroundTruthCheck&) = delete;
-  /// Every image.
+  /// Called for every image.
   virtual void add(const DatasetInfo& /*info*/, const Image& /*image*/, Findings& /*findings*/) {}
-  /// Every image whose records have no faults, after add().
+  /// Called after add() for every image whose records have no findings.
   virtual void add_pixels(const DatasetInfo& /*info*/, const Image& /*image*/,
                           const Pixels& /*pixels*/, Findings& /*findings*/) {}
+  /// Called after the last image.
   virtual void finish(const DatasetInfo& /*info*/, Findings& /*findings*/) {}
 };
 
+/// A row of the table: the factory of a kind's check.
 struct GroundTruthChecker {
   annotate::GroundTruth kind{};
   std::unique_ptr<GroundTruthCheck> (*make)() = nullptr;
 };
 
-/// In the order of the kinds. Kinds that are not here are part of the COCO records.
+/// The table, in the order of the kinds. The other kinds are part of the COCO records.
 std::span<const GroundTruthChecker> ground_truth_checkers();
 
-/// The checks of all kinds that a dataset has, and whether their files are there.
+/// Runs the checks of all kinds that a dataset has, and checks that their files exist.
 class GroundTruthChecks {
  public:
   explicit GroundTruthChecks(const DatasetInfo& info);
@@ -50,32 +52,32 @@ class GroundTruthChecks {
 
  private:
   std::vector<std::unique_ptr<GroundTruthCheck>> checks_;
-  std::set<std::string> files_;  ///< of runs, that were looked for
+  std::set<std::string> files_;  ///< files of runs that were checked for existence
 };
 
 // Checks of one kind's values per pixel, for the table.
 void check_density(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                    Findings& findings);
-/// Masks against the image of instances, pixel by pixel.
+/// Compares masks with the image of instances, pixel by pixel.
 void check_instances(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                      Findings& findings);
-/// Depth inside the masks against where the people are, and that of the ground.
+/// Compares depth with the positions of people within their masks, and with the ground.
 void check_depth(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                  Findings& findings);
-/// Parts are where people are.
+/// Checks that body parts are on people.
 void check_parts(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                  Findings& findings);
-/// Normals have length 1.
+/// Checks that normals have length 1.
 void check_normal_lengths(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                           Findings& findings);
-/// Flow is known or all 0.
+/// Checks that flow is either known or all 0.
 void check_flow_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                        Findings& findings);
 void check_flow_occlusion_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                                  Findings& findings);
 void check_scene_flow_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                              Findings& findings);
-/// Classes are those of the masks and of the instances.
+/// Compares semantic classes with masks and instances.
 void check_semantic(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                     Findings& findings);
 

@@ -9,10 +9,9 @@
 
 namespace throng::formats {
 
-/// Three standard errors of the median of these values, whose spread is estimated from the median
-/// of the distances from it (1.48 of these are a standard deviation of normal values, and 1.25 of
-/// that over the root of the count is the standard error of their median); infinite of few values,
-/// of which the spread is not known either.
+/// Three standard errors of the median of these values. Their standard deviation is estimated
+/// as 1.48 times the median absolute deviation, and the standard error of the median is 1.25 times
+/// that over the root of the count, as for normal values. Infinite for fewer than eight values.
 inline double median_error(std::vector<double> values) {
   constexpr std::size_t kMinCount = 8;
   if (values.size() < kMinCount) return std::numeric_limits<double>::infinity();

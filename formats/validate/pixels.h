@@ -1,4 +1,4 @@
-// A dataset's values per pixel of one image, read once for all checks.
+// Values per pixel of one image of a dataset, read once for all checks.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,20 +12,20 @@
 
 namespace throng::formats {
 
-/// Row by row; a plane is empty where the dataset has none or where its file is damaged, which is a
-/// finding.
+/// Planes of values, row by row. A plane is empty if the dataset does not have it, or if its file
+/// is damaged, which is a finding.
 struct Pixels {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;              ///< the image, 3 a pixel
+  std::vector<std::uint8_t> rgb;              ///< the image, 3 per pixel
   std::vector<std::uint32_t> ids;             ///< instances
-  std::vector<std::uint16_t> depth_cm;        ///< camera z; 0: sky
-  std::vector<std::uint16_t> normals;         ///< 3 a pixel, as in the file
-  std::vector<std::uint16_t> flow;            ///< 3 a pixel, as in the file
-  std::vector<std::uint16_t> flow_backward;   ///< the same
+  std::vector<std::uint16_t> depth_cm;        ///< z in the camera frame; 0: sky
+  std::vector<std::uint16_t> normals;         ///< 3 per pixel, as in the file
+  std::vector<std::uint16_t> flow;            ///< 3 per pixel, as in the file
+  std::vector<std::uint16_t> flow_backward;   ///< 3 per pixel, as in the file
   std::vector<std::uint16_t> flow_occlusion;  ///< as in the file
-  std::vector<std::uint16_t> scene_flow;      ///< 3 a pixel, as in the file
-  std::vector<std::uint16_t> hazard_opacity;  ///< 3 a pixel
+  std::vector<std::uint16_t> scene_flow;      ///< 3 per pixel, as in the file
+  std::vector<std::uint16_t> hazard_opacity;  ///< 3 per pixel
   std::vector<std::uint16_t> parts;
   std::vector<std::uint16_t> semantic;  ///< world::SemanticClass
 
@@ -47,14 +47,14 @@ struct Pixels {
   }
 };
 
-/// Reads the image and every raster that the dataset has of it; what is missing, damaged or of
-/// another size or kind is a finding.
+/// Reads the image and all rasters that the dataset has of it. Adds a finding for each file that is
+/// missing, damaged or of another size or kind.
 Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
 
-/// Motion (px) that a sample of flow/ or flow_backward/ holds; nothing if it is unknown.
+/// The motion (px) in a sample of flow/ or flow_backward/; std::nullopt if it is unknown.
 std::optional<Eigen::Vector2d> decode_flow(const std::uint16_t* sample);
 
-/// "depth/run000/d1/000003.png"
+/// The path of an image's raster: "depth/run000/d1/000003.png".
 std::string raster_name(const char* kind, const Image& image);
 
 }  // namespace throng::formats

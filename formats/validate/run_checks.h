@@ -1,5 +1,5 @@
-// Files that hold a whole run, against the images' records and against themselves. Fed image by
-// image in the order of the COCO file.
+// Checks of files per run, for consistency and against the images' records. add() is called for
+// each image in the order of the COCO file.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,31 +19,31 @@
 
 namespace throng::formats {
 
-/// exits/RUN.csv: its columns against each other, over time and against the images' `exits`; and
-/// the polygons of these against each other.
+/// Checks exits/RUN.csv: its columns against each other, over time and against the images' `exits`,
+/// and the polygons of the latter against each other.
 class ExitsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
-  /// Most people leave by the exit that their records said last.
+  /// Checks that most people leave by the exit that their last records name.
   void finish(const DatasetInfo& info, Findings& findings) override;
 
  private:
   struct Run {
     std::map<std::string, ExitSeries> exits;
     std::vector<std::string> order;
-    std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
-    std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
-    std::map<std::int64_t, std::string> wanted;  ///< the last exit in records, by track
-    /// Exits in the records of a frame by track, "" without one.
+    std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks by frame
+    std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< people by frame and exit
+    std::map<std::int64_t, std::string> wanted;                  ///< last exit in records, by track
+    /// Exits in the records by frame and track; "" without an exit.
     std::map<std::int64_t, std::map<std::int64_t, std::string>> headed;
     std::string scenario;
   };
-  /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
-  /// 0.01 px, which is meters on ground far away.
+  /// A polygon on the ground (m) from the image that shows it most precisely: corners are rounded
+  /// to 0.01 px, which may be meters on distant ground.
   struct Outline {
     std::vector<Eigen::Vector2d> corners;
-    std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< where each corner may be
-    double rounding_m = 0;                                 ///< the farthest of these
+    std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< per corner: bounds of its position
+    double rounding_m = 0;                                 ///< max distance of these bounds
   };
   struct ExitOutlines {
     Outline door;
@@ -64,11 +64,11 @@ class ExitsCheck : public GroundTruthCheck {
                     Findings& findings) const;
 
   std::map<std::string, Run> runs_;
-  /// By scenario and exit: the outline is the same in all runs there.
+  /// By scenario and exit, because the outline is the same in all runs of a scenario.
   std::map<std::pair<std::string, std::string>, ExitOutlines> places_;
 };
 
-/// fields/RUN/FRAME.npy against the people that cameras see.
+/// Compares fields/RUN/FRAME.npy with the people that cameras see.
 class FieldsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
@@ -82,10 +82,10 @@ class FieldsCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
 };
 
-/// counts/RUN.csv and the images' `zones` against the people that cameras see.
+/// Compares counts/RUN.csv and the images' `zones` with the people that cameras see.
 class CountsCheck : public GroundTruthCheck {
  public:
-  using Positions = std::map<std::int64_t, Eigen::Vector2d>;  ///< by track
+  using Positions = std::map<std::int64_t, Eigen::Vector2d>;  ///< positions by track
 
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
   void finish(const DatasetInfo& info, Findings& findings) override;
@@ -94,7 +94,7 @@ class CountsCheck : public GroundTruthCheck {
   struct Visible {
     std::int64_t id = 0;
     nlohmann::json zones;
-    std::vector<Eigen::Vector2d> places;  ///< of the people whom the image shows
+    std::vector<Eigen::Vector2d> places;  ///< positions of the visible people
   };
   static void check_visible(const std::string& id, const std::vector<Eigen::Vector2d>& corners,
                             const Visible& image, std::size_t zone, Findings& findings);
@@ -103,7 +103,7 @@ class CountsCheck : public GroundTruthCheck {
   std::map<std::string, std::vector<Visible>> images_;             ///< by run
 };
 
-/// trajectories/RUN.npy against the people in the images, and against how fast people run.
+/// Compares trajectories/RUN.npy with the people in the images and with the max speed of people.
 class TrajectoriesCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
@@ -123,7 +123,7 @@ class TrajectoriesCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
 };
 
-/// events/RUN.jsonl against frames and the people in the images.
+/// Compares events/RUN.jsonl with the frames and the people in the images.
 class EventsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
@@ -131,7 +131,7 @@ class EventsCheck : public GroundTruthCheck {
 
   struct Frame {
     double time_s = 0;
-    std::map<std::int64_t, Eigen::Vector2d> people;  ///< places by track
+    std::map<std::int64_t, Eigen::Vector2d> people;  ///< positions by track
   };
   using Frames = std::map<std::int64_t, Frame>;
 
@@ -139,7 +139,7 @@ class EventsCheck : public GroundTruthCheck {
   std::map<std::string, Frames> runs_;
 };
 
-/// actions/RUN.csv and the actions in the images' records.
+/// Compares actions/RUN.csv with the actions in the images' records.
 class ActionsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
@@ -163,7 +163,8 @@ class ActionsCheck : public GroundTruthCheck {
   std::map<std::string, std::vector<Seen>> seen_;  ///< by run
 };
 
-/// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
+/// Checks that values are constant: a run's environment, a camera's lens, a person's attributes and
+/// bones.
 class ConstancyCheck {
  public:
   explicit ConstancyCheck(const nlohmann::json& manifest) : manifest_(manifest) {}
@@ -185,7 +186,7 @@ class ConstancyCheck {
   std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
 };
 
-/// Positions and sizes of vehicles in the images of a run.
+/// Checks positions and sizes of vehicles in the images of a run.
 class VehicleCheck {
  public:
   void add(const Image& image, Findings& findings);
@@ -194,7 +195,7 @@ class VehicleCheck {
   std::map<std::int64_t, nlohmann::json> poses_;  ///< by track
 };
 
-/// Hazards of the images of a run, and the danger to people.
+/// Checks the hazards in the images of a run and the danger to people.
 class HazardCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings);
@@ -217,7 +218,7 @@ class HazardCheck {
   std::map<std::int64_t, Inside> inside_;              ///< by track
 };
 
-/// hazard_opacity/ against the hazards of the images of a run.
+/// Compares hazard_opacity/ with the hazards in the images of a run.
 class HazardOpacityCheck : public GroundTruthCheck {
  public:
   void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
@@ -225,7 +226,7 @@ class HazardOpacityCheck : public GroundTruthCheck {
   void finish(const DatasetInfo& info, Findings& findings) override;
 
  private:
-  /// Something that none of an image's hazards makes.
+  /// Opacity that none of an image's hazards explains.
   struct Unexplained {
     std::string run;
     std::string file;
@@ -237,7 +238,8 @@ class HazardOpacityCheck : public GroundTruthCheck {
   std::vector<Unexplained> without_hazard_;
 };
 
-/// A person in the records of the frames before and after is in those of the frame between.
+/// Checks that a person who is recorded in the previous and the next frame is recorded in the frame
+/// between.
 class PresenceCheck {
  public:
   void add(const Image& image, Findings& findings);
@@ -246,16 +248,16 @@ class PresenceCheck {
   struct Moment {
     Image image;  ///< without images and masks
   };
-  std::map<std::string, std::vector<Moment>> last_;  ///< two of each camera
+  std::map<std::string, std::vector<Moment>> last_;  ///< last two frames of each camera
 };
 
-/// metrics.json against metrics/RUN.json and the tables that it sums up.
+/// Compares metrics.json with metrics/RUN.json and the tables that it summarizes.
 void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
 /// Compares an image's record with the manifest's job: camera, sensor, light, weather and wind.
 void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
 
-/// previews/ against the images and boxes that they show.
+/// Compares previews/ with the images and boxes that they show.
 void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);
 
 }  // namespace throng::formats

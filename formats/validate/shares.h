@@ -1,4 +1,4 @@
-// Shares of samples that may be wrong.
+// Test of a share of wrong samples against a limit.
 #pragma once
 
 #include <cmath>
@@ -6,9 +6,9 @@
 
 namespace throng::formats {
 
-/// Whether more than a share of what was looked at is wrong, by three standard errors of a share of
-/// so many samples. Pixels and points lie in groups that are right or wrong together, of four on
-/// the average, so that there are a quarter as many samples; people do not (`group` 1).
+/// Whether the share of wrong samples exceeds `max_share` by three standard errors. `group` is the
+/// mean number of samples that are right or wrong together, which reduces the number of independent
+/// ones: 4 for pixels and points, 1 for people. False for fewer than ten groups.
 inline bool is_above_share(std::size_t wrong, std::size_t looked_at, double max_share,
                            double group = 4) {
   constexpr double kMinGroups = 10;  // fewer may be of one place

@@ -58,7 +58,7 @@ class LiveFlight {
   double time_s() const;
   /// The result or the failure; null while the flight goes on.
   nlohmann::json outcome() const;
-  /// Time since the last viewer left.
+  /// Time since the last viewer left; 0 while there are viewers.
   SteadyTime::duration unseen() const;
 
   /// Sends commands to the flight; returns false if it has ended.

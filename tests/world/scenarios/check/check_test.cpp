@@ -178,7 +178,7 @@ TEST_F(CheckYard, SeesADroneAgainstAWall) {
 
 TEST_F(CheckYard, SeesTwoDronesAtOnePosition) {
   yard.scenario["drones"].push_back({{"id", "d2"}, {"start", {0.5, 0, 20}}});
-  expect_error("/drones/1/start", "at the same place");
+  expect_error("/drones/1/start", "at the same position");
 }
 
 TEST_F(CheckYard, SeesAPlaceDrawnInTheWrongUnit) {

@@ -144,11 +144,11 @@ TEST_F(Outline, AClosedExitIsAWallOnlyWithAnObstacle) {
   EXPECT_EQ(gaps().size(), 0U) << "an exit until then: it counts";
 }
 
-TEST_F(Outline, SaysThatAPlaceWithoutWallsIsOpen) {
+TEST_F(Outline, SaysThatAScenarioWithoutWallsIsOpen) {
   yard.obstacles = Yard::box(-8, 4, -4, 8);
   const std::vector<std::string> said = warnings();
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_THAT(said[0], HasSubstr("a place that walls do not close"));
+  EXPECT_THAT(said[0], HasSubstr("a scenario that walls do not close"));
 }
 
 /// A wall along one side of a square hall from -h to h, with a piece of it left out.
