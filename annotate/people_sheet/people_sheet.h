@@ -34,7 +34,6 @@ struct SheetCell {
 };
 
 /// The rendered sheet.
-
 struct Sheet {
   int width = 0;
   int height = 0;

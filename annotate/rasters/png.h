@@ -1,5 +1,6 @@
 // Ground truth per pixel as lossless PNG files; docs/formats.md defines their values. Compressed by
 // ISA-L, which is several times faster than zlib at nearly the same size.
+// Functions of a frame fail a check() if it lacks their buffer.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +32,6 @@ std::string depth_png(const render::Frame& frame);
 /// person; for a static object, the highest byte of its id in the buffer << 16 plus its lowest 16
 /// bits.
 std::string instance_png(const render::Frame& frame);
-
-// The following functions fail a check() if the frame lacks their buffer.
 
 /// 8-bit gray: world::SemanticClass (docs/formats_pixels.md#semantic).
 std::string semantic_png(const render::Frame& frame);

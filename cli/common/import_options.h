@@ -25,7 +25,6 @@ struct ImportOptions {
 };
 
 /// Adds the options to a command. `options` must outlive it.
-
 void add_import_options(CLI::App& command, ImportOptions& options);
 
 }  // namespace throng::cli

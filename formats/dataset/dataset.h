@@ -48,7 +48,7 @@ struct Person {
   double visibility = 0;
   double truncation = 0;
   std::optional<Eigen::Vector2d> head;    ///< box coordinates
-  std::optional<Box> head_box;            ///< none without `heads`, or if not in the camera's view
+  std::optional<Box> head_box;            ///< none without `heads`, or if no surface is in view
   std::optional<double> head_visibility;  ///< none in the same cases
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();

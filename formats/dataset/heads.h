@@ -20,8 +20,8 @@ struct Head {
 bool is_in_image(const Image& image, const Eigen::Vector2d& place);
 
 /// Heads with centers in the image, as counted by density maps and point formats, except for those
-/// outside of the camera's view (`head_box` is null). The image must outlive the result. Throws
-/// InputError if a record has no `head_box`.
+/// of whose surface the camera sees nothing (`head_box` is null). The image must outlive the
+/// result. Throws InputError if a record has no `head_box`.
 std::vector<Head> heads_with_boxes(const Image& image);
 
 }  // namespace throng::formats

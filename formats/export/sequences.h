@@ -29,7 +29,6 @@ class SequenceTexts {
   }
 
   /// The file of an image's sequence, at the path of VisDrone and similar formats.
-
   OutputStream& annotations_of(const Image& image) {
     bool is_new = false;
     return of(image.run,

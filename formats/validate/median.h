@@ -1,3 +1,4 @@
+// Standard error of a median.
 #pragma once
 
 #include <algorithm>

@@ -125,7 +125,6 @@ class AlignmentCheck {
     bool can_tell = false;  ///< light, weather and sensor permit a judgment
   };
   /// By run, camera, and whether the outlines are those of people.
-
   std::map<std::tuple<std::string, std::string, bool>, std::vector<Score>> scores_;
 };
 

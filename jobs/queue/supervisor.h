@@ -58,7 +58,7 @@ struct DeliveryProgress {
 /// Progress of a whole job.
 struct JobProgress {
   std::vector<RunProgress> runs;
-  std::vector<ShardProgress> shards;  ///< shards that have images but not all of them
+  std::vector<ShardProgress> shards;  ///< shards with reported progress, not yet finished
   std::vector<NodeWork> nodes = {};   ///< cluster nodes sorted by name; empty without a cluster
   Pace pace;                          ///< over all runs that have not failed
   std::optional<DeliveryProgress> delivery = {};  ///< from the start of the upload on, if any

@@ -34,7 +34,6 @@ struct KnownRuns {
   std::vector<std::vector<int>> numbers;  ///< per case
 };
 /// Reads the results in `folder`, with any fingerprint.
-
 KnownRuns known_runs(const Study& study, const std::filesystem::path& folder);
 
 }  // namespace throng::study

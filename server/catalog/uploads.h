@@ -64,7 +64,6 @@ class Uploads {
 
 /// The job with "bundle/" in its scenario replaced by the bundle's name. Throws InputError if its
 /// scenario does not begin with that.
-
 std::string naming_bundle(std::string_view bundle, std::string_view job_json);
 
 }  // namespace throng::server

@@ -10,9 +10,9 @@
 
 namespace throng::jobs {
 
-/// Warnings about settings without effect: rain in dry weather, options of a kind of ground truth
-/// that is not requested, splits and scenarios without runs. `where` has JSON pointers; `source` is
-/// empty.
+/// Warnings about settings without effect: rain in dry weather, kinds of ground truth that are part
+/// of the COCO file if that is not requested, splits and scenarios without runs. `where` has JSON
+/// pointers; `source` is empty.
 std::vector<Problem> warnings_of_settings(const JobSpec& job);
 
 /// Warnings about a job in one of its scenarios: smoke without hazards, drones far away, and

@@ -49,7 +49,6 @@ std::vector<std::string> submission_words(const JobFolder& folder, const std::st
 std::vector<std::string> test_submission(const SlurmOptions& options);
 
 /// The text quoted as one word of a POSIX shell.
-
 std::string quoted_for_shell(const std::string& text);
 
 }  // namespace throng::jobs

@@ -7,7 +7,6 @@ namespace throng::jobs {
 
 /// Creates the tables in a new file, or migrates a file of any earlier version, in one transaction.
 /// Throws EnvironmentError for a file of a newer version, and SQLite::Exception.
-
 void prepare_tables(SQLite::Database& database);
 
 }  // namespace throng::jobs

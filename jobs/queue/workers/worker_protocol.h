@@ -20,7 +20,6 @@ enum WorkerExit : int {
 inline constexpr const char* kSupervisorVariable = "THRONG_SUPERVISOR_PID";
 
 /// Environment variable with the number of the attempt at the task, from 1. Unset: 1.
-
 inline constexpr const char* kAttemptVariable = "THRONG_ATTEMPT";
 
 }  // namespace throng::jobs
