@@ -1,4 +1,4 @@
-// The pixels of an image that show one id.
+// Mask of the pixels that show an id.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,7 +10,7 @@
 
 namespace throng::annotate {
 
-/// Those within `pixels`, which are in the image.
+/// The pixels with this id within `pixels`, a box that must lie in the image.
 inline render::PixelMask visible_mask(const render::Frame& frame, std::uint32_t id,
                                       const Eigen::AlignedBox2i& pixels) {
   render::PixelMask mask(pixels);

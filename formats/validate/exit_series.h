@@ -14,7 +14,7 @@ namespace throng::formats {
 inline constexpr double kCapacityPerMs = 1.3;  ///< capacity of a door, people per meter and second
 inline constexpr double kWaitWindowS = 20;     ///< predicted wait: window of the measured flow
 inline constexpr double kWaitPriorS = 10;      ///< predicted wait: time at capacity as a prior
-inline constexpr double kMinLaneM = 0.8;       ///< predicted wait: min width of the door for it
+inline constexpr double kMinLaneM = 0.8;  ///< predicted wait: min width of the used part of a door
 
 /// A row of the file.
 struct ExitRow {

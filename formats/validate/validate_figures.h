@@ -1,4 +1,4 @@
-// The figures of a run (metrics.json) against each other.
+// Checks of a run's metrics (metrics.json) for consistency.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,19 @@
 
 namespace throng::formats {
 
-/// Takes what is wrong with a figure.
+/// Receives a finding as a sentence.
 using Report = std::function<void(const std::string&)>;
 
-/// Reports each figure that does not follow from the others. Figures that are not there are left
-/// out.
+/// Reports each metric that is inconsistent with the others. Missing metrics are skipped.
 void check_run_figures(const nlohmann::json& run, const Report& fault);
 
-/// Reports the first figure of each kind and exit that does not follow from exits/RUN.csv. A run
-/// without that table has none. Throws InputError if the table is no CSV.
+/// Reports the first metric of each kind and exit that is inconsistent with exits/RUN.csv, if the
+/// run has that table. Throws InputError if the table is no valid CSV.
 void check_against_exit_table(const std::filesystem::path& root, const nlohmann::json& run,
                               const Report& fault);
 
-/// When each person crossed an exit's line outward, by its last crossing and gaps: s of the run's
-/// clock, ascending.
+/// Times at which people crossed an exit's line outward, computed from its last crossing and gaps;
+/// s of the run's clock, ascending.
 std::vector<double> crossing_times(const nlohmann::json& exit);
 
 }  // namespace throng::formats
