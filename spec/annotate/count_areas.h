@@ -1,4 +1,4 @@
-// Zones and lines on the ground that people are counted in and across.
+// Zones in which people are counted, and lines whose crossings are counted, on the ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +9,10 @@ namespace throng::annotate {
 
 struct CountZone {
   std::string id;
-  std::vector<Eigen::Vector2d> corners;  ///< of a simple polygon, m
+  std::vector<Eigen::Vector2d> corners;  ///< corners of a simple polygon, m
 };
 
-/// Crossings to the left of the way from `from` to `to` are inward.
+/// A directed segment. A crossing toward the left of the direction from `from` to `to` is inward.
 struct CountLine {
   std::string id;
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m

@@ -1,6 +1,7 @@
-// The kinds of ground truth that a dataset may hold: one table, from which follow the words of
-// outputs.annotations in the job schema, what the renderer is asked for, where files lie, what
-// dataset.json says of them, which files `throng validate` expects and which a download selects.
+// The kinds of ground truth that a dataset may hold, in one table. It defines the words of
+// outputs.annotations in the job schema, the buffers that the renderer fills, the paths of the
+// files, their description in dataset.json, the files that `throng validate` expects and those that
+// a download selects.
 // The code that writes and checks a kind is registered under the same enumerator:
 // annotate/frame_writers.cpp, jobs/pipeline/frames/run_writers.cpp,
 // formats/validate/ground_truth_checks.cpp.
@@ -14,11 +15,11 @@
 
 namespace throng::annotate {
 
-/// Raised whenever the meaning of a label changes (docs/formats_coco.md): `info.version` of COCO
-/// files, and `schema_versions` of dataset.json.
+/// The version of the labels, which grows when the meaning of one changes (docs/formats_coco.md).
+/// It is `info.version` of COCO files and stands in `schema_versions` of dataset.json.
 inline constexpr const char* kLabelVersion = "2";
 
-/// In the order of the table.
+/// The kinds in the order of the table that ground_truth_kinds() returns.
 enum class GroundTruth : std::uint8_t {
   coco,
   keypoints,
@@ -49,14 +50,14 @@ enum class GroundTruth : std::uint8_t {
   sensors,
 };
 
-/// The unit that a kind is made for; the job schema lists the kinds in these groups.
+/// The unit of data that a kind describes; the job schema lists the kinds in these groups.
 enum class Extent : std::uint8_t {
   scene,  ///< a frame's people, or the whole run
   pixel,  ///< a raster for each frame
   drone,  ///< a table for each drone and run
 };
 
-/// Buffers that the renderer fills beside color, ids and depth (render::RenderOptions).
+/// Buffers that the renderer fills in addition to color, ids and depth (render::RenderOptions).
 struct RenderNeeds {
   bool normals = false;
   bool flow = false;
@@ -70,18 +71,19 @@ struct RenderNeeds {
   bool semantic = false;
 };
 
+/// A row of the table.
 struct GroundTruthKind {
   GroundTruth kind{};
-  std::string_view name = {};  ///< in outputs.annotations
+  std::string_view name = {};  ///< its word in outputs.annotations
   std::string_view help = {};  ///< in parentheses after the name in the job schema, or ""
   Extent extent = Extent::scene;
-  /// The file that holds it, below the dataset: RUN, CAMERA and FRAME stand for a run's name, a
-  /// drone's id and a frame's number of six digits.
+  /// Path of its file relative to the dataset; RUN, CAMERA and FRAME stand for a run's name, a
+  /// drone's id and a frame's number with six digits.
   std::string_view file = {};
-  std::string_view content = {};  ///< what stands in the file, for dataset.json, or ""
-  bool is_default = false;        ///< of a job that does not say
+  std::string_view content = {};  ///< description of the file's content in dataset.json, or ""
+  bool is_default = false;        ///< written by jobs that do not name kinds
   RenderNeeds needs = {};
-  bool in_coco = false;  ///< part of the COCO records: of no effect without the kind coco
+  bool in_coco = false;  ///< part of the COCO records; has no effect without the kind coco
 };
 
 /// All kinds, in the order of the enumerators.
@@ -89,28 +91,29 @@ std::span<const GroundTruthKind> ground_truth_kinds();
 
 const GroundTruthKind& ground_truth_kind(GroundTruth kind);
 
-/// Whether a kind comes from images or lies beside them, for each camera.
+/// Whether a kind has a file per camera or is the COCO file, so that it exists only with images.
 bool needs_images(const GroundTruthKind& kind);
 
-/// Null if there is no kind of this name.
+/// Returns the kind of this name, or null if there is none.
 const GroundTruthKind* find_kind(std::string_view name);
 
-/// Whether a job's outputs.annotations hold the kind.
+/// Whether `names`, a job's outputs.annotations, contain the kind.
 bool holds(std::span<const std::string> names, GroundTruth kind);
 
-/// Buffers that a job's outputs.annotations need.
+/// Returns the buffers that `names`, a job's outputs.annotations, need. All names must be kinds.
 RenderNeeds render_needs(std::span<const std::string> names);
 
-/// outputs.annotations of a job that does not say.
+/// The default of a job's outputs.annotations.
 std::vector<std::string> default_ground_truth();
 
-/// The kinds and what they are, in one sentence: the help of outputs.annotations.
+/// The help of outputs.annotations: one sentence that lists and describes all kinds.
 std::string ground_truth_help();
 
-/// The folder at the dataset's top that holds the kind's files: "density".
+/// The top-level folder of the dataset that holds the kind's files, for example "density".
 std::string_view ground_truth_folder(const GroundTruthKind& kind);
 
-/// The kind's file of a run, a camera and a frame, as far as its pattern names them.
+/// Path of the kind's file relative to the dataset. Arguments that its pattern does not contain are
+/// ignored.
 std::string ground_truth_file(GroundTruth kind, std::string_view run, std::string_view camera = "",
                               std::int64_t frame = 0);
 

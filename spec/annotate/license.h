@@ -5,7 +5,8 @@
 
 namespace throng::annotate {
 
-/// SPDX identifier. Imported characters and mesh files of a scenario keep their own licenses.
+/// SPDX identifier of the license of images and labels. Imported characters and a scenario's mesh
+/// files keep their own licenses.
 inline constexpr std::string_view kImageLicense = "CC0-1.0";
 
 /// The list `licenses` of COCO files, as JSON.

@@ -1,24 +1,24 @@
-// First lines of a dataset's tables, for those who write and those who check them.
+// Header lines of a dataset's CSV tables, shared by the code that writes and that checks them.
 #pragma once
 
 #include <string_view>
 
 namespace throng::annotate {
 
-/// actions/RUN.csv
+/// Header of actions/RUN.csv.
 inline constexpr std::string_view kActionColumns = "track_id,action,other,from_s,to_s";
 
-/// counts/RUN.csv
+/// Header of counts/RUN.csv.
 inline constexpr std::string_view kCountColumns =
     "frame,time_s,kind,id,inside,inflow,outflow,entered,left";
 
-/// exits/RUN.csv
+/// Header of exits/RUN.csv.
 inline constexpr std::string_view kExitColumns =
     "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,"
     "flow,since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
     "queue_length,predicted_wait,pressure,state_offline";
 
-/// sensors/RUN/DRONE.csv: the truth, then what the sensors read.
+/// Header of sensors/RUN/DRONE.csv: the true state, then the readings of the sensors.
 inline constexpr std::string_view kSensorColumns =
     "time_s,true_x_m,true_y_m,true_z_m,true_vx_mps,true_vy_mps,true_vz_mps,true_qw,true_qx,"
     "true_qy,true_qz,true_wx_rad_s,true_wy_rad_s,true_wz_rad_s,true_fx_mps2,true_fy_mps2,"

@@ -1,5 +1,5 @@
-// Calibrations that a job names, put in their places before it is parsed: what is queued and
-// recorded holds the cameras themselves, so that it means the same everywhere and later.
+// Replaces the names of calibrations in a job by the calibrated cameras before the job is parsed,
+// so that queued and recorded jobs do not depend on the service's list of calibrations.
 #pragma once
 
 #include <functional>
@@ -9,13 +9,14 @@
 
 namespace throng::jobs {
 
-/// The camera of a name, as JSON (spec/calibration/camera_file.h). Throws InputError or
-/// EnvironmentError for a name that has none.
+/// Returns the camera with this name as JSON (spec/calibration/camera_file.h). Throws InputError or
+/// EnvironmentError if there is none.
 using FindCamera = std::function<nlohmann::json(const std::string& name)>;
 
-/// The job's text with the camera of every `drones[].camera.calibration` that is a name in its
-/// place. Text that is no such job is returned as it is: parse_job() says what is wrong with it.
-/// Throws InputError with the name's JSON pointer.
+/// Returns the job's text with every `drones[].camera.calibration` that is a string replaced by the
+/// camera that `find` returns. Text that is not such a job is returned unchanged; parse_job()
+/// reports its mistakes. Throws InputError with the name's JSON pointer if `find` throws
+/// EnvironmentError; other errors of `find` pass through.
 std::string with_calibrations(std::string_view job_json, const FindCamera& find);
 
 }  // namespace throng::jobs

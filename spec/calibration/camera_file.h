@@ -1,11 +1,12 @@
-// A camera as a JSON file: what a calibration writes and a renderer takes.
+// The JSON file of a camera, which a calibration writes and a job refers to.
 //
 //   {"type": "throng-camera", "version": 1, "width": 640, "height": 480, "lens": "brown5",
 //    "fx": 533.9, "fy": 534.0, "cx": 342.9, "cy": 234.4, "skew": 0,
 //    "k1": -0.27, "k2": -0.02, "p1": 0.001, "p2": -0.0001, "k3": 0.2}
 //
-// "type", "version" and "skew" may be left out. fx to skew in pixels, the middle of the top-left
-// pixel being (0, 0). Calibrations add more (camera/calibration/result.h), which readers skip.
+// "type", "version" and "skew" are optional. fx, fy, cx, cy and skew are in pixels; the center of
+// the top-left pixel is (0, 0). Readers ignore the additional members that a calibration writes
+// (camera/calibration/result.h).
 #pragma once
 
 #include <filesystem>
@@ -28,10 +29,11 @@ struct CameraFile {
 
 nlohmann::json to_json(const CameraFile& camera);
 
-/// Throws InputError naming `source` for what is no such camera.
+/// Reads a camera. Throws InputError naming `source` if `value` is not a valid camera.
 CameraFile camera_from_json(const nlohmann::json& value, const std::string& source);
 
-/// Throws InputError, and EnvironmentError when the file cannot be read.
+/// Reads a camera's file. Throws InputError if it does not hold a valid camera, and
+/// EnvironmentError if it cannot be read.
 CameraFile read_camera_file(const std::filesystem::path& file);
 
 }  // namespace throng::calibrate

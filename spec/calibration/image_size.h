@@ -1,4 +1,4 @@
-// Width and height of images.
+// Width and height of images in pixels.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct ImageSize {
   bool operator==(const ImageSize&) const = default;
 };
 
-/// "640x480". Throws InputError naming `source`.
+/// Parses a size such as "640x480". Throws InputError naming `source`.
 ImageSize parse_image_size(const std::string& text, const std::string& source);
 
 }  // namespace throng::calibrate

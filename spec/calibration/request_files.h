@@ -1,4 +1,4 @@
-// A calibration request's schema, and the files that its results are in
+// The schema of a calibration request and the names of the result files
 // (camera/calibration/request.h).
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace throng::calibrate {
 
-/// The JSON schema of what a client sends (spec/calibration/request.schema.json).
+/// The JSON schema of a client's request (spec/calibration/request.schema.json).
 std::string_view request_schema();
 
-/// Files that carry_out_in() writes beside the request.
+/// Names of the files that carry_out_in() writes into the request's folder.
 inline constexpr const char* kCameraName = "camera.json";
 inline constexpr const char* kOpenCvName = "opencv.yaml";
 inline constexpr const char* kRosName = "ros.yaml";

@@ -1,6 +1,6 @@
-// A drone's camera as a value: what a job asks for, what policies of flight count on, what the
-// gimbal follows and what is rendered. Jobs add what differs from run to run
-// (spec/job/camera_spec.h); a run's camera has nothing left to be sampled.
+// Specification of a drone's camera, used by jobs, flight policies, the gimbal and the renderer.
+// All values are fixed; a job's camera (spec/job/camera_spec.h) adds distributions that are sampled
+// for each run.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace throng::camera {
 
 enum class LensModel { pinhole, brown_conrady, fisheye };
 
-/// A lens model with its coefficients by their names in OpenCV (camera/distortion.h); a fisheye has
-/// k1 to k4 only.
+/// A lens model with its distortion coefficients, named as in OpenCV (camera/distortion.h). A
+/// fisheye uses k1 to k4 only, a pinhole none.
 struct LensSpec {
   LensModel model = LensModel::pinhole;
   double k1 = 0;
@@ -27,12 +27,11 @@ struct LensSpec {
   double p1 = 0;
   double p2 = 0;
 
-  /// Nothing for a pinhole.
+  /// Returns nothing for a pinhole.
   std::optional<Distortion> distortion() const;
 };
 
-/// Differences of a frame's camera from its run's: the frame's own offsets, or their standard
-/// deviations.
+/// Offsets of a frame's camera from the run's camera, or the standard deviations of these offsets.
 struct FrameOffsets {
   double yaw_deg = 0;
   double pitch_deg = 0;
@@ -42,25 +41,26 @@ struct FrameOffsets {
 struct CameraSpec {
   int width = 1280;
   int height = 720;
-  double hfov_deg = 78;         ///< counts if there is no fx_px
-  std::optional<double> fx_px;  ///< focal lengths and principal point of a calibrated camera
+  double hfov_deg = 78;         ///< horizontal field of view; ignored if fx_px is given
+  std::optional<double> fx_px;  ///< focal lengths and principal point, if known
   std::optional<double> fy_px;
   std::optional<double> cx_px;
   std::optional<double> cy_px;
   LensSpec lens;
-  /// A real camera, which counts instead of the members above. Those of its size and focal lengths
-  /// are the same, for users of no more.
+  /// A calibrated real camera, which replaces the members above. Its size and focal lengths are
+  /// repeated in them.
   std::optional<Intrinsics> calibrated;
-  double pitch_deg = -50;  ///< above the horizon
+  double pitch_deg = -50;  ///< angle above the horizon; negative looks down
   double yaw_deg = 0;      ///< to the left of the drone's heading
   Sensor sensor;
   Exposure exposure;
   GimbalSpec gimbal;
-  FrameOffsets per_frame;  ///< standard deviations
+  FrameOffsets per_frame;  ///< standard deviations of a frame's offsets
 
-  /// Nothing if the lens's model does not reach the field of view that is asked for.
+  /// Returns nothing if the lens model is not valid up to the requested field of view.
   std::optional<Intrinsics> intrinsics() const;
-  /// Horizontal field of view of a pinhole with this focal length: what plans of flight count on.
+  /// Horizontal field of view of a pinhole camera with this focal length, as flight planning uses
+  /// it: the distortion is ignored.
   double pinhole_hfov_rad() const;
 };
 

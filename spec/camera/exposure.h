@@ -1,12 +1,13 @@
-// How long a frame is exposed and read out (render/lens/exposure.h renders it).
+// Exposure time and readout time of a frame (render/lens/exposure.h renders their effects).
 #pragma once
 
 namespace throng::camera {
 
 struct Exposure {
-  double exposure_s = 0;  ///< how long each row gathers light; 0: an instant
-  /// From the first row's reading to the last's; 0: all rows at once. The middle of the middle
-  /// row's exposure is the frame's time, other rows' are earlier (above) or later.
+  double exposure_s = 0;  ///< exposure time of each row; 0: an instant
+  /// Time from the first row's readout to the last row's; 0: all rows at once (global shutter). The
+  /// frame's time is the middle of the center row's exposure; rows above are earlier, rows below
+  /// later.
   double readout_s = 0;
 };
 

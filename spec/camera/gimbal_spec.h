@@ -1,4 +1,4 @@
-// How exactly a camera's gimbal follows its commands (sim/sensors/gimbal.h).
+// Accuracy with which a camera's gimbal follows its commands (sim/sensors/gimbal.h).
 #pragma once
 
 #include "base/geometry/angle.h"
@@ -6,12 +6,12 @@
 namespace throng::camera {
 
 struct GimbalSpec {
-  bool ideal = true;          ///< exactly as commanded, at once
-  double natural_rad_s = 25;  ///< of each axis's second-order response
-  double damping = 0.7;
-  double jitter_rad = 0.015 * kDegree;  ///< standard deviation of what shakes on
-  double bias_rad = 0.1 * kDegree;      ///< constant error of mounting is up to so much
-  double reading_rad = 0.02 * kDegree;  ///< noise of its encoders
+  bool ideal = true;                    ///< follows commands exactly and without delay
+  double natural_rad_s = 25;            ///< natural frequency of each axis's second-order response
+  double damping = 0.7;                 ///< damping ratio of this response
+  double jitter_rad = 0.015 * kDegree;  ///< standard deviation of the residual vibration
+  double bias_rad = 0.1 * kDegree;      ///< limit of the constant mounting error
+  double reading_rad = 0.02 * kDegree;  ///< noise of the encoders
 };
 
 }  // namespace throng::camera

@@ -1,5 +1,5 @@
-// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/lens/sensor.h
-// applies them).
+// Properties of a camera's sensor: exposure compensation, white balance, vignetting, noise
+// (render/lens/sensor.h applies them).
 #pragma once
 
 #include <optional>
@@ -7,17 +7,18 @@
 namespace throng::camera {
 
 struct Sensor {
-  double ev = 0;  ///< exposure compensation: light is doubled by each 1
-  /// Color temperature (K) that the camera takes for white; daylight is 6500. Lower makes images
-  /// bluer, higher yellower.
+  double ev = 0;  ///< exposure compensation (EV): +1 doubles the light
+  /// Color temperature (K) that the camera renders as white; daylight has 6500. Lower values make
+  /// images bluer, higher ones yellower.
   double white_balance_k = 6500;
-  double vignette = 0;  ///< share of the natural fall of light, cos^4 of the angle from the axis
-  std::optional<double> iso;  ///< 0: no noise; nothing: as the light asks for
-  /// Each image's exposure follows its brightness; else only the hour's and weather's light.
+  double vignette = 0;        ///< share of the natural falloff, cos^4 of the angle from the axis
+  std::optional<double> iso;  ///< 0: no noise; nothing: chosen by the light
+  /// Whether each image's exposure follows its brightness; else it follows the light of the hour
+  /// and the weather only.
   bool is_metered = true;
-  /// Electrons that fill a pixel at ISO 100; at others, full_well * 100 / iso make white.
+  /// Electrons that saturate a pixel at ISO 100; at another ISO, full_well_e * 100 / iso do.
   double full_well_e = 15000;
-  double read_noise_e = 3;  ///< standard deviation, in electrons, of each reading
+  double read_noise_e = 3;  ///< standard deviation of the read noise, in electrons
 
   bool is_neutral() const {
     return ev == 0 && white_balance_k == 6500 && vignette == 0 && iso.value_or(0) == 0;

@@ -1,4 +1,4 @@
-// The JSON Schemas that editors complete and check files with: `throng schema`, GET /v1/schemas.
+// The JSON Schemas of all kinds of files, for editors (`throng schema`, GET /v1/schemas).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace throng::jobs {
 /// Names of all kinds of files: "job", "scenario", "blueprint", ...
 std::vector<std::string_view> schema_names();
 
-/// The schema of a kind as JSON, complete in itself; empty for a name that is none.
+/// The self-contained schema of a kind of file, as JSON text; "" for an unknown name.
 std::string published_schema(std::string_view name);
 
 }  // namespace throng::jobs

@@ -11,33 +11,35 @@
 
 namespace throng::jobs {
 
-/// Estimates: right within a factor of about two on a processor like that of docs/rendering.md.
+/// Estimates, correct within a factor of about two on a processor like that of docs/rendering.md.
 struct JobCost {
   int runs = 0;
   std::int64_t shards = 0;
-  std::int64_t images = 0;      ///< of all runs and cameras
-  double cpu_s = 0;             ///< of one core, with the software renderer
+  std::int64_t images = 0;      ///< total over all runs and cameras
+  double cpu_s = 0;             ///< processor time with the software renderer
   std::int64_t disk_bytes = 0;  ///< the dataset and the traces beside it
-  std::int64_t memory_mib = 0;  ///< of the largest task
+  std::int64_t memory_mib = 0;  ///< memory of the largest task
 };
 
-/// `people` is how many the scenario has, or the job asks for.
-/// A run, as far as it is known before it.
+/// Knowledge of a run before it is simulated.
 struct ExpectedRun {
-  std::int64_t people = 0;  ///< also those who come later
-  double at_a_time = 0;     ///< in the scenario
-  /// In an image of each drone's camera; nothing where its path depends on the people.
+  std::int64_t people = 0;  ///< all people, including those who arrive later
+  double at_a_time = 0;     ///< mean number of people who are present at a time
+  /// Number of people in an image of each drone's camera; nothing if the drone's path depends on
+  /// the people.
   std::vector<std::optional<double>> in_view;
-  double ground_m2 = 0;  ///< of the scenario
-  bool is_fled = false;  ///< people run from something, and their places are less alike
+  double ground_m2 = 0;  ///< area of the scenario's ground
+  bool is_fled = false;  ///< people flee from a hazard: their positions compress less well
 };
 
-/// As if all people were there at once, and half of them in view.
+/// Estimates the cost as if all people were present all the time and half of them in view. `people`
+/// is the number of people in runs for which the job does not set `agents`.
 JobCost estimate_cost(const JobSpec& job, std::int64_t people);
-/// `expected` has each run.
+/// Estimates the cost from `expected`, which has one element per run.
 JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected);
 
-/// {"cpu_s", "disk_bytes", "memory_mib"}; the rest is plain fact and stands beside it in answers.
+/// The members that are estimates, as {"cpu_s", "disk_bytes", "memory_mib"}. The other members are
+/// exact, so answers state them separately.
 nlohmann::json estimate_json(const JobCost& cost);
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// How much memory a worker needs for a task, estimated before it runs: no more tasks are begun
-// at once than the machine has memory for, and a job that it can never run is refused.
+// Estimates of the memory that a worker needs for a task. The scheduler starts only as many tasks
+// at once as fit into the machine's memory and refuses jobs that can never fit.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@
 
 namespace throng::jobs {
 
-/// Estimates in MiB of resident memory, on the high side. Measured with the shipped scenarios on
-/// the software renderer (docs/service.md): images dominate, people take a few KiB each.
+/// Estimates of resident memory in MiB, on the high side, from measurements with the shipped
+/// scenarios and the software renderer (docs/service.md). Images dominate; each person takes a few
+/// KiB.
 class TaskMemory {
  public:
-  /// `people` are in each run if the job does not say how many.
+  /// `people` is the number of people in runs for which the job does not set `agents`.
   explicit TaskMemory(const JobSpec& job, int people = 0);
 
-  /// Any task of the job.
+  /// Memory of a task of the job.
   std::int64_t mib_of(const Task& task) const;
-  /// The largest of them.
+  /// Memory of the job's largest task.
   std::int64_t max_mib() const;
 
  private:
@@ -31,13 +32,13 @@ class TaskMemory {
   std::vector<Run> runs_;
 };
 
-/// Likewise of a calibration whose largest image has so many pixels.
+/// Memory (MiB) of a calibration whose largest image has `max_image_pixels`.
 std::int64_t calibration_memory_mib(std::int64_t max_image_pixels);
 
-/// The memory that a report needs, which reads the results of a job run by run.
+/// Memory of a report, which reads the results of a job run by run.
 inline constexpr std::int64_t kReportMemoryMib = 512;
 
-/// The memory that publishing needs: the manifest of a large dataset, and what a bucket lists.
+/// Memory of publishing: the manifest of a large dataset and the listing of a bucket.
 inline constexpr std::int64_t kPublishMemoryMib = 256;
 
 }  // namespace throng::jobs

@@ -19,37 +19,40 @@ inline std::string_view to_string(Split split) {
   return kSplitNames.at(static_cast<std::size_t>(split));
 }
 
-/// Whole runs go to one split: frames of one run resemble each other too much to be apart.
+/// Assignment of runs to splits. A run is never divided, since its frames resemble each other.
 struct SplitOptions {
-  /// Shares of the runs, in their order; at most 1 in all, and scaled to that if they are less.
-  /// Each split begins at the run that the shares before it round to.
+  /// Shares of the runs, by Split. Their sum is above 0 and at most 1; a lesser sum is scaled to 1.
+  /// Runs are assigned in their order; each split begins at the run to which the sum of the
+  /// previous shares rounds.
   std::array<double, 3> share = {1, 0, 0};
-  /// Runs that are asked for by name ("run003"); the others are shared out.
+  /// Runs that are assigned by name ("run003"); the others are divided by `share`.
   std::map<std::string, Split> runs;
 };
 
-/// Gives training what the others leave, unless its share is given, and adds to `problems` shares
-/// that are none or more than everything. `where` says where they stand.
+/// Sets the share of training to the remainder unless it is given (`has_train`). Adds a problem
+/// with the pointer `where` if the sum of the shares is not above 0 or exceeds 1.
 void settle_shares(bool has_train, const std::string& where, SplitOptions& splits,
                    std::vector<Problem>& problems);
 
-/// People that get a label. The rest become ignore regions if a format has them.
+/// Conditions for a person to be labeled. The others become ignore regions in formats that have
+/// them.
 struct FilterOptions {
   double min_visibility = 0;
   double min_height_px = 0;
-  std::optional<double> max_truncation = std::nullopt;  ///< share outside of the image; none: any
-  /// CIELAB difference to the surroundings, in the mean or along the outline (`difficulty`).
+  /// Share outside of the image; nothing: no limit.
+  std::optional<double> max_truncation = std::nullopt;
+  /// CIELAB difference from the surroundings, of the mean or along the outline (`difficulty`).
   double min_contrast = 0;
 };
 
-/// Classes by a property that people have; "none": everybody is a person.
+/// The property of people that determines their class; "none": all are of the class person.
 struct ClassOptions {
   std::string by = "none";
-  std::map<std::string, std::string> names;  ///< other names for values of that property
+  std::map<std::string, std::string> names;  ///< class names that replace values of the property
 };
 
 struct WebDatasetOptions {
-  double shard_mb = 1000;  ///< 10^6 bytes that a tar file may reach before the next is begun
+  double shard_mb = 1000;  ///< size in 10^6 bytes at which the next tar file is started
 };
 
 struct ExportOptions {
@@ -59,11 +62,12 @@ struct ExportOptions {
   WebDatasetOptions webdataset;
 };
 
-/// Values of a property, in a fixed order; they are the classes. Empty for an unknown property.
+/// Values of a property, in a fixed order, which are the classes. Empty for an unknown property.
 std::vector<std::string> class_values(std::string_view property);
-/// "female=woman": another name for a value of the property. Throws InputError naming `where`.
+/// Parses text such as "female=woman", a class name for a value of the property, into `classes`.
+/// Throws InputError naming `where`.
 void add_class_name(const std::string& text, const std::string& where, ClassOptions& classes);
-/// "none", "sex", "age_band", "state", "carries".
+/// The properties that may determine classes: "none", "sex", "age_band", "state", "carries".
 std::vector<std::string_view> class_properties();
 
 }  // namespace throng::formats

@@ -6,14 +6,14 @@
 
 namespace throng::jobs {
 
-/// In the order of the schema. Every number but the image's size may be a distribution, kept in
-/// CameraSpec::sampled under the field's path.
+/// The fields in the order of the schema. Every number except the image size may be a distribution,
+/// which is kept in CameraSpec::sampled under the field's path.
 const FieldTable<CameraSpec>& camera_fields();
 
-/// The word of a lens model: "fisheye".
+/// The word of a lens model in jobs, for example "fisheye".
 const char* to_string(camera::LensModel model);
 
-/// Fields that a calibration says, so that nothing else may.
+/// Fields whose values a calibration provides; a camera with a calibration must not set them.
 std::span<const char* const> calibrated_fields();
 
 }  // namespace throng::jobs

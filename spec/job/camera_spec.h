@@ -1,4 +1,4 @@
-// Cameras as a job asks for them and as each run has them.
+// The cameras of a job, and their sampled values in each run.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +15,34 @@
 
 namespace throng::jobs {
 
-/// A camera of a job: its values, and which of them differ from run to run.
+/// A camera of a job: its values, and distributions of those that differ between runs.
 struct CameraSpec : camera::CameraSpec {
-  /// A camera of spec/job/cameras.json that lent what the job left out, or "".
+  /// Name of the camera in spec/job/cameras.json that provides the fields which the job omits, or
+  /// "".
   std::string preset;
-  /// The real camera of `calibrated`, as its file says it.
+  /// The file of the real camera in `calibrated`.
   std::optional<calibrate::CameraFile> calibration;
-  /// Fields that are sampled for each run, by their pointer below the camera ("sensor/iso"); what
-  /// the other members say of these does not count.
+  /// Distributions of the fields that are sampled for each run, by their path below the camera
+  /// ("sensor/iso"). The other members' values of these fields are ignored.
   std::map<std::string, Distribution> sampled;
 };
 
-/// Reads the object at `pointer`; what it leaves out comes from its preset or has its default.
-/// Problems carry JSON pointers.
+/// Reads the object at `pointer`; fields that it omits come from its preset or have their default.
+/// Adds to `problems`, with JSON pointers.
 CameraSpec read_camera(const nlohmann::json& value, const std::string& pointer,
                        std::vector<Problem>& problems);
 
 nlohmann::json to_json(const CameraSpec& spec);
 
-/// The camera of a run: nothing is left to be sampled. `pointer` is the camera's place in the job.
+/// The camera of a run, in which `sampled` is replaced by values. `pointer` is the camera's JSON
+/// pointer in the job.
 CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
                          const std::string& pointer);
 
-/// The place of a drone's camera in a job.
+/// JSON pointer of a drone's camera in a job.
 std::string camera_pointer(std::size_t drone);
 
-/// Names in spec/job/cameras.json.
+/// Names of the cameras in spec/job/cameras.json.
 std::vector<std::string> camera_presets();
 
 }  // namespace throng::jobs

@@ -1,7 +1,7 @@
-// Values of a job that may be sampled again for every run: a field holds one value, or
-// {"choice": [a, b, ...]}, {"uniform": [low, high]}, {"log_uniform": [low, high]} (equally many in
-// every octave) or {"normal": [mean, standard deviation]}, whose values outside the field's range
-// are sampled again.
+// Values of a job that may be sampled for every run. A field holds one value, or
+// {"choice": [a, b, ...]}, {"uniform": [low, high]}, {"log_uniform": [low, high]} (every octave is
+// equally probable) or {"normal": [mean, standard deviation]} (values outside the field's range are
+// sampled again).
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,22 @@ class Distribution {
  public:
   enum class Kind : std::uint8_t { choice, uniform, log_uniform, normal };
 
-  /// Always this value.
+  /// The distribution that always yields `value`.
   explicit Distribution(double value) : values_{value} {}
 
-  /// Reads a field. Problems (with `pointer` as the field's place) are added to `problems`; what
-  /// is returned then is of no use.
+  /// Reads a field. Adds to `problems`, with `pointer` as the field's JSON pointer; the returned
+  /// distribution is then meaningless.
   static Distribution read(const nlohmann::json& value, const Quantity& quantity,
                            const std::string& pointer, std::vector<Problem>& problems);
 
-  /// As it is written in a job; read() reads it back.
+  /// The distribution as a job contains it; the inverse of read().
   nlohmann::json to_json(const Quantity& quantity) const;
 
-  /// Whether runs may differ.
+  /// Whether the value may differ between runs.
   bool is_random() const { return kind_ != Kind::choice || values_.size() > 1; }
 
-  /// The value that this field has in a run. `pointer` names the field, so that fields do not
-  /// depend on each other.
+  /// Samples the field's value in a run. `pointer` is the field's JSON pointer, which makes the
+  /// values of different fields independent.
   double draw(std::uint64_t run_seed, std::string_view pointer) const;
 
  private:
@@ -46,8 +46,8 @@ class Distribution {
                    std::vector<Problem>& problems);
 
   Kind kind_ = Kind::choice;
-  std::vector<double> values_;  ///< to choose from; low and high; mean and standard deviation
-  double low_ = 0;              ///< of the field's range: a normal distribution ends there
+  std::vector<double> values_;  ///< choices; low and high; mean and standard deviation
+  double low_ = 0;              ///< the field's range, which truncates a normal distribution
   double high_ = 0;
 };
 

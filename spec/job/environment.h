@@ -1,4 +1,4 @@
-// Light, weather and wind as a job asks for them and as each run has them.
+// Light, weather and wind of a job, and their sampled values in each run.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,28 @@
 
 namespace throng::jobs {
 
-/// The fields below "environment". Weather is the number of a render::Weather.
+/// The fields below "environment". `weather` holds values of render::Weather as numbers.
 struct EnvironmentSpec {
   Distribution time_of_day_h{15.5};
   Distribution latitude_deg{45};
   Distribution day_of_year{225};
   Distribution weather{0};
-  std::optional<Distribution> visibility_m;  ///< without it, by the weather
+  std::optional<Distribution> visibility_m;  ///< default: by the weather
   Distribution rain_mm_per_h{4};
   Distribution smoke{0};
   WindFields wind;
 };
 
-/// In the order of the schema.
+/// The fields in the order of the schema.
 const FieldTable<EnvironmentSpec>& environment_fields();
 
-/// Reads the object; what it leaves out keeps its default. Problems carry JSON pointers.
+/// Reads the object; fields that it omits keep their defaults. Adds to `problems`, with JSON
+/// pointers.
 EnvironmentSpec read_environment(const nlohmann::json& value, std::vector<Problem>& problems);
 
 nlohmann::json to_json(const EnvironmentSpec& spec);
 
-/// Values sampled for a run; the sun follows from them.
+/// Values sampled for a run; `light` contains the resulting direction of the sun.
 struct RunEnvironment {
   double time_of_day_h = 0;
   double latitude_deg = 0;
@@ -44,7 +45,7 @@ struct RunEnvironment {
 
 RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run_seed);
 
-/// The record of a run's environment, in the manifest and with every image.
+/// A run's environment as recorded in the manifest and with every image.
 nlohmann::json to_json(const RunEnvironment& environment);
 
 /// The sun's direction.

@@ -1,4 +1,4 @@
-// Fields of a job (base/json/field_table.h), some of which may be distributions.
+// Tables of a job's fields (base/json/field_table.h), some of which may be distributions.
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ using fields::value_at;
 using fields::value_json;
 using fields::Values;
 
-/// `count` coordinates in m; `is_random`: the block "randomize" may name each.
+/// A list of `count` coordinates in m; `is_random`: the block "randomize" may name each of them.
 Values coordinates(int count, bool is_random = false);
 
 /// One of these words, or a choice of them for each run.
@@ -49,12 +49,13 @@ Values sampled_words(const Words& words) {
   return sampled_words(std::span<const std::string>(texts));
 }
 
-/// A field that is sampled, as a job writes it; null if it is not there.
+/// A sampled field as a job contains it; null if there is no distribution.
 nlohmann::json sampled_json(const Distribution& distribution, const Quantity& quantity);
 nlohmann::json sampled_json(const std::optional<Distribution>& distribution,
                             const Quantity& quantity);
 
-/// Adds a field that may be a distribution itself; `access` gives its Distribution.
+/// Adds a field that may hold a distribution. `access` returns a reference to the Distribution, or
+/// to the optional Distribution, in an object.
 template <typename Object, typename Access>
 Field<Object>& add_sampled(FieldTable<Object>& table, std::string path, std::string title,
                            std::string unit, Values values, Access access, std::string help) {

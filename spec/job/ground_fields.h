@@ -1,4 +1,4 @@
-// The fields below "outputs" of what is counted on the ground: cells, zones and lines.
+// The fields below "outputs" for counts on the ground: cells, zones and lines.
 #pragma once
 
 #include "spec/job/field_table.h"

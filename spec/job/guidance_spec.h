@@ -11,16 +11,17 @@
 
 namespace throng::jobs {
 
-/// The fields of drones[].guidance. A pilot log is a file beside the job's file and is not opened;
-/// a request body has no files.
+/// The fields of drones[].guidance. A pilot log is named relative to the job's file and is not
+/// opened here; a job in a request body cannot name files.
 const FieldTable<DroneSpec>& guidance_fields();
 
-/// Reads drones[].guidance, which the schema has accepted. `pointer` is its own, `source` the job's
-/// file or "".
+/// Reads drones[].guidance, which must be valid by the schema, into `drone`. `pointer` is its JSON
+/// pointer, `source` the job's file or "". Adds to `problems`.
 void read_guidance(const nlohmann::json& value, const std::string& source,
                    const std::string& pointer, DroneSpec& drone, std::vector<Problem>& problems);
 
-/// With every default filled in; a pilot log is written out as set-points once it has been read.
+/// drones[].guidance with all defaults filled in. A pilot log that has been read is written as
+/// set-points.
 nlohmann::json guidance_json(const DroneSpec& drone);
 
 }  // namespace throng::jobs

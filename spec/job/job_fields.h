@@ -1,4 +1,4 @@
-// The tables of a job's fields: everything that a job may say, in the order of the schema.
+// The tables of all fields of a job, in the order of the schema.
 #pragma once
 
 #include "spec/job/field_table.h"
@@ -6,18 +6,18 @@
 
 namespace throng::jobs {
 
-/// All fields but those of single drones.
+/// All fields except those of an element of "drones".
 const FieldTable<JobSpec>& job_fields();
-/// Those of an element of "drones".
+/// The fields of an element of "drones".
 const FieldTable<DroneSpec>& drone_fields();
-/// The fields below "outputs", for job_fields().
+/// Adds the fields below "outputs" to the table that job_fields() returns.
 void add_output_fields(FieldTable<JobSpec>& table);
 
-/// The JSON Schema that follows from the tables, in their order.
+/// The JSON Schema made from the tables, in their order.
 const nlohmann::ordered_json& ordered_job_schema();
 
-/// Sets what was sampled for a run: a field that the block "randomize" may name, by its JSON
-/// pointer.
+/// Sets a field, given by its JSON pointer, to the value sampled for a run. The block "randomize"
+/// must permit the field.
 void set_field(JobSpec& job, const std::string& pointer, const nlohmann::json& value);
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// The job as a value: what a user asks for. spec/job/spec.h reads and prints it.
+// A job as a value. spec/job/spec.h reads and prints it.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ namespace throng::jobs {
 struct DroneSpec {
   sim::DroneMission mission;
   CameraSpec camera;
-  std::filesystem::path pilot_log;  ///< file of the mission's set-points until resolve() reads it
+  /// File of the mission's set-points, until resolve() has read it.
+  std::filesystem::path pilot_log;
 };
 
 struct CaptureSpec {
@@ -38,12 +39,12 @@ struct OutputSpec {
   int image_quality = 95;
   std::vector<std::string> annotations = annotate::default_ground_truth();
   double density_sigma_px = 4;
-  std::vector<double> field_cells_m;  ///< sizes of cells beside the usual one
-  annotate::CountAreas counts;        ///< of the job; the ground and exits come with them
+  std::vector<double> field_cells_m;  ///< cell sizes of grids beyond the default one
+  annotate::CountAreas counts;        ///< those of the job; the ground and exits are always counted
   int previews = 3;
-  std::vector<std::string> formats;  ///< other formats, below formats/ in the dataset
+  std::vector<std::string> formats;  ///< formats of exports, below formats/ in the dataset
   std::string
-      publish;  ///< address (spec/bucket/address.h) that the dataset is brought to; "": none
+      publish;  ///< address (spec/bucket/address.h) to which the dataset is published; "": none
   formats::ExportOptions exports;
 };
 
@@ -52,16 +53,16 @@ struct ScenarioShare {
   std::string scenario;                              ///< as JobSpec::scenario
   std::optional<scenarios::GeneratorSpec> generate;  ///< as JobSpec::generate
   bool is_new_each_run = false;                      ///< generated from another seed for each run
-  double weight = 1;                                 ///< runs are shared out by it
-  std::optional<int> agents;                         ///< instead of the job's
+  double weight = 1;                                 ///< relative number of its runs
+  std::optional<int> agents;                         ///< overrides the job's
 };
 
 struct JobSpec {
   std::string name;
-  std::string scenario;  ///< its id; of one that is generated: "generated/" and its parameters
-  std::optional<scenarios::GeneratorSpec> generate;  ///< the scenario is made from a seed
-  /// Several scenarios, each of which has a share of the runs (spec/job/scenario_mix.h); scenario
-  /// and generate are then those of the first. Empty for a job of one scenario.
+  std::string scenario;  ///< its id; that of a generated one is generated_scenario_id()
+  std::optional<scenarios::GeneratorSpec> generate;  ///< parameters of a generated scenario
+  /// Several scenarios, among which the runs are divided (spec/job/scenario_mix.h); `scenario` and
+  /// `generate` are then those of the first. Empty for a job with one scenario.
   std::vector<ScenarioShare> mix;
   std::uint64_t seed = 1;
   int runs = 1;
@@ -69,17 +70,19 @@ struct JobSpec {
   sim::CrowdSpec crowd;
   std::optional<RecordedSpec> recorded;  ///< replayed instead of simulating people
   std::vector<DroneSpec> drones;
-  /// Nobody flies, whatever the scenario has: a job for figures, without images.
+  /// No drones, whatever the scenario has: the job computes metrics without images.
   bool is_without_drones = false;
   CaptureSpec capture;
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
-  skinning::Styling styling{.umbrellas = 0.05};  ///< of people; umbrellas when it rains
-  double props_density = 1;  ///< share of the scenario's scattered props that are there
+  /// Styling of people; `umbrellas` applies only in rain.
+  skinning::Styling styling{.umbrellas = 0.05};
+  double props_density = 1;  ///< share of the scenario's scattered props that are present
   OutputSpec outputs;
   std::vector<RandomField> randomize;  ///< sampled for each run by job_of_run()
 
-  /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).
+  /// Number of frames of one camera in one run: at from_s, from_s + 1/rate_hz, ..., to_s
+  /// (included).
   std::int64_t frames_per_camera() const;
   double frame_time_s(std::int64_t frame) const;
 };

@@ -1,5 +1,6 @@
-// How a job falls into pieces: runs (one simulation each) and shards (ranges of a run's frames).
-// Pure functions of the job; a task's name is the same on every machine and at every attempt.
+// The division of a job into runs (one simulation each) and shards (ranges of a run's frames). All
+// functions are pure functions of the job, so that a task has the same name on every machine and at
+// every attempt.
 #pragma once
 
 #include <compare>
@@ -17,7 +18,7 @@ struct RunPlan {
   std::uint64_t seed = 0;
 };
 
-/// Frames [first_frame, end_frame) of one run, seen by all cameras.
+/// Frames [first_frame, end_frame) of one run, of all cameras.
 struct Shard {
   int run = 0;
   int index = 0;
@@ -27,21 +28,23 @@ struct Shard {
 
 std::vector<RunPlan> plan_runs(const JobSpec& job);
 
-/// The shards of a run: they cover its frames exactly once, in order. At most 30 frames each, so
-/// that little is lost with a worker; of a short run four shards, so that it uses several cores, or
-/// as many as have a second of work each by estimate (render_cost.h), since each starts a worker.
+/// The shards of a run, which cover its frames exactly once, in order. A shard has at most 30
+/// frames, so that a failed worker loses little. A short run has four shards, so that it uses
+/// several cores, or fewer, so that each has an estimated second of work (render_cost.h) for its
+/// worker.
 std::vector<Shard> plan_shards(const JobSpec& job, int run);
 
-/// Unique over the job and independent of shards: images are numbered by run, camera, frame.
+/// Id of an image, unique within the job and independent of shards: images are numbered by run,
+/// camera and frame.
 std::int64_t image_id(const JobSpec& job, int run, std::size_t camera, std::int64_t frame);
 
-/// Whether a preview is drawn of this frame: JobSpec::outputs.previews of them, evenly spread.
+/// Whether this frame has a preview: JobSpec::outputs.previews frames do, evenly spaced.
 bool has_preview(const JobSpec& job, std::int64_t frame);
 
-/// Unit of work of one worker.
+/// The unit of work of one worker process.
 struct Task {
-  /// The last ones belong to no job's plan: a calibration's folder, a report of a finished job, and
-  /// a study's simulations and report.
+  /// The last four are not part of a job's plan: a calibration, a report on a finished job, and a
+  /// study's simulations and report.
   enum class Kind {
     simulate,
     measure,
@@ -59,17 +62,18 @@ struct Task {
   auto operator<=>(const Task&) const = default;
 };
 
-/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "publish", "calibration",
-/// "report", "simulation/000012", "study": what the task publishes.
+/// Name of a task, which names its result: "run000/trace", "run000/metrics", "run000/shard0003",
+/// "dataset", "publish", "calibration", "report", "simulation/000012" or "study".
 std::string to_string(const Task& task);
 
 inline constexpr const char* kPublishName = "publish";
 inline constexpr const char* kStudyRunName = "simulation";
 
-/// The reverse, for tasks of the job's plan. Throws InputError when the job has no such task.
+/// The inverse of to_string() for tasks of the job's plan. Throws InputError if the job has no such
+/// task.
 Task task_named(const JobSpec& job, const std::string& name);
 
-/// "run000"
+/// Name of a run: "run000".
 std::string run_name(int run);
 
 }  // namespace throng::jobs

@@ -1,5 +1,5 @@
-// The block "crowd.recorded" of a job: people of a trajectory file who are replayed instead of
-// simulated.
+// The block "crowd.recorded" of a job: a trajectory file whose people are replayed instead of
+// simulating a crowd.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,22 @@
 namespace throng::jobs {
 
 struct RecordedSpec {
-  std::filesystem::path file;  ///< where it lies
-  std::string sha256;          ///< of its content, as hex; "" until resolve(), unless it is given
+  std::filesystem::path file;  ///< path of the trajectory file
+  std::string sha256;          ///< hash of its content (hex); "" until resolve() unless given
   metrics::TrajectoryFormat format;
   metrics::WalkerDefaults walkers;
 };
 
-/// In the order of the schema.
+/// The fields in the order of the schema.
 const FieldTable<RecordedSpec>& recorded_fields();
 
-/// Reads the block. The file is named from the folder of the job's file, and is not opened; a job
-/// without one (a request) can name none.
+/// Reads the block. The file's path is relative to the folder of the job's file; the file is not
+/// opened. A job in a request body cannot name a file.
 RecordedSpec read_recorded(const nlohmann::json& value, const FieldLocation& place);
 
-/// The block as a job's folder has it: the file is `recorded/NAME` there.
+/// The block as stored in a job's folder, where the file is `recorded/NAME`.
 nlohmann::json to_json(const RecordedSpec& recorded);
-/// That file below a job's folder.
+/// Path of the copy of the recording in a job's folder.
 std::filesystem::path kept_recording(const RecordedSpec& recorded,
                                      const std::filesystem::path& job_folder);
 

@@ -1,5 +1,5 @@
-// CPU time of images with the software renderer, estimated: how jobs are divided into shards and
-// what `throng check` and dry runs say of their time.
+// Estimates of the CPU time of images with the software renderer, used to divide jobs into shards
+// and to report the expected time in `throng check` and dry runs.
 #pragma once
 
 #include "spec/camera/camera_spec.h"
@@ -7,16 +7,16 @@
 
 namespace throng::jobs {
 
-/// Seconds of one core for an image with so many people in view. Measured: the tables of
+/// CPU time (s) of an image with this number of people in view, from the measurements in
 /// docs/rendering.md and docs/shipped_scenarios.md.
 double image_cpu_s(render::Quality quality, const camera::CameraSpec& camera,
                    double people_in_view);
 
-/// Seconds that a worker spends on a camera before its first image: the map of a lens that
-/// distorts.
+/// CPU time (s) that a worker spends on a camera before its first image, on the map of a lens with
+/// distortion.
 double camera_setup_cpu_s(const camera::CameraSpec& camera);
 
-/// Share of the people that an image shows; unknown before the simulation.
+/// Assumed share of the people that an image shows, which is unknown before the simulation.
 inline constexpr double kShareInView = 0.5;
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// A job that can be run: checked against its scenario and completed with what the scenario knows.
+// A job that can be run: checked against its scenario and completed with the scenario's values.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace throng::jobs {
 
-/// Made by resolve() (jobs/pipeline/checks/resolve.h), once per job. Its JSON, to_json(job.spec()),
-/// is what is queued and what lies in the job's folder; its readers do not check it again.
+/// The result of resolve() (jobs/pipeline/checks/resolve.h), made once per job. Its JSON,
+/// to_json(job.spec()), is queued and stored in the job's folder; readers do not check it again.
 class ResolvedJob {
  public:
-  /// The caller vouches for the job.
+  /// Does not check `spec`: the caller guarantees that it is resolved.
   explicit ResolvedJob(JobSpec spec, int people = 0) : spec_(std::move(spec)), people_(people) {}
 
   const JobSpec& spec() const { return spec_; }
-  /// That the scenario has if the job does not say how many; 0: not known.
+  /// Number of people in the scenario, for a job that does not set `agents`; 0: unknown.
   int people() const { return people_; }
 
  private:
@@ -25,9 +25,9 @@ class ResolvedJob {
   int people_;
 };
 
-/// Reads back the JSON of a resolved job. `source` is its file, beside which a recording lies, or a
-/// name for messages. Opens no file. Throws EnvironmentError and InputError for a text that no
-/// resolved job has.
+/// Reads the JSON of a resolved job. `source` is the job's file, to which the path of a recording
+/// is relative, or a name for messages. Opens no file. Throws EnvironmentError or InputError if the
+/// text is not the JSON of a resolved job.
 ResolvedJob read_resolved_job(std::string_view json, const std::string& source);
 
 }  // namespace throng::jobs

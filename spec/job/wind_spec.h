@@ -1,4 +1,4 @@
-// Wind as a job asks for it and as each run has it.
+// The wind of a job, and its sampled values in each run.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace throng::jobs {
 
-/// The fields below "environment/wind". Profile and gusts are the numbers of a sim::WindProfile and
-/// a sim::GustModel.
+/// The fields below "environment/wind". `profile` and `gusts` hold values of sim::WindProfile and
+/// sim::GustModel as numbers.
 struct WindFields {
   Distribution speed_mps{0};
   Distribution direction_deg{0};
@@ -24,13 +24,13 @@ struct WindFields {
   Distribution gust_time_s{3};
 };
 
-/// In the order of the schema.
+/// The fields in the order of the schema.
 const FieldTable<WindFields>& wind_fields();
 
 /// The wind sampled for a run.
 sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed);
 
-/// The record of a run's wind: only what matters for its models.
+/// A run's wind as recorded in datasets: only the parameters that its models use.
 nlohmann::json to_json(const sim::WindSpec& wind);
 
 }  // namespace throng::jobs

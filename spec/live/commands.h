@@ -12,28 +12,30 @@
 
 namespace throng::live {
 
-/// For one drone; what is not given stays as it is.
+/// Commands for one drone; absent members change nothing.
 struct DroneCommand {
   std::string id;
-  std::optional<std::array<double, 3>> velocity_mps;  ///< ahead, to the left, up
-  std::optional<double> yaw_rate_deg_s;               ///< counter-clockwise
+  /// Forward, left, up in the drone's heading frame.
+  std::optional<std::array<double, 3>> velocity_mps;
+  std::optional<double> yaw_rate_deg_s;  ///< counter-clockwise
   std::optional<bool> beacon;
   std::optional<bool> return_home;
 };
 
+/// Commands of a client; absent members change nothing.
 struct Commands {
-  std::optional<std::int64_t> sequence;  ///< comes back with what shows the effect
+  std::optional<std::int64_t> sequence;  ///< returned with the state that shows the effect
   std::optional<bool> paused;
   std::optional<double> factor;     ///< simulated seconds per second
-  std::optional<std::string> view;  ///< the drone whose camera is shown
+  std::optional<std::string> view;  ///< id of the drone whose camera is shown
   std::vector<DroneCommand> drones;
 };
 
-/// Throws InputError with every mistake and its JSON pointer: unknown fields and drones, values out
-/// of range.
+/// Reads commands; `drones` are the ids of the flight's drones. Throws InputError with every
+/// mistake and its JSON pointer: unknown fields and drones, values out of range.
 Commands commands_from_json(const nlohmann::json& value, const std::vector<std::string>& drones);
 
-/// The same as text that commands_from_json() reads.
+/// The inverse of commands_from_json().
 nlohmann::json to_json(const Commands& commands);
 
 }  // namespace throng::live

@@ -1,5 +1,5 @@
-// Messages of a live flight, from its process through the service to the page: the type, the number
-// of bytes, the bytes. docs/studio.md has what they hold.
+// Messages of a live flight, which its process sends through the service to the browser. A message
+// is its type, its length and its bytes; docs/studio.md describes their content.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace throng::live {
 
 enum class MessageType : char {
   hello = 'H',    ///< JSON, first: the scenario, people, drones
-  state = 'S',    ///< binary, after each step: where everybody is
-  image = 'P',    ///< binary: a drone's camera
-  event = 'V',    ///< JSON: a collision, a low battery
-  result = 'R',   ///< JSON, last: how the flight is repeated
+  state = 'S',    ///< binary, after each step: positions of people and drones
+  image = 'P',    ///< binary: an image of a drone's camera
+  event = 'V',    ///< JSON: an event such as a collision or a low battery
+  result = 'R',   ///< JSON, last: the result, with the job that repeats the flight
   failure = 'E',  ///< JSON, last: kind, message, problems
-  alive = 'A',    ///< nothing; of the service
+  alive = 'A',    ///< empty; a heartbeat of the service
 };
 
 struct Message {
@@ -24,23 +24,23 @@ struct Message {
   std::string bytes;
 };
 
-/// One byte for the type, the length in four (little-endian), the bytes.
+/// Serializes a message: one byte of type, four bytes of length (little-endian), the bytes.
 std::string framed(const Message& message);
 
-/// Finds the messages in a stream of bytes.
+/// Splits a stream of bytes into messages.
 class MessageReader {
  public:
   void add(std::string_view bytes) { pending_ += bytes; }
-  /// The next whole message; nothing until more has arrived. Throws EnvironmentError for bytes that
-  /// are no message.
+  /// Returns the next message, or nothing if it is incomplete. Throws EnvironmentError for an
+  /// unknown type or a length above 64 MiB.
   std::optional<Message> next();
 
  private:
   std::string pending_;
-  std::size_t done_ = 0;  ///< bytes of pending_ that have been handed over
+  std::size_t done_ = 0;  ///< number of bytes of pending_ that next() has returned
 };
 
-/// A number of a message, little-endian.
+/// Appends a number's bytes, little-endian (the program runs on little-endian machines only).
 template <typename Number>
 void append_number(std::string& bytes, Number value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));  // NOLINT

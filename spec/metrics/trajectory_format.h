@@ -7,17 +7,17 @@
 
 namespace throng::metrics {
 
-/// Properties of people that such files lack.
+/// Properties of people that trajectory files do not contain.
 struct WalkerDefaults {
   double radius_m = 0.2;
-  double desired_speed_mps = 1.34;  ///< Weidmann 1993
+  double desired_speed_mps = 1.34;  ///< mean of Weidmann 1993
 };
 
-/// File format. any: by suffix and first bytes, as read_trajectory() says.
+/// File format. any: detected by suffix and first bytes, as read_trajectory() documents.
 enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
 
-/// Names in the first line of a table, or, where all are whole numbers, the columns of one without
-/// names, from 1. Either `frame` or `time` is given; the other is empty.
+/// Columns of a table by their names in its header; or, if all are integers, by their numbers from
+/// 1, for a table without a header. Either `frame` or `time` is given; the other is empty.
 struct TrajectoryColumns {
   std::string person = "id";
   std::string frame = "frame";
@@ -30,8 +30,8 @@ struct TrajectoryColumns {
 struct TrajectoryFormat {
   TrajectoryKind kind = TrajectoryKind::any;
   std::optional<double> frames_per_s;
-  std::optional<double> unit_m;  ///< length of the file's unit, m
-  TrajectoryColumns columns;     ///< csv
+  std::optional<double> unit_m;  ///< length of the file's unit of coordinates (m)
+  TrajectoryColumns columns;     ///< only for csv
 };
 
 }  // namespace throng::metrics

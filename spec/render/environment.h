@@ -1,4 +1,4 @@
-// Light and weather over the scenario, as one run has them.
+// Light and weather of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@ namespace throng::render {
 enum class Weather : std::uint8_t { clear, overcast, fog, rain };
 
 struct Environment {
-  double sun_azimuth_rad = 0.9;    ///< counter-clockwise from +x, where the sun stands
+  double sun_azimuth_rad = 0.9;    ///< direction to the sun, counter-clockwise from +x
   double sun_elevation_rad = 0.8;  ///< above the horizon; negative: below it
   Weather weather = Weather::clear;
   /// Distance at which the air leaves 2 % of a contrast (the meteorological range).
   double visibility_m = 20000;
-  double rain_mm_per_h = 0;  ///< only in rain
-  std::uint64_t seed = 1;    ///< which windows are lit, where puddles lie and drops fall
-  double smoke = 0;          ///< 0 to 1: how much of it rises from every danger
+  double rain_mm_per_h = 0;  ///< rate of rain; ignored in other weather
+  std::uint64_t seed = 1;    ///< determines lit windows, puddles and raindrops
+  double smoke = 0;          ///< 0 to 1: density of the smoke that rises from every hazard
 };
 
 }  // namespace throng::render

@@ -10,25 +10,26 @@ namespace throng::render {
 enum class Quality : std::uint8_t { draft, standard, high };
 
 struct QualitySettings {
-  std::string_view word;  ///< in job files
-  bool textured;          ///< else ground and walls are colored corner by corner
-  int ground_texels;      ///< along each side of a tile of the ground's textures
-  /// People at so many of the finest levels of detail are textured and lit pixel by pixel. Of the
-  /// others, whose triangles are pixels, the nearest are textured: as many as leave room for all in
-  /// view, if who is textured takes two of so many places. The rest are colored corner by corner.
+  std::string_view word;  ///< keyword in job files
+  bool textured;          ///< else ground and walls have a color per vertex
+  int ground_texels;      ///< texels along each side of a tile of the ground's textures
+  /// People at this number of the finest levels of detail are textured and lit per pixel. Among
+  /// the people at coarser levels, whose triangles are about a pixel large, the nearest
+  /// max(0, people_positions - people in view) are textured and lit per vertex; the others have a
+  /// color per vertex.
   int textured_levels;
   int people_positions;
-  int shadow_texels;  ///< along each side of the shadow map; 0: no shadows
-  bool fine_shadows;  ///< edges on ground and walls as soft as the sun's disc makes them
-  /// Along the outlines of people and props: on the CPU from the ids, on a GPU with kSamples a
-  /// pixel.
+  int shadow_texels;  ///< texels along each side of the shadow map; 0: no shadows
+  bool fine_shadows;  ///< shadows on ground and walls have the penumbra of the sun's disc
+  /// Whether outlines of people and props are antialiased: on the CPU from the ids, on a GPU with
+  /// kSamples samples per pixel.
   bool smooth_edges;
-  int supersampling;      ///< samples of color along each side of a pixel
-  double detail;          ///< people's levels of detail are chosen as if they were so much larger
-  double proxy_below_px;  ///< smaller people are rendered at their last level
+  int supersampling;  ///< color samples along each side of a pixel
+  double detail;      ///< factor on people's image height in the choice of their levels of detail
+  double proxy_below_px;  ///< image height below which people have their coarsest level
 };
 
-/// Samples of color per pixel on a GPU.
+/// Color samples per pixel on a GPU.
 inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
@@ -41,7 +42,7 @@ constexpr const QualitySettings& quality_settings(Quality quality) {
   return kQualities[static_cast<std::size_t>(quality)];
 }
 
-/// Lines "#define WORD" for shaders/light.glsl.
+/// Preprocessor lines for shaders/light.glsl: FINE_SHADOWS if `quality` has fine shadows.
 constexpr std::string_view shadow_words(const QualitySettings& quality) {
   return quality.fine_shadows ? "#define FINE_SHADOWS\n" : "";
 }

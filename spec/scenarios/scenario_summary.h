@@ -1,4 +1,4 @@
-// A scenario as clients see it in a list.
+// Summary of a scenario for the service's list of scenarios.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,8 @@
 
 namespace throng::jobs {
 
-/// Name, description, exits, drones and sizes; without its id, which depends on where it lies.
+/// Name, description, crowd model, extent of the ground, exits, drones' starts, and the numbers of
+/// buildings and props. The caller adds the id, which depends on the scenario's location.
 nlohmann::json scenario_summary(const world::Scenario& scenario);
 
 }  // namespace throng::jobs

@@ -18,7 +18,7 @@
 
 namespace throng::sim {
 
-/// Set-point of a drone of the policy "pilot_log" at a time.
+/// Set-point, at a time, of a drone with the policy "pilot_log".
 struct PilotSample {
   double time_s = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
@@ -26,59 +26,61 @@ struct PilotSample {
   bool beacon = true;  ///< whether people can follow it
 };
 
-/// A policy's knowledge of people (sim/sensors/perception.h).
+/// The source of a policy's knowledge of people: their true positions, or estimates from a camera
+/// (sim/sensors/perception.h).
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;
-  double fov_rad = 90 * kDegree;  ///< of the camera that counts, which looks straight down
+  double fov_rad = 90 * kDegree;  ///< field of view of this camera, which looks straight down
   double delay_s = 1;             ///< from the image to the estimate
-  double count_noise = 0.1;       ///< share of the people missed, and of those seen twice
+  double count_noise = 0.1;       ///< share of people missed, and share of people counted twice
 };
 
-/// Parameters that only some policies have; which ones is in the table of policy_table.cpp.
+/// Parameters of policies; the table in policy_table.cpp lists those of each policy.
 struct GuidanceSpec {
-  std::optional<Eigen::Vector2d> center;  ///< orbit: what it circles, m
-  std::optional<double> radius_m;         ///< orbit
-  std::optional<world::Rectangle> area;   ///< survey
-  std::optional<double> overlap;          ///< survey: share that neighboring lanes have in common
-  std::optional<double> lead_speed_mps;   ///< with people behind
-  std::optional<int> batch;               ///< most people that are led at once
-  std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open
-  std::vector<PilotSample> setpoints;  ///< pilot_log, by time
+  std::optional<Eigen::Vector2d> center;     ///< orbit: center of the circle, m
+  std::optional<double> radius_m;            ///< orbit
+  std::optional<world::Rectangle> area;      ///< survey
+  std::optional<double> overlap;             ///< survey: overlap of neighboring lanes, as a share
+  std::optional<double> lead_speed_mps;      ///< speed of a drone that people follow
+  std::optional<int> batch;                  ///< max number of people who are led at once
+  std::vector<std::string> exits;            ///< ids of exits to lead to; empty: all open exits
+  std::vector<PilotSample> setpoints;        ///< pilot_log: in order of time
   std::optional<PerceptionSpec> perception;  ///< default: the truth
-  /// Policies that do not guide: whether people may follow the drone all the time. Default: no.
+  /// Policies that do not guide: whether people may follow the drone at all times. Default: no.
   std::optional<bool> beacon;
 };
 
-/// A start from which a drone's camera looks at one of the people (sim/planning/aimed_start.h).
+/// Conditions for a sampled start from which a drone's camera looks at one of the people
+/// (sim/planning/aimed_start.h).
 struct AimSpec {
-  double height_m = 20;         ///< of the drone
-  double max_distance_m = 100;  ///< on the ground, from the person
+  double height_m = 20;         ///< height of the drone
+  double max_distance_m = 100;  ///< horizontal distance from the person
 };
 
-/// Mission of one drone.
+/// The mission of one drone.
 struct DroneMission {
   std::string id;                          ///< as in the job; unique
   std::string airframe = "f450";           ///< a name in spec/sim/airframes.json
-  std::optional<Airframe> own_airframe;    ///< flies instead of the named one
+  std::optional<Airframe> own_airframe;    ///< used instead of `airframe`
   std::string policy = "hover";            ///< a name in the table of policy_table.cpp
   std::optional<Eigen::Vector3d> start;    ///< m; default: the scenario's start for this id
-  std::optional<AimSpec> aim;              ///< instead of a start
+  std::optional<AimSpec> aim;              ///< used instead of `start`
   std::optional<double> start_yaw_rad;     ///< heading at the start; default: the scenario's, or 0
   std::vector<Eigen::Vector3d> waypoints;  ///< m, in order; the drone hovers at the last one
   double speed_mps = 3;                    ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
-  std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
+  std::optional<double> battery_charge;      ///< share of a full battery; default: unlimited
   GuidanceSpec guidance;
   camera::CameraSpec camera;
 };
 
-/// How the crowd engine computes.
+/// Settings of the crowd engine.
 struct CrowdSpec {
   std::string model;  ///< a name in crowd::models(); empty: model_for()
   crowd::Compat compat = crowd::Compat::none;
   bool hard_separation = false;
-  double compliance = 1;  ///< probability that somebody near a guide follows it
+  double compliance = 1;  ///< probability that a person near a guide follows it
   crowd::Physical physical;
 };
 
@@ -86,7 +88,7 @@ struct RunSpec {
   std::uint64_t seed = 1;
   double duration_s = 120;              ///< simulated time; the run may not end earlier
   std::optional<double> images_from_s;  ///< time of the first image, if any; for warnings only
-  std::optional<int> people;  ///< how many of the scenario's people take part; default all
+  std::optional<int> people;  ///< number of the scenario's people who take part; default: all
   CrowdSpec crowd;
   std::shared_ptr<const world::Trace> recorded;  ///< people to replay instead of the scenario's
   std::vector<DroneMission> drones;

@@ -1,4 +1,4 @@
-// Wind as a run has it: a mean that grows with height, and the kind of its gusts.
+// The wind of a run: its mean as a function of height, and the model of its gusts.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,32 +6,32 @@
 
 namespace throng::sim {
 
-/// How the mean wind changes with height z (m above the ground).
+/// Mean wind as a function of the height z (m above the ground).
 enum class WindProfile : std::uint8_t {
-  uniform,    ///< not at all
-  log_law,    ///< as ln(z / z0), z0 being the ground's roughness; calm below z0
-  power_law,  ///< as z to the exponent
+  uniform,    ///< constant
+  log_law,    ///< proportional to ln(z / z0), z0 being the roughness length; calm below z0
+  power_law,  ///< proportional to z^exponent
 };
 
-/// How gusts are made.
+/// Models of gusts.
 enum class GustModel : std::uint8_t {
   none,
-  dryden,  ///< MIL-F-8785C (1980), low altitude: strength and size follow from wind and height
-  ou,      ///< Ornstein-Uhlenbeck along each axis, of a given strength and duration
+  dryden,  ///< MIL-F-8785C (1980), low altitude: intensity and length scale by wind and height
+  ou,      ///< Ornstein-Uhlenbeck process along each axis
 };
 
 struct WindSpec {
   double speed_mps = 0;      ///< mean at 10 m above the ground
-  double direction_rad = 0;  ///< where the wind blows to, counter-clockwise from +x
+  double direction_rad = 0;  ///< direction toward which it blows, counter-clockwise from +x
   WindProfile profile = WindProfile::log_law;
   double roughness_m = 0.4;  ///< z0 of log_law: 0.03 grass, 0.4 suburbs, 1 and more city
-  double exponent = 0.25;    ///< of power_law
+  double exponent = 0.25;    ///< exponent of power_law
   GustModel gusts = GustModel::dryden;
-  double intensity = 1;    ///< dryden: factor on the standard's strength
+  double intensity = 1;    ///< dryden: factor on the standard's intensity
   double gust_mps = 1.5;   ///< ou: standard deviation along each axis
   double gust_time_s = 3;  ///< ou: correlation time
 
-  /// Mean wind at a height, m/s in the world.
+  /// Mean wind at a height above the ground, m/s in the world's frame.
   Eigen::Vector3d mean_at(double height_m) const;
 };
 

@@ -3,15 +3,17 @@
 
 namespace throng::skinning {
 
-/// Characters of the library that take part in a run, and changes to the colors of clothes, shoes
-/// and carried items, as far as they are tinted at all.
+/// Selects the characters of the library that take part in a run, and changes the colors of tinted
+/// clothes, shoes and carried items.
 struct Styling {
-  double brightness = 1;      ///< factor of lightness
-  double saturation = 1;      ///< 0: gray; 2: twice as colorful
-  double variety = 1;         ///< share of the characters of these ages, chosen by the run's seed
+  double brightness = 1;  ///< factor on the lightness
+  double saturation = 1;  ///< factor on the saturation; 0: gray
+  /// Share of the characters of these ages that take part, chosen by the run's seed.
+  double variety = 1;
   double youngest_years = 0;  ///< minimum age of the characters
-  double oldest_years = 150;  ///< nor who is older
-  double umbrellas = 0;       ///< share of the people under one, as far as there are such people
+  double oldest_years = 150;  ///< maximum age of the characters
+  /// Share of the people with an umbrella, if the library has such characters.
+  double umbrellas = 0;
 };
 
 }  // namespace throng::skinning
