@@ -1,7 +1,6 @@
-// The camera: a pinhole, and what its lens makes of the pinhole's image. Camera frame: x right, y
-// down, z forward. Pixels as OpenCV counts them: the center of the top-left pixel is (0, 0), so a
-// projected point u lies at u + 0.5 in the coordinates of boxes and masks, where pixel i covers [i,
-// i + 1).
+// The camera model: a pinhole with optional lens distortion. Camera frame: x right, y down, z
+// forward. Pixel coordinates follow OpenCV: the center of the top-left pixel is (0, 0). A projected
+// coordinate u thus corresponds to u + 0.5 in boxes and masks, where pixel i covers [i, i + 1).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,39 +10,44 @@
 
 namespace throng::camera {
 
-/// Nothing closer to the camera's plane is rendered, or in a box (m). Nothing but a surface
-/// that touches the lens of a drone on the ground is so close. Depth is a float of 1 / z
-/// without a far plane, as exact with a plane of 1 mm as with one of 0.1 m.
+/// Depth (m) of the near plane, closer than which nothing is rendered or labeled. Only a surface
+/// that touches the lens of a drone on the ground is that close. Since depth is stored as a float
+/// of 1 / z without a far plane, a small value costs no precision.
 inline constexpr double kNearPlaneM = 0.001;
 
+/// Image size, projection to pixels and lens distortion of a camera.
 struct Intrinsics {
   int width = 0;
   int height = 0;
   double fx_px = 0;
   double fy_px = 0;
-  double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centered camera
+  double cx_px = 0;  ///< (width - 1) / 2 for a centered principal point
   double cy_px = 0;
   std::optional<Distortion> distortion = std::nullopt;  ///< nothing: a pinhole
-  /// How far a column leans: u = fx x + skew y + cx. A renderer wants a distortion (of zeros)
-  /// beside it.
+  /// Skew of the pixel grid: u = fx x + skew y + cx. If it is not 0, the renderer requires a
+  /// distortion (possibly with all coefficients 0).
   double skew_px = 0;
 
+  /// The 3x3 camera matrix K.
   Eigen::Matrix3d matrix() const;
-  /// A pixel in normalized image coordinates, the input of Distortion.
+  /// A pixel in (distorted) normalized image coordinates; the inverse of the camera matrix.
   Eigen::Vector2d shown_at(const Eigen::Vector2d& pixel) const;
-  /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.
+  /// The pixel that shows the direction (x / z, y / z); nothing outside of the distortion's valid
+  /// range.
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& direction) const;
-  /// The inverse: (x / z, y / z) of what is seen at a pixel.
+  /// The direction (x / z, y / z) that a pixel shows; the inverse of pixel_of(). Returns nothing if
+  /// the distortion maps no valid direction to the pixel.
   std::optional<Eigen::Vector2d> direction_of(const Eigen::Vector2d& pixel) const;
-  /// The same, faster where the direction is near `guess`.
+  /// As above; faster if the direction is near `guess`.
   std::optional<Eigen::Vector2d> direction_of(const Eigen::Vector2d& pixel,
                                               const Eigen::Vector2d& guess) const;
 };
 
-/// Square pixels, centered principal point, horizontal field of view in radians in (0, pi).
+/// Intrinsics of a pinhole with square pixels, a centered principal point and this horizontal field
+/// of view, in (0, pi).
 Intrinsics intrinsics_from_hfov(int width, int height, double hfov_rad);
 
-/// World to camera: X_camera = R * X_world + t.
+/// Transformation from world to camera: X_camera = R * X_world + t.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -51,17 +55,19 @@ struct Pose {
   Eigen::Vector3d center() const { return -R.transpose() * t; }
 };
 
-/// A camera at `centre` that looks along the heading `yaw_rad` (counter-clockwise from +x) and
-/// `pitch_rad` above the horizon (negative looks down), without roll. Well defined at +-90 degrees:
-/// the image's up direction then points along the heading (looking down) or against it.
+/// Pose of a camera at `center` that looks along the heading `yaw_rad` (counter-clockwise from +x)
+/// and `pitch_rad` above the horizon (negative looks down), without roll. At a pitch of +-90
+/// degrees the image's up direction points along the heading (looking down) or against it (looking
+/// up).
 Pose pose_looking(const Eigen::Vector3d& center, double yaw_rad, double pitch_rad);
 
 struct Camera {
   Intrinsics intrinsics;
   Pose pose;
 
-  /// Pixel (OpenCV convention) and depth z (m) of a world point. The pixel is undefined if the
-  /// point is not visible: behind the camera, or where the lens's model does not hold.
+  /// Pixel and depth z (m) of a world point. If the point is behind the camera or outside of the
+  /// distortion's valid range, `visible` is false and the pixel is meaningless. `visible` does not
+  /// depend on the image's borders or on other objects.
   struct Projection {
     Eigen::Vector2d pixel;
     double depth_m;
@@ -69,8 +75,8 @@ struct Camera {
   };
   Projection project(const Eigen::Vector3d& world) const;
 
-  /// The world point seen at `pixel` with camera depth `depth_m`; all NaN if the lens shows nothing
-  /// at such a pixel.
+  /// The world point at `pixel` with depth z `depth_m`; all NaN if the distortion maps no valid
+  /// direction to the pixel.
   Eigen::Vector3d unproject(const Eigen::Vector2d& pixel, double depth_m) const;
 };
 

@@ -1,5 +1,5 @@
-// Lens distortion in OpenCV's conventions (calib3d and its fisheye module), so that calibrations of
-// real cameras can be used as they are.
+// Lens distortion by the conventions of OpenCV (calib3d and its fisheye module), so that
+// calibrations of real cameras can be used unchanged.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace throng::camera {
 
-/// Maps (x, y) = (X / Z, Y / Z) of a point in the camera's frame to where the lens shows it, in the
-/// same units (before the focal length is applied).
+/// Maps normalized image coordinates (x, y) = (X / Z, Y / Z) of a point in the camera's frame to
+/// distorted normalized coordinates (x', y'), to which the camera matrix is then applied.
 ///
 /// brown_conrady (Brown 1966; with the rational denominator of OpenCV), coefficients k1, k2, p1,
 /// p2, k3, k4, k5, k6, r^2 = x^2 + y^2:
@@ -19,12 +19,12 @@ namespace throng::camera {
 ///   theta' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)
 ///   (x', y') = (x, y) theta' / r
 ///
-/// Beyond some distance from the axis such a polynomial turns back and shows points twice. The
-/// model is valid up to there, and nowhere farther than 80 degrees from the axis.
+/// Beyond some distance r from the axis such a polynomial decreases and maps two points to one. The
+/// model is valid up to that distance, and to at most 80 degrees from the axis.
 class Distortion {
  public:
   enum class Model { brown_conrady, fisheye };
-  /// In the order above; a fisheye's last four are 0.
+  /// Coefficients in the order above; the last four of a fisheye are 0.
   using Coefficients = std::array<double, 8>;
 
   Distortion(Model model, const Coefficients& coefficients);
@@ -34,18 +34,20 @@ class Distortion {
   /// Largest r for which the model is valid.
   double limit() const { return limit_; }
 
-  /// Nothing beyond the valid range.
+  /// Returns the distorted coordinates, or nothing beyond the valid range.
   std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& pinhole) const;
-  /// The inverse, found by Newton's method to 1e-12; nothing if no valid point is shown there.
+  /// The inverse of distort(), by Newton's method to 1e-12; nothing if no valid point is mapped to
+  /// `distorted`.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
-  /// The same, several times as fast where `guess` is near, as a neighbor's result is.
+  /// As above; several times as fast if `guess`, such as the result of a neighboring pixel, is
+  /// near.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted,
                                            const Eigen::Vector2d& guess) const;
-  /// Derivatives of distort: column 0 by x, column 1 by y.
+  /// The Jacobian of distort(): column 0 by x, column 1 by y.
   Eigen::Matrix2d derivatives(const Eigen::Vector2d& pinhole) const;
 
  private:
-  /// Distance from the axis as shown, and its derivative by r.
+  /// Distorted distance from the axis, and its derivative with respect to r.
   struct Radial {
     double shown;
     double slope;
@@ -53,7 +55,7 @@ class Distortion {
   Radial radial(double r) const;
   Eigen::Vector2d apply(const Eigen::Vector2d& pinhole) const;
   double find_limit() const;
-  /// The r in [0, limit] that is shown at this distance, which is at most the farthest.
+  /// The r in [0, limit_] whose distorted distance is `shown`, which must be at most max_shown_.
   double inverse_radial(double shown) const;
 
   Model model_;

@@ -1,4 +1,4 @@
-// A camera's lens from views of a known object: Zhang's method with Ceres.
+// Calibration of a camera's lens from views of a known object: Zhang's method with Ceres.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,15 @@ namespace throng::calibrate {
 
 struct IntrinsicsOptions {
   Lens lens = Lens::brown5;
-  bool choose_lens = false;  ///< fit every model and keep the one with the least BIC
-  Wishes wishes;             ///< of what the lens has; others are ignored if a lens is to be chosen
+  bool choose_lens = false;  ///< fit every model and keep the one with the smallest BIC
+  Wishes wishes;  ///< with `choose_lens`, parameters that a lens does not have are ignored
   FitOptions fit;
   std::string source = "calibration";  ///< named in errors
 };
 
-/// Throws InputError when there are too few views for what is to be estimated (it then also says
-/// what was left out), or when no lens explains them; Cancelled.
+/// Estimates the lens and the poses of all views. Throws InputError if there are too few views for
+/// the parameters to be estimated (with the reasons of excluded images) or if no lens explains the
+/// views, and Cancelled.
 Calibration calibrate_intrinsics(const Correspondences& all, const IntrinsicsOptions& options);
 
 }  // namespace throng::calibrate

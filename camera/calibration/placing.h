@@ -1,4 +1,4 @@
-// First poses of images and positions of points, for pose.h: resection and intersection.
+// Initial poses of images (resection) and positions of points (intersection), for pose.h.
 #pragma once
 
 #include <optional>
@@ -9,25 +9,26 @@
 
 namespace throng::calibrate {
 
-/// A known point as an image shows it.
+/// A known point and the pixel at which an image shows it.
 struct Sighting {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// The pose that most sightings agree with (least median of squares over sampled subsets, Rousseeuw
-/// 1984), so that up to a third of them may be wrong. Nothing when no pose shows them.
+/// The pose of an image by least median of squares over random subsets (Rousseeuw 1984), so that up
+/// to a third of the sightings may be wrong. Nothing for fewer than four usable sightings, or if no
+/// pose explains them. Deterministic.
 std::optional<ViewPose> resect(const std::vector<Sighting>& sightings,
                                const camera::Intrinsics& lens);
 
-/// A point as one of several images shows it.
+/// The pixel at which an image shows an unknown point, with the image's pose.
 struct Ray {
   camera::Pose pose;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// Point nearest to all rays (linear least squares); nothing when they are nearly parallel, or meet
-/// behind a camera.
+/// The point nearest to all rays (linear least squares); nothing if no two rays form an angle of
+/// one degree, or the point is behind a camera.
 std::optional<Eigen::Vector3d> intersect(const std::vector<Ray>& rays,
                                          const camera::Intrinsics& lens);
 

@@ -10,9 +10,9 @@
 
 namespace throng::calibrate {
 
-/// The pose that shows the points in these directions (x / z, y / z), in the sense of algebraic
-/// error: Terzakis and Lourakis' SQPnP (2020), with four points or more, in a plane or not. Nothing
-/// when there is none with the points before the camera.
+/// The pose that shows the points in these directions (x / z, y / z) with the least algebraic
+/// error: SQPnP of Terzakis and Lourakis (2020), for four points or more, coplanar or not. Nothing
+/// if no solution has the points in front of the camera.
 std::optional<ViewPose> pose_from_directions(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector2d>& directions);
 

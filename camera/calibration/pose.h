@@ -1,5 +1,5 @@
-// Poses of cameras with a known lens, from ground control points; and the bundle adjustment of
-// several images with control points and others.
+// Poses of cameras with a known lens from ground control points, and bundle adjustment of several
+// images with control points and tie points.
 #pragma once
 
 #include <string>
@@ -17,23 +17,24 @@ struct PoseOptions {
   std::string source = "calibration";  ///< named in errors
 };
 
-/// The pose of each image that shows at least four control points; images with fewer are left out.
-/// Throws InputError when there is none, Cancelled.
+/// Estimates the pose of each image that shows at least four control points; other images are
+/// excluded. Throws InputError if there is no such image or the control points are collinear, and
+/// Cancelled.
 Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& control_points,
                            const std::vector<NamedPixel>& pixels, const PoseOptions& options);
 
 struct BundleOptions {
   FitOptions fit;
-  Wishes wishes;          ///< of the lens; what is fixed without a value stays as it starts
-  bool fix_lens = false;  ///< leave the lens as it is
+  Wishes wishes;          ///< parameters fixed without a value keep their initial value
+  bool fix_lens = false;  ///< do not estimate the lens; `wishes` are ignored
   std::string source = "calibration";
 };
 
-/// Poses of all images, positions of all points, and the lens together. Images are placed by
-/// control points, then by points that placed images see; points need two images whose rays meet at
-/// an angle of at least one degree. Images and points that cannot be placed are left out. The
-/// world's frame is that of the control points, of which at least three beside a line must be seen.
-/// Throws InputError and Cancelled.
+/// Estimates the poses of all images, the positions of all points and the lens together. Initial
+/// poses of images come from four control points or more, then from six located points or more;
+/// points are located by two images whose rays form an angle of at least one degree. Other images
+/// and points are excluded. The world's frame is that of the control points, of which the images
+/// must show at least three that are not collinear. Throws InputError and Cancelled.
 Calibration adjust_bundle(const CameraFile& start, const ControlPoints& control_points,
                           const std::vector<NamedPixel>& pixels, const BundleOptions& options);
 

@@ -1,5 +1,5 @@
-// The pixel of a point, for numbers and for Ceres' automatic derivatives: the formulas of
-// camera/distortion.h, which the tests hold it against.
+// The projection of a point to a pixel as templates, for doubles and for Ceres' automatic
+// derivatives. The formulas are those of camera/distortion.h; tests compare both.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ struct Shown {
   T y;
 };
 
-/// camera::Distortion::distort, also outside the model's valid range (a solver passes through it).
-/// `k`: eight coefficients.
+/// As camera::Distortion::distort(), but also outside of the model's valid range, which a solver
+/// may enter temporarily. `k` has eight coefficients.
 template <typename T>
 Shown<T> distorted(bool fisheye, const T* k, const T& x, const T& y) {
   using std::atan;
@@ -39,8 +39,8 @@ Shown<T> distorted(bool fisheye, const T* k, const T& x, const T& y) {
           y * c + k[2] * (s + 2.0 * y * y) + 2.0 * k[3] * x * y};
 }
 
-/// The pixel of a point in the camera's frame; false for one that is not before the camera. `p`:
-/// all Parameters, with the tied ones applied.
+/// Computes the pixel of a point in the camera's frame. Returns false if the point is not in front
+/// of the camera. `p` has all Parameters, with ties applied; `point` three, `pixel` two elements.
 template <typename T>
 bool project(bool fisheye, const T* p, const T* point, T* pixel) {
   constexpr double kMinDepth = 1e-9;

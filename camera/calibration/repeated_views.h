@@ -1,4 +1,4 @@
-// Views that show the object exactly where another one does: they add no information.
+// Detection of views that repeat another view and thus add no information.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace throng::calibrate {
 
-/// A view repeats another when the pixels of the points that both show (at least half of each) are
-/// this near on the average (px, root mean square), as those of a camera that was not moved.
+/// Max root mean square distance (px) of the pixels of shared points (at least half of each view's
+/// points) at which a view counts as a repetition of another, as of a camera that was not moved.
 inline constexpr double kRepeatedPx = 2;
 
-/// Per view, the first view that it repeats; its own index where it repeats none.
+/// For each view, the index of the first view that it repeats, or its own index.
 std::vector<std::size_t> first_alike(const std::vector<View>& views);
 
-/// How many views are not repetitions.
+/// The number of views that are not repetitions.
 std::size_t distinct_views(const std::vector<View>& views);
 
-/// Moves views whose points and pixels are all those of an earlier one to `left_out`: the same
-/// image given twice.
+/// Moves views whose points and pixels equal those of an earlier one, as of an image given twice,
+/// to `left_out`.
 void leave_out_copies(Correspondences& all);
 
 }  // namespace throng::calibrate

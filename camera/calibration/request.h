@@ -1,4 +1,4 @@
-// A calibration request, from the command line or over HTTP, and its processing.
+// A calibration request, from the command line or HTTP, and its processing.
 #pragma once
 
 #include <cstdint>
@@ -18,41 +18,41 @@
 namespace throng::calibrate {
 
 struct Request {
-  std::string kind = "intrinsics";            ///< or "pose" or "bundle"
-  std::vector<std::filesystem::path> images;  ///< of a board
+  std::string kind = "intrinsics";            ///< "intrinsics", "pose" or "bundle"
+  std::vector<std::filesystem::path> images;  ///< intrinsics: images of a board
   Board board;
-  std::filesystem::path points;          ///< intrinsics, instead of images: image,i,X,Y,Z,u,v
-  std::filesystem::path observations;    ///< pose, bundle: image,point,u,v
-  std::filesystem::path control_points;  ///< pose, bundle: point,X,Y,Z[,sd]
-  std::optional<ImageSize> size;         ///< of what tables speak of
-  /// pose: the lens; bundle: what it starts from.
+  std::filesystem::path points;          ///< intrinsics, instead of images: table image,i,X,Y,Z,u,v
+  std::filesystem::path observations;    ///< pose, bundle: table image,point,u,v
+  std::filesystem::path control_points;  ///< pose, bundle: table point,X,Y,Z[,sd]
+  std::optional<ImageSize> size;         ///< size of the images to which the tables refer
+  /// File of a camera (spec/calibration/camera_file.h). pose: the lens; bundle: its initial values.
   std::filesystem::path camera;
-  bool fix_lens = false;  ///< bundle: leave the lens as it is
+  bool fix_lens = false;  ///< bundle: do not estimate the lens
   IntrinsicsOptions options;
 };
 
-/// Reads what a client sent; paths are below `folder`, where its files lie. Throws InputError with
-/// JSON pointers.
+/// Reads a client's request; its paths are relative to `folder`. Throws InputError with JSON
+/// pointers.
 Request request_from_json(const nlohmann::json& value, const std::filesystem::path& folder);
 
-/// Pixels of the largest of the request's images, by their heads: nothing is decoded. 0 without
-/// images. Throws InputError for a file that is none, or has more pixels than are decoded.
+/// Number of pixels of the request's largest image, from the image headers only; 0 without images.
+/// Throws InputError for a file that is no image or has more pixels than the decoder accepts.
 std::int64_t max_image_pixels(const Request& request);
 
-/// `done` of `total` of the work, and what it is.
+/// Receives the completed share of the work (0 to 1) and a description of the current step.
 using OnProgress = std::function<void(double share, const std::string& what)>;
 
-/// Points that were found in the images, before anything is estimated from them.
+/// Receives the points found in the images, before the estimation starts.
 using OnFound = std::function<void(const Correspondences&)>;
 
-/// Throws InputError, EnvironmentError (a file cannot be read) and Cancelled (by
-/// options.fit.should_continue).
+/// Runs the calibration. Throws InputError, EnvironmentError (a file cannot be read) and Cancelled
+/// (if options.fit.should_continue returns false).
 Calibration carry_out(const Request& request, const OnProgress& on_progress = {},
                       const OnFound& on_found = {});
 
-/// Reads folder/request.json, whose files lie in folder/files, and writes the results into the
-/// folder, the camera last; the points of images also when nothing can be estimated from them.
-/// Throws as carry_out().
+/// Processes folder/request.json, whose files are in folder/files, and writes the results
+/// (spec/calibration/request_files.h) into the folder, the camera last. The points of images are
+/// written even if the estimation fails. Throws as carry_out().
 void carry_out_in(const std::filesystem::path& folder, const OnProgress& on_progress,
                   const std::function<bool()>& should_continue);
 

@@ -1,4 +1,4 @@
-// A calibration to look at.
+// A plot of a calibration's residuals.
 #pragma once
 
 #include "base/graphics/drawing/drawing.h"
@@ -6,9 +6,8 @@
 
 namespace throng::calibrate {
 
-/// A chart: positions of the points in the image and their residuals (residuals drawn 50
-/// times as long, outliers in red), the cells without points, the scatter of the residuals, and the
-/// RMS of each view.
+/// A drawing of the points in the image with their residuals (enlarged 50 times, outliers in red),
+/// the cells without points, the scatter of the residuals, and the RMS of each view.
 drawing::Drawing residual_plot(const Calibration& calibration);
 
 }  // namespace throng::calibrate

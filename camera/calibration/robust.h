@@ -1,4 +1,4 @@
-// Least squares that single wrong observations cannot spoil.
+// Least squares with detection of outliers.
 #pragma once
 
 #include <cstddef>
@@ -11,36 +11,38 @@
 namespace throng::calibrate {
 
 struct FitOptions {
-  /// Leave out what lies farther off than `kOutlierSigmas` robust standard deviations and
-  /// outlier_px.
+  /// Whether observations are rejected whose residual exceeds both kOutlierSigmas robust standard
+  /// deviations and outlier_px.
   bool reject = true;
-  /// Smaller residuals are kept: an unsharp corner rather than a mistake, and programs that know no
-  /// outliers give the same result.
+  /// Residuals up to this length are never rejected: they come from blurred corners rather than
+  /// mistakes, and results then agree with programs that do not detect outliers.
   double outlier_px = 4;
-  /// Keep Cauchy's loss with this scale (px) to the end; 0: plain least squares, so that equal data
-  /// give the result of any other such program.
+  /// Scale (px) of Cauchy's loss in the final solution; 0: plain least squares, as in other
+  /// programs.
   double loss_px = 0;
   /// Standard deviation of pixel coordinates; nothing: estimated from the residuals.
   std::optional<double> sigma_px;
   std::function<bool()> should_continue = {};  ///< as in SolveOptions
 };
 
+/// Max residual of an inlier, in robust standard deviations.
 inline constexpr double kOutlierSigmas = 6;
 
 struct Fit {
   bool converged = false;
   int iterations = 0;
-  double sigma_px = 0;        ///< of a pixel coordinate, from the residuals and what is left over
-  double rms_px = 0;          ///< of distances, OpenCV's convention: sqrt(sum |r|^2 / points)
-  std::size_t used = 0;       ///< observations
-  std::size_t rejected = 0;   ///< observations
-  Linearization derivatives;  ///< covariance for the sigma above (or the one that was given)
+  double sigma_px = 0;   ///< of a pixel coordinate, from residuals and surplus; NaN without surplus
+  double rms_px = 0;     ///< by OpenCV's convention: sqrt(sum |r|^2 / points)
+  std::size_t used = 0;  ///< number of observations used
+  std::size_t rejected = 0;   ///< number of observations rejected
+  Linearization derivatives;  ///< covariance at the solution
 };
 
-/// Solves, detects outliers (first against a robust solution, then against the one without them)
-/// and solves again until nothing changes. A deviation is compared with the larger of that of all
-/// observations and that of its own view, so that a view that is blurred as a whole stays. Leaves
-/// Observation::used and Adjustment::sigma_px as they were found.
+/// Solves, detects outliers (first from a robust solution, then from the solution without them) and
+/// solves again until the classification is stable (six rounds at most). A residual is compared
+/// with the robust standard deviation of all observations or, if larger, of its view (up to four
+/// times the overall one), so that a blurred view is kept. Stores the classification in
+/// Observation::used and the standard deviation in Adjustment::sigma_px.
 Fit fit(Adjustment& adjustment, const FitOptions& options);
 
 /// Median of absolute values, scaled to a normal distribution's standard deviation.

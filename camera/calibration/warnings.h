@@ -1,4 +1,4 @@
-// Warnings about results that a calibration's data cannot support.
+// Warnings about results that a calibration's data do not support.
 #pragma once
 
 #include <array>
@@ -9,26 +9,26 @@
 
 namespace throng::calibrate {
 
-/// Adds warnings of too few views, boards that are all seen from one direction, parts of the image
-/// without points, parameters that the data leave open or barely fix, models that fold within the
-/// image, and many outliers.
+/// Adds warnings of too few views, views from a single direction, parts of the image without
+/// points, parameters that the data determine not at all or poorly, distortion models that are not
+/// monotonic within the image, and many outliers.
 void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& calibration);
 
-/// Adds warnings of control points that are few, in a line, or in a corner of the image, and of
-/// poses that they leave open.
+/// Adds warnings of control points that are few, collinear or in a corner of the image, and of
+/// poses that they do not determine.
 void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_points, const Fit& fit,
                                 Calibration& calibration);
 
-/// Control points below which a pose is unreliable (measured: docs/calibration.md).
+/// Number of control points below which a pose is unreliable (measured: docs/calibration.md).
 inline constexpr std::size_t kEnoughControlPoints = 8;
 
-/// Cells of a grid over the image, row by row, and whether each holds a used point.
+/// Size of a grid over the image, and, row by row, whether each cell contains a used point.
 inline constexpr std::size_t kCoverageColumns = 8;
 inline constexpr std::size_t kCoverageRows = 6;
 using Coverage = std::array<bool, kCoverageColumns * kCoverageRows>;
 Coverage covered_cells(const Calibration& calibration);
 
-/// Share of these cells that hold one.
+/// The share of cells that contain a used point.
 double image_coverage(const Calibration& calibration);
 
 }  // namespace throng::calibrate
