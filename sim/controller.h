@@ -1,4 +1,4 @@
-// The autopilot: from where the vehicle should be to how fast its rotors should turn.
+// The autopilot, which computes rotor speeds from a set-point and the state of the vehicle.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,33 +9,35 @@
 
 namespace throng::sim {
 
+/// Commanded motion of a vehicle, in the world's frame.
 struct Setpoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s, of the set-point itself
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s², likewise
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s, feed-forward
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s², feed-forward
   double yaw_rad = 0;
 };
 
-/// How fast a vehicle makes good an error of position, and how far it may lean.
+/// Max speeds at which a vehicle corrects a position error, and its max tilt.
 struct FlightLimits {
   double horizontal_mps = 5;
   double vertical_mps = 2;
   double tilt_rad = 35 * kDegree;
 };
 
-/// A cascade: position -> velocity (P) -> acceleration (PI) -> attitude and thrust -> angular
-/// acceleration (PD on SO(3), attitude error after Lee et al. 2010) -> rotor speeds (X mixer).
+/// A cascaded controller: position -> velocity (P) -> acceleration (PI) -> attitude and thrust ->
+/// angular acceleration (PD on SO(3), attitude error by Lee et al. 2010) -> rotor speeds (X mixer).
 class Controller {
  public:
   explicit Controller(Airframe airframe, FlightLimits limits = {});
 
-  /// Rotor speeds (rad/s) to command for the next `dt_s`.
+  /// Returns the rotor speeds (rad/s) to command for the next `dt_s`.
   PerRotor update(const FlightState& state, const Setpoint& setpoint, double dt_s);
 
-  /// Begins as if it had hovered in this wind (m/s) for a while: its integral holds against it.
+  /// Sets the integral as after a long hover in this wind (m/s, world), so that it compensates the
+  /// wind from the start.
   void trim(const Eigen::Vector3d& wind);
 
-  /// Whether the last update wanted more tilt than the limit allows.
+  /// Whether the last update required more tilt than the limit.
   bool tilt_saturated() const { return tilt_saturated_; }
 
  private:

@@ -1,4 +1,5 @@
-// Couples crowd and drones: shows the drones' policies the crowd, and lets people see the drones.
+// Couples crowd and drones: passes observations of the crowd to the drones' policies, and moves the
+// goals of people who follow drones.
 #pragma once
 
 #include <optional>
@@ -14,18 +15,19 @@ namespace throng::sim {
 
 class GuidanceLoop {
  public:
-  /// All but the numbers must outlive it.
+  /// `scenario`, `roles` and `drones` must outlive the loop.
   GuidanceLoop(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
                const std::vector<PlannedDrone>& drones, std::uint64_t seed, double step_s);
 
-  /// Shows every policy the world as it is at `time_s`, one after the other: each knows the plans
-  /// that those before it have just made.
+  /// Passes the state of the world at `time_s` to the policies in the order of the drones. Each
+  /// policy sees the plans that previous policies have just made.
   void look(const CrowdSource& crowd, const CrowdRecorder& recorder, Flight& flight, double time_s);
 
-  /// Reports the drones' destinations.
+  /// Reports the drones' set-points to the observer.
   void report(const Flight& flight, RunObserver& observer) const;
 
-  /// Puts the goals that drones move below them; those of drones that lead nobody are out of sight.
+  /// Moves the goals of drones to the ground below them, and those of drones that do not lead out
+  /// of people's sight.
   void move_goals(const Flight& flight, CrowdSource& crowd) const;
 
  private:
@@ -34,7 +36,7 @@ class GuidanceLoop {
   const std::vector<PlannedDrone>& drones_;
   std::vector<std::optional<world::GoalRef>> goals_;  // per drone
   CrowdObserver observer_;
-  std::vector<std::optional<CameraPerception>> cameras_;  // per drone; none: sees the truth
+  std::vector<std::optional<CameraPerception>> cameras_;  // per drone; nothing: sees the truth
 };
 
 }  // namespace throng::sim

@@ -1,4 +1,4 @@
-// One run: the clock that couples crowd and drones and writes the trace.
+// Simulation of one run: crowd and drones on a common clock, with the trace as output.
 #pragma once
 
 #include <cstdint>
@@ -17,29 +17,30 @@
 
 namespace throng::sim {
 
-/// The pedestrian model of a run: the spec's, else the one that the scenario was made for, else
-/// `orca` where Menge's results are wanted and `ttc` where people should walk as people do.
+/// The pedestrian model of a run: that of `spec`, else that of the scenario, else `orca` in a
+/// `compat` mode and `ttc` otherwise.
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 
-/// The crowd of a run as the scenario begins. Throws like crowd::Simulation's constructor.
+/// Loads the crowd of a run in its initial state. Throws as crowd::Simulation's constructor.
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec);
 
-/// Called with simulated seconds done and the total.
+/// Receives the simulated seconds so far and in total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
-/// Simulates one run. Throws and returns like the other.
+/// Simulates one run and reports it to `observer`, until the end or until observer.done(). Returns
+/// warnings and throws as the overload below.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               RunObserver& observer, const RunProgress& progress = {},
                               const std::stop_token& stop = {});
 
-/// Simulates one run and writes the trace at `trace_file` (complete or absent). Same scenario and
-/// spec give the same bytes. Returns what was ignored in the scenario's files, which drones could
-/// not hold, and why the figures of its people say nothing (sim/people/people_watch.h). Throws
-/// InputError for a spec the scenario cannot serve (too many people, unknown airframe or policy,
-/// waypoint below ground or inside a building), Cancelled when `stop` asks. With a
-/// `pilot_log_folder` a file DRONE.csv there holds what each drone was asked to do, as the policy
-/// "pilot_log" reads it.
+/// Simulates one run and writes its trace to `trace_file`, which is complete or absent afterwards;
+/// equal scenarios and specs give equal bytes. With a `pilot_log_folder`, also writes each drone's
+/// set-points to DRONE.csv there, for the policy "pilot_log". Returns warnings: ignored parts of
+/// the scenario's files, drones that could not hold their position, and reasons why evacuation
+/// metrics are meaningless (sim/people/people_watch.h). Throws InputError for a spec that does not
+/// suit the scenario (too many people, unknown airframe or policy, waypoint below ground or inside
+/// a building), and Cancelled on a request of `stop`.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               const std::filesystem::path& trace_file,
                               const RunProgress& progress = {}, const std::stop_token& stop = {},

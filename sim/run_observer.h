@@ -1,4 +1,4 @@
-// Receiver of everything that happens in a run.
+// The interface that receives the states and events of a run.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ class RunObserver {
   virtual void step(const world::CrowdStep&) {}
   virtual void drone(std::size_t /*drone*/, const world::DroneSample&) {}
   virtual void event(const world::TraceEvent&) {}
-  /// Set-point of the drone and whether it leads, once per step of the crowd.
+  /// Receives the set-point of a drone and whether it leads, once per step of the crowd.
   virtual void pilot(std::size_t /*drone*/, const PilotSample&) {}
-  /// Whether the rest of the run is of no interest.
+  /// Whether the run may end early.
   virtual bool done() const { return false; }
 };
 

@@ -1,4 +1,4 @@
-// A run step by step: simulate() takes all of its steps, a live flight each when its time has come.
+// A run that is advanced step by step: by simulate() at once, by a live flight in real time.
 #pragma once
 
 #include <memory>
@@ -15,29 +15,30 @@ namespace throng::sim {
 
 class SteppedRun {
  public:
-  /// Checks the specification, as simulate() does, and reports the start to the observer. Scenario
-  /// and observer must outlive it. Throws like simulate().
+  /// Checks the specification and reports the start of the run to the observer. `scenario` and
+  /// `observer` must outlive the run. Throws InputError as simulate().
   SteppedRun(const world::Scenario& scenario, const RunSpec& spec, RunObserver& observer);
   ~SteppedRun();
   SteppedRun(const SteppedRun&) = delete;
   SteppedRun& operator=(const SteppedRun&) = delete;
 
-  /// Seconds of a step.
+  /// Duration of a step (s).
   double dt_s() const;
-  /// Simulated seconds so far.
+  /// Simulated time so far (s).
   double time_s() const;
   const std::vector<PlannedDrone>& drones() const;
   FlightState drone_state(std::size_t drone) const;
   const Pilot& pilot(std::size_t drone) const;
 
-  /// Adds a set-point to those of a drone whose policy is "pilot_log"; later than all before it.
+  /// Appends a set-point, which must be later than all previous ones, for a drone with the policy
+  /// "pilot_log".
   void fly_on(std::size_t drone, const PilotSample& setpoint);
 
-  /// Simulates one step of the crowd, and the flight meanwhile.
+  /// Simulates one step of the crowd and the flight during it.
   void step();
 
-  /// Reports what was still going on. Returns the warnings that simulate() returns; call nothing
-  /// afterwards.
+  /// Reports events that are still going on. Returns the warnings of simulate(), except those of
+  /// PeopleWatch. No other method may be called afterwards.
   std::vector<Problem> finish();
 
  private:

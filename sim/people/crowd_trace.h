@@ -1,4 +1,4 @@
-// The crowd engine's state in the form of a trace.
+// Conversion of the crowd engine's state to a trace.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@
 
 namespace throng::sim {
 
-/// Constant data in the trace of a crowd: everybody is a person, there are no exits and no drones.
+/// Constant data of a crowd's trace; all agents are persons, and there are no exits and drones.
 world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t seed);
 
-/// The crowd as it is now; nobody heads for an exit.
+/// The current state of the crowd, without intents.
 world::CrowdStep crowd_step(const crowd::Simulation& crowd);
 
-/// Writes the trace of a crowd without a scenario around it.
+/// Writes the trace of a crowd that has no scenario.
 class CrowdTrace : public crowd::Recorder {
  public:
-  /// `name` stands where other traces have the scenario. Throws EnvironmentError.
+  /// `name` is written instead of a scenario's id. Throws EnvironmentError.
   CrowdTrace(const std::filesystem::path& path, const std::string& name,
              const crowd::Simulation& crowd, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// Participants of a run: all of the scenario's people, or a random share of them.
+// The participants of a run: all of the scenario's people, or a random sample of them.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,10 @@
 
 namespace throng::sim {
 
-/// A role for each of `agents` agents: the scenario's (its id is for messages) disasters, `people`
-/// persons sampled by the seed (all when it is not given) and the rest absent. A larger draw with
-/// the same seed holds every smaller one. Adds to `problems` what cannot be.
+/// Returns a role for each of `agents` agents: `disaster_agents` are disasters, `people` of the
+/// others, sampled by the seed (default: all), are persons, and the rest is absent. A larger sample
+/// contains every smaller one with the same seed. Adds a problem for a disaster agent that does not
+/// exist (naming `scenario`) and for more people than the scenario has.
 std::vector<world::AgentRole> choose_roles(const std::string& scenario,
                                            std::span<const int> disaster_agents, std::size_t agents,
                                            std::optional<int> people, std::uint64_t seed,

@@ -1,4 +1,5 @@
-// Runs whose figures say nothing: people who start outside, whom no alarm reaches, who never move.
+// Detects runs whose evacuation metrics are meaningless: people who start outside, are not reached
+// by the alarm, or never move.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +14,26 @@
 
 namespace throng::sim {
 
-/// The finding about a run without images that ends before its alarm (s).
+/// The warning about a run without images that ends at `end_s`, before its alarm.
 Problem late_alarm(double alarm_s, double end_s);
 
+/// Observes the people of a run and derives warnings.
 class PeopleWatch {
  public:
-  /// The scenario must outlive it. `images_from_s`: time of the first image, if there are any.
+  /// `scenario` must outlive this object. `images_from_s`: time of the first image, if any.
   PeopleWatch(const world::Scenario& scenario, const world::TraceHeader& header,
               std::optional<double> images_from_s);
 
-  /// Steps come in order of time.
+  /// To be called for each step, in order of time.
   void look(const world::CrowdStep& step);
 
-  /// Whether somebody knows of the alarm, as docs/metrics.md defines it.
+  /// Whether any person has noticed the alarm, as docs/metrics.md defines it.
   bool anybody_noticed() const { return noticed_ > 0; }
 
-  /// Findings about the run so far, at most one of each kind. JSON pointers into a job.
+  /// Warnings about the run so far, at most one of each kind, with JSON pointers into a job.
   std::vector<Problem> warnings() const;
-  /// Those of them about people who do not do what a run is about: of several reasons the first.
+  /// The warning, at most one, that people do not notice the alarm, do not head for an exit, or do
+  /// not move; only the first of these. Part of warnings().
   std::vector<Problem> idleness() const;
 
  private:
@@ -41,10 +44,10 @@ class PeopleWatch {
     bool escaped = false;
     bool started = false;  ///< was inside at the alarm or arrived later
     bool noticed = false;
-    bool heads_out = false;  ///< since then: for an exit or behind a guide
+    bool heads_out = false;  ///< since then: for an exit, or follows a guide
     bool moved = false;      ///< since then
     std::int8_t intent_before = -1;
-    Eigen::Vector2f start = Eigen::Vector2f::Zero();  ///< m; where it was at first since then
+    Eigen::Vector2f start = Eigen::Vector2f::Zero();  ///< m; first position since then
   };
 
   void look_at(Person& person, const world::CrowdStep& step);
@@ -60,11 +63,11 @@ class PeopleWatch {
   std::vector<bool> is_aware_;  ///< per state
   std::vector<Person> people_;
   std::size_t arrived_ = 0;
-  std::size_t outside_ = 0;  ///< people who were so when they arrived
+  std::size_t outside_ = 0;  ///< people who were outside when they arrived
   std::size_t started_ = 0;
   std::size_t noticed_ = 0;
   double time_s_ = 0;
-  double last_inside_s_ = 0;  ///< when somebody was inside
+  double last_inside_s_ = 0;  ///< last time at which a person was inside
 };
 
 }  // namespace throng::sim

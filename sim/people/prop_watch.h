@@ -1,5 +1,5 @@
-// People who stand in or walk through props. The crowd does not know of props, so a scenario with a
-// prop in people's path is wrong, and so would be its images.
+// Detects people who stand in or walk through props. The crowd engine ignores props, so a prop in
+// people's path is a mistake of the scenario that would show in images.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +17,15 @@ namespace throng::sim {
 
 class PropWatch {
  public:
-  /// The scenario must outlive it.
+  /// `scenario` must outlive this object.
   explicit PropWatch(const world::Scenario& scenario);
 
-  /// Notes each prop that the middle of somebody who is `there` comes into, but for its edge: a
-  /// fifth of its length and width on each side.
+  /// Records each prop that contains the position (m) of an agent who is `there` (not 0). A margin
+  /// of a fifth of the prop's length and width on each side does not count.
   void look(std::span<const Eigen::Vector2f> positions, std::span<const std::uint8_t> there,
             double time_s);
 
-  /// One per prop: which, where, who and when.
+  /// One problem per prop, with the prop, its position, the agent and the time.
   const std::vector<Problem>& problems() const { return problems_; }
 
  private:

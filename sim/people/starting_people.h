@@ -1,4 +1,4 @@
-// People of a run before its first step.
+// The people of a run before its first step.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,15 +14,15 @@
 namespace throng::sim {
 
 struct StartingPeople {
-  std::unique_ptr<CrowdSource> crowd;  ///< in which only those who take part are present
+  std::unique_ptr<CrowdSource> crowd;  ///< only participants are present
   std::vector<world::AgentRole> roles;
 
   /// Positions (m) of the persons who are present.
   std::vector<Eigen::Vector2d> places() const;
 };
 
-/// The crowd or the recording of a run, with its participants. Adds to `problems` what cannot be;
-/// throws InputError where the crowd cannot be loaded.
+/// Loads the crowd or the recording of a run and chooses its participants. Adds the problems of
+/// choose_roles() to `problems`. Throws InputError if the crowd cannot be loaded.
 StartingPeople starting_people(const world::Scenario& scenario, const RunSpec& spec,
                                std::vector<Problem>& problems);
 

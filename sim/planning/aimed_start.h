@@ -1,5 +1,5 @@
-// Starts of drones that aim at people, in any scenario: of a job that has many places, or one that
-// is generated.
+// Sampled starts of drones whose cameras look at people. They work in any scenario, for jobs with
+// several or generated scenarios.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,21 +12,21 @@
 
 namespace throng::sim {
 
-/// Gives each mission with an aim a start and a heading, so that its camera's optical axis meets
-/// one of the `people` (m; a place inside the scenario where there are none), sampled by the seed
-/// together with the direction from which the drone looks. The start keeps clear of buildings and
-/// of other drones' starts, with nothing between it and the person where that can be had. A camera
-/// that looks less steeply than `max_distance_m` allows has the person below its axis. Adds a
-/// problem where no start is free.
+/// Sets the start and the heading of each mission with an aim, so that the optical axis of its
+/// camera meets one of the `people` (positions, m; without people, a point inside the scenario).
+/// The person and the viewing direction are sampled by the seed. The start keeps clear of buildings
+/// and of other drones' starts, if possible with a free line of sight. If `max_distance_m` limits
+/// the distance, a flat view has the person below its axis. Adds a problem if no start is free.
 void aim_drones(const world::Scenario& scenario, const std::vector<Eigen::Vector2d>& people,
                 std::uint64_t seed, std::vector<DroneMission>& missions,
                 std::vector<Problem>& problems);
 
-/// The people of a run at its start, for aim_drones(). Loads the crowd if a mission has an aim;
-/// else there are none. Throws InputError like the simulation.
+/// Positions (m) of a run's people at its start, for aim_drones(). Empty, without loading the
+/// crowd, if no mission has an aim. Throws InputError as simulate().
 std::vector<Eigen::Vector2d> people_to_aim_at(const world::Scenario& scenario, const RunSpec& run);
 
-/// The missions of a run, aimed as its simulation aims them.
+/// The missions of a run with the same starts as in its simulation. Adds to `problems` as
+/// aim_drones().
 std::vector<DroneMission> aimed_missions(const world::Scenario& scenario, const RunSpec& run,
                                          std::vector<Problem>& problems);
 

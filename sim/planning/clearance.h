@@ -1,4 +1,4 @@
-// Room of a vehicle among buildings: where plans and live flights may send it.
+// Clearance of a vehicle from buildings and the ground, for plans and live flights.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,14 +8,15 @@
 
 namespace throng::sim {
 
-/// Least height (m) of a vehicle's middle above the ground.
+/// Min height (m) of a vehicle's center above the ground.
 double lowest_height_m(const Airframe& frame);
 
-/// A building that is too near to a point (m) for the vehicle; null: none.
+/// Returns a building that is too close to `point` (m) for the vehicle, or null.
 const world::Building* building_near(const world::Scenario& scenario, const Eigen::Vector3d& point,
                                      const Airframe& frame);
 
-/// Likewise of the straight path between two points, without its end.
+/// Returns a building that is too close to the straight path between two points (m) for the
+/// vehicle, or null. The end points themselves are not checked.
 const world::Building* building_between(const world::Scenario& scenario,
                                         const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                         const Airframe& frame);

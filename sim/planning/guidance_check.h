@@ -1,4 +1,4 @@
-// Whether a mission's parameters are those that its policy needs and takes, and make sense.
+// Checks that a mission has the parameters of its policy, and only these, with valid values.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace throng::sim {
 
-/// Adds what is wrong to `problems`; `pointer` is that of the job's "guidance".
+/// Adds to `problems`; `pointer` is the JSON pointer of the drone's "guidance".
 void check_guidance(const PolicyEntry& policy, const DroneMission& mission,
                     const world::Scenario& scenario, const std::string& pointer,
                     std::vector<Problem>& problems);

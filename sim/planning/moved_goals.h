@@ -1,4 +1,4 @@
-// Goals of the behavior file that drones move, so that people follow them.
+// Goals of the behavior file that drones move, so that people follow the drones.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,14 @@
 
 namespace throng::sim {
 
-/// Whether the mission names a goal to move that the scenario does not give this drone anyway.
+/// Whether the mission names a goal to move that differs from the scenario's goal for this drone.
 bool has_own_goal(const DroneMission& mission, const world::Scenario& scenario);
 
-/// That the behavior file does not have the goal of a drone, by its index.
+/// The problem that the behavior file does not contain the goal of a drone (index in the job).
 Problem unknown_goal(std::size_t drone, const world::GoalRef& goal);
 
-/// Problems of goals that drones are to move but that the behavior file does not have. Moves them.
+/// Adds a problem for each mission whose goal the behavior file does not contain. As a side effect,
+/// moves the existing goals to the origin.
 void check_moved_goals(const std::vector<DroneMission>& missions, crowd::Simulation& crowd,
                        std::vector<Problem>& problems);
 

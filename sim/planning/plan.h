@@ -1,4 +1,4 @@
-// The drones of a run, checked: what was asked, completed with what the scenario knows.
+// Checks the missions of a run's drones and completes them with values of the scenario.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,9 @@
 
 namespace throng::sim {
 
-/// Checks every mission, and that no two drones come too near to each other within `duration_s` as
-/// far as their paths are known (sim/planning/separation.h). Adds what is wrong to `problems`, with
-/// JSON pointers as in a job ("/drones/0/guidance/waypoints/2"). The plan is usable only when
-/// nothing was added.
+/// Checks every mission, and the separation of the drones within `duration_s` as far as their paths
+/// are known (sim/planning/separation.h). Adds to `problems`, with JSON pointers into a job
+/// ("/drones/0/guidance/waypoints/2"). The result is usable only if nothing was added.
 std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
                                       const std::vector<DroneMission>& missions, double duration_s,
                                       std::vector<Problem>& problems);

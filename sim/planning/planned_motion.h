@@ -1,4 +1,4 @@
-// How a drone means to fly when its policy does not depend on people.
+// The planned motion of a drone whose policy does not depend on people.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,20 +8,21 @@
 
 namespace throng::sim {
 
-/// Whether a policy's path depends on the people that it sees, so that it is not known before.
+/// Whether a policy's path depends on people, so that it is unknown before the simulation.
 constexpr bool goes_by_people(const PolicyEntry& policy) {
   return (policy.takes & kFieldPerception) != 0;
 }
 
-/// Plays the set-points of a drone's policy as if the drone flew them exactly and its battery
-/// lasted. The drone must outlive it, and its policy must not go by people.
+/// Computes the set-points of a drone's policy as if the drone followed them exactly and its
+/// battery never ran out. `drone` must outlive this object, and goes_by_people() must be false for
+/// its policy.
 class PlannedMotion {
  public:
   explicit PlannedMotion(const PlannedDrone& drone);
 
-  /// Set-point of the drone `dt_s` later, m.
+  /// Advances by `dt_s` and returns the position of the set-point (m).
   const Eigen::Vector3d& advance(double dt_s);
-  /// Heading of the last set-point.
+  /// The heading of the last set-point.
   double yaw_rad() const { return yaw_rad_; }
 
  private:

@@ -10,19 +10,19 @@
 
 namespace throng::sim {
 
-/// The set-points of each drone's policy over the run's duration, as if the drone flew them exactly
-/// and its battery lasted. A policy that depends on the people it sees has no path before there are
-/// any: only the drone's start. Throws InputError for missions that cannot be flown.
+/// The set-points of each drone's policy over the run's duration, as if the drone followed them
+/// exactly and its battery never ran out. The path of a policy that depends on people consists of
+/// the drone's start only. Throws InputError for missions that cannot be flown.
 std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run);
 
-/// Set-point of a drone at a time.
+/// The set-point of a drone at a time.
 struct PlannedPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   double yaw_rad = 0;
 };
 
-/// The same as poses at ascending times (s), one per time; none of a drone whose policy depends on
-/// the people it sees. Throws InputError like planned_paths().
+/// The planned poses of each drone, one for each of the ascending `times_s`; empty for a drone
+/// whose policy depends on people. Throws InputError as planned_paths().
 std::vector<std::vector<PlannedPose>> planned_poses(const world::Scenario& scenario,
                                                     const RunSpec& run,
                                                     std::span<const double> times_s);

@@ -1,4 +1,4 @@
-// Whether the drones of a run keep away from each other, as far as that is known before the run.
+// Checks the distances between the drones of a run, as far as their paths are known before the run.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace throng::sim {
 
-/// Margin (m) around a drone for its deviations from the path, toward buildings as toward the
-/// surface of another drone.
+/// Margin (m) around a drone for deviations from its path, to buildings and to the surfaces of
+/// other drones.
 inline constexpr double kFlightClearanceM = 0.5;
 
-/// Adds a problem for every drone whose start, or whose path at some time up to `duration_s`, is
-/// nearer than the clearance to that of a drone before it in the list. Paths of policies that go by
-/// people are not known; of those drones only the starts are checked.
+/// Adds a problem for every drone that at some time up to `duration_s` comes closer than the margin
+/// to a drone before it in the list. If the policy of either drone depends on people, only their
+/// starts are compared.
 void check_separation(const std::vector<PlannedDrone>& drones, double duration_s,
                       std::vector<Problem>& problems);
 
-/// Warnings for drones that may meet: a policy that goes by people may fly anywhere at its height,
-/// and another drone is at that height now and then.
+/// Warnings for pairs of drones that may meet: the policy of one depends on people, so that it may
+/// fly anywhere at its height, and the other drone's path includes that height.
 std::vector<Problem> possible_meetings(const std::vector<PlannedDrone>& drones);
 
 }  // namespace throng::sim

@@ -1,7 +1,6 @@
-// "balance": takes people from where they would wait longest and leads them to the exit at which
-// they get out soonest, in batches that leave both queues equally long. Several drones share the
-// work by announcing their plans to each other; people who are standing or have not noticed come
-// last.
+// The policy "balance": leads people from the exit with the longest wait to the exit at which they
+// get out soonest, in batches that make both waits equal. Drones coordinate by announcing their
+// plans to each other. People who stand or have not noticed the alarm are led last.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// "follow_density": keep the camera on where the crowd is densest: the drone flies so that the
-// camera's axis, as it is mounted, meets the ground there.
+// The policy "follow_density": keeps the camera on the densest part of the crowd. The drone flies
+// so that the optical axis of its camera, as mounted, meets the ground there.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// A set-point that glides over the ground at a height: to a place, at most at a speed, speeding up
-// and braking gently, never far ahead of the drone.
+// A set-point that moves horizontally to a goal with limited speed and acceleration, and never far
+// ahead of the drone.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +12,13 @@ class Glide {
  public:
   Glide(const Eigen::Vector3d& start, double yaw_rad);
 
-  /// From now on to `place` (m) at up to `speed_mps`; stops there.
+  /// Sets the goal `place` (m), where the set-point will stop, and the max speed.
   void go(const Eigen::Vector2d& place, double speed_mps);
-  /// Stops as soon as it can.
+  /// Stops as soon as the acceleration permits.
   void stop();
   void face(double yaw_rad) { setpoint_.yaw_rad = yaw_rad; }
 
-  /// The set-point `dt_s` after the last call, for a drone that is at `state`.
+  /// Advances by `dt_s` and returns the set-point, for a drone with this state.
   const Setpoint& advance(const FlightState& state, double dt_s);
 
   Eigen::Vector2d place() const { return setpoint_.position.head<2>(); }

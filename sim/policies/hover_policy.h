@@ -1,4 +1,4 @@
-// "hover": stay at the start.
+// The policy "hover": stays at the start.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The path along which a drone leads people out by an exit.
+// The path along which a drone leads people through an exit.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,19 @@
 
 namespace throng::sim {
 
-/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Meters.
+/// Three points (m): in front of the door, where followers line up; in the door; and beyond it,
+/// clear of the walls.
 struct LeadRoute {
   std::array<Eigen::Vector2d, 3> points;
   const Eigen::Vector2d& mouth() const { return points[1]; }
 };
 
-/// Lines up `before_m` in front of the door.
+/// The route through an exit; its first point is `before_m` in front of the door.
 LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings,
                         double before_m = 3);
 
-/// The exits that a drone may lead to: those of these ids, or all, as far as they are open at
-/// first.
+/// Indices of the exits to which a drone may lead: those with these ids, or all if `ids` is empty,
+/// as far as they are open at the start.
 std::vector<int> exits_to_lead_to(const world::Scenario& scenario,
                                   const std::vector<std::string>& ids);
 

@@ -1,4 +1,4 @@
-// "orbit": circle a point at the height of the start, the camera toward it.
+// The policy "orbit": circles a point at the height of the start, with the camera toward the point.
 #pragma once
 
 #include <memory>

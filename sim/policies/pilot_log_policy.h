@@ -1,4 +1,4 @@
-// "pilot_log": repeat the set-points that a pilot gave, as recorded (sim/recording/pilot_log.h).
+// The policy "pilot_log": repeats recorded set-points (sim/recording/pilot_log.h).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A drone of a run, checked and completed.
+// A drone of a run after its mission was checked and completed (sim/planning/plan.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,8 @@ struct PlannedDrone {
   Eigen::Vector3d start;
   double yaw_rad;
   std::optional<world::GoalRef> moves_goal;
-  const world::Scenario* scenario = nullptr;  ///< where it flies; outlives the drone
-  int index = 0;                              ///< among the run's drones
+  const world::Scenario* scenario = nullptr;  ///< must outlive the drone
+  int index = 0;                              ///< index among the run's drones
 };
 
 }  // namespace throng::sim

@@ -1,6 +1,5 @@
-// Guidance: what decides where a drone should be, where its camera should look and whether people
-// can follow it. One file per policy, and one line in the table of policy_table.cpp that makes it
-// known.
+// The interface of guidance policies. A policy decides on the position and heading of a drone and
+// whether people can follow it. Each policy has a file and a row in the table of policy_table.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,16 +13,17 @@
 
 namespace throng::sim {
 
-/// Context of a policy's construction. All that it refers to outlives the policy.
+/// Arguments for the construction of a policy. Referenced objects must outlive the policy.
 struct PolicyContext {
   const DroneMission& mission;
   Eigen::Vector3d start;
   double yaw_rad;
   FlightLimits limits;
-  const world::Scenario* scenario = nullptr;  ///< null only for policies that need none
+  const world::Scenario* scenario = nullptr;  ///< null only for policies that do not use it
   int drone = 0;                              ///< index among the run's drones
 };
 
+/// A policy of one drone. Calls come from one thread, in order of simulated time.
 class Policy {
  public:
   Policy() = default;
@@ -31,16 +31,17 @@ class Policy {
   Policy(const Policy&) = delete;
   Policy& operator=(const Policy&) = delete;
 
-  /// Shows it the world, once per step of the crowd.
+  /// Receives the observation of the world, once per step of the crowd.
   virtual void see(const WorldView&) {}
-  /// Set-point of the drone `dt_s` after the last call, given its position.
+  /// Advances by `dt_s` and returns the set-point, for a drone with this state.
   virtual Setpoint next(const FlightState& state, double dt_s) = 0;
-  /// Policies that guide: whether people may follow the drone now. Off, the goal that it moves is
-  /// out of sight.
+  /// For policies that guide: whether people may follow the drone now. If not, the goal that the
+  /// drone moves is out of people's sight.
   virtual bool beacon() const { return false; }
-  /// The policy "pilot_log" during a live flight: a further set-point, later than all before it.
+  /// For the policy "pilot_log" during a live flight: appends a set-point, which must be later than
+  /// all previous ones.
   virtual void fly_on(const PilotSample&) {}
-  /// Information for the other drones.
+  /// The plan that is announced to the other drones.
   virtual LeadPlan plan() const { return {}; }
 };
 
@@ -58,16 +59,17 @@ inline constexpr GuidanceFields kFieldBatch = 1U << 8U;
 inline constexpr GuidanceFields kFieldPerception = 1U << 9U;
 inline constexpr GuidanceFields kFieldBeacon = 1U << 10U;
 
+/// A row of the table of policies.
 struct PolicyEntry {
   std::string_view name;
-  GuidanceFields needs;  ///< that must be given
-  GuidanceFields takes;  ///< that may be given besides
-  bool flies_free;       ///< goes where it likes, so its height must clear every building
+  GuidanceFields needs;  ///< required parameters
+  GuidanceFields takes;  ///< optional parameters
+  bool flies_free;       ///< path is unconstrained, so its height must clear every building
   std::unique_ptr<Policy> (*make)(const PolicyContext&);
 };
 
-/// Whether the policy itself decides when people may follow. The beacon of any other is off for the
-/// whole run, or on where the mission requires it: a camera drone must not lead people astray.
+/// Whether the policy itself decides when people may follow. With other policies, the mission turns
+/// the beacon on or (by default) off for the whole run, so that camera drones do not lead people.
 constexpr bool guides(const PolicyEntry& policy) {
   return ((policy.needs | policy.takes) & kFieldBeacon) == 0;
 }

@@ -1,4 +1,4 @@
-// The policies, by name.
+// The table of policies.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace throng::sim {
 
-/// Every policy there is.
+/// All policies.
 std::span<const PolicyEntry> policies();
 
-/// The policy of that name; null when there is none.
+/// Returns the policy with this name, or null.
 const PolicyEntry* find_policy(std::string_view name);
 
 }  // namespace throng::sim

@@ -1,5 +1,5 @@
-// "signage": a moving exit sign: hovers before the exit at which people get out soonest, calls
-// those who are near, and lets them go once they can walk through it.
+// The policy "signage", a moving exit sign: hovers in front of the exit at which people get out
+// soonest, attracts people nearby, and releases them so that they walk through it.
 #pragma once
 
 #include <memory>

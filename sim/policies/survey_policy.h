@@ -1,5 +1,5 @@
-// "survey": fly to and fro over an area in lanes, so near each other that neighboring images
-// overlap, and begin again when all of it has been seen.
+// The policy "survey": flies over an area in parallel lanes whose images overlap, and starts again
+// after the last lane.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// "waypoints": fly from point to point along straight lines and hover at the last one. The
-// set-point runs along the path at the mission's speed, slows down for corners (to a standstill
+// The policy "waypoints": flies from point to point along straight lines and hovers at the last
+// one. The set-point moves along the path at the mission's speed, slows down for corners (to a stop
 // where the path turns back) and for the end, and waits for a drone that falls behind.
 #pragma once
 

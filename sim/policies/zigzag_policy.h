@@ -1,6 +1,6 @@
-// "zigzag": the tele-operator of Huang et al. (2016). Flies at a constant speed: sweeps to and fro
-// over those who run to the exit with the most people before it, people following, leads them out
-// by another exit, and comes back for more. Takes the exits in turn.
+// The policy "zigzag", after the tele-operator of Huang et al. (2016). At a constant speed, the
+// drone sweeps to and fro over the people who run to the most crowded exit, so that they follow it,
+// leads them out by another exit, and returns. The other exits take turns.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Turns the crowd's state into a run's steps, and notices what happens to people.
+// Converts the crowd's state to the steps of a trace, and detects events of people.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,18 +14,18 @@ namespace throng::sim {
 
 class CrowdRecorder {
  public:
-  /// `moving_goals` are the goals that drones move. All three must outlive the recorder.
+  /// `moving_goals` are the goals that drones move. All arguments must outlive the recorder.
   CrowdRecorder(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
                 const std::vector<world::GoalRef>& moving_goals);
 
-  /// Reports the crowd as it is now, and an event for everybody who has got away just now.
+  /// Reports the current state of the crowd, and an event for each agent that has just escaped.
   void record(const CrowdSource& crowd, double time_s, RunObserver& observer);
 
-  /// Per agent: index of the exit that it heads for; -1: none.
+  /// Per agent: index of the exit for which it heads; -1: none.
   const std::vector<std::int8_t>& intents() const { return intents_; }
-  /// Per agent: whether it has got away.
+  /// Per agent: whether it has escaped.
   const std::vector<bool>& escaped() const { return escaped_; }
-  /// Per agent: whether it lies there, in a state for that (world::TraceHeader).
+  /// Per agent: whether it is in one of the states for lying on the ground (world::TraceHeader).
   const std::vector<bool>& down() const { return down_; }
 
  private:
@@ -40,7 +40,7 @@ class CrowdRecorder {
   std::vector<bool> arrived_;
   std::vector<bool> escaped_;
   std::vector<bool> down_;
-  std::vector<bool> down_states_;  ///< by number of the state, from the first record on
+  std::vector<bool> down_states_;  ///< by index of the state; set by the first record()
 };
 
 }  // namespace throng::sim

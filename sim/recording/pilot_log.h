@@ -1,4 +1,4 @@
-// Pilot logs: where a drone was sent, as CSV that people can read, write and replay.
+// Pilot logs: a drone's set-points as CSV, which can be edited and replayed.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace throng::sim {
 
-/// The first line of every log: seconds, meters, degrees counter-clockwise from +x, and 1 while
-/// people can follow the drone.
+/// The header of every log: seconds, meters, degrees counter-clockwise from +x, and 1 while people
+/// can follow the drone.
 inline constexpr std::string_view kPilotLogHeader = "time_s,x_m,y_m,z_m,yaw_deg,beacon";
 
 std::string pilot_log_csv(const std::vector<PilotSample>& samples);
 
-/// Throws InputError (file and line, found, expected), also for times that do not grow.
+/// Parses a log; the inverse of pilot_log_csv(). Throws InputError naming `source` and the line,
+/// also for times that do not increase.
 std::vector<PilotSample> parse_pilot_log(std::string_view csv, const std::string& source);
 
 }  // namespace throng::sim

@@ -1,4 +1,4 @@
-// Writes a run's trace and, if wanted, its pilot logs.
+// Writes a run's trace and, optionally, its pilot logs.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace throng::sim {
 
 class TraceRecorder : public RunObserver {
  public:
-  /// `pilot_log_folder`: where DRONE.csv go; empty: nowhere.
+  /// Pilot logs are written to `pilot_log_folder` as DRONE.csv, or not at all if it is empty.
   TraceRecorder(std::filesystem::path trace_file, std::filesystem::path pilot_log_folder);
 
   void begin(const world::TraceHeader& header) override;
@@ -21,7 +21,8 @@ class TraceRecorder : public RunObserver {
   void event(const world::TraceEvent& event) override;
   void pilot(std::size_t drone, const PilotSample& sample) override;
 
-  /// Gives the files their names. Throws EnvironmentError; without it nothing is left behind.
+  /// Completes the files and gives them their names. If it is not called, no file remains. Throws
+  /// EnvironmentError.
   void finish();
 
  private:

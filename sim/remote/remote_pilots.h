@@ -1,8 +1,9 @@
-// Drones that people fly: their commands become the set-points of a pilot log, and the drones fly
-// by these alone, so that the log repeats the flight exactly.
+// Drones that users fly. Commands are converted to set-points of a pilot log, which alone determine
+// the flight, so that the log repeats it exactly.
 //
-// A set-point is for 3 ms after the end of a step: the autopilot then never needs one that is later
-// than the last, and a run that knows all of them does what one did that got them step by step.
+// The time of each set-point is 3 ms after the end of a step. The autopilot therefore never needs a
+// later one, and a run that has all set-points from the start equals one that receives them step by
+// step.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,36 +15,37 @@
 
 namespace throng::sim {
 
-/// Limits of what can be commanded.
-inline constexpr double kMaxRemoteSpeedMps = 10;  ///< over the ground
+/// Limits of commands.
+inline constexpr double kMaxRemoteSpeedMps = 10;  ///< horizontal
 inline constexpr double kMaxRemoteClimbMps = 3;
 inline constexpr double kMaxRemoteYawDegS = 120;
 
-/// A wish of somebody who flies a drone, in force until the next one.
+/// A command of the user who flies a drone, valid until the next one.
 struct RemoteCommand {
-  /// Ahead, to the left and up, as the drone's set-point heads, m/s.
+  /// Velocity forward, left and up in the heading frame of the drone's set-point, m/s.
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   double yaw_rate_deg_s = 0;  ///< counter-clockwise
   bool beacon = false;
-  bool goes_home = false;  ///< to its start, instead of by `velocity_mps`
+  bool goes_home = false;  ///< fly to the start; `velocity_mps` is ignored
 };
 
-/// Lets all drones of the specification fly by pilot logs, which hold their starts. Drones without
-/// a start get none: SteppedRun refuses them.
+/// Changes all drones of `spec` to the policy "pilot_log" with their starts as first set-points.
+/// Drones without a start get no set-point, so that SteppedRun refuses them.
 void fly_remotely(RunSpec& spec, const world::Scenario& scenario);
 
+/// Converts commands to set-points of a run's drones.
 class RemotePilots {
  public:
-  /// The run's drones fly remotely; their specification holds the first set-points. All must
-  /// outlive it.
+  /// `spec`, after fly_remotely(), is the specification of `run`. `scenario` and `run` must outlive
+  /// this object.
   RemotePilots(const world::Scenario& scenario, SteppedRun& run, const RunSpec& spec);
 
-  /// To be called before each step of the run: a command per drone. Set-points keep out of
-  /// buildings, off the ground and away from each other, as a job's pilot logs must, speed up and
-  /// slow down gently, and wait for a drone that is left behind.
+  /// Adds a set-point per drone from `commands`, one per drone; call it before each step of the
+  /// run. Set-points keep clear of buildings, the ground and each other, as the pilot logs of a job
+  /// must, have limited acceleration, and wait for a drone that falls behind.
   void advance(const std::vector<RemoteCommand>& commands);
 
-  /// All set-points so far, the starts included.
+  /// All set-points of a drone so far, including its start.
   const std::vector<PilotSample>& log(std::size_t drone) const { return logs_[drone]; }
 
  private:

@@ -1,4 +1,5 @@
-// A camera's gimbal: it follows the drone's heading, keeps the camera level, and never quite does.
+// The gimbal of a camera, which follows the drone's heading and keeps the camera level, with the
+// errors of spec/camera/gimbal_spec.h.
 #pragma once
 
 #include <cstdint>
@@ -9,32 +10,34 @@
 
 namespace throng::sim {
 
-/// Viewing direction of a camera, in radians: heading counter-clockwise from +x, angle above the
-/// horizon, turn clockwise about the view's direction.
+/// Viewing direction of a camera, in radians: yaw counter-clockwise from +x, pitch above the
+/// horizon, roll clockwise about the viewing direction.
 struct ViewAngles {
   double yaw = 0;
   double pitch = 0;
   double roll = 0;
 };
 
-/// Heading of a drone: where its nose points, whatever it leans.
+/// Heading of a drone (rad, counter-clockwise from +x): the horizontal direction of its nose,
+/// independent of its tilt.
 double heading_from_orientation(const Eigen::Quaterniond& orientation);
 
-/// Viewing direction of an ideal gimbal below a drone: that of the drone's heading and the camera's
-/// mounting, level.
+/// Viewing direction with an ideal gimbal: the drone's heading plus the camera's yaw, the camera's
+/// pitch, no roll.
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera);
 
-/// One camera's view over a run. Made from a trace alone, like SensorLog.
+/// The viewing direction of a camera over a run, computed from a trace, as SensorLog.
 class GimbalLog {
  public:
-  /// `index` numbers the cameras of the run. The trace has samples of its drone.
+  /// `truth` are the trace's samples of the drone, at least one. `index`, the index of the camera
+  /// in the run, makes the errors of cameras independent.
   GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
             std::uint64_t seed, std::uint64_t index);
 
-  /// True viewing direction of the camera.
+  /// The true viewing direction at a time.
   ViewAngles view_at(double time_s) const;
-  /// Viewing direction reported by the gimbal: without its bias, which it does not know, and with
-  /// the noise of its encoders.
+  /// The viewing direction that the gimbal reports: without the unknown bias, and with the noise of
+  /// the encoders.
   ViewAngles reading_at(double time_s) const;
 
  private:
@@ -43,7 +46,7 @@ class GimbalLog {
     ViewAngles view;
     ViewAngles reading;
   };
-  /// The points around a time, and how far it is between them.
+  /// The points before and after a time, and the time's position between them (0 to 1).
   struct Interval {
     const Point& before;
     const Point& after;

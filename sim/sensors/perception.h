@@ -1,4 +1,5 @@
-// Perception of drones: the truth of a run, and the estimate of a camera that counts people.
+// Perception of drones: the true state of the crowd, or its estimate by a camera that counts
+// people.
 #pragma once
 
 #include <deque>
@@ -12,15 +13,16 @@
 
 namespace throng::sim {
 
-/// The true view. It excludes people who have escaped, are absent, injured or a hazard, and those
-/// who have passed a door, unless a drone still leads them.
+/// Computes the true view. It excludes agents that have escaped, are absent, lie on the ground or
+/// are not persons, and people who have passed a door, unless they still follow a drone.
 class CrowdObserver {
  public:
-  /// `guide_goals`: per drone, the goal that it moves, if any. All must outlive the lookout.
+  /// `guide_goals`: per drone, the goal that it moves, if any. All references must outlive this
+  /// object.
   CrowdObserver(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
                 const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
 
-  /// Looks at the crowd as it is now. The drones in the view are the caller's to fill in.
+  /// Sets view() to the current state of the crowd, except the drones, which the caller sets.
   void look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s);
 
   const WorldView& view() const { return view_; }
@@ -34,22 +36,23 @@ class CrowdObserver {
   const std::vector<world::AgentRole>& roles_;
   const std::vector<std::optional<world::GoalRef>>& guide_goals_;
   std::vector<std::vector<int>> side_;  ///< per exit and agent: 1 beyond the door's line, -1 before
-  std::vector<bool> left_;              ///< per agent: has gone through a door
-  std::deque<std::vector<int>> out_;    ///< per step of the last seconds, per exit: who went out
-  std::size_t flow_steps_;              ///< how many of those
+  std::vector<bool> left_;              ///< per agent: has passed a door
+  std::deque<std::vector<int>> out_;  ///< per recent step, per exit: number of people who went out
+  std::size_t flow_steps_;            ///< max size of `out_`
   double step_s_;
   WorldView view_;
 };
 
-/// Report of a drone's camera, derived from the truth: only people in its field of view (a cone
-/// about the vertical), some missed and some counted twice, as of a while ago. Their destinations
-/// are estimated from their motion, and whether they follow from their distance to the beacon.
+/// Computes the estimate of a drone's camera from the truth: a delayed view of the people in its
+/// field of view (a cone about the vertical), of whom some are missed and some counted twice. Their
+/// destinations are estimated from their motion; whether they follow, from their distance to the
+/// beacon.
 class CameraPerception {
  public:
   CameraPerception(const world::Scenario& scenario, const PerceptionSpec& spec, std::uint64_t seed,
                    std::size_t drone);
 
-  /// The estimate at the time of `truth`, which must come step by step.
+  /// Returns the estimate at the time of `truth`; call it for each step in order.
   const WorldView& estimate(const WorldView& truth);
 
  private:

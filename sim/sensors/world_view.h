@@ -1,4 +1,4 @@
-// A guide's knowledge of the world at one moment: the truth, or its camera's estimate
+// The observation of a policy at one time: the truth, or a camera's estimate
 // (sim/sensors/perception.h).
 #pragma once
 
@@ -8,21 +8,21 @@
 
 namespace throng::sim {
 
-/// Somebody who is still in the scenario.
+/// A person who is still in the scenario.
 struct PersonSeen {
   Eigen::Vector2d position;  ///< m
   Eigen::Vector2d velocity;  ///< m/s
-  int exit = -1;             ///< the exit of the scenario that the person heads for; -1: none
-  int guide = -1;            ///< the drone of the run that the person follows; -1: none
+  int exit = -1;             ///< index of the exit for which the person heads; -1: none
+  int guide = -1;            ///< index of the drone that the person follows; -1: none
 };
 
-/// Plan that a drone announces to the others.
+/// The plan that a drone announces to the other drones.
 struct LeadPlan {
-  int from = -1;       ///< takes people from the queue of this exit; -1: from none
-  int to = -1;         ///< and leads them to this one; -1: leads nobody
-  double people = 0;   ///< how many it means to lead, or leads
-  bool leads = false;  ///< has them already
-  std::optional<Eigen::Vector2d> place = {};  ///< where it is busy or goes to be, m
+  int from = -1;                              ///< exit from whose queue it takes people; -1: none
+  int to = -1;                                ///< exit to which it leads them; -1: leads nobody
+  double people = 0;                          ///< number of people whom it leads or will lead
+  bool leads = false;                         ///< whether it leads them already
+  std::optional<Eigen::Vector2d> place = {};  ///< current or next work position, m
 };
 
 struct DroneSeen {
@@ -36,7 +36,7 @@ struct DroneSeen {
 struct WorldView {
   double time_s = 0;
   std::vector<PersonSeen> people;
-  std::vector<double> exit_flow_per_s;  ///< per exit: people who went out, mean over 8 s
+  std::vector<double> exit_flow_per_s;  ///< per exit: outflow, mean over 8 s
   std::vector<DroneSeen> drones;
 };
 

@@ -1,4 +1,4 @@
-// Groups contacts into collisions, with the impulse of each.
+// Groups the contacts of simulation steps into collisions with their impulses.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,18 @@ namespace throng::sim {
 /// Objects that a vehicle can hit.
 using Obstacle = world::Partner;
 
-/// A vehicle hit something. One per approach: staying in touch, or touching the same object again
-/// within half a second, is the same one.
+/// A collision of a vehicle. Continued contact, or another contact with the same object within half
+/// a second, belongs to the same collision.
 struct Impact {
   std::size_t vehicle = 0;
   Obstacle obstacle = Obstacle::ground;
-  int index = -1;         ///< of the building, vehicle or person; -1: the ground
-  double speed_mps = 0;   ///< of one relative to the other just before
-  double impulse_ns = 0;  ///< given in the first 50 ms
+  int index = -1;         ///< index of the building, vehicle or person; -1: the ground
+  double speed_mps = 0;   ///< relative speed just before
+  double impulse_ns = 0;  ///< sum of the magnitudes in the first 50 ms
   Eigen::Vector3d push_ns =
-      Eigen::Vector3d::Zero();  ///< the same with its direction, on the obstacle
-  PerRotor rotor_ns{};          ///< the share of impulse_ns that came in through each propeller
-  double ago_s = 0;             ///< how long ago it began
+      Eigen::Vector3d::Zero();  ///< vector sum of the impulses on the obstacle in the first 50 ms
+  PerRotor rotor_ns{};          ///< part of impulse_ns at each propeller
+  double ago_s = 0;             ///< time since its start
 };
 
 /// The contact of one pair of bodies during one step.
@@ -42,22 +42,22 @@ struct Touch {
 
 class ContactLog {
  public:
-  /// Call once per step and pair that pushes each other.
+  /// Adds a contact; call it once per step for each pair of bodies in contact.
   void record(const Touch& touch);
 
   /// Ends a step of `dt_s`.
   void advance(double dt_s);
 
-  /// Collisions whose impulse became known in the last step.
+  /// Collisions whose first 50 ms ended in the last step.
   std::span<const Impact> impacts() const { return impacts_; }
-  /// Those whose impulse is still being counted: for the end of a run.
+  /// Collisions within their first 50 ms, for the end of a run.
   std::vector<Impact> unfinished() const;
 
  private:
   struct Contact {
     Impact impact;
     double apart_s = 0;
-    bool counted = false;  ///< its impulse is known and it has been in impacts()
+    bool counted = false;  ///< its impulse is complete and it has been in impacts()
   };
 
   std::vector<Contact> contacts_;

@@ -1,4 +1,4 @@
-// People in the air that drones blow down.
+// Exposure of people to the downwash of drones.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,21 @@
 
 namespace throng::sim {
 
-/// People exposed to air faster than 5 m/s at the height of the head, and the duration.
+/// Records which people are exposed to air faster than 5 m/s at head height, and how long.
 class DownwashExposure {
  public:
   using Log = std::function<void(const world::TraceEvent&)>;
 
   explicit DownwashExposure(Log log) : log_(std::move(log)) {}
 
-  /// How far aside of a drone that hovers so high somebody may stand and feel it; 0: nobody does.
+  /// Max horizontal distance (m) from a drone at `height_m` at which a person is exposed; 0: none.
   static double reach_m(const Jet& jet, double height_m);
 
-  /// Counts `dt_s` for everybody that is near one drone.
+  /// Adds `dt_s` to the exposures of `people` to one drone at `position` (m).
   void update(double time_s, double dt_s, std::size_t vehicle, const Jet& jet,
               const Eigen::Vector3d& position, std::span<const NearPerson> people);
 
-  /// Writes the exposures that have ended, or all.
+  /// Logs the exposures that have ended, or all.
   void flush(double time_s, bool all);
 
  private:

@@ -1,4 +1,4 @@
-// Warns of a drone that falls: who is near the place where it comes down.
+// Warnings about falling drones and the people near the ground impact.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,29 @@
 
 namespace throng::sim {
 
-/// A drone as far as its fall goes.
+/// The state of a drone that is relevant to a fall.
 struct FallingCraft {
   FlightState state;
   bool can_hold = true;  ///< all rotors work and turn
   double radius_m = 0;
 };
 
-/// Time (s) and horizontal place (m) at which a body in free fall without drag reaches the ground.
+/// Time until (s) and horizontal position of (m) the ground impact of a body in free fall without
+/// drag.
 struct GroundImpact {
   double in_s = 0;
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
 };
 GroundImpact ground_impact(const FlightState& state);
 
-/// One drone's. Writes, once, when the drone can no longer hold itself in the air and is more than
-/// a person's height above the ground:
-/// - `falling`: value: height, m; extra: people within a horizontal distance of one height from the
-///   drone (the 1:1 rule of EASA's AMC to Regulation (EU) 2019/947);
-/// - `fall_hazard` for everybody within 3 m and the drone's radius of the predicted ground impact:
-///   value: distance from there, m; extra: time until then, s.
+/// The warnings of one drone. Logs these events, once, when the drone can no longer stay in the air
+/// and is more than a person's height above the ground:
+/// - `falling`: value: height, m; extra: number of people within a horizontal distance of one
+/// height
+///   from the drone (the 1:1 rule of EASA's AMC to Regulation (EU) 2019/947);
+/// - `fall_hazard` for each person within 3 m plus the drone's radius of the predicted ground
+/// impact:
+///   value: distance from the impact, m; extra: time until the impact, s.
 class FallWarning {
  public:
   explicit FallWarning(std::size_t drone) : drone_(drone) {}

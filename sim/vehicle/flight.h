@@ -1,5 +1,5 @@
-// All drones of a run in the air: pilots and bodies on one clock, the wind, and what drones do to
-// each other and to people.
+// The flight of all drones of a run: pilots and bodies on one clock, wind, downwash, collisions and
+// near misses.
 #pragma once
 
 #include <cstdint>
@@ -20,34 +20,34 @@
 
 namespace throng::sim {
 
-/// Output of a flight's record.
+/// Receivers of a flight's records.
 struct FlightLog {
   std::function<void(std::size_t drone, const world::DroneSample&)> sample;
   std::function<void(const world::TraceEvent&)> event;
-  /// Somebody was hit, and how hard (N s, on the ground).
+  /// A person was hit, with the horizontal impulse (N s).
   std::function<void(std::size_t agent, const Eigen::Vector2d& impulse_ns)> strike = {};
 };
 
-/// The air that a flight goes through.
+/// The wind of a flight.
 struct FlightWeather {
   WindSpec wind;
-  std::uint64_t seed = 1;  ///< of the gusts
+  std::uint64_t seed = 1;  ///< seed of the gusts
 };
 
 class Flight {
  public:
-  /// The clock runs in equal ticks of at most `physics_dt_s`, a whole number of them in
-  /// `interval_s`. Records the drones' start as their first samples.
+  /// The clock has equal ticks of at most `physics_dt_s`, an integer number of them in
+  /// `interval_s`. Records the drones' starts as their first samples.
   Flight(const std::vector<world::Building>& buildings, const std::vector<PlannedDrone>& drones,
          double interval_s, double physics_dt_s, FlightLog log, const FlightWeather& weather = {});
   Flight(const Flight&) = delete;
   Flight& operator=(const Flight&) = delete;
 
-  /// Flies on for one interval; samples are about 1/60 s apart, with one at the interval's end.
-  /// `people_at_end` is the crowd as it is then; its size must not change during a flight.
+  /// Simulates one interval. Samples are about 1/60 s apart; one is at the interval's end.
+  /// `people_at_end` is the crowd at that time; its size must not change during a flight.
   void advance(const PeopleView& people_at_end = {});
 
-  /// Records events that are still going on. Call nothing afterwards.
+  /// Records events that are still going on. No other method may be called afterwards.
   void finish();
 
   FlightState state(std::size_t drone) const { return world_.state(drone); }
@@ -79,13 +79,13 @@ class Flight {
   std::vector<Gusts> gusts_;
   std::vector<Jet> jets_;
   std::vector<FallWarning> falls_;
-  std::vector<Damage> damages_;       ///< of each drone so far
-  std::vector<FlightState> states_;   ///< when the pilots last decided
+  std::vector<Damage> damages_;       ///< damage of each drone so far
+  std::vector<FlightState> states_;   ///< at the pilots' last update
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
   std::vector<VehicleInAir> crafts_;  ///< as of the last samples
   PeopleInMotion people_;
   std::vector<NearPerson>
-      near_;  ///< who matters to some drone in this interval, as of last samples
+      near_;  ///< people relevant to any drone in this interval, as of the last samples
   NearMisses near_misses_;
   DownwashExposure exposure_;
 };

@@ -1,5 +1,4 @@
-// Bullet's world: solid ground and buildings, people near the ground, and the quadcopters that fly
-// there.
+// The rigid-body world in Bullet: ground, buildings, people and quadcopters.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,20 +13,20 @@
 
 namespace throng::sim {
 
-/// People as vehicles meet them: upright capsules that move as they please and cannot be pushed.
+/// Size of people in collisions: upright capsules whose motion is prescribed (kinematic bodies).
 inline constexpr double kPersonRadiusM = 0.25;
 inline constexpr double kPersonHeightM = 1.7;
-/// Restitution of every contact: speed apart after it / speed of approach before it.
+/// Coefficient of restitution of all contacts.
 inline constexpr double kRestitution = 0.4;
 
-/// Somebody near a vehicle, where the next step begins.
+/// A person near a vehicle, at the start of the next step.
 struct NearPerson {
   int agent = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
 };
 
-/// Same calls give the same bits. Not to be shared between threads.
+/// Deterministic: equal calls give equal bits. Not thread-safe.
 class FlightWorld {
  public:
   FlightWorld(const std::vector<world::Building>& buildings, double dt_s);
@@ -38,16 +37,16 @@ class FlightWorld {
   /// Adds a vehicle at rest; returns its index.
   std::size_t add(const Airframe& airframe, const Eigen::Vector3d& position, double yaw_rad);
 
-  /// Rotor speeds (rad/s) that the vehicle's motors go for from now on.
+  /// Sets the commanded rotor speeds (rad/s).
   void command(std::size_t vehicle, const PerRotor& rotor_speeds);
-  /// Wind at the vehicle (m/s); still air until set.
+  /// Sets the wind at the vehicle (m/s, world); initially zero.
   void set_air_velocity(std::size_t vehicle, const Eigen::Vector3d& velocity);
-  /// Air that others blow down on each of the vehicle's rotors (m/s); none until set.
+  /// Sets the downwash of other vehicles on each of the vehicle's rotors (m/s); initially zero.
   void set_downwash(std::size_t vehicle, const PerRotor& downwash_mps);
-  /// The rotor gives no thrust any more.
+  /// Breaks a rotor, which then produces no thrust.
   void break_rotor(std::size_t vehicle, std::size_t rotor);
-  /// The people that vehicles can touch from now on, moving on at their velocities. One that stays
-  /// in the list continues from the given state.
+  /// Sets the people that vehicles can touch, who then move at their velocities. People who were in
+  /// the previous list continue from the given state.
   void set_people(std::span<const NearPerson> people);
 
   /// Advances by dt_s().
@@ -57,15 +56,15 @@ class FlightWorld {
   std::size_t size() const;
   FlightState state(std::size_t vehicle) const;
   Eigen::Quaterniond orientation(std::size_t vehicle) const;
-  /// All forces but gravity over mass in the last step, contacts included: what an ideal
-  /// accelerometer reads. m/s², body.
+  /// All forces except gravity over mass in the last step, including contacts, as an ideal
+  /// accelerometer measures: m/s², body frame.
   Eigen::Vector3d specific_force(std::size_t vehicle) const;
-  /// Thrust of all rotors in the last step.
+  /// Total thrust of the rotors in the last step.
   double thrust_n(std::size_t vehicle) const;
   const Airframe& airframe(std::size_t vehicle) const;
-  /// Collisions whose impulse became known in the last step.
+  /// Collisions whose impulse was completed in the last step (ContactLog::impacts()).
   std::span<const Impact> impacts() const;
-  /// Collisions whose impulse is still being counted.
+  /// Collisions whose impulse is incomplete (ContactLog::unfinished()).
   std::vector<Impact> unfinished_impacts() const;
 
  private:

@@ -16,7 +16,7 @@ class HoldWarnings {
  public:
   void record(const world::TraceEvent& event);
 
-  /// One per kind and drone, with the drone's place in the job.
+  /// One warning per kind and drone, with the drone's JSON pointer in the job.
   const std::vector<Problem>& warnings() const { return warnings_; }
 
  private:

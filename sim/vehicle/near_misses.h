@@ -1,4 +1,4 @@
-// Drones that come too near to somebody or something.
+// Detection of drones that come too close to people, buildings or other drones.
 #pragma once
 
 #include <functional>
@@ -15,17 +15,17 @@
 
 namespace throng::sim {
 
-/// A drone as others meet it: an upright cylinder that moves on.
+/// A drone as an upright cylinder with a constant velocity.
 struct VehicleInAir {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, its middle
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, of its center
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   double radius_m = 0;
   double height_m = 0;
-  bool moves = true;  ///< one that has landed and rests comes near to nobody
+  bool moves = true;  ///< false: landed and at rest, hence never approaches anything
 };
 
-/// Distance between two surfaces, and the time until they touch if nobody changes course; infinite
-/// when they will not within the next seconds.
+/// The gap between two surfaces (negative if they overlap), and the time until contact at constant
+/// velocities; infinite if there is none (with a building: none within 1.5 s).
 struct Approach {
   double gap_m = 0;
   double contact_in_s = 0;
@@ -33,26 +33,26 @@ struct Approach {
 Approach nearest_approach(const VehicleInAir& a, const VehicleInAir& b);
 Approach nearest_approach(const VehicleInAir& vehicle, const world::Building& building);
 
-/// A near miss is an approach to less than 1 m, or a course that leads to contact within 1.5 s,
-/// that does not end in a collision. It is one until 2 m are between both and nothing threatens.
+/// Detects near misses: approaches to less than 1 m, or courses that lead to contact within 1.5 s,
+/// without a collision. A near miss lasts until the gap exceeds 2 m and no contact is imminent.
 class NearMisses {
  public:
   using Log = std::function<void(const world::TraceEvent&)>;
 
   NearMisses(std::vector<world::Building> buildings, Log log);
 
-  /// How far away somebody on foot may be and matter, for a drone of this speed.
+  /// Max horizontal distance (m) at which a person is relevant to the drone; 0: nobody is.
   static double reach_m(const VehicleInAir& vehicle);
 
-  /// Looks at everybody as they are now: each drone with each other, with buildings and with the
-  /// people that are near.
+  /// Checks the current state: each drone against other drones, buildings and `people`, who must
+  /// include all within reach_m() of a drone.
   void update(double time_s, std::span<const VehicleInAir> vehicles,
               std::span<const NearPerson> people);
 
-  /// The approach ended in a collision.
+  /// Reports that an approach ended in a collision, so that it is no near miss.
   void collided(std::size_t vehicle, Obstacle obstacle, int index);
 
-  /// Writes what is still going on.
+  /// Logs near misses that are still going on.
   void finish();
 
  private:
@@ -68,7 +68,7 @@ class NearMisses {
   void write(const Key& key, const Case& entry);
 
   std::vector<world::Building> buildings_;
-  std::vector<geometry::Rectangle> bounds_;  ///< of the buildings' footprints
+  std::vector<geometry::Rectangle> bounds_;  ///< bounding boxes of the buildings' footprints
   Log log_;
   std::map<Key, Case> cases_;
 };

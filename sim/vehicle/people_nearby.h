@@ -1,4 +1,4 @@
-// The crowd as drones meet it.
+// Selection of the people near drones.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,10 @@
 
 namespace throng::sim {
 
-/// Everybody at one instant. Two arrays of one size; empty: nobody.
+/// All agents at one time; both arrays have one element per agent, or none.
 struct PeopleView {
   std::span<const Eigen::Vector2f> position;  ///< m
-  std::span<const std::uint8_t> present;      ///< 1: is a person and there
+  std::span<const std::uint8_t> present;      ///< 1: a person who is present
 };
 
 /// A circle on the ground.
@@ -23,19 +23,18 @@ struct Area {
   double radius_m = 0;
 };
 
-/// Positions of all people at the beginning and the end of an interval. Reads the crowd only in the
-/// requested areas.
+/// The positions of all people at the start and the end of an interval, by area.
 class PeopleInMotion {
  public:
-  /// Begins the next interval, which ends with everybody as in `end`, which must stay valid until
-  /// it has ended.
+  /// Starts the next interval, at whose end the state is `end`. The arrays of `end` must remain
+  /// valid until finish().
   void begin(const PeopleView& end, double interval_s);
 
-  /// Keeps the end of the interval as the beginning of the next.
+  /// Ends the interval; its end becomes the start of the next one.
   void finish();
 
-  /// Adds to `list` those who start the interval within the area and take part in all of it, in
-  /// the order of their numbers.
+  /// Appends to `list`, in the order of agents, the people who start the interval within the area
+  /// and are present during all of it.
   void collect(const Area& area, std::vector<NearPerson>& list) const;
 
  private:

@@ -1,4 +1,4 @@
-// The gusts that each vehicle meets on its own, on top of the mean wind (spec/sim/wind_spec.h).
+// Gusts at each vehicle, to be added to the mean wind (spec/sim/wind_spec.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,19 +9,19 @@
 
 namespace throng::sim {
 
-/// The gusts that one vehicle meets. Made on a grid of 60 per second and linear in between, so that
-/// they do not depend on how often they are asked for.
+/// The gusts at one vehicle: samples at 60 Hz with linear interpolation, so that they do not depend
+/// on the times of the queries.
 class Gusts {
  public:
-  /// `craft` numbers the vehicles of a run; each has gusts of its own.
+  /// `vehicle`, the index of the vehicle in the run, makes the gusts of vehicles independent.
   Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t vehicle);
 
-  /// Gust velocity in the world. Times must not decrease. The air's speed relative to the vehicle
-  /// and its height are those that the next grid points are made with.
+  /// Gust velocity (m/s, world). Times must not decrease. The vehicle's height and airspeed are
+  /// used for the samples that are computed in this call.
   Eigen::Vector3d at(double time_s, double height_m, double airspeed_mps);
 
  private:
-  /// Three-dimensional turbulence seen along a line through frozen air. Axes: along the mean wind,
+  /// The next sample: turbulence along a line through a frozen field. Axes: along the mean wind,
   /// across it, up.
   Eigen::Vector3d next_point(double height_m, double airspeed_mps);
   Eigen::Vector3d dryden_point(double height_m, double airspeed_mps);
@@ -31,8 +31,8 @@ class Gusts {
   double wind_at_20_ft_mps_;
   Random random_;
   Eigen::Vector3d first_;   ///< state of the filters' first lag, variance 1
-  Eigen::Vector3d second_;  ///< of the second lag behind it
-  long grid_ = 0;           ///< number of the point `after_`
+  Eigen::Vector3d second_;  ///< state of the filters' second lag
+  long grid_ = 0;           ///< index of the sample `after_`
   Eigen::Vector3d before_;
   Eigen::Vector3d after_;
 };
