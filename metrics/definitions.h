@@ -1,5 +1,5 @@
-// The paragraphs of docs/metrics.md that define the values of metrics.json. The document is built
-// in.
+// The paragraphs of docs/metrics.md that define the values of metrics.json. The document is
+// embedded in the program.
 #pragma once
 
 #include <string>
@@ -8,19 +8,20 @@
 namespace throng::metrics {
 
 struct Definition {
-  /// Values that it defines, as paths in metrics.json: "people", "exits[].net_out".
+  /// Values that the paragraph defines, as paths in metrics.json: "people", "exits[].net_out".
   std::vector<std::string> paths;
-  std::string anchor;  ///< of the paragraph in the document
-  std::string text;    ///< without links and markup
+  std::string anchor;  ///< anchor of the paragraph in the document
+  std::string text;    ///< the paragraph without links and markup
 };
 
-/// Those of a run, in the document's order.
+/// All definitions for a run, in the document's order.
 const std::vector<Definition>& definitions_of_run();
 
 /// "docs/metrics.md#ANCHOR".
 std::string anchor_address(const Definition& definition);
 
-/// The definition of the value, or of the nearest object that holds it. Null if there is none.
+/// The definition of the value at a path of metrics.json, or of the innermost object that contains
+/// it; null if there is none.
 const Definition* find_definition(const std::string& path);
 
 }  // namespace throng::metrics

@@ -1,4 +1,4 @@
-// Effect of guides on people.
+// The effect of guides on people.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,10 +12,10 @@
 namespace throng::metrics {
 
 struct GuidanceFigures {
-  int led = 0;                 ///< people who followed at some time
-  double mean_followed_s = 0;  ///< over those
+  int led = 0;                 ///< people who followed a guide at any time
+  double mean_followed_s = 0;  ///< mean over these people
   double mean_followed_m = 0;
-  double flown_km = 0;  ///< of all drones
+  double flown_km = 0;  ///< total of all drones
   double energy_wh = 0;
 };
 
@@ -24,17 +24,17 @@ GuidanceFigures measure_guidance(const std::vector<PersonRecord>& people,
 
 nlohmann::json to_json(const GuidanceFigures& guidance);
 
-/// By how much sooner people escaped than in the same run without guides (s), positive when sooner.
-/// Both runs count as ending when the shorter one does, and who had not escaped by then as escaping
-/// then.
+/// Person-seconds saved in comparison with the same run without guides; positive if people escaped
+/// earlier with guides. Both runs are cut at the end of the shorter one; people who had not escaped
+/// by then count as escaping then.
 struct LeadEffect {
   double all_s = 0;  ///< sum over all people
-  double led_s = 0;  ///< sum over those who followed at some time
-  int censored = 0;  ///< people who had not escaped by the end in one of the runs or in both
+  double led_s = 0;  ///< sum over the people who followed at any time
+  int censored = 0;  ///< people who had not escaped by the end of at least one run
 };
 
-/// Throws InputError when the runs are not of the same scenario, seed and agents, or somebody
-/// follows a drone in the one without guides.
+/// Compares two runs. Throws InputError if they differ in scenario, seed or agents, or if a person
+/// follows a drone in the run without guides.
 LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_guides,
                        const world::Scenario& scenario);
 

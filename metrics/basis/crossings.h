@@ -1,4 +1,4 @@
-// Counting who goes through a door, one person at a time, step by step.
+// Counts the crossings of a door by one person, step by step.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,18 +8,18 @@
 
 namespace throng::metrics {
 
-/// The line of an exit, in the exit's own frame.
+/// The line of an exit, and the frame of the exit: along the line and outward.
 class ExitLine {
  public:
-  /// `margin_m` widens the door at both jambs: the discs of people rub along them.
+  /// `margin_m` widens the door at both jambs, since the discs of people overlap them slightly.
   ExitLine(const world::Exit& exit, double margin_m);
 
-  /// Distance beyond the line, outward positive (m).
+  /// Signed distance from the line (m), positive outside.
   double beyond_m(const Eigen::Vector2d& point) const;
-  /// Whether the straight line from `a` to `b`, which lie on different sides, leads through the
-  /// door.
+  /// Whether the segment from `a` to `b`, which lie on different sides of the line, passes through
+  /// the door.
   bool leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  /// Whether the point lies before or behind the door, kDoorwayM from its line at most.
+  /// Whether the point lies in front of or behind the door, within kDoorwayM of its line.
   bool is_in_doorway(const Eigen::Vector2d& point) const;
 
   static constexpr double kDoorwayM = 2;
@@ -32,31 +32,33 @@ class ExitLine {
   double half_width_m_;
 };
 
-/// Signed crossings of one person. A crossing counts once the person, having passed the door, is
-/// kHysteresisM beyond the line, outside of the scenario, or gone; from then on it takes as much on
-/// the other side to count again, so somebody who jitters on the line counts once at most.
+/// Detects the crossings of one person, with hysteresis: a crossing counts once the person has
+/// passed the door and is kHysteresisM beyond the line, outside of the scenario, or absent. The
+/// next crossing requires the same distance on the other side, so that jitter on the line counts at
+/// most once.
 class CrossingCounter {
  public:
   static constexpr double kHysteresisM = 0.2;
 
-  /// The person's next position. Returns +1 for a crossing outward, -1 inward, else 0.
-  /// `is_outside_place`: the position is outside of Scenario::inside, so a crossing outward counts
-  /// at once.
+  /// Adds the person's next position. Returns +1 for a crossing outward, -1 inward, else 0.
+  /// `is_outside_place`: the position is outside of Scenario::inside, so that a crossing outward
+  /// counts immediately.
   int step(const ExitLine& line, const Eigen::Vector2d& position, double time_s = 0,
            bool is_outside_place = false);
-  /// The person is gone. Returns +1 if that completes a crossing outward, else 0.
+  /// Reports that the person is absent from now on. Returns +1 if this completes a crossing
+  /// outward, else 0.
   int vanish();
-  /// After step() returned a crossing: when the person was on the line, between two steps.
+  /// After step() returned a crossing: the interpolated time at which the person was on the line.
   double crossed_at_s() const { return crossed_at_s_; }
-  /// Whether the person has passed the door outward and not come back over its line.
+  /// Whether the person has passed the door outward and not crossed its line again.
   bool has_left() const { return has_left_; }
 
  private:
   std::optional<Eigen::Vector2d> last_;
   double last_s_ = 0;
   double crossed_at_s_ = 0;
-  bool outside_ = false;  ///< the side that the person was last clear of the line on
-  bool passed_ = false;   ///< has gone through the door to the other side since then
+  bool outside_ = false;  ///< side of the last position beyond the hysteresis
+  bool passed_ = false;   ///< has passed the door to the other side since then
   bool has_left_ = false;
 };
 

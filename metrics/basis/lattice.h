@@ -1,4 +1,4 @@
-// Places on the ground at equal distances, and which of them buildings cover.
+// A regular grid of points on the ground, and the points that buildings cover.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace throng::metrics {
 
-/// The middles of the square cells that a rectangle is cut into, row by row from its least corner.
+/// The centers of square cells that divide a rectangle, row by row from its min corner.
 struct Lattice {
   Eigen::Vector2d first = Eigen::Vector2d::Zero();  ///< m
   double pitch_m = 1;
@@ -28,10 +28,11 @@ struct Lattice {
   }
 };
 
-/// Every `pitch_m`, or coarser where that would be more than about `max_points` points.
+/// The lattice over a rectangle with this pitch, or a coarser one to limit the number of points to
+/// about `max_points`.
 Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_points);
 
-/// Per place, whether a building covers it.
+/// For each point of the lattice, by its index, whether a building covers it.
 std::vector<bool> covered_by(std::span<const world::Building> buildings, const Lattice& lattice);
 
 }  // namespace throng::metrics

@@ -1,4 +1,4 @@
-// People near an exit at one step, as far as its figures need them.
+// People near an exit at one step, the input of its metrics.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ struct NearPerson {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();     ///< m
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
   double desired_speed_mps = 0;
-  bool comes_here = false;  ///< intends this exit; everybody does where intents are unknown
+  bool comes_here = false;  ///< intends this exit; true for all if intents are unknown
 };
 
 }  // namespace throng::metrics

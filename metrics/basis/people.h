@@ -1,5 +1,5 @@
-// Each person of a run: when they arrived, noticed the alarm and escaped. The one definition of who
-// counts and from when, for metrics of a trace and for studies, which see a run as it goes.
+// Detects when each person of a run arrived, noticed the alarm and escaped. These definitions are
+// common to the metrics of a trace and to studies, which observe a running simulation.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,41 +18,45 @@ namespace throng::metrics {
 /// A person's last passage out through a door.
 struct DoorPassage {
   std::size_t exit = 0;
-  double time_s = 0;  ///< on the line
+  double time_s = 0;  ///< time on the door's line
 };
 
+/// The history of a person in a run.
 struct PersonRecord {
   std::size_t agent = 0;
-  std::size_t first_step = 0;  ///< the first one at which the person takes part
-  double arrived_s = 0;        ///< first inside; of somebody who never is: first present
-  double start_s = 0;          ///< the later of alarm and arrival, from which escape counts
-  bool was_inside = false;     ///< at any time; others take no part in the evacuation
-  Eigen::Vector2d start_place = Eigen::Vector2d::Zero();  ///< at the first step from then on
-  std::optional<double> noticed_s;                        ///< knows of the alarm; never before it
+  std::size_t first_step = 0;  ///< first step at which the person is present
+  double arrived_s = 0;        ///< first time inside; if never inside, first time present
+  double start_s = 0;          ///< the later of alarm and arrival, start of the escape time
+  bool was_inside = false;     ///< inside at any time; other people are no evacuees
+  Eigen::Vector2d start_place = Eigen::Vector2d::Zero();  ///< at the first step from start_s on, m
+  std::optional<double> noticed_s;                        ///< when the person noticed the alarm
   Eigen::Vector2d noticed_place = Eigen::Vector2d::Zero();
-  /// First outside of Scenario::inside after having been inside, or gone for good behind a door.
+  /// First time outside of Scenario::inside after having been inside, or absent for good behind a
+  /// door.
   std::optional<double> escaped_s;
-  std::optional<std::size_t> left_by;  ///< the exit of the escape; empty: it led through no exit
-  bool turned_back = false;            ///< arrived outside of the exits and did not come in
-  std::optional<double> vanished_s;    ///< gone for good inside, where a recording of them ends
-  std::optional<double> hurt_s;        ///< lies from then on in a state for that, to the end
-  double followed_s = 0;               ///< time in states whose name contains "follow"
-  double followed_m = 0;               ///< distance walked in them
-  double max_desired_mps = 0;          ///< greatest desired speed before the escape
-  /// Greatest speed from `start_s` to the escape: of the trace's velocities, desired speeds and
-  /// displacements per step, which physical contact can make the greatest of the three.
+  std::optional<std::size_t> left_by;  ///< exit of the escape; nothing: not through an exit
+  bool turned_back = false;            ///< arrived outside of the exits and did not enter
+  /// Absent for good although inside, as at the end of a recording.
+  std::optional<double> vanished_s;
+  std::optional<double> hurt_s;  ///< start of the casualty state that lasts until the end
+  double followed_s = 0;         ///< time in states whose names contain "follow"
+  double followed_m = 0;         ///< distance walked in these states
+  double max_desired_mps = 0;    ///< max desired speed before the escape
+  /// Max speed from `start_s` to the escape, over the trace's velocities, desired speeds and
+  /// displacements per step (which physical contact can make the largest of the three).
   double max_speed_mps = 0;
-  std::optional<DoorPassage> last_out;  ///< before the escape, from `start_s` on
+  std::optional<DoorPassage> last_out;  ///< last passage outward from `start_s` to the escape
 
-  /// Whether the person left before there was anything to escape from.
+  /// Whether the person left before the alarm.
   bool left_before_alarm() const { return escaped_s && *escaped_s < start_s - world::kTimeSlackS; }
   /// Whether the person's escape is measured.
   bool is_evacuee() const { return was_inside && !left_before_alarm(); }
-  /// Whether there is nothing more to be seen of the person.
+  /// Whether the person has escaped or vanished.
   bool has_ended() const { return escaped_s || vanished_s; }
 };
 
-/// Everybody at one step, as a trace or a running simulation has it; one entry per agent.
+/// The state of all agents at one step, from a trace or a running simulation. Spans have one
+/// element per agent.
 struct PeopleStep {
   double time_s = 0;
   std::span<const Eigen::Vector2f> position;
@@ -63,37 +67,37 @@ struct PeopleStep {
   std::span<const std::uint8_t> flags;
 };
 
-/// How many went through a door in either direction.
+/// Numbers of crossings of a door in both directions.
 struct DoorCounts {
   int out = 0;
   int in = 0;
 };
 
-/// Mean radius of all people of the header, present or not (m); 0 without any.
+/// Mean radius (m) of all people of the header, present or not; 0 without people.
 double mean_radius_m(const world::TraceHeader& header);
 
-/// Greatest radius of all people of the header (m); 0 without any.
+/// Max radius (m) of all people of the header; 0 without people.
 double max_radius_m(const world::TraceHeader& header);
 
-/// Watches people step by step. The scenario outlives it.
+/// Observes people step by step. The scenario must outlive the tracker.
 ///
-/// Noticing: the first step, from the later of alarm and arrival on, at which somebody is in a
-/// state of people who know (world::Alarm::aware_states). If the behavior does not define those
-/// states, the first such step at which somebody follows a guide or heads for an exit that they did
-/// not head for before the alarm. Without an alarm nobody notices anything.
+/// A person notices the alarm at the first step, from the later of alarm and arrival on, in a state
+/// of people who are aware of it (world::Alarm::aware_states). If the behavior does not define such
+/// states, it is the first step at which the person follows a guide or heads for an exit that the
+/// person did not head for before the alarm. Without an alarm nobody notices.
 class PeopleTracker {
  public:
   PeopleTracker(const world::TraceHeader& header, const world::Scenario& scenario,
                 world::Alarm alarm);
 
-  /// Steps come in order of time.
+  /// To be called for each step, in order of time.
   void step(const PeopleStep& step);
 
-  /// Everybody who has taken part so far, by number of the agent.
+  /// The records of all people who have been present so far, in the order of agents.
   std::vector<PersonRecord> records() const;
-  /// Whether everybody of the header has arrived and escaped, or vanished.
+  /// Whether all people of the header have arrived and escaped or vanished.
   bool all_escaped() const;
-  double time_s() const { return time_s_; }  ///< of the last step
+  double time_s() const { return time_s_; }  ///< time of the last step
 
  private:
   struct Person {
@@ -104,8 +108,8 @@ class PeopleTracker {
     Eigen::Vector2d last_place = Eigen::Vector2d::Zero();
     std::int8_t intent_before_alarm = -1;
     std::vector<CrossingCounter> counters;  ///< per exit
-    /// The person arrived beyond the line of the nearest exit, and has always been beyond that of
-    /// the nearest one since: they have not come in.
+    /// The person arrived beyond the line of the nearest exit and has been beyond the line of the
+    /// nearest exit at all times since, that is, has not entered.
     bool is_before_doors = false;
   };
 
@@ -129,11 +133,11 @@ class PeopleTracker {
   double time_s_ = 0;
 };
 
-/// A tracker that has seen a whole trace.
+/// A tracker that has observed a whole trace.
 PeopleTracker tracked(const world::Trace& trace, const world::Scenario& scenario,
                       const world::Alarm& alarm);
 
-/// The same, of which only the people matter.
+/// The records() of a whole trace.
 std::vector<PersonRecord> person_records(const world::Trace& trace, const world::Scenario& scenario,
                                          const world::Alarm& alarm);
 

@@ -1,4 +1,4 @@
-// The shares of people whose times are given.
+// The percentages of people for which percentiles of times are computed.
 #pragma once
 
 #include <array>

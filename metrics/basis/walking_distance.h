@@ -1,4 +1,4 @@
-// How far it is on foot, around buildings.
+// Walking distances to doors around buildings.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +10,19 @@
 
 namespace throng::metrics {
 
-/// Shortest walkable distance to a door from everywhere in a rectangle: the eikonal equation on a
-/// square grid, solved by fast sweeping (Zhao, Math. Comp. 74, 2005). Of first order in the cell: 5
-/// % too long around two corners with cells of 0.25 m (measured by the tests). If the straight path
-/// to the door is free, it is exact.
+/// The shortest walkable distance to a door from every point of a rectangle: the eikonal equation
+/// on a square grid, solved by fast sweeping (Zhao, Math. Comp. 74, 2005). The error is of first
+/// order in the cell size: 5 % too long around two corners with cells of 0.25 m (measured by the
+/// tests). Exact if the straight path to the door is free.
 class WalkingDistance {
  public:
-  /// Cells of 0.25 m, or larger ones where that would be more than a million.
+  /// Cells have 0.25 m, or more if there were more than a million of them.
   WalkingDistance(const world::Rectangle& ground, const std::vector<world::Building>& buildings,
                   const world::Exit& door);
 
-  /// The straight path where that is free, else linear between the centers of cells. Empty outside
-  /// of the rectangle, in buildings and where no path leads to the door (m).
+  /// Distance (m) from a point to the door: the straight distance if that path is free, else
+  /// interpolated between the centers of cells. Nothing outside of the rectangle, inside of
+  /// buildings, and if no path leads to the door.
   std::optional<double> from(const Eigen::Vector2d& point) const;
 
  private:
@@ -32,12 +33,12 @@ class WalkingDistance {
 
   std::vector<std::vector<Eigen::Vector2d>> footprints_;
   Eigen::Vector2d door_from_, door_to_;
-  Lattice lattice_;  ///< middles of the cells
+  Lattice lattice_;  ///< centers of the cells
   std::vector<bool> blocked_;
   std::vector<double> distance_m_;
 };
 
-/// One per exit of the scenario, over its ground and through its doors.
+/// The distances to each exit of the scenario, over its ground.
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario);
 
 }  // namespace throng::metrics

@@ -1,4 +1,4 @@
-// A length that no walk to a door is shorter than.
+// Lower bounds of walking distances to doors.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,18 @@
 
 namespace throng::metrics {
 
-/// Shortest paths of a point around the buildings to each door, exactly, over the visibility graph
+/// The exact shortest paths of a point around the buildings to each door, over the visibility graph
 /// of the buildings' convex corners (Lozano-Perez and Wesley, Comm. ACM 22, 1979). Doors are
-/// widened at both ends by `margin_m`, since the bodies of people who pass overlap the jambs. If
-/// rounding leaves a choice, the shorter path is taken. With more than kMaxCorners corners, inside
-/// a building and where no path is found, it is the straight distance.
+/// widened at both ends by `margin_m`, since the bodies of people who pass overlap the jambs.
+/// Rounding never makes a path longer. With more than kMaxCorners corners, inside of a building and
+/// if no path is found, the result is the straight distance.
 class PathBound {
  public:
   static constexpr std::size_t kMaxCorners = 500;
 
   PathBound(const world::Scenario& scenario, double margin_m);
 
-  /// From a place to the door of an exit (m).
+  /// Distance (m) from a point to the door of an exit (index).
   double to_door_m(std::size_t exit, const Eigen::Vector2d& place) const;
 
  private:
@@ -29,7 +29,7 @@ class PathBound {
     geometry::Rectangle bounds;
   };
   struct Door {
-    Eigen::Vector2d from, to;            ///< as it is
+    Eigen::Vector2d from, to;            ///< the door itself
     Eigen::Vector2d wide_from, wide_to;  ///< with the margin
     std::vector<double> from_corner_m;   ///< per corner; infinite: no path
   };
@@ -37,12 +37,12 @@ class PathBound {
   bool is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   bool is_inside_building(const Eigen::Vector2d& place) const;
   double straight_m(const Door& door, const Eigen::Vector2d& place) const;
-  /// Infinite where no part of the door is seen.
+  /// Distance to the visible part of the door; infinite if no part is visible.
   double seen_m(const Door& door, const Eigen::Vector2d& place) const;
   void find_corner_paths(const std::vector<std::vector<double>>& between, Door& door) const;
 
   std::vector<Outline> outlines_;
-  std::vector<Eigen::Vector2d> corners_;  ///< convex ones of all outlines
+  std::vector<Eigen::Vector2d> corners_;  ///< convex corners of all outlines
   std::vector<Door> doors_;
 };
 

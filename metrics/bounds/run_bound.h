@@ -1,4 +1,4 @@
-// How soon the people of a run could have been out: a lower bound, and a reference at mean flows.
+// Earliest escape times of the people of a run: a lower bound, and a reference with mean flows.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,51 +13,52 @@
 
 namespace throng::metrics {
 
-/// Escape times of the evacuees of a run as they could have been, each from the later of alarm and
-/// arrival, as in EscapeTimes.
+/// Possible escape times of the evacuees of a run, each from the later of alarm and arrival, as in
+/// EscapeTimes.
 struct BestTimes {
-  std::vector<double> escape_s;  ///< one per evacuee, in order; infinite for who never sets out
-  double mean_s = 0;             ///< people not out when the run ends count with the time watched
-  int raised_doors = 0;          ///< doors that passed more in the run than the measured capacity
+  std::vector<double> escape_s;  ///< one per evacuee, sorted; infinite: never sets out
+  double mean_s = 0;             ///< people not out at the end of the run count until then
+  int raised_doors = 0;          ///< doors whose flow in the run exceeded the measured capacity
 
   std::optional<double> percentile_s(int percent) const;
 };
 
-/// From when on people know of the alarm.
+/// When people notice the alarm.
 enum class Knowledge {
-  as_noticed,  ///< as each did in the run; who neither noticed nor escaped never sets out
-  at_once      ///< from the alarm on, or from the arrival if that is later
+  as_noticed,  ///< as in the run; people who neither noticed nor escaped never set out
+  at_once      ///< at the later of alarm and arrival
 };
 
+/// Parameters of lower_bound().
 struct BoundSpec {
-  std::string model;        ///< of the pedestrians (crowd/model.h), for the doors' capacity
-  double max_radius_m = 0;  ///< greatest of all people, by which doors are wider for their centers
+  std::string model;        ///< pedestrian model (crowd/model.h), for the doors' capacity
+  double max_radius_m = 0;  ///< max radius of all people, by which doors are widened
   Knowledge knowledge = Knowledge::as_noticed;
 };
 
-/// No run of these people can have smaller percentiles or a smaller mean: everybody sets out where
-/// they were when they knew, goes at the greatest speed that they reached in the run on the
-/// shortest path to any open door (metrics/bounds/path_bound.h), which passes at most its capacity
-/// (metrics/exits/door_capacity.h), and goes on to the nearest side of Scenario::inside at the
-/// greatest speed of all. The run itself bounds the model: nobody is at a door later than they
-/// passed it, no door passes fewer or closes sooner, and who got out through no door does so at
-/// once when they can be at the nearest side. People present at the alarm share the doors'
-/// capacity; later ones have it for themselves. Empty without evacuees.
+/// Lower bounds of percentiles and mean, which no run of these people can undercut. Each person
+/// sets out from the position at the time of noticing, takes the shortest path to any open door
+/// (metrics/bounds/path_bound.h) at the person's max speed in the run, passes the door within its
+/// capacity (metrics/exits/door_capacity.h), and continues to the nearest side of Scenario::inside
+/// at the max speed of all people. The run itself limits the model: nobody reaches a door later, no
+/// door passes fewer people or closes earlier than in the run, and people who left through no door
+/// are out as soon as they can reach the nearest side. People present at the alarm share the doors'
+/// capacity; later ones have it for themselves. Nothing without evacuees.
 std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
                                      const std::vector<PersonRecord>& people,
                                      const world::Alarm& alarm, double end_s,
                                      const BoundSpec& spec);
 
-/// Knowledge assumed by a reference time.
+/// Parameters of reference_time() that replace those of the run.
 struct ReferenceSpec {
-  double speed_mps = 2;                ///< of everybody, straight to the doors through all walls
+  double speed_mps = 2;  ///< speed of all people, straight to the doors, ignoring walls
   std::vector<double> capacity_per_s;  ///< per exit of the scenario, people
 };
 
-/// A reference, which real crowds can beat for a while: the quickest flow through doors that pass
-/// their mean capacity (docs/metrics.md) or that of the spec. Without a spec people go at the
-/// greatest speed that each desired, on the shortest path of `distances` (walking_distances()).
-/// Empty without evacuees or exits.
+/// A reference, which real crowds can exceed temporarily: the earliest-arrival flow through doors
+/// with their mean capacity (docs/metrics.md) or that of the spec. Without a spec people walk at
+/// their max desired speed along the shortest path of `distances` (walking_distances()). Nothing
+/// without evacuees or exits.
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people,
                                         const world::Alarm& alarm, double end_s,
@@ -68,11 +69,11 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const world::Alarm& alarm, double end_s,
                                         Knowledge knowledge, const ReferenceSpec& spec);
 
-/// Ratio of the run's percentile to that of `best`; empty if either was not reached or the latter
+/// Ratio of the run's percentile to that of `best`; nothing if either was not reached or the latter
 /// is 0.
 std::optional<double> ratio_to(const BestTimes& best, const EscapeTimes& times, int percent);
 
-/// The times, and the ratios of those of the run to them.
+/// The times of `best`, and the ratios of the run's times to them.
 nlohmann::json to_json(const std::optional<BestTimes>& best, const EscapeTimes& times);
 
 }  // namespace throng::metrics

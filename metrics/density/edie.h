@@ -8,21 +8,22 @@
 
 namespace throng::metrics {
 
-/// Sums over a control zone and the times that were added. People walk straight from step to step;
-/// what of that lies in the zone is exact.
+/// Sums over a control zone and the added times. Paths are linear between steps; their parts in the
+/// zone are exact.
 class EdieRegion {
  public:
-  /// For so long the zone is looked at (s): before the people of that time.
+  /// Adds a time interval of this duration. Call it before add_walk() for the people in the
+  /// interval.
   void add_time(const ControlZone& zone, double duration_s);
-  /// Somebody who walked from `from` to `to` in that time.
+  /// Adds a person who walked from `from` to `to` (m) in the last interval.
   void add_walk(const ControlZone& zone, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
   double duration_s() const { return duration_s_; }
-  /// Time that people spent in the region over its area and duration (1/m²).
+  /// Total time of people in the region over area times duration (1/m²).
   double density_per_m2() const;
-  /// Distance that people walked in it over its area and duration (1/(m s)).
+  /// Total distance of people in the region over area times duration (1/(m s)).
   double flow_per_ms() const;
-  /// Distance over time (m/s); 0 where nobody was.
+  /// Total distance over total time (m/s); 0 without people.
   double speed_mps() const;
 
  private:

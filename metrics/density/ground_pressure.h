@@ -1,4 +1,4 @@
-// The greatest crowd pressure anywhere on the ground.
+// The max crowd pressure on the ground.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,38 +12,38 @@
 
 namespace throng::metrics {
 
-/// Pressure as pressure_at() has it, averaged over the last second, on a lattice over a rectangle:
-/// every 0.5 m, or coarser where that would be more than 250 000 places. Places that buildings
-/// cover have none.
+/// The pressure of pressure_at(), averaged over the last second, on a lattice over a rectangle with
+/// a pitch of 0.5 m, or coarser to limit it to 250 000 points. Points that buildings cover are
+/// skipped.
 class GroundPressure {
  public:
   GroundPressure(const world::Rectangle& ground, std::span<const world::Building> buildings,
                  double dt_s);
 
-  /// Somebody of this step.
+  /// Adds a person of the current step (m, m/s).
   void add(const Eigen::Vector2d& place, const Eigen::Vector2d& velocity);
-  /// The greatest mean once everybody of a step was added (1/s²). In the first second the mean is
-  /// over what there was.
+  /// Ends a step and returns the max of the means (1/s²). During the first second, the mean is over
+  /// the steps so far.
   double finish_step();
-  /// After finish_step(): the mean at the place of the lattice that is nearest to a point (1/s²).
-  /// 0 outside of the rectangle.
+  /// After finish_step(): the mean (1/s²) at the lattice point nearest to `place`; 0 outside of the
+  /// rectangle.
   double mean_at(const Eigen::Vector2d& place) const;
 
  private:
-  /// Sums over the people near a place of the lattice, each weighted by the kernel.
+  /// Sums over the people near a lattice point, weighted by the kernel.
   struct Sums {
     double weight = 0;
     double x = 0, y = 0;  ///< velocity
-    double squares = 0;   ///< of the velocity
-    double mean = 0;      ///< pressures of the last second, summed
+    double squares = 0;   ///< squared speed
+    double mean = 0;      ///< sum of the pressures of the last second
   };
 
   Lattice lattice_;
-  std::vector<bool> covered_;  ///< per place
-  std::vector<Sums> sums_;     ///< per place
+  std::vector<bool> covered_;  ///< per lattice point
+  std::vector<Sums> sums_;     ///< per lattice point
   std::size_t window_;
-  std::vector<std::size_t> touched_;  ///< places near somebody of this step
-  std::deque<std::vector<std::pair<std::size_t, double>>> last_;  ///< per step, where it was not 0
+  std::vector<std::size_t> touched_;  ///< lattice points near people of this step
+  std::deque<std::vector<std::pair<std::size_t, double>>> last_;  ///< per step, nonzero values
 };
 
 }  // namespace throng::metrics

@@ -1,12 +1,13 @@
-// Clogs as they look afterwards: the whole gap in the flow, not only what of it was long already.
+// Offline detection of clogs: a clog is the whole gap in the flow, whereas the causal state changes
+// only once the gap is long enough.
 #pragma once
 
 #include "metrics/exits/exits.h"
 
 namespace throng::metrics {
 
-/// Sets ExitSample::state_offline of all samples and ExitSeries::clogs without their members, from
-/// the states and crossings. `time_s`: per sample.
+/// Sets ExitSample::state_offline of all samples, and ExitSeries::clogs except their members, from
+/// the states and crossings. `time_s` has the time of each sample.
 void find_clogs(ExitSeries& series, const std::vector<double>& time_s);
 
 }  // namespace throng::metrics

@@ -1,4 +1,4 @@
-// Idle, flowing, congested, clogged: the state of an exit from its measured values, with
+// The state of an exit (idle, flowing, congested, clogged, closed) from its measured values, with
 // hysteresis; and the clogging index.
 #pragma once
 
@@ -6,27 +6,30 @@
 
 namespace throng::metrics {
 
-/// Flow that an exit of `width_m` can take (people/s): 1.3 per meter and second.
+/// Nominal capacity (people/s) of an exit: 1.3 per meter of width and second.
 double capacity_per_s(double width_m);
 
-/// How long nobody may have gone out for a jam to be a clog: max(2 s, 3 / capacity).
+/// Duration (s) without a passage outward at which congestion becomes a clog: max(2 s, 3 /
+/// capacity).
 double clog_after_s(double width_m);
 
-/// Inputs of the state besides the sample's own values.
+/// Inputs of the state in addition to the sample.
 struct ExitDemand {
   bool demand = false;           ///< enough people in the zone to fill the door
-  double desired_speed_mps = 0;  ///< mean over the zone
+  double desired_speed_mps = 0;  ///< mean over the people in the zone
 };
 
-/// In [0, 1]: 0 without demand; grows with density and with the lack of flow and speed.
+/// The clogging index in [0, 1]: 0 without demand; grows with density and with the deficits of flow
+/// and speed.
 double clogging_index(const ExitSample& sample, const ExitDemand& demand, double capacity_per_s);
 
+/// The state machine of one exit.
 class ExitStateMachine {
  public:
   explicit ExitStateMachine(double width_m);
 
-  /// The state after a step at `time_s` with the sample's density, speed and time since the last
-  /// outward crossing. A door that is not open is closed.
+  /// Returns the state after a step at `time_s` with the sample's density, speed and time since the
+  /// last crossing outward; ExitState::closed if the door is not `open`.
   ExitState step(double time_s, bool open, const ExitSample& sample, const ExitDemand& demand);
 
  private:
@@ -36,7 +39,7 @@ class ExitStateMachine {
   double clog_after_s_;
   ExitState state_ = ExitState::idle;
   double demand_since_s_ = 0;
-  double relief_since_s_ = -1;  ///< negative: not relieved now
+  double relief_since_s_ = -1;  ///< negative: not relieved
 };
 
 }  // namespace throng::metrics

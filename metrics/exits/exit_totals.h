@@ -1,4 +1,4 @@
-// Totals of each exit of a run, and how evenly the exits were used.
+// Totals of each exit of a run, and the balance of the exits' use.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ namespace throng::metrics {
 struct ExitTotals {
   std::string exit_id;
   double width_m = 0;
-  double capacity_per_s = 0;       ///< mean over the run: none while it is closed
-  DoorCounts crossings;            ///< in both directions
-  double share = 0;                ///< of the net number gone out by all exits
-  double mean_clogging_index = 0;  ///< over the time in which there is demand
-  double clogging_index_s = 0;     ///< integral over time
+  double capacity_per_s = 0;       ///< mean over the run; 0 while closed
+  DoorCounts crossings;            ///< numbers of crossings
+  double share = 0;                ///< share of the sum of net_out() over all exits
+  double mean_clogging_index = 0;  ///< mean over the time with demand
+  double clogging_index_s = 0;     ///< integral of the clogging index over time
   double demand_s = 0;
-  double congested_s = 0;  ///< CONGESTED or CLOGGED
+  double congested_s = 0;  ///< time in ExitState congested or clogged
   double clogged_s = 0;
   std::array<double, 5> state_s{};  ///< time in each ExitState
   double clogged_offline_s = 0;
-  std::optional<double> demand_flow_per_s;  ///< net, while there was demand, over that time
+  std::optional<double> demand_flow_per_s;  ///< net flow during demand
   int max_queue = 0;
   double max_queue_length_m = 0;
   double max_wait_s = 0;
@@ -34,21 +34,21 @@ struct ExitTotals {
   double max_voronoi_density_per_m2 = 0;
   std::optional<double> last_crossing_s;
   double clog_after_s = 0;
-  EdieRegion edie;  ///< of the zone under demand
+  EdieRegion edie;  ///< over the control zone during demand
   GapFigures gaps;
   std::vector<ClogEvent> clogs;
 
   int net_out() const { return crossings.out - crossings.in; }
 };
 
-/// How the exits' use compares with what they can take. Empty without crossings or open exits.
+/// Comparison of the exits' use with their capacities.
 struct ExitBalance {
-  double balance = 0;        ///< 1 - half the sum of |share - share of the capacity|; 1: perfect
+  double balance = 0;        ///< 1 - sum |share - share of capacity| / 2; 1: perfect
   double jain = 0;           ///< fairness of net_out() per capacity (Jain, Chiu and Hawe 1984)
-  double last_spread_s = 0;  ///< between the last crossings of the exits that were used
+  double last_spread_s = 0;  ///< range of the last crossings of the used exits
 };
 
-/// One per series.
+/// The totals of each series; `dt_s` is the trace's step.
 std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double dt_s);
 
 std::optional<ExitBalance> balance_exits(const std::vector<ExitTotals>& exits);

@@ -1,4 +1,4 @@
-// People's paths to the exits.
+// The journeys of people to the exits.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,20 +11,22 @@
 
 namespace throng::metrics {
 
-/// From when the person noticed (from the later of alarm and arrival, if they never did) to the
-/// last passage of a door.
+/// A person's path from noticing the alarm (without noticing: from the later of alarm and arrival)
+/// to the last passage of a door.
 struct Journey {
   std::size_t agent = 0;
-  std::size_t exit = 0;  ///< the door, as number of the scenario's exit
+  std::size_t exit = 0;  ///< index of the exit
   double from_s = 0;
   double to_s = 0;
   double walked_m = 0;
-  std::optional<double> to_used_m;     ///< shortest path around buildings to that door
-  std::optional<double> to_nearest_m;  ///< to the door nearest on foot, open at first
-  double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
-  int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
+  std::optional<double> to_used_m;  ///< shortest path to this exit around buildings
+  /// Shortest path to the nearest exit that is open at the start.
+  std::optional<double> to_nearest_m;
+  double speed_ratio = 0;  ///< mean speed over mean desired speed; 0 if the latter is 0
+  int stops = 0;           ///< number of times below 0.1 m/s for more than 1 s
 
-  /// Walked over shortest path length; empty within 0.5 m of the door, where it is meaningless.
+  /// Walked length over shortest length; nothing if the latter is unknown or at most 0.5 m, where
+  /// the ratio is meaningless.
   std::optional<double> detour(const std::optional<double>& shortest_m) const {
     constexpr double kNoWayM = 0.5;
     if (!shortest_m || *shortest_m <= kNoWayM) return std::nullopt;

@@ -1,4 +1,4 @@
-// When people noticed the alarm, and what came after.
+// When people noticed the alarm, and when they escaped after that.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,19 +10,20 @@
 
 namespace throng::metrics {
 
-/// When evacuees noticed the alarm. Evacuees are all people but those who left before it.
+/// Notification of the evacuees (PersonRecord::is_evacuee()).
 struct Notification {
-  int never = 0;                  ///< people who did not, in the time that the run had
-  std::vector<double> times_s;    ///< of the others, from the later of alarm and arrival, in order
-  std::optional<double> first_s;  ///< the earliest of all, by the run's clock
-  /// Times of all evacuees since the alarm, until they noticed it, escaped without noticing, or the
-  /// run ended.
+  int never = 0;  ///< evacuees who did not notice the alarm during the run
+  /// Of the other evacuees, from the later of alarm and arrival, sorted.
+  std::vector<double> times_s;
+  std::optional<double> first_s;  ///< earliest time, by the run's clock
+  /// Times of all evacuees from the later of alarm and arrival until they noticed the alarm
+  /// (event), escaped without noticing, or the run ended.
   std::vector<Watched> notice;
-  /// Times of evacuees since they noticed the alarm, until they escaped or the run ended.
+  /// Times of evacuees from noticing the alarm until they escaped (event) or the run ended.
   std::vector<Watched> escape;
 };
 
-/// `end_s`: when the run ended.
+/// Summarizes the notification of people; `end_s` is the end of the run.
 Notification summarize_notification(const std::vector<PersonRecord>& people, double end_s);
 
 nlohmann::json to_json(const Notification& notification);

@@ -1,4 +1,4 @@
-// Table of the people of a run, as columns.
+// A table of the people of a run, by columns.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@
 
 namespace throng::metrics {
 
-/// One list per value with one entry per person; null where there is none.
+/// One list per column with one element per person; null for absent values.
 nlohmann::json person_table(const std::vector<PersonRecord>& people,
                             const std::vector<Journey>& journeys, const PeopleCounts& counts);
 

@@ -1,4 +1,4 @@
-// Why people are still inside when a run ends.
+// The reasons why people are still inside at the end of a run.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,16 +11,15 @@
 
 namespace throng::metrics {
 
-/// Everybody who took part, is present and inside at the last step and has not escaped: each
-/// counts for the first reason that holds, in this order.
+/// Numbers of people who are present and inside at the last step and have not escaped. Each person
+/// counts for the first reason that applies, in this order.
 struct Remaining {
-  int casualty = 0;  ///< lies there, hurt or fallen
+  int casualty = 0;  ///< lies on the ground, hurt or fallen
   int guided = 0;    ///< follows a drone (world::kFollowing)
-  int waiting = 0;   ///< heads for no exit: the behavior has not sent the person out
-  int blocked = 0;   ///< no open exit can be reached on foot
-  int walking = 0;   ///< arrived within the last minute, or is 6 m or more from where he or she was
-                     ///< a minute ago (0.1 m/s)
-  int stalled = 0;   ///< heads for an exit and does not get there
+  int waiting = 0;   ///< does not head for an exit, since the behavior has not set one as goal
+  int blocked = 0;   ///< cannot reach an open exit on foot
+  int walking = 0;   ///< arrived within the last minute, or moved by 6 m or more in it (0.1 m/s)
+  int stalled = 0;   ///< heads for an exit without progress
 
   int total() const { return casualty + guided + waiting + blocked + walking + stalled; }
 };

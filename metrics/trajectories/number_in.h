@@ -1,4 +1,4 @@
-// Numbers in text files.
+// Parsing of numbers in text files.
 #pragma once
 
 #include <charconv>
@@ -8,7 +8,8 @@
 
 namespace throng::metrics {
 
-/// The finite number that a word is, if it is one.
+/// Parses a word that is a finite number as a whole, possibly with a leading '+'; else returns
+/// nothing.
 inline std::optional<double> number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;

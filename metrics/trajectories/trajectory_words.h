@@ -1,4 +1,4 @@
-// Comments and column names of trajectory files.
+// Interpretation of comments and column names of trajectory files.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,20 @@
 
 namespace throng::metrics {
 
-/// "# framerate: 16.00 fps", "#frame rate=25", "# 25fps" and the like, in frames per second.
+/// The frame rate (1/s) that a comment states, such as "# framerate: 16.00 fps", "#frame rate=25"
+/// or
+/// "# 25fps".
 std::optional<double> frame_rate_in(std::string_view comment);
 
-/// The unit of lengths, m, that a comment or a column's name states: "x/cm", "in m", "x [mm]".
+/// The unit of length, in m, that a comment or a column's name states, such as "x/cm", "in m" or
+/// "x [mm]".
 std::optional<double> unit_in(std::string_view text);
 
-/// A column's name in small letters, without signs between its words and without its unit:
-/// "posx" of "Pos_X [m]".
+/// A column's name in lower case, without separators between its words and without its unit: "Pos_X
+/// [m]" becomes "posx".
 std::string bare_name(std::string_view name);
 
-/// A text without the mark that some programs begin UTF-8 with.
+/// The text without a leading UTF-8 byte order mark.
 std::string_view without_byte_order_mark(std::string_view text);
 
 }  // namespace throng::metrics

@@ -28,11 +28,9 @@ GroundImpact ground_impact(const FlightState& state);
 /// The warnings of one drone. Logs these events, once, when the drone can no longer stay in the air
 /// and is more than a person's height above the ground:
 /// - `falling`: value: height, m; extra: number of people within a horizontal distance of one
-/// height
-///   from the drone (the 1:1 rule of EASA's AMC to Regulation (EU) 2019/947);
+///   height from the drone (the 1:1 rule of EASA's AMC to Regulation (EU) 2019/947);
 /// - `fall_hazard` for each person within 3 m plus the drone's radius of the predicted ground
-/// impact:
-///   value: distance from the impact, m; extra: time until the impact, s.
+///   impact: value: distance from the impact, m; extra: time until the impact, s.
 class FallWarning {
  public:
   explicit FallWarning(std::size_t drone) : drone_(drone) {}
