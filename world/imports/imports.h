@@ -1,5 +1,5 @@
-// The module's public header: Gazebo's worlds and OpenStreetMap's extracts read, populated, and
-// written as scenarios.
+// The module's public header: read_sdf() and read_osm() read Gazebo's worlds and OpenStreetMap's
+// extracts, populate() adds people, and write_imported_scenario() writes the scenario.
 #pragma once
 
 #include "world/imports/gazebo/sdf_world.h"

@@ -1,4 +1,4 @@
-// Colors of Gazebo's own materials, for worlds that name them instead of a color.
+// Colors of Gazebo's material scripts, for worlds that name a material instead of a color.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace throng::imports {
 
-/// The color (RGB, 0 to 1) of a material script as "Gazebo/Red" or "Gazebo/Wood": that of its
-/// paint, or about the mean of its texture. Nothing for materials that are not Gazebo's.
+/// The color (RGB, 0 to 1) of a material script such as "Gazebo/Red" or "Gazebo/Wood": its diffuse
+/// color, or the approximate mean of its texture. Nothing for unknown materials.
 std::optional<Eigen::Vector3d> gazebo_color(std::string_view script);
 
 }  // namespace throng::imports

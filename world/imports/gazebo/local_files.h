@@ -1,4 +1,4 @@
-// Files that a world refers to, on this machine and below known folders only.
+// Resolves the files to which a world refers, restricted to known folders of this machine.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@ class LocalFiles {
  public:
   explicit LocalFiles(const std::vector<std::filesystem::path>& folders);
 
-  /// The file that a URI names (model://a/b, file://a, a/b), first beside `from`, a file, then in
-  /// each folder; nothing where it is not there, not below one of the folders or on another
-  /// machine.
+  /// Finds the file of a URI (model://a/b, file://a, a/b), first in the folder of the file `from`,
+  /// then in each of the folders. Nothing if it does not exist, is not below one of the folders, or
+  /// is on another machine.
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             const std::filesystem::path& from) const;
 

@@ -1,4 +1,4 @@
-// Mesh files as triangles with colors.
+// Reads mesh files as colored triangles.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,11 @@
 
 namespace throng::imports {
 
-/// Reads what assimp does, z up: COLLADA and glTF files, which say or have to have their own up,
-/// are turned; all others are taken as they are, as Gazebo does. Only the mesh `submesh`, unless
-/// that is empty. Throws InputError for what is no mesh, has a coordinate that is no number, or
-/// more than a million triangles.
+/// Reads a mesh in any format of assimp, with z up: COLLADA and glTF files, which define an up
+/// axis, are rotated; others are taken as they are, as in Gazebo. Reads only the mesh `submesh`
+/// unless it is
+/// "". Throws InputError if the file is no mesh, has a coordinate that is not finite, or more than
+/// a million triangles.
 std::vector<Solid> read_mesh(const std::filesystem::path& file, const std::string& submesh);
 
 }  // namespace throng::imports

@@ -1,4 +1,4 @@
-// Gazebo worlds as libsdformat reads them, less what it cannot read.
+// Loads Gazebo worlds by libsdformat, without the parts that it cannot read.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,14 @@ class Root;
 
 namespace throng::imports {
 
-/// Reads `file` into `root`; what it includes is looked for by `files`. Parts with values that are
-/// none are left out one by one and noted in `skipped`, as is what libsdformat complains of.
-/// Element lines of the root are those of the text returned. Throws InputError (file, line) where
-/// neither world nor model is left, and EnvironmentError.
+/// Reads `file` into `root`; included files are found by `files`. Parts with invalid values are
+/// removed one by one and listed in `skipped`, together with libsdformat's complaints. Line numbers
+/// of the root's elements refer to the returned text. Throws InputError (file, line) if neither a
+/// world nor a model remains, and EnvironmentError.
 SdfText load_root(const std::filesystem::path& file, const LocalFiles& files, sdf::Root& root,
                   std::vector<Skipped>& skipped);
 
-/// Whether libsdformat names a file that it was given as a text.
+/// Whether a path in libsdformat's messages stands for a document that was passed as text.
 bool is_given_text(const std::string& path);
 
 }  // namespace throng::imports

@@ -1,4 +1,4 @@
-// SDF's geometries as bodies of the scenario.
+// Conversion of SDF's geometries to bodies of the scenario.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,26 +19,25 @@ class Material;
 
 namespace throng::imports {
 
-/// A geometry in the world.
+/// A geometry in the world's frame (m).
 struct Body {
-  /// Outline of a shape that stands upright and is the same at all its heights; simple,
-  /// counter-clockwise.
+  /// Outline of an upright prism, a simple polygon, counter-clockwise; nothing for other shapes.
   std::optional<Corners> footprint;
   double from_z = 0;
   double to_z = 0;
   std::vector<Solid> solids;
 };
 
-/// A geometry at a pose; `file` is the one it stands in. Planes have a footprint, no height and no
-/// triangles, <empty/> has nothing. Throws InputError for one that there is no body for: unknown
-/// kinds, sizes that are no positive numbers below 10 km, meshes that cannot be read.
+/// Makes the body of a geometry at a pose; `file` is the file that contains the geometry. Planes
+/// have a footprint without height and triangles; <empty/> has neither. Throws InputError for
+/// unknown kinds, sizes that are not in (0, 10 km), and meshes that cannot be read.
 Body make_body(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose,
                const std::string& file, const LocalFiles& files);
 
-/// The color that a material gives, if it does: diffuse, that of Gazebo's script, or ambient.
+/// The color of a material, if it defines one: diffuse, that of Gazebo's script, or ambient.
 std::optional<Eigen::Vector3d> material_color(const sdf::Material* material);
 
-/// The ground's material that looks most like a color.
+/// The ground material whose color is most similar to `rgb`.
 std::string ground_material_like(const Eigen::Vector3d& rgb);
 
 }  // namespace throng::imports

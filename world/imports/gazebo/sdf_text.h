@@ -1,4 +1,4 @@
-// The text of a Gazebo world, so that libsdformat's complaints find the part that they are about.
+// The text of a Gazebo world in a form in which the line of an error identifies an element.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +8,31 @@
 
 namespace throng::imports {
 
-/// libsdformat gives up a whole world for one value that it cannot read, and says the line only.
-/// Here each element begins a line of its own, comments and declarations are gone, and parts can be
-/// taken out without moving the others.
+/// libsdformat rejects a whole world for one invalid value and reports only its line. In this text
+/// each element starts on its own line, comments and declarations are removed, and parts can be
+/// removed without moving others.
 class SdfText {
  public:
-  /// Throws InputError (`name`, line) for what is no XML, or where the root is not <sdf>.
+  /// Throws InputError (`name`, line) if `text` is not XML or its root is not <sdf>.
   SdfText(const std::string& name, const std::string& text);
 
   /// The remaining text, for libsdformat.
   const std::string& text() const { return text_; }
-  /// The line of the file that a line of text() comes from.
+  /// The line of the file that corresponds to a line of text().
   int line_of(int line) const;
 
   struct Part {
     std::string name;  ///< "model a/link b/visual c"
-    int line = 0;      ///< in the file
+    int line = 0;      ///< line in the file
   };
-  /// Takes out the smallest part that a world can do without and that holds the element on a line
-  /// of text(): a visual, a link, a model and so on. Nothing where that would be the world itself.
+  /// Removes the smallest optional part that contains the element on a line of text(): a visual, a
+  /// link, a model and so on. Returns nothing if only the world itself contains it.
   std::optional<Part> take_out(int line);
 
  private:
   struct Element {
     std::string name;
-    std::string label;  ///< with its attribute "name"
+    std::string label;  ///< name with the value of its attribute "name"
     std::size_t begin = 0;
     std::size_t end = 0;
     int line = 0;
@@ -43,7 +43,7 @@ class SdfText {
   std::string path_of(int element) const;
 
   std::string text_;
-  std::vector<Element> elements_;  ///< that on line i of text_ is the one before the i-th
+  std::vector<Element> elements_;  ///< the element on line i of text_ has index i - 1
   int open_ = -1;
 };
 

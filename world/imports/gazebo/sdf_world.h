@@ -1,4 +1,4 @@
-// Gazebo's worlds (SDF) as scenarios.
+// Import of Gazebo's worlds (SDF) as scenarios.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +9,17 @@
 namespace throng::imports {
 
 struct SdfOptions {
-  std::vector<std::filesystem::path> models;  ///< folders that model:// is looked for in
-  std::vector<Gate> gates;                    ///< exits; empty: found at the edge
+  std::vector<std::filesystem::path> models;  ///< folders in which model:// is resolved
+  std::vector<Gate> gates;                    ///< exits; empty: openings of the edge
 };
 
-/// Reads the first world of a file, or a model that stands alone, with what it includes from the
-/// world's folder and `models` (nothing is fetched, and no file elsewhere is read). Boxes,
-/// cylinders, spheres, capsules, ellipsoids, planes and meshes at their poses: those that stand
-/// upright on the ground and are 2 m high or more become buildings, flat ones areas of ground, all
-/// others objects that are drawn as they are. Collisions between 0.2 and 2 m are obstacles for
-/// people.
-/// Lamps become lamp posts. The rest is listed in ImportedScenario::skipped. Throws InputError
-/// (file, line) where there is no world in the file, and EnvironmentError.
+/// Reads the first world of a file, or a model without a world, with included files from the
+/// world's folder and `models` (nothing is downloaded, and no other file is read). Boxes,
+/// cylinders, spheres, capsules, ellipsoids, planes and meshes are converted: upright shapes on the
+/// ground with a height of 2 m or more become buildings, flat ones areas of ground, all others
+/// objects that are rendered unchanged. Collision shapes between 0.2 and 2 m above the ground
+/// become obstacles for people; lights become lamp posts. ImportedScenario::skipped lists the rest.
+/// Throws InputError (file, line) if the file contains no world, and EnvironmentError.
 ImportedScenario read_sdf(const std::filesystem::path& file, const SdfOptions& options);
 
 }  // namespace throng::imports

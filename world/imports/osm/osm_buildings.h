@@ -1,4 +1,4 @@
-// Buildings of a map: their outlines, and the parts that they are drawn by where they have some
+// The buildings of a map: their outlines and, if mapped, their parts
 // (wiki.openstreetmap.org/wiki/Simple_3D_Buildings).
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace throng::imports {
 
-/// A prism that is drawn.
+/// A prism that is rendered.
 struct BuildingPiece {
   std::string name;
   Area area;
   double from_m = 0;
   double to_m = 0;
-  bool stands = true;  ///< on the ground, or on pieces that do; else people walk below
-  bool part = false;   ///< of a building whose outline blocks people
+  bool stands = true;  ///< on the ground or on such pieces; else people can walk below
+  bool part = false;   ///< part of a building whose outline blocks people
 };
 
 struct MapBuildings {
   std::vector<BuildingPiece> pieces;
-  std::vector<Area> outlines;  ///< where nobody walks though nothing of these is drawn
+  std::vector<Area> outlines;  ///< obstacles for people that are not rendered
   std::vector<Skipped> skipped;
 };
 
@@ -31,9 +31,10 @@ struct MapBuildings {
 bool is_building(const Tags& tags);
 bool is_building_part(const Tags& tags);
 
-/// The areas that are buildings or parts of them. A building is drawn by its parts, if
-/// half of a part or more lies in it; parts without heights have the building's. Pieces of one
-/// building come with the highest first: where they overlap on the ground, it is what one sees.
+/// Makes pieces of the areas that are buildings or building parts; `file` is for messages. A
+/// building is represented by the parts that lie in it by half or more, if there are any; parts
+/// without heights have the building's. The highest piece of a building comes first, since it is
+/// the visible one where pieces overlap on the ground.
 MapBuildings make_buildings(const std::vector<OsmArea>& areas, const std::string& file);
 
 }  // namespace throng::imports

@@ -1,4 +1,4 @@
-// Content of an OpenStreetMap extract, in meters.
+// The content of an OpenStreetMap extract, in meters.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ struct OsmLine {
   std::int64_t id = 0;
   Tags tags;
   std::vector<Eigen::Vector2d> points;
-  std::vector<std::int64_t> nodes;  ///< one per point
+  std::vector<std::int64_t> nodes;  ///< ids of the nodes, one per point
 };
 
 /// A closed way or a multipolygon.
@@ -43,21 +43,20 @@ struct OsmArea {
 };
 
 struct OsmFile {
-  world::Rectangle bounds;  ///< as the file says, else of its nodes
-  bool has_bounds = false;  ///< the file says
+  world::Rectangle bounds;  ///< as stated in the file, else the bounding box of its nodes
+  bool has_bounds = false;  ///< whether the file states them
   std::vector<OsmPoint> points;
   std::vector<OsmLine> lines;
   std::vector<OsmArea> areas;
   std::vector<Skipped> skipped;
 };
 
-/// Reads OSM XML by libosmium, all that has tags. x is east and y north of the origin (default: the
-/// middle of the bounds), by the ellipsoid's radii of curvature there: over 3 km off by less than a
-/// meter. Rings that cross themselves are repaired(); those
-/// that do not close, and what is not whole in the file, are in `skipped`. Objects that JOSM marks
-/// as deleted is not there; a multipolygon without tags has those of its outer ways. Throws
-/// InputError for what is no such file, spans more than 5 km, or has more than 2 million nodes, and
-/// EnvironmentError.
+/// Reads all tagged objects of an OSM XML file by libosmium. x is east and y north of the origin
+/// (default: the center of the bounds), projected by the ellipsoid's radii of curvature there; the
+/// error is below a meter over 3 km. Rings that cross themselves are repaired(); rings that do not
+/// close and incomplete objects are listed in `skipped`. Objects that JOSM marks as deleted are
+/// omitted; a multipolygon without tags has those of its outer ways. Throws InputError if the file
+/// is no OSM XML, spans more than 5 km or has more than 2 million nodes, and EnvironmentError.
 OsmFile read_osm_file(const std::filesystem::path& file, const std::optional<GeoPoint>& origin);
 
 }  // namespace throng::imports

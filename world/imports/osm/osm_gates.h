@@ -1,4 +1,4 @@
-// Gates at the points where ways leave an extract.
+// Gates where ways leave an extract.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,12 @@ struct UsedWay {
   WayKind kind;
 };
 
-/// A gate on the edge of `inside` wherever a way crosses it or ends within a meter of it, as wide
-/// as the way (2 to 12 m); those that overlap are one.
+/// Makes a gate on the edge of `inside` wherever a way crosses the edge or ends within a meter of
+/// it, with the width of the way (2 to 12 m). Overlapping gates are merged.
 std::vector<Gate> gates_at_edge(const std::vector<UsedWay>& ways, const world::Rectangle& inside);
 
-/// The part of a segment in a rectangle, if it is longer than a decimeter (Liang and Barsky, ACM
-/// Transactions on Graphics 3, 1984).
+/// The part of a segment in a rectangle, or nothing if it is not longer than a decimeter (Liang and
+/// Barsky, ACM Transactions on Graphics 3, 1984).
 std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> part_within(
     const Eigen::Vector2d& from, const Eigen::Vector2d& to, const world::Rectangle& area);
 

@@ -1,4 +1,4 @@
-// OpenStreetMap extracts as points.
+// Import of OpenStreetMap extracts as scenarios.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,15 @@
 namespace throng::imports {
 
 struct OsmOptions {
-  std::optional<GeoPoint> origin;  ///< default: the middle of the bounds
+  std::optional<GeoPoint> origin;  ///< default: the center of the bounds
   std::vector<Gate> gates;         ///< exits; empty: where ways leave the extract
 };
 
-/// Reads an extract: buildings with their heights (multipolygons too; parts that begin above 2 m
-/// are drawn, and people pass below), ways by their widths, crossings, areas of green and of
-/// paving, water, barriers with the gates in them, trees, lamps, benches, bins and bollards. Ways
-/// that leave the bounds have gates there, shared by their widths, a footway counting in full
-/// and a road as three tenths. The rest is listed in ImportedScenario::skipped. Throws as
-/// read_osm_file().
+/// Reads an extract: buildings with their heights (also multipolygons; people pass below parts that
+/// start above 2 m), ways with their widths, crossings, green and paved areas, water, barriers with
+/// gates, trees, lamps, benches, bins and bollards. Ways have gates where they leave the bounds,
+/// whose shares of the people are proportional to the widths, with a factor of 1 for footways and
+/// 0.3 for roads. ImportedScenario::skipped lists the rest. Throws as read_osm_file().
 ImportedScenario read_osm(const std::filesystem::path& file, const OsmOptions& options);
 
 }  // namespace throng::imports

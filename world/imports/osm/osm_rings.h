@@ -1,4 +1,4 @@
-// Rings of ways, joined at their ends: for what libosmium's assembler gives up as a whole.
+// Joins ways at their ends to rings, for multipolygons that libosmium's assembler rejects.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace throng::imports {
 
-/// The nodes of a way and their points, in order.
+/// The ids and positions (m) of a way's nodes, in order.
 struct WayNodes {
   std::vector<std::int64_t> nodes;
   Corners points;
@@ -17,10 +17,10 @@ struct WayNodes {
 
 struct JoinedRings {
   std::vector<Corners> rings;  ///< closed, the first corner not repeated
-  int open = 0;                ///< chains of ways that do not close
+  int open = 0;                ///< number of chains of ways that do not close
 };
 
-/// Joins ways end to end, in their order, turning them where they must be.
+/// Joins ways end to end, in their order, reversing them as necessary.
 JoinedRings joined_rings(std::vector<WayNodes> ways);
 
 }  // namespace throng::imports

@@ -1,5 +1,5 @@
-// The text of an OpenStreetMap extract, less what is nothing to a scenario and may still stop
-// libosmium.
+// Preprocesses the text of an OpenStreetMap extract: removes content that is irrelevant to
+// scenarios but may stop libosmium.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace throng::imports {
 
-/// 'n', 'w' or 'r', and the id.
+/// The type ('n', 'w' or 'r') and id of a node, way or relation.
 using OsmId = std::pair<char, std::int64_t>;
 
 struct OsmText {
   std::string text;
-  std::set<OsmId> deleted;  ///< by a mapper in JOSM, whose mark libosmium does not know
+  std::set<OsmId> deleted;  ///< objects marked as deleted by JOSM; libosmium ignores the mark
 };
 
-/// Takes who changed what and when out of nodes, ways and relations, and coordinates that are none.
+/// Removes metadata of edits (user, time, changeset) and invalid coordinates from nodes, ways and
+/// relations.
 OsmText plain_osm(std::string_view text);
 
 }  // namespace throng::imports

@@ -1,5 +1,5 @@
-// Areas on the ground while they are worked on: an outline with holes, checked and cut by
-// Boost.Geometry, and at last taken apart into the simple polygons that scenarios are made of.
+// Operations on areas of ground with holes, by Boost.Geometry, and their division into the simple
+// polygons of scenarios.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,8 @@
 
 namespace throng::imports {
 
-/// Corners in order, counter-clockwise seen from above, not repeated at the end (m).
+/// The corners (m) of a polygon, counter-clockwise from above, the first one not repeated at the
+/// end.
 using Corners = std::vector<Eigen::Vector2d>;
 
 struct Area {
@@ -18,30 +19,31 @@ struct Area {
   std::vector<Corners> holes;
 };
 
-/// The area with corners in the right order and without those that repeat or lie on a straight
-/// edge; nothing where it has no extent, crosses itself or has holes that do not lie within it.
+/// The area with corners in the right order, without repeated corners and corners on straight
+/// edges. Nothing if it has no extent, crosses itself or has holes that are not within it.
 std::optional<Area> tidied(const Area& area);
 
-/// The area as it is if tidied() takes it; else what the loops of its outline cover and those of
-/// its holes do not (simple_loops()), the largest part first, those of less than 0.01 m² left out.
+/// The result of tidied() if there is one; else the ground that the loops of the outline cover and
+/// the loops of the holes do not (simple_loops()): the largest part first, without parts below 0.01
+/// m².
 std::vector<Area> repaired(const Area& area);
 
-/// The parts of an area in a rectangle, and outside of others.
+/// The parts of an area within a rectangle, and the parts outside of other areas.
 std::vector<Area> clipped(const Area& area, const world::Rectangle& to);
 std::vector<Area> without(const Area& area, const std::vector<Area>& others);
 
-/// The ground within half of `width_m` of a line, with flat ends and corners cut square; empty
-/// where the line has no length.
+/// The ground within half of `width_m` of a line, with flat ends and mitered corners; empty if the
+/// line has no length.
 std::vector<Area> along(const std::vector<Eigen::Vector2d>& line, double width_m);
 
 double size_m2(const Area& area);
 double shared_m2(const Area& a, const Area& b);
 
-/// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
-/// smaller than `min_area_m2` are left out.
+/// Simple polygons that cover the area, which is cut through its holes. Omits pieces smaller than
+/// `min_area_m2`.
 std::vector<Corners> simple_parts(const Area& area, double min_area_m2 = 0.01);
 
-/// A rectangle's corners; a regular polygon of 24 corners in place of a circle.
+/// The corners of a rectangle, and of a regular polygon with 24 corners that approximates a circle.
 Corners rectangle_corners(const world::Rectangle& rectangle);
 Corners circle(const Eigen::Vector2d& center, double radius_m);
 

@@ -1,4 +1,4 @@
-// Ground to stand on: a grid over the scenario, and which parts of it are connected.
+// A grid of the ground on which people can stand, and its connected regions.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace throng::imports {
 
-/// Cells are free where obstacles are at least a body's half width away.
+/// A cell is free if all obstacles are at least half a body's width away.
 class FreeGround {
  public:
   static constexpr double kCellM = 0.5;
@@ -18,10 +18,10 @@ class FreeGround {
 
   FreeGround(const world::Rectangle& area, const std::vector<Corners>& obstacles);
 
-  /// Number of the connected region at a point; kBlocked where nobody can stand, or outside.
+  /// Index of the connected region at a point; kBlocked if nobody can stand there, or outside.
   int region_at(const Eigen::Vector2d& point) const;
   int regions() const { return static_cast<int>(sizes_.size()); }
-  /// How many cells a region has.
+  /// Number of cells of a region.
   std::size_t size_of(int region) const { return sizes_[static_cast<std::size_t>(region)]; }
   std::vector<Eigen::Vector2d> cells_in_region(int region) const;
 

@@ -1,5 +1,4 @@
-// A scenario on its way from somebody else's file to a scenario: what is there, before it has
-// people.
+// An imported scenario in memory, before people are added (parts/populate.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +12,24 @@
 
 namespace throng::imports {
 
-/// Something of the file that the scenario does not have, or not as it was.
+/// An element of the file that the scenario lacks or has in a changed form.
 struct Skipped {
   std::string file;
   int line = 0;         ///< 0: the format has no lines
   std::string element;  ///< "model/link/visual <heightmap>", "way 123"
   std::string reason;
 
-  /// "world.sdf:12: model box <plugin>: plugins are not run"
+  /// One line, such as "world.sdf:12: model box <plugin>: plugins are not run".
   std::string text() const;
 };
 
-/// Triangles of one color (linear RGB, 0 to 1), in the world (m).
+/// Triangles of one color (linear RGB, 0 to 1), in the world's frame (m).
 struct Solid {
   Eigen::Vector3d rgb{0.6, 0.6, 0.6};
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
 };
 
-/// Something that is drawn as it is and has an id of its own.
+/// An object that is rendered unchanged and has its own id.
 struct Object {
   std::string name;
   std::vector<Solid> solids;
@@ -40,30 +39,30 @@ struct Object {
 struct Gate {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
-  double share = 0;  ///< of those who come in, relative to other gates
+  double share = 0;  ///< relative number of people who enter here
 };
 
 struct ImportedScenario {
   std::string name;
   std::string description;
-  world::Rectangle inside;  ///< whom the scenario counts; the ground reaches farther
+  world::Rectangle inside;  ///< Scenario::inside; the ground extends farther
   std::string ground_material = "concrete";
   std::vector<world::GroundArea> areas;
   std::vector<world::Marking> markings;
-  std::vector<world::Building> buildings;  ///< what drones cannot fly through
+  std::vector<world::Building> buildings;  ///< obstacles for drones
   std::vector<world::Prop> props;
   std::vector<Object> objects;
-  std::vector<Corners> obstacles;  ///< where nobody can walk: buildings and all else; simple
+  std::vector<Corners> obstacles;  ///< all obstacles for people, including buildings; simple
   std::vector<Gate> gates;
-  bool gates_asked = false;  ///< by the user, not found in the file
-  bool people_come = false;  ///< through the gates, as many as leave
+  bool gates_asked = false;  ///< the user specified the gates
+  bool people_come = false;  ///< people enter through the gates, as many as leave
   std::vector<Skipped> skipped;
 };
 
-/// How far the drawn ground reaches beyond ImportedScenario::inside (m).
+/// Distance (m) by which the rendered ground extends beyond ImportedScenario::inside.
 inline constexpr double kGroundBeyondM = 12;
 
-/// The ground that is drawn.
+/// The extent of the rendered ground.
 world::Rectangle ground_rectangle(const ImportedScenario& scenario);
 
 }  // namespace throng::imports

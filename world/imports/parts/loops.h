@@ -1,4 +1,4 @@
-// Rings that cross or touch themselves, taken apart.
+// Division of rings that cross or touch themselves.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace throng::imports {
 
-/// Splits a ring wherever it comes back to a point where it has been, to the millimeter. No loop
-/// crosses itself; those without area are left out. Nothing for rings of more than 5000 corners.
+/// Splits a ring at all points that it visits twice (to the millimeter). The loops do not cross
+/// themselves; loops without area are omitted. Empty for rings of more than 5000 corners.
 std::vector<Corners> simple_loops(const Corners& ring);
 
 }  // namespace throng::imports

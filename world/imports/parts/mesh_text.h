@@ -1,4 +1,4 @@
-// Objects as Wavefront OBJ with its materials.
+// Conversion of objects to Wavefront OBJ with materials.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 namespace throng::imports {
 
 struct MeshText {
-  std::string triangles;  ///< the .obj; y up, so that the scenario's (x, y, z) is (x, z, -y)
+  std::string triangles;  ///< the .obj, with y up: the scenario's (x, y, z) becomes (x, z, -y)
   std::string materials;  ///< the .mtl
 };
 
 MeshText mesh_text(const Object& object, const std::string& materials_file);
 
-/// Path of an object's files below the scenario's folder, without suffix; unique.
+/// The unique path of an object's files relative to the scenario's folder, without suffix.
 std::string mesh_name(const ImportedScenario& scenario, std::size_t object);
 
 }  // namespace throng::imports

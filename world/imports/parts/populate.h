@@ -1,4 +1,4 @@
-// Gives a scenario people: gates that can be reached, and room to stand.
+// Adds people to an imported scenario: reachable gates and positions at the start.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,23 +14,22 @@ struct PopulateOptions {
   std::uint64_t seed = 1;
 };
 
-/// The parts that a scenario lacks to be a scenario.
+/// The gates and people of an imported scenario.
 struct Population {
-  std::vector<Gate> gates;              ///< each can be reached from every start
-  std::vector<Eigen::Vector2d> starts;  ///< m
+  std::vector<Gate> gates;              ///< each is reachable from every start
+  std::vector<Eigen::Vector2d> starts;  ///< positions of people, m
 };
 
-/// Takes the scenario's gates, or finds them where its edge is open, and draws where people stand:
-/// everywhere that is connected with the gates, 0.9 m apart. Gates that cannot be reached, props
-/// that stand in buildings or before gates, and people without room are noted in
-/// `scenario.skipped`; such props are taken away. Throws InputError for a scenario that nobody can
-/// leave.
+/// Chooses the scenario's gates, or openings of its edge if there are none, and samples the
+/// positions of people on ground that is connected with the gates, 0.9 m apart. Removes props in
+/// buildings or in front of gates. Lists them, unreachable gates and missing room for people in
+/// `scenario.skipped`. Throws InputError for a scenario that nobody can leave.
 Population populate(ImportedScenario& scenario, const PopulateOptions& options);
 
-/// How much ground populate() would find from where people can leave: 0 where it would throw (m²).
+/// Area (m²) of the ground from which populate() lets people leave; 0 if it would throw.
 double open_ground_m2(const ImportedScenario& scenario);
 
-/// The direction out of a gate: a unit vector away from the middle of the scenario.
+/// The unit normal of a gate that points away from the center of the scenario.
 Eigen::Vector2d outward_direction(const Gate& gate, const world::Rectangle& inside);
 
 }  // namespace throng::imports

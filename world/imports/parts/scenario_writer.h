@@ -1,4 +1,4 @@
-// Writes a scenario as a scenario that loads and runs.
+// Writes an imported scenario as files that can be loaded and run.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace throng::imports {
 
-/// Writes into `folder`: NAME.json, NAME_scene.xml, NAME_behavior.xml, NAME.job.json (a short
-/// draft), NAME.skipped.txt and, where there are objects, NAME_meshes/. Each file is complete or
-/// absent, the scenario comes last. NAME is the scenario's name, which must be one for scenarios:
-/// words of a to z, 0 to 9 and '_'. Returns the scenario's file. Throws EnvironmentError.
+/// Writes into `folder`: NAME.json, NAME_scene.xml, NAME_behavior.xml, NAME.job.json (a short draft
+/// job), NAME.skipped.txt and, if there are objects, NAME_meshes/. Each file is complete or absent;
+/// the scenario's is written last. NAME is the scenario's name, which must consist of a to z, 0 to
+/// 9 and '_'. Returns the scenario's file. Throws EnvironmentError.
 std::filesystem::path write_imported_scenario(const ImportedScenario& scenario,
                                               const Population& population,
                                               const std::filesystem::path& folder);
 
-/// A file's stem as such a name: "My World.sdf" as "my_world".
+/// A valid name made from a file's stem: "My World.sdf" becomes "my_world".
 std::string scenario_name_from(const std::filesystem::path& file);
 
 }  // namespace throng::imports

@@ -1,5 +1,4 @@
-// Ground and doors that disasters block as they grow: discs that the crowd's files define,
-// one after another.
+// Ground and doors that growing disasters block: a sequence of discs in the crowd's files.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +9,28 @@
 
 namespace throng::scenarios {
 
-/// Obstacles of this class are there before anybody flees.
+/// Obstacle class of the discs that exist before anybody flees.
 inline constexpr std::uint32_t kFirstClass = 2;
 
-/// A disc about a disaster that nobody enters who flees, from a time on.
+/// A disc around a disaster that fleeing people do not enter from a time on.
 struct BlockedDisc {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< m
   double radius_m = 0;
   double from_s = 0;
-  std::uint32_t obstacle_class = kFirstClass;  ///< of the Menge scene
+  std::uint32_t obstacle_class = kFirstClass;  ///< bit of the class in the Menge scene
 };
 
-/// The discs of all disasters, each disaster's by time: at its start `blocked_m`; later ones as
-/// much larger as the disaster has grown, in steps of 2 m or more, at most 6 of each and 24 in all,
-/// for 5 minutes.
+/// The discs of all disasters, those of each disaster in order of time. The first has the radius
+/// Danger::blocked_m; later ones grow with the disaster for 5 minutes, in steps of about 2 m or
+/// more, at most 6 per disaster and 24 in all.
 std::vector<BlockedDisc> blocked_discs(const People& people);
 
-/// The earliest of the discs that reach a door; null if none does. From its time on the door is
-/// closed for all who flee.
+/// The earliest disc that reaches a door, from whose time on the door is closed for fleeing people;
+/// null if there is none.
 const BlockedDisc* first_to_reach(const world::Exit& exit, const std::vector<BlockedDisc>& discs);
 
-/// Whether anybody can ever flee by a door that this disc (null: none) is the first to reach.
+/// Whether anybody can ever flee through a door if `first` is the first disc that reaches it (null:
+/// none does).
 bool can_flee_by(const BlockedDisc* first);
 
 }  // namespace throng::scenarios

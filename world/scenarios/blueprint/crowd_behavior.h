@@ -8,13 +8,13 @@
 
 namespace throng::scenarios {
 
-/// The state in which people begin who do this.
+/// Name of the initial state of people with this activity.
 std::string state_name(Doing doing);
-/// The state of people who come in order to go to this exit.
+/// Name of the initial state of people who arrive and head for this exit.
 std::string state_towards(const world::Exit& exit);
 
-/// The behavior: everyday states, and where there are disasters: noticing, time to react, flight,
-/// following a drone.
+/// Describes the behavior: states of everyday activities and, with disasters, of noticing,
+/// pre-movement, flight and following a drone.
 crowd::BehaviorDescription describe_behavior(const world::Scenario& scenario, const People& people);
 
 }  // namespace throng::scenarios

@@ -1,4 +1,4 @@
-// Places from a seed: blueprints that are always valid.
+// Generation of blueprints from a seed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,8 +7,8 @@
 
 namespace throng::scenarios {
 
-/// The blueprint of such a scenario: every walkable point reaches an exit, nobody starts in
-/// anything solid and people come in by every exit. The same spec gives the same blueprint.
+/// Generates a valid blueprint: an exit is reachable from every walkable point, nobody starts in an
+/// obstacle, and people enter by every exit. Equal specs give equal blueprints.
 nlohmann::json generate_blueprint(const GeneratorSpec& spec);
 
 }  // namespace throng::scenarios

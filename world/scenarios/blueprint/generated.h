@@ -1,4 +1,4 @@
-// Generated places as scenarios, without anybody having to keep their files.
+// Generated scenarios in memory, without files.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace throng::scenarios {
 
-/// Problems of a generated blueprint with pointers into the spec that it was made from ("/people"),
-/// and without a source.
+/// The problems of a generated blueprint with JSON pointers into its spec ("/people") and without a
+/// source.
 std::vector<Problem> problems_of_spec(std::vector<Problem> problems);
 
-/// The scenario of a spec; its id is generated_scenario_id(spec). Nothing is written: its crowd is
-/// Scenario::built_crowd. Throws InputError with pointers into the spec.
+/// Generates the scenario of a spec, with the id generated_scenario_id(spec). Writes no files; the
+/// crowd is Scenario::built_crowd. Throws InputError with JSON pointers into the spec.
 world::Scenario load_generated(const GeneratorSpec& spec);
 
 }  // namespace throng::scenarios

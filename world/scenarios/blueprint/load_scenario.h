@@ -1,4 +1,4 @@
-// Scenario files of both kinds: those that name their crowd's Menge files, and blueprints.
+// Loading of scenario files of both kinds: with Menge files for the crowd, and blueprints.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,11 @@
 
 namespace throng::scenarios {
 
-/// Reads and checks a scenario file as world::load_scenario does, or a blueprint, whose crowd is
-/// then Scenario::built_crowd; nothing is written. Throws like both (world/scenario.h,
-/// world/scenarios/blueprint/blueprint.h).
+/// Loads a scenario file as world::load_scenario(), or a blueprint, whose crowd is
+/// Scenario::built_crowd. Writes no files. Throws as world::load_scenario() or build_scenario().
 world::Scenario load_scenario(const std::filesystem::path& file, std::string id);
 
-/// Loads the file of a scenario's id (world::scenario_file).
+/// Loads the scenario with this id from a folder of scenarios (world::scenario_file()).
 world::Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace throng::scenarios

@@ -17,26 +17,26 @@ struct SampledValue {
   Kind kind = Kind::constant;
   double first = 0;   ///< value, lowest value, mean, or mean of the natural logarithm
   double second = 0;  ///< highest value, standard deviation (of the logarithm)
-  double min = -std::numeric_limits<double>::infinity();  ///< lower values are not sampled
-  double max = std::numeric_limits<double>::infinity();   ///< higher values are not sampled
+  double min = -std::numeric_limits<double>::infinity();  ///< truncation of the distribution
+  double max = std::numeric_limits<double>::infinity();   ///< truncation of the distribution
 
   static SampledValue normal(double mean, double stddev) { return {Kind::normal, mean, stddev}; }
 
-  /// As attributes of an element of Menge's files.
+  /// The distribution as attributes of an element of Menge's files.
   std::vector<crowd::Attribute> attributes() const;
 };
 
-/// Values that a blueprint may give.
+/// Limits of the values in a blueprint.
 struct SampledLimits {
-  double low = 0;  ///< of all values; a normal distribution is cut off there
+  double low = 0;  ///< min of all values, which truncates a normal distribution
   double high = 0;
-  /// A plain number is the mean of a normal distribution whose standard deviation is this share of
-  /// it; 0: it is the value of everybody.
+  /// If above 0, a plain number is the mean of a normal distribution whose standard deviation is
+  /// this share of the mean; if 0, it is a constant.
   double relative_stddev = 0;
 };
 
 /// Reads a number, {"uniform": [low, high]}, {"normal": [mean, standard deviation]} or
-/// {"lognormal": [median, standard deviation of the logarithm]}; the latter two with "min" and
+/// {"lognormal": [median, standard deviation of the logarithm]}; the latter two may have "min" and
 /// "max".
 SampledValue read_sampled(const world::JsonValue& value, const SampledLimits& limits);
 

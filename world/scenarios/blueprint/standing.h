@@ -17,9 +17,9 @@ class Solids {
 
   /// The outlines, counter-clockwise: the crowd's obstacles.
   const std::vector<std::vector<Eigen::Vector2d>>& outlines() const { return outlines_; }
-  /// The same, as the crowd knows them.
+  /// The outlines as obstacles of the crowd engine.
   const crowd::Obstacles& walls() const { return walls_; }
-  /// Whether there is as much free ground about a point.
+  /// Whether all obstacles are at least `clearance_m` from a point.
   bool is_clear(const Eigen::Vector2d& point, double clearance_m) const;
 
  private:
@@ -27,15 +27,16 @@ class Solids {
   crowd::Obstacles walls_;
 };
 
-/// How densely people can stand in an area.
+/// The number and spacing of people who can stand in an area.
 struct Standing {
-  int count = 0;       ///< of those asked for
-  double apart_m = 1;  ///< from each other, so that every draw of their places succeeds
+  int count = 0;       ///< number of people who have room
+  double apart_m = 1;  ///< min distance at which every sample of positions succeeds
 };
 
-/// Finds room for `count` people in an area, `clearance_m` away from everything solid, and as far
-/// from each other and from those in `taken` as they easily can be, but no farther than people
-/// care. Adds one draw of their places to `taken`. Fewer where even a crush leaves no room.
+/// Finds room for `count` people in an area, `clearance_m` away from obstacles and as far as easily
+/// possible from each other and from the positions in `taken`, up to a comfortable distance. Adds a
+/// sample of their positions to `taken`. Finds fewer if there is not enough room at the closest
+/// spacing.
 Standing stand(std::span<const Eigen::Vector2d> area, int count, const Solids& solids,
                double clearance_m, std::vector<Eigen::Vector2d>& taken);
 

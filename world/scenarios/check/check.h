@@ -1,4 +1,4 @@
-// Is a scenario fit for use? Everything that is wrong with it, each with what to do about it.
+// Checks whether a scenario is fit for use. Each finding has a remedy.
 #pragma once
 
 #include <filesystem>
@@ -11,37 +11,35 @@
 namespace throng::scenarios {
 
 enum class Severity {
-  warning,  ///< works, but is probably not meant
-  error     ///< a run would fail, or nobody could use its results
+  warning,  ///< works, but is probably not intended
+  error     ///< a run would fail or have useless results
 };
 
 struct Finding {
   Severity severity = Severity::error;
-  Problem problem;     ///< which file, which element, what was found, what was expected
+  Problem problem;     ///< file, element, value found, value expected
   std::string remedy;  ///< what to do about it
 
-  /// "error: yard.json: /exits/1: found ..., expected ...\n  remedy: ..."
+  /// Text such as "error: yard.json: /exits/1: found ..., expected ...\n  remedy: ...".
   std::string text() const;
 };
 
-/// Checks a scenario and its crowd: sizes that only wrong units give; buildings that overlap;
-/// people who start in walls, buildings or props or cannot get out; exits that nobody fits through,
-/// that are walled up, that nobody reaches or heads for; gaps by which people get out without
-/// passing an exit; drones in walls or in each other. `source`
-/// names the scenario's file in the findings. Each error in its Menge files is a
-/// finding, too. Throws EnvironmentError when one cannot be read.
+/// Checks a scenario and its crowd: sizes that suggest wrong units; overlapping buildings; people
+/// who start in walls, buildings or props or cannot get out; exits that are too narrow, walled up,
+/// or that nobody can reach or heads for; gaps through which people leave without passing an exit;
+/// drones in walls or in each other. `source` names the scenario's file in the findings. Errors in
+/// Menge files are findings, too. Throws EnvironmentError if a file cannot be read.
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source);
 
-/// Those warnings of check() that concern its figures: who counts, and when. None for a scenario
-/// that is unfit otherwise.
+/// The warnings of check() that concern the metrics of runs: missing ground, gaps in the outline,
+/// people outside. Empty for a scenario with errors in its sizes or its crowd.
 std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source);
 
-/// The same as check() for a scenario file, or for all scenarios below a folder; what cannot be
-/// loaded is a finding. Throws InputError when there is no such file or folder, or no scenario in
-/// it.
+/// Runs check() for a scenario file or for all scenarios below a folder. A scenario that cannot be
+/// loaded is a finding. Throws InputError if the file or folder does not exist or has no scenario.
 std::vector<Finding> check_files(const std::filesystem::path& file_or_folder);
 
-/// Whether any of them is an error.
+/// Whether any finding is an error.
 bool any_error(const std::vector<Finding>& findings);
 
 }  // namespace throng::scenarios

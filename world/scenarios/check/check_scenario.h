@@ -1,4 +1,4 @@
-// The parts of scenarios::check(), each for one concern.
+// The parts of scenarios::check(), one per concern.
 #pragma once
 
 #include <string>
@@ -35,21 +35,21 @@ class Findings {
 };
 
 void check_sizes(const world::Scenario& scenario, Findings& findings);
-/// Whether ground is drawn wherever people are inside.
+/// Checks that the rendered ground covers Scenario::inside.
 void check_drawn_ground(const world::Scenario& scenario, Findings& findings);
 void check_buildings(const world::Scenario& scenario, Findings& findings);
 void check_drones(const world::Scenario& scenario, Findings& findings);
-/// Whether people start where they can be and can get out from there.
+/// Checks that people start at walkable positions from which they can get out.
 void check_people(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                   Findings& findings);
-/// Whether buildings, which are seen, are also in people's way.
+/// Checks that visible buildings are also obstacles for people.
 void check_walls(const world::Scenario& scenario, const Routes& routes, Findings& findings);
-/// Whether there is ground that people can stand on but not leave.
+/// Checks for ground on which people can stand but that they cannot leave.
 void check_ground(const world::Scenario& scenario, const Routes& routes, Findings& findings);
-/// Whether people start or arrive outside of the scenario, where no figure counts them.
+/// Checks for people who start or arrive outside of Scenario::inside, where metrics ignore them.
 void check_outsiders(const world::Scenario& scenario, const LoadedCrowd& loaded,
                      Findings& findings);
-/// Whether people can get out of the scenario without passing an exit.
+/// Checks whether people can leave the scenario without passing an exit.
 void check_outline(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                    Findings& findings);
 void check_exits(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,

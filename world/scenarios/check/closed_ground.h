@@ -1,4 +1,4 @@
-// The ground of a scenario with its exits closed, and lines that close more of it.
+// The ground of a scenario with its exits closed, and lines that close its gaps.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,48 +13,50 @@
 
 namespace throng::scenarios {
 
-using Cells = std::vector<std::uint8_t>;  ///< one per cell of a grid; not 0: yes
+using Cells = std::vector<std::uint8_t>;  ///< one flag per cell of a grid; not 0: true
 
-/// A straight line from wall to wall through a point on somebody's way out.
+/// A straight line from wall to wall through a cell of a path that leads out.
 struct Chord {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
-  std::size_t at = 0;         ///< index of the cell of the way
-  int inner = Routes::kNone;  ///< the cell of the way on the line's inner side
+  std::size_t at = 0;         ///< index of the cell in the path
+  int inner = Routes::kNone;  ///< the cell of the path on the line's inner side
   double length_m() const { return (to - from).norm(); }
 };
 
-/// The grid with its exits closed, and all that closing its gaps needs.
+/// The grid with closed exits, with the operations for closing its gaps.
 class ClosedGround {
  public:
   ClosedGround(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes);
 
-  /// Takes note of those who start inside: nearer to the inner side of an exit than to the outer
-  /// side of any.
+  /// Adds the people who start inside, that is, nearer to the inner side of an exit than to the
+  /// outer side of any.
   void add_people(const LoadedCrowd& loaded);
 
-  /// Closes the cells on a line, so that no step of one cell leads across it.
+  /// Closes the cells on a line, so that no step to a neighboring cell crosses it.
   void draw(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
-  /// The shortest path from inside to the border of the grid, its first cell first; empty: none.
+  /// The cells of the shortest path from inside to the border of the grid, in order; empty if there
+  /// is none.
   std::vector<int> way_out() const;
 
-  /// The cells that can be reached from one.
+  /// The cells that can be reached from a cell.
   Cells reached_from(int start) const;
 
-  /// Leaves just these lines closed, and the exits.
+  /// Closes these lines and the exits, and opens all other lines.
   void close(const std::vector<Chord>& lines);
 
-  /// Whether a line more cuts off nobody and no exit that `reached` holds from its inner side.
+  /// Whether closing another line keeps all people and exits in `reached` connected with the line's
+  /// inner side.
   bool may_close(const Chord& line, const Cells& reached);
 
-  /// The shortest line from wall to wall through a cell; nothing where there are no two walls.
+  /// The shortest line from wall to wall through a cell; nothing if there are not two walls.
   std::optional<Chord> shortest_chord(int cell) const;
 
-  /// Whether a path leads through a line and does not come back, as in a corner.
+  /// Whether a path crosses a line without returning, as it would in a corner.
   bool leads_through(const std::vector<int>& way, const Chord& line) const;
 
-  /// The index of the first cell of a way that a line leads over.
+  /// The index of the first cell of a path that lies on a line.
   std::size_t first_on(const Chord& line, const std::vector<int>& way) const;
 
   double cell_m() const { return routes_.grid.cell_m; }
@@ -65,17 +67,17 @@ class ClosedGround {
 
   bool is_free(int cell) const { return cell >= 0 && free_[static_cast<std::size_t>(cell)] != 0; }
 
-  // The nearest ground on a door's side, along its width.
+  // Adds the nearest free cells on one side of a door, along its width.
   void add_side(const world::Exit& exit, const Eigen::Vector2d& towards, std::vector<int>& cells);
 
   bool is_on_border(int cell) const;
 
-  /// The four cells beside one; -1 beyond the border.
+  /// The four neighbors of a cell; -1 beyond the border.
   std::array<int, 4> neighbors(int cell) const;
 
   static std::vector<int> traced(int cell, const std::vector<int>& before);
 
-  /// The first point in a direction that is not free, nearer than `enough_m`.
+  /// The first point in a direction that is not free, if it is nearer than `enough_m`.
   std::optional<Eigen::Vector2d> wall_from(const Eigen::Vector2d& at, const Eigen::Vector2d& along,
                                            double enough_m) const;
 
@@ -83,10 +85,10 @@ class ClosedGround {
 
   const Routes& routes_;
   Cells free_;
-  Cells closed_;             ///< `free_` when all exits are closed and nothing else is
-  std::vector<int> inner_;   ///< cells before the open exits
+  Cells closed_;             ///< `free_` with only the exits closed
+  std::vector<int> inner_;   ///< cells in front of the open exits
   std::vector<int> outer_;   ///< cells behind them
-  std::vector<int> people_;  ///< cells that people start in
+  std::vector<int> people_;  ///< cells in which people start
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> doors_;
 };
 

@@ -1,4 +1,4 @@
-// Is a scenario closed but for its exits? Gaps by which people get out uncounted.
+// Detects gaps in the outline of a scenario through which people leave without passing an exit.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,17 +16,17 @@ struct Gap {
 };
 
 struct OutlineSurvey {
-  /// By width, the widest first; empty where nobody gets out but by an exit.
+  /// Gaps by width, the widest first; empty if people leave by exits only.
   std::vector<Gap> gaps;
-  /// Whether people can get out, but not through gaps: there are no walls that could be closed.
+  /// Whether people can leave where there are no walls between which a gap could be closed.
   bool is_open = false;
-  Eigen::Vector2d open_at = Eigen::Vector2d::Zero();  ///< where they leave `inside`, if so
+  Eigen::Vector2d open_at = Eigen::Vector2d::Zero();  ///< where they leave `inside` in that case, m
 };
 
-/// Looks for paths from the inner sides of the exits to the border of the ground around `inside`
-/// that pass no exit. A closed exit is a wall only where the scene has an obstacle in it, as in a
-/// run. Gaps are the shortest lines from wall to wall that close these paths without cutting
-/// anybody off from the exits.
+/// Searches for paths from the inner sides of the exits to the border of the ground around `inside`
+/// that pass no exit. As in a run, a closed exit is a wall only if the scene has an obstacle there.
+/// Gaps are the shortest lines from wall to wall that close these paths without cutting anybody off
+/// from the exits.
 OutlineSurvey survey_outline(const world::Scenario& scenario, const LoadedCrowd& loaded,
                              const Routes& routes);
 

@@ -1,4 +1,4 @@
-// Words for findings about people: where the first of them is, and how many more there are.
+// Text of findings about people: the first person concerned, and the number of others.
 #pragma once
 
 #include <fmt/core.h>
@@ -11,12 +11,12 @@
 
 namespace throng::scenarios {
 
-/// "[x, y]" in meters.
+/// A point as "[x, y]" in meters.
 inline std::string point_text(const Eigen::Vector2d& point) {
   return fmt::format("[{:.4g}, {:.4g}]", point.x(), point.y());
 }
 
-/// The first of those who have the same trouble, and how many more there are.
+/// Collects the people with the same problem.
 class Sufferers {
  public:
   void add(std::size_t agent, const Eigen::Vector2d& at, std::string what) {
@@ -32,7 +32,7 @@ class Sufferers {
   std::string first_;
 };
 
-/// Whether an agent is a person who takes part from the start or later.
+/// Whether an agent is a person who is present at the start or arrives later.
 inline bool is_to_arrive_or_there(const LoadedCrowd& loaded, std::size_t agent) {
   return loaded.is_person[agent] != 0 && loaded.crowd.agents.position[agent].allFinite();
 }

@@ -1,5 +1,5 @@
-// A scenario and its crowd as they stand before the run begins: positions, walkable ground
-// and distances to the exits. Input of checks and plans.
+// A scenario and its crowd before a run: positions, walkable ground and distances to the exits, as
+// input of checks and plans.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,11 +13,11 @@
 
 namespace throng::scenarios {
 
-/// The crowd's files read into memory, without the cost of a run.
+/// The crowd's files, read without preparing a simulation.
 struct LoadedCrowd {
   crowd::Crowd crowd;
-  std::vector<std::uint8_t> is_person;  ///< per agent; the others stand for dangers
-  std::vector<Problem> warnings;        ///< what was ignored while loading
+  std::vector<std::uint8_t> is_person;  ///< per agent; 0: represents a disaster
+  std::vector<Problem> warnings;        ///< ignored parts of the files
 
   std::size_t count() const { return is_person.size(); }
   Eigen::Vector2d start(std::size_t agent) const {
@@ -28,15 +28,15 @@ struct LoadedCrowd {
 /// Reads the scenario's Menge files. Throws InputError and EnvironmentError as crowd::Simulation.
 LoadedCrowd load_scenario_crowd(const world::Scenario& scenario);
 
-/// The ground inside of the scenario on which the slimmest of its people can stand, and the way
-/// from there to the nearest open exit.
+/// A grid of the ground on which the person with the smallest radius can stand, with the paths to
+/// the nearest open exits.
 struct Routes {
   static constexpr int kNone = -1;
 
-  crowd::WalkableGrid grid;       ///< of `inside`, the exits and a margin around them
+  crowd::WalkableGrid grid;       ///< covers `inside` and the exits with a margin
   std::vector<int> nearest_exit;  ///< per cell: index into the scenario's exits, or kNone
-  std::vector<float> distance_m;  ///< per cell: to that exit, by steps to one of eight cells
-  std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 where it is closed or walled up
+  std::vector<float> distance_m;  ///< per cell: path to that exit over eight-connected cells
+  std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 if it is closed or walled up
 
   /// The cell of a point; kNone outside of the grid.
   int cell_at(const Eigen::Vector2d& point) const;
@@ -47,8 +47,8 @@ struct Routes {
 
 Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded);
 
-/// Whether somebody gets through a door: straight, from 1 m before it to 1 m behind it, somewhere
-/// along its width.
+/// Whether a person can pass a door: a straight path from 1 m in front of it to 1 m behind it is
+/// free at some point of its width.
 bool is_passable(const world::Exit& exit, const Routes& routes);
 
 }  // namespace throng::scenarios

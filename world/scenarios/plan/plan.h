@@ -9,10 +9,11 @@
 
 namespace throng::scenarios {
 
-/// Ground, buildings, obstacles, props, exits with ids and widths, goals, where people start and
-/// come in and how many, how many have which exit as their nearest, a scale and north (+y), a
-/// legend; and the paths of a job's drones or, without a job, where the scenario has its drones
-/// start. `size_px` is its longer side without the legend. Throws as load_scenario_crowd().
+/// Draws ground, buildings, obstacles, props, exits with ids and widths, goals, positions and
+/// numbers of people at the start and at sources, the number of people per nearest exit, a scale,
+/// north (+y) and a legend; also the paths of a job's drones or, without `paths`, the scenario's
+/// starts of drones. `size_px` is the longer side without the legend. Throws as
+/// load_scenario_crowd().
 drawing::Drawing draw_plan(const world::Scenario& scenario, int size_px,
                            std::span<const world::DronePath> paths = {});
 

@@ -1,4 +1,4 @@
-// The page of a plan: its scale, the colors of its legend.
+// The sheet of a floor plan: its scale, colors and legend.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +26,10 @@ inline constexpr Color kDrone{{140, 40, 160}};
 inline constexpr Color kDanger{{230, 60, 20}};
 }  // namespace colors
 
-/// A sheet on which meters become pixels, +y upwards.
+/// A drawing in meters with +y upward, which is scaled to pixels.
 class Sheet {
  public:
-  /// The area is drawn `size_px` wide or high, whichever is longer, with room for a legend below.
+  /// The longer side of `area` has `size_px`; there is room for a legend below.
   Sheet(const world::Rectangle& area, int size_px);
 
   double px_per_m() const { return px_per_m_; }
@@ -43,7 +43,7 @@ class Sheet {
   void ring(const Eigen::Vector2d& point, double radius_m, const Color& stroke);
   void label(const Eigen::Vector2d& point, const Eigen::Vector2d& offset_px,
              const std::string& text, const Color& color);
-  /// Name, scale and north, and what the colors mean.
+  /// Adds title, scale, north and legend.
   void finish(const std::string& title);
 
   drawing::Drawing take() { return std::move(drawing_); }
