@@ -1,4 +1,4 @@
-// From a trace to scenes: where everybody is and in which pose, at any time in any order.
+// Converts a trace to scenes: positions and poses of all people at any time, in any order.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,23 @@
 
 namespace throng::render {
 
-/// Plans each agent's motion along the trace. The trace and population must outlive it.
+/// Plans each agent's motion along the trace. The trace and the population must outlive this
+/// object.
 class Animator {
  public:
   Animator(const world::Trace& trace, const skinning::Population& population,
            const skinning::Styling& styling = {});
 
-  /// The people at `time_s` (interpolated between crowd steps); agents that are not people,
-  /// have not arrived yet or have left are left out.
+  /// The scene at `time_s`, interpolated between steps of the crowd. It contains the people who are
+  /// present. `frame_index` becomes Scene::index.
   Scene scene_at(double time_s, std::int64_t frame_index) const;
 
-  /// Actions at a crowd step at which the agent is present; none of agents that are not
-  /// people.
+  /// The actions of an agent, which must be present, at a step of the crowd; none for agents that
+  /// are not people.
   skinning::Actions actions_at(std::size_t agent, std::size_t step) const;
 
  private:
-  /// From an agent's arrival to its departure.
+  /// An agent's presence from an arrival to the next departure.
   struct Stay {
     std::size_t first_step;
     skinning::MotionPlan plan;
@@ -36,7 +37,7 @@ class Animator {
 
   const world::Trace* trace_;
   std::vector<skinning::Appearance> appearance_;  ///< per agent
-  std::vector<std::vector<Stay>> stays_;          ///< per agent, by time
+  std::vector<std::vector<Stay>> stays_;          ///< per agent, in order of time
 };
 
 }  // namespace throng::render

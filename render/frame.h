@@ -1,4 +1,4 @@
-// Output of the renderer for one instant and one camera: every buffer from the same draw.
+// Output of the renderer for one camera at one time. All buffers come from the same draw.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,11 +21,12 @@ namespace throng::render {
 
 /// Values of the instance id buffer.
 inline constexpr std::uint32_t kIdNothing = 0;            ///< sky
-inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of who holds it
+inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of the person who holds it
 inline constexpr std::uint32_t kIdGround = 0xFFFF0000;    ///< the ground
 inline constexpr std::uint32_t kIdBuilding = 0x80000000;  ///< + index of the building
-inline constexpr std::uint32_t kIdProp = 0xC0000000;   ///< + index of the prop; then meshes, rubble
-inline constexpr std::uint32_t kIdDrone = 0xE0000000;  ///< + number of the drone
+/// + index of the prop, mesh or rubble, in this order.
+inline constexpr std::uint32_t kIdProp = 0xC0000000;
+inline constexpr std::uint32_t kIdDrone = 0xE0000000;  ///< + index of the drone
 inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent + 1; }
 inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdUmbrella; }
 inline constexpr std::uint32_t id_of_umbrella(std::uint32_t agent) {
@@ -35,14 +36,14 @@ inline constexpr bool is_umbrella(std::uint32_t id) {
   return id >= kIdUmbrella && id < kIdBuilding;
 }
 inline constexpr bool is_drone(std::uint32_t id) { return id >= kIdDrone && id < kIdGround; }
-/// Whether it is posed again in every frame: people and what they hold above themselves.
+/// Whether the id is that of an object that is posed in every frame: a person or an umbrella.
 inline constexpr bool is_posed(std::uint32_t id) { return is_agent(id) || is_umbrella(id); }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 
 /// Values of Frame::part.
 enum class BodyPart : std::uint8_t {
-  none,  ///< not a person
-  head,  ///< with neck and hair
+  none,  ///< no person
+  head,  ///< including neck and hair
   torso,
   left_arm,
   right_arm,
@@ -50,59 +51,59 @@ enum class BodyPart : std::uint8_t {
   right_leg,
   left_foot,
   right_foot,
-  item,  ///< what is carried; an umbrella is none of the person
+  item,  ///< carried items except umbrellas, which have ids of their own
 };
 
-/// Ground truth of one person that touches the view, hidden or not.
+/// Ground truth of one person within the view, visible or occluded.
 struct PersonInView {
   std::uint32_t agent = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground, m
-  Eigen::Vector3d hips = Eigen::Vector3d::Zero();      ///< middle of the pelvis, as posed, m
-  Eigen::Vector3d head = Eigen::Vector3d::Zero();      ///< middle of the head, as posed, m
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position on the ground, m
+  Eigen::Vector3d hips = Eigen::Vector3d::Zero();      ///< center of the posed pelvis, m
+  Eigen::Vector3d head = Eigen::Vector3d::Zero();      ///< center of the posed head, m
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
   double yaw_rad = 0;
   double stature_m = 0;
-  /// Bounds of the whole projected mesh in box coordinates (pixel i covers [i, i + 1)); may leave
-  /// the image.
+  /// Bounds of the whole projected mesh in box coordinates (pixel i covers [i, i + 1)); may extend
+  /// beyond the image.
   Eigen::AlignedBox2d amodal_box;
-  /// Pixels that the person would cover were nothing in front of it, image borders included.
+  /// Number of pixels that the person would cover without occluders and image borders.
   std::uint64_t amodal_area_px = 0;
-  double blur_px = 0;       ///< motion of its middle in the image while the shutter is open
-  std::uint32_t level = 0;  ///< of detail, that it was rendered with
-  /// The middle of the head in box coordinates, where it does not follow from the frame's camera:
-  /// rows of a rolling shutter see it from elsewhere.
+  double blur_px = 0;       ///< motion of the person's center in the image during the exposure
+  std::uint32_t level = 0;  ///< level of detail of the rendered mesh
+  /// The center of the head in box coordinates, if it does not follow from the frame's camera
+  /// because of a rolling shutter.
   std::optional<Eigen::Vector2d> head_px = std::nullopt;
-  /// Bounds of the head in the image with hair and headwear, hidden or not, like amodal_box; empty
-  /// where the camera sees nothing of it.
+  /// Amodal bounds of the head with hair and headwear, in box coordinates; empty if the head is
+  /// outside of the camera's view.
   Eigen::AlignedBox2d head_box = Eigen::AlignedBox2d();
-  /// Joints as posed, m, world.
+  /// The posed joints, m, world.
   skinning::Keypoints keypoints = skinning::keypoints_at(Eigen::Vector3f::Zero());
-  /// How each bone is turned from the rest pose, in which bodies face +x of the world.
+  /// The rotation of each bone from the rest pose, in which bodies face +x of the world.
   std::array<Eigen::Quaternionf, skinning::kBoneCount> bone_turns = {};
-  skinning::Actions actions = {};  ///< that the pose is part of
-  /// Upright box around the body with all it carries, turned by yaw_rad: its middle (m, world) and
-  /// its size ahead, to the side and up (m).
+  skinning::Actions actions = {};  ///< actions to which the pose belongs
+  /// The upright box around the body with carried items, rotated by yaw_rad: its center (m, world)
+  /// and its size forward, sideways and up (m).
   Eigen::Vector3f box_middle = Eigen::Vector3f::Zero();
   Eigen::Vector3f box_size = Eigen::Vector3f::Zero();
-  /// Like head_px, of the keypoints: x and y in box coordinates and the camera's z (m); NaN where
-  /// the camera sees nothing.
+  /// The keypoints in the image, in the same case as head_px: x and y in box coordinates and the
+  /// camera's z (m); NaN outside of the camera's view.
   std::optional<skinning::Keypoints> keypoints_px = std::nullopt;
-  /// Amodal mask: the pixels that the person would cover without occluders; null unless
-  /// RenderOptions asks for it.
+  /// Amodal mask: the pixels that the person would cover without occluders; null unless requested
+  /// by RenderOptions::whole_masks.
   std::shared_ptr<const PixelMask> whole_mask = nullptr;
 };
 
-/// Ground truth of another drone or a vehicle that the camera sees, or would were nothing in front
-/// of it.
+/// Ground truth of another drone or a vehicle within the view, visible or occluded.
 struct ObjectInView {
-  std::uint32_t id = 0;      ///< in the id buffer
-  std::uint32_t number = 0;  ///< of the drone in the run's trace; of the vehicle in the scenario
+  std::uint32_t id = 0;      ///< value in the id buffer
+  std::uint32_t number = 0;  ///< index of the drone in the trace, or of the vehicle in the scenario
   world::SemanticClass surface = world::SemanticClass::drone;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of a drone's middle or vehicle's foot, m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
+  /// Center of a drone, or ground center of a vehicle, m.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
   double yaw_rad = 0;
-  /// As of people; areas beyond the image count as far as it is wide and high.
+  /// The following are as in PersonInView; areas beyond the image count up to its width and height.
   Eigen::AlignedBox2d amodal_box;
   std::uint64_t amodal_area_px = 0;
   std::shared_ptr<const PixelMask> whole_mask = nullptr;
@@ -110,8 +111,8 @@ struct ObjectInView {
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();
 };
 
-/// The middle of a person's head in a frame of this camera, in box coordinates, also if hidden;
-/// nothing if the camera cannot see there.
+/// The center of a person's head in a frame of this camera, in box coordinates, visible or
+/// occluded; nothing outside of the camera's view.
 inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
                                               const camera::Camera& camera) {
   if (person.head_px) return person.head_px;
@@ -120,7 +121,7 @@ inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
   return Eigen::Vector2d(seen.pixel.array() + 0.5);
 }
 
-/// A person's keypoints in a frame of this camera, visible or not, as in keypoints_px.
+/// A person's keypoints in a frame of this camera, visible or occluded, as in keypoints_px.
 inline skinning::Keypoints keypoints_in(const PersonInView& person, const camera::Camera& camera) {
   if (person.keypoints_px) return *person.keypoints_px;
   skinning::Keypoints seen;
@@ -135,13 +136,12 @@ inline skinning::Keypoints keypoints_in(const PersonInView& person, const camera
 /// Channels of Frame::hazard_opacity.
 enum class HazardMatter : std::uint8_t { fire, smoke, gas };
 
-/// State, in the next frame of the camera, of what a pixel shows, for training of flow and for
-/// masks of occlusion.
+/// The visibility, in the next frame of the camera, of the surface point that a pixel shows.
 enum class FlowTarget : std::uint8_t {
-  unknown,  ///< as its flow
+  unknown,  ///< the flow is NaN
   visible,
-  hidden,  ///< inside of the image, behind something
-  outside  ///< of the image
+  hidden,  ///< inside of the image, but occluded
+  outside  ///< outside of the image
 };
 
 /// One rendered frame. Rows top-down, pixels row-major.
@@ -153,25 +153,25 @@ struct Frame {
   std::vector<std::uint32_t> id;      ///< width * height
   std::vector<float> depth_m;         ///< camera z; +infinity for sky
   std::vector<PersonInView> people;   ///< by agent id
-  std::vector<ObjectInView> objects;  ///< drones and vehicles, by id; only where Lens renders
-  // Only as asked for in RenderOptions, else empty.
+  std::vector<ObjectInView> objects;  ///< drones and vehicles, by id; only if rendered by Lens
+  // Only if requested by RenderOptions, else empty.
   /// width * height * 3: world x, y, z of the surface's normal n as round(128 + 127 n); 0 for sky.
   std::vector<std::uint8_t> normal;
-  /// width * height * 2: how far what a pixel shows moves until the next frame, right and down
-  /// (px), also if it is hidden or outside there; NaN where that has no answer (it goes behind the
-  /// camera, the person leaves, or there is no next frame).
+  /// width * height * 2: optical flow of the surface point that a pixel shows to the next frame,
+  /// right and down (px), also if the point is occluded or outside there. NaN if it is undefined:
+  /// the point moves behind the camera, the person leaves, or there is no next frame.
   std::vector<float> flow;
-  std::vector<float> flow_backward;  ///< likewise to the previous frame
-  /// width * height: camera z that what a pixel shows has in the next frame (m), +infinity for sky;
-  /// NaN where flow is.
+  std::vector<float> flow_backward;  ///< optical flow to the previous frame, in the same form
+  /// width * height: camera z (m), in the next frame, of the surface point that a pixel shows;
+  /// +infinity for sky; NaN where flow is.
   std::vector<float> flow_depth_m;
-  /// width * height * 3: motion in the world until the next frame (m), 0 for what stands still; NaN
+  /// width * height * 3: motion in the world until the next frame (m), 0 for static surfaces; NaN
   /// for sky and where flow is.
   std::vector<float> scene_flow_m;
   /// width * height: FlowTarget. Filled by flow_targets() (render/truth/flow_targets.h).
   std::vector<std::uint8_t> flow_target;
-  /// width * height * 3: how much of what a pixel shows is hidden by each HazardMatter, of 255;
-  /// smoke includes dust.
+  /// width * height * 3: opacity of each HazardMatter in front of the surface, 0 to 255; smoke
+  /// includes dust.
   std::vector<std::uint8_t> hazard_opacity;
   std::vector<std::uint8_t> part;     ///< width * height: BodyPart
   std::vector<std::uint8_t> surface;  ///< width * height: world::SemanticClass

@@ -1,4 +1,4 @@
-// Amodal mask of a person: the pixels covered without occluders.
+// Masks of pixels, as for the amodal mask of a person.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,13 +8,13 @@
 
 namespace throng::render {
 
-/// Pixels [min, max) of an image, row by row.
+/// A mask over the pixels [min, max) of an image, row by row.
 struct PixelMask {
   Eigen::AlignedBox2i pixels;
   std::vector<std::uint8_t> set;  ///< 0 or 1
 
   PixelMask() = default;
-  /// Nothing of these pixels; of none if the box is empty.
+  /// An empty mask over these pixels.
   explicit PixelMask(const Eigen::AlignedBox2i& box)
       : pixels(box), set(box.isEmpty() ? 0 : static_cast<std::size_t>(box.volume())) {}
 
@@ -22,7 +22,7 @@ struct PixelMask {
     return !set.empty() && x >= pixels.min().x() && y >= pixels.min().y() && x < pixels.max().x() &&
            y < pixels.max().y();
   }
-  /// Outside of its pixels it is not set; a pixel outside is not changed.
+  /// Whether a pixel is set; false outside of the box. put() ignores pixels outside of the box.
   bool at(int x, int y) const { return contains(x, y) && set[index(x, y)] != 0; }
   void put(int x, int y) {
     if (contains(x, y)) set[index(x, y)] = 1;

@@ -1,4 +1,4 @@
-// Weight of each rendered pixel, if the delivered image is resampled from the rendered one.
+// Weights of rendered pixels, for images that are resampled from the rendered one.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,11 +7,12 @@
 
 namespace throng::render {
 
-/// How many pixels of the delivered image take their value from each pixel of the draw. So the area
-/// of anything in the delivered image is the sum over what it covers in the draw.
+/// The number of pixels of the resampled image that take their value from each rendered pixel. The
+/// area of an object in the resampled image is the sum of the weights of the rendered pixels that
+/// it covers.
 struct PixelWeights {
-  Eigen::AlignedBox2i domain;       ///< pixels [min, max), also outside the image; elsewhere 0
-  std::vector<std::uint8_t> count;  ///< of the domain, row-major; empty: 1 everywhere
+  Eigen::AlignedBox2i domain;       ///< pixels [min, max), also beyond the image; 0 elsewhere
+  std::vector<std::uint8_t> count;  ///< weights of the domain, row-major; empty: 1 everywhere
 
   std::uint64_t at(int x, int y) const {
     if (x < domain.min().x() || y < domain.min().y() || x >= domain.max().x() ||

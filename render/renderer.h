@@ -1,4 +1,4 @@
-// Renders a scenario and its people with OpenGL through EGL, without a window.
+// Renders a scenario and its people by OpenGL through EGL, without a window.
 #pragma once
 
 #include <memory>
@@ -22,17 +22,16 @@ namespace throng::render {
 
 struct SkinPoint;
 
-/// The GL device for rendering: "auto" (an NVIDIA GPU if there is one, else software), "gpu",
-/// "software".
+/// The GL device for rendering: "auto", "gpu", "gpu:N" or "software" (render/gl/context.h).
 struct DeviceChoice {
   std::string name = "auto";
 };
 
-/// The largest width and height of an image that the device renders, at each sample of color. Makes
-/// a context: expensive. Throws EnvironmentError when it cannot.
+/// Max width and height of an image on the device, in color samples. Creates a context, which is
+/// expensive. Throws EnvironmentError if that fails.
 int max_image_px(const DeviceChoice& device = {});
 
-/// Ground truth to render beside the scene itself.
+/// Quality, and the ground truth to be rendered in addition to color, ids and depth.
 struct RenderOptions {
   Quality quality = Quality::standard;
   bool normals = false;         ///< fill Frame::normal
@@ -44,27 +43,27 @@ struct RenderOptions {
   bool hazard_opacity = false;  ///< fill Frame::hazard_opacity
   bool semantic = false;        ///< fill Frame::surface
   bool whole_masks = false;     ///< fill PersonInView::whole_mask
-  bool vehicles = false;        ///< have vehicles among Frame::objects
-  /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
-  /// determines, so this is for tests and comparisons.
+  bool vehicles = false;        ///< include vehicles in Frame::objects
+  /// Antialiasing by several samples per pixel (true) or by post-processing (false), for tests and
+  /// comparisons. Default: by quality and device.
   std::optional<bool> multisample = std::nullopt;
-  /// Receives the profile, if given; rendering is then waited for at the end of every stage.
+  /// Receives the profile, if not null; the renderer then waits for the device after every stage.
   StageClock* clock = nullptr;
 };
 
 /// Options of a draw.
 struct DrawChoice {
-  const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
-  bool truth = true;  ///< else people's areas are 0 and there are no normals, flow or parts
-  const NeighborFrame* previous = nullptr;  ///< serves the backward flow only
-  double exposure_gain = 1;                 ///< all light on the film is multiplied by it
+  const PixelWeights* weights = nullptr;    ///< weights of pixels in areas; null: 1
+  bool truth = true;                        ///< false: areas are 0, and no normals, flow and parts
+  const NeighborFrame* previous = nullptr;  ///< for the backward flow only
+  double exposure_gain = 1;                 ///< factor on all light
 };
 
-/// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
-/// The scenario and population must outlive it.
+/// Owns a GL context and the buffers of the scenario and the population in it. All calls must come
+/// from one thread. The scenario and the population must outlive the renderer.
 class Renderer {
  public:
-  /// Throws EnvironmentError naming the missing libraries or driver when no context can be made.
+  /// Throws EnvironmentError naming the missing libraries or driver if no context can be created.
   Renderer(const world::Scenario& scenario, const skinning::Population& population,
            const Environment& environment = {}, const DeviceChoice& device = {},
            const RenderOptions& options = {});
@@ -72,26 +71,26 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
-  /// is a pinhole; Lens (render/lens/lens.h) renders all cameras. `next` serves the flow only.
+  /// Renders color, ids, depth and the requested ground truth at one time. The camera must be a
+  /// pinhole; Lens (render/lens/lens.h) supports all cameras. `next` is used for flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next = nullptr,
              const DrawChoice& choice = {});
 
-  /// The gain of the camera's automatic exposure for this view: that by which a small image of the
-  /// place, without people, has the lightness that a camera gives an image in this light
-  /// (render/lens/metering.h). Any lens.
+  /// The gain of the camera's automatic exposure for this view, from a small image of the scenario
+  /// without people (render/lens/metering.h). Supports any lens.
   double metered_gain(const Scene& scene, const camera::Camera& camera);
 
-  /// The vehicles that Frame::objects has, as far as the camera sees them; none unless asked for.
+  /// The vehicles that may be in Frame::objects; empty unless RenderOptions::vehicles.
   std::span<const Vehicle> vehicles() const;
 
-  /// Places on a character's head, as boxes of heads of people drawn at this level are taken from.
+  /// The points of a character's head from which the head boxes of people at this level are
+  /// computed.
   std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
-  /// On level ground in the open.
+  /// Illuminance on horizontal ground under open sky.
   double illuminance_lux() const;
 
-  /// Takes the buffers of a frame that is not needed any more for one to come.
+  /// Reuses the memory of a frame that is no longer needed.
   void recycle(Frame&& frame);
 
   /// GL vendor, renderer and version, for manifests.

@@ -1,4 +1,4 @@
-// Everything in the world at one instant, as the renderer takes it.
+// The moving content of the world at one time, the input of the renderer.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace throng::render {
 
-/// One person as rendered: where, which body, which pose.
+/// A person to be rendered: position (m) and velocity (m/s) on the ground, character and pose.
 struct PersonInstance {
   std::uint32_t agent = 0;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
@@ -21,20 +21,20 @@ struct PersonInstance {
   float yaw_rad = 0;
   skinning::Appearance appearance;
   skinning::PoseBlend pose;
-  skinning::Actions actions = {};  ///< that the pose is part of
+  skinning::Actions actions = {};  ///< actions to which the pose belongs
 };
 
-/// Everything that is in the world at one instant.
+/// People, dangers and drones at one time.
 struct Scene {
   std::int64_t index = 0;  ///< becomes Frame::index
   double time_s = 0;
   std::vector<PersonInstance> people;
-  std::vector<Eigen::Vector2f> dangers;  ///< where what people run from is (m)
-  /// Also that of the camera, which does not see itself.
+  std::vector<Eigen::Vector2f> dangers;  ///< positions of the agents from which people flee (m)
+  /// All drones, including the one that carries the camera, which is not rendered.
   std::vector<DroneInstance> drones = {};
 };
 
-/// The next or the previous frame of the same camera: what flow leads to.
+/// The next or the previous frame of the same camera, to which optical flow leads.
 struct NeighborFrame {
   Scene scene;
   camera::Camera camera;

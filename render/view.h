@@ -1,4 +1,4 @@
-// The camera's geometry as drawing needs it: clip planes, levels of detail, the View block of
+// The camera's geometry for rendering: clip planes, levels of detail, the View block of
 // shaders/view.glsl.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace throng::render {
 
-/// camera::kNearPlaneM as shaders count; also in shaders/view.glsl.
+/// camera::kNearPlaneM as float; also in shaders/view.glsl.
 inline constexpr float kNear = static_cast<float>(camera::kNearPlaneM);
 
-/// Pixels around the image in which triangles are rasterized rather than clipped.
+/// Width (px) of the band around the image in which triangles are rasterized instead of clipped.
 inline constexpr int kGuardBand = 1024;
 
-/// A window of image pixels as GL's viewport sees it.
+/// The arguments of glViewport().
 struct Viewport {
   int x = 0;
   int y = 0;
@@ -26,7 +26,7 @@ struct Viewport {
   int height = 0;
 };
 
-/// The viewport for drawing into a target of this size: the target and the guard band around it.
+/// The viewport for a target of this size: the target and the guard band around it.
 Viewport guarded_viewport(int width, int height);
 
 /// The View uniform block (std140).
@@ -41,21 +41,21 @@ struct ViewBlock {
 
 ViewBlock view_block(const camera::Camera& camera, const Viewport& viewport);
 
-/// Half-spaces (unit normal inwards, offset) whose intersection is what the camera sees: the four
-/// sides and the near plane. A point p is inside one if normal . p + offset >= 0.
+/// Half-spaces (inward unit normal, offset) whose intersection is the camera's view: the four sides
+/// and the near plane. A point p is inside a half-space if normal . p + offset >= 0.
 using ClipPlanes = std::array<Eigen::Vector4d, 5>;
 ClipPlanes clip_planes(const camera::Camera& camera);
 
-/// Whether a sphere is wholly outside one of the planes.
+/// Whether a sphere is completely outside of one of the half-spaces.
 bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& center, double radius_m);
 
-/// Bounds (m) of the part of the horizontal rectangle `area` at height z that the camera sees;
-/// empty if it sees none of it.
+/// Bounds (m) of the visible part of the horizontal rectangle `area` at height `z`; empty if none
+/// is visible.
 Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedBox2d& area,
                                  double z);
 
-/// Level of detail (skinning/levels.h) for somebody whose standing height covers `height_px`
-/// pixels; at most the last of `levels` levels.
+/// Level of detail (skinning/levels.h) of a person whose standing height in the image is
+/// `height_px`; at most `levels` - 1.
 std::size_t level_of_detail(double height_px, std::size_t levels);
 
 }  // namespace throng::render

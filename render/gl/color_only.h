@@ -1,12 +1,12 @@
-// Drawing what only the image shows.
+// Drawing into the color buffer only.
 #pragma once
 
 #include <epoxy/gl.h>
 
 namespace throng::render {
 
-/// While it lives, drawing blends into the colors by its alpha, from both sides of triangles, and
-/// changes neither depth nor the other buffers.
+/// During the lifetime of this object, draws blend both sides of triangles into the color buffer by
+/// alpha and change neither depth nor other buffers.
 class ColorOnly {
  public:
   ColorOnly() {

@@ -8,10 +8,10 @@ namespace throng::render {
 /// Owns a context and makes it current on the thread that constructs it.
 class Context {
  public:
-  /// `device` is "software" (Mesa on the CPU), "gpu" (the first device with a hardware driver that
-  /// works), "gpu:N" (the one of this number, from 0, and no other) or "auto": $THRONG_DEVICE if
-  /// set, else a GPU if there is one, else software. Throws InputError for any other name, and
-  /// EnvironmentError naming the libraries to install when no context can be created.
+  /// `device` is "software" (Mesa on the CPU), "gpu" (the first device with a working hardware
+  /// driver), "gpu:N" (only the device with index N, from 0) or "auto" ($THRONG_DEVICE if set, else
+  /// a GPU if there is one, else software). Throws InputError for any other name, and
+  /// EnvironmentError naming the libraries to install if no context can be created.
   explicit Context(const std::string& device);
   ~Context();
   Context(const Context&) = delete;

@@ -1,4 +1,4 @@
-// OpenGL objects that delete themselves. The context that made them must be current when they die.
+// Owners of OpenGL objects. The context that created an object must be current at its destruction.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -50,7 +50,7 @@ using Program = Handle<delete_program>;
 /// An empty buffer, to be filled with glNamedBufferData.
 Buffer make_buffer();
 
-/// A buffer with this content, never changed again.
+/// A buffer with this immutable content.
 template <typename T>
 Buffer make_buffer(const std::vector<T>& content) {
   Buffer buffer = make_buffer();
@@ -66,25 +66,25 @@ VertexArray make_vertex_array();
 /// A texture of `target` with default sampling.
 Texture make_texture(GLenum target);
 
-/// A sampler that is used instead of a texture's own settings.
+/// A sampler object, which overrides a texture's settings.
 Sampler make_sampler();
 
 /// A single-level 2D texture, sampled to the nearest texel, clamped to its edge.
 Texture make_texture_2d(GLenum format, int width, int height);
 
 /// A framebuffer with these color textures (in order) and depth texture (0: none). Throws
-/// EnvironmentError when the driver cannot draw into it.
+/// EnvironmentError if the driver cannot draw into it.
 Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
 
-/// A stage is the concatenation of its pieces below "#version 450 core". An empty fragment stage
-/// makes a program that only writes depth. Throws EnvironmentError with the driver's log.
+/// Compiles a program. Each stage is "#version 450 core" followed by its pieces. Without fragment
+/// pieces the program only writes depth. Throws EnvironmentError with the driver's log.
 Program make_program(std::initializer_list<std::string_view> vertex,
                      std::initializer_list<std::string_view> fragment);
 
-/// Throws EnvironmentError naming `what` was being done if GL has recorded an error.
+/// Throws EnvironmentError if GL has recorded an error; `what` names the operation in the message.
 void check_gl(std::string_view what);
 
-/// How one attribute is stored in a vertex; integers stay integers unless normalized.
+/// The storage of one attribute in a vertex; integers stay integers unless normalized.
 struct Attribute {
   GLuint location;
   GLint count;

@@ -1,5 +1,6 @@
-// Colors with several samples a pixel, for devices on which that is nearly free. Ids, depth and
-// everything else that is exact comes from a draw of its own, one sample a pixel (target.h).
+// Render target for colors with several samples per pixel, for devices on which this is nearly
+// free. Ids, depth and other exact buffers come from a separate draw with one sample per pixel
+// (target.h).
 #pragma once
 
 #include <cstdint>
@@ -12,16 +13,16 @@ namespace throng::render {
 
 class MultisampleTarget {
  public:
-  /// Throws EnvironmentError when the device has no such buffers.
+  /// Throws EnvironmentError if the device has no such buffers.
   MultisampleTarget(int width, int height, int samples);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, black and with infinite depth.
+  /// Binds the target for drawing and clears it to black and infinite depth.
   void begin() const;
 
-  /// Fills the frame's rgb: the mean of each pixel's light.
+  /// Fills the frame's rgb with the mean of each pixel's samples in linear light.
   void read(Frame& frame);
 
  private:
@@ -32,7 +33,7 @@ class MultisampleTarget {
   Framebuffer framebuffer_;
   Texture resolved_color_;
   Framebuffer resolved_;
-  std::vector<std::uint32_t> rgba_;  ///< as read, kept between frames
+  std::vector<std::uint32_t> rgba_;  ///< buffer for reading, kept between frames
 };
 
 }  // namespace throng::render

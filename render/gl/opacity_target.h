@@ -1,5 +1,4 @@
-// Render target of the opacity of fire, smoke and gas in front of what the color pass's depth
-// buffer shows.
+// Render target for the opacity of fire, smoke and gas in front of the color pass's depth buffer.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +10,17 @@ namespace throng::render {
 
 class OpacityTarget {
  public:
-  /// `depth` is the image's depth texture, of this size. Throws EnvironmentError when the device
-  /// cannot make the buffers.
+  /// `depth` is the image's depth texture, of the same size. Throws EnvironmentError if the device
+  /// cannot create the buffers.
   OpacityTarget(int width, int height, GLuint depth);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, empty. Depth is tested, not written.
+  /// Binds the target for drawing and clears it. Depth is tested, but not written.
   void begin() const;
 
-  /// As Frame::hazard_opacity.
+  /// Reads the values in the form of Frame::hazard_opacity.
   void read(std::vector<std::uint8_t>& opacity) const;
 
  private:

@@ -1,4 +1,4 @@
-// The texts of shaders/, compiled into the program.
+// The texts of the files in shaders/, embedded in the program.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// The depth texture that shadows are looked up in; see lighting.h for its layout.
+// The shadow map, a depth texture; see lighting.h for its layout.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -7,19 +7,19 @@ namespace throng::render {
 
 class ShadowMap {
  public:
-  /// `texels` along each side; 0 makes a map in which everything is lit, not to be rendered into.
+  /// `texels` along each side; 0 makes a map without shadows, which must not be rendered into.
   explicit ShadowMap(int texels);
 
-  /// Binds it for drawing, empty.
+  /// Binds the map for drawing and clears it.
   void begin() const;
 
-  /// Binds it for the look-ups of shaders/light.glsl.
+  /// Binds the map for shaders/light.glsl.
   void bind() const;
 
  private:
   int texels_;
   Texture depth_;
-  Sampler heights_;  ///< reads them without comparison
+  Sampler heights_;  ///< samples heights without comparison
   Framebuffer framebuffer_;
 };
 

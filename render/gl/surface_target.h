@@ -1,5 +1,5 @@
-// Render target of people's normals, flow and body parts, where the color pass's depth buffer shows
-// them.
+// Render target for normals, flow and body parts of people where they are visible in the color
+// pass's depth buffer.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,24 @@ namespace throng::render {
 
 class SurfaceTarget {
  public:
-  /// `depth` is the image's depth texture, of this size. Throws EnvironmentError when the device
-  /// cannot make the buffers.
+  /// `depth` is the image's depth texture, of the same size. Throws EnvironmentError if the device
+  /// cannot create the buffers.
   SurfaceTarget(int width, int height, GLuint depth, bool with_flow_depth);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, empty; only what has exactly the depth that is there is rendered.
+  /// Binds the target for drawing and clears it. Only fragments with exactly the existing depth
+  /// pass.
   void begin() const;
-  /// Ends that mode of depth testing.
+  /// Restores the depth test.
   void end() const;
 
-  // Values as in Frame, of people; elsewhere normals are 0, flow is NaN and parts are none.
+  // Values of people as in Frame; elsewhere normals are 0, flow is NaN and parts are
+  // BodyPart::none.
   void read_normals(std::vector<std::uint8_t>& normals) const;
   void read_parts(std::vector<std::uint8_t>& parts) const;
-  /// `depth_m` may be null; otherwise the target must have been made with flow's depth.
+  /// `depth_m` may be null; otherwise the target must have been made with `with_flow_depth`.
   void read_flow(std::vector<float>& flow, std::vector<float>* depth_m) const;
 
  private:

@@ -1,4 +1,4 @@
-// Render target of the camera: color, instance id and depth, and how they come back.
+// Render target of the camera: color, instance id and depth, and their transfer to a Frame.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,26 @@
 
 namespace throng::render {
 
-/// The largest width and height of a target on the current context's device.
+/// Max width and height of a target on the current context's device.
 int max_target_px();
 
 class Target {
  public:
-  /// Throws EnvironmentError when the device cannot make buffers of this size.
+  /// Throws EnvironmentError if the device cannot create buffers of this size.
   Target(int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, with color = `sky`, ids kIdNothing and depth infinite.
+  /// Binds the target for drawing and clears it to the color `sky`, id kIdNothing and infinite
+  /// depth.
   void begin(const Eigen::Vector3f& sky) const;
 
-  /// Fills the frame's id and depth_m, and its rgb if `color` is wanted.
+  /// Fills the frame's id and depth_m, and its rgb if `color`.
   void read(bool color, Frame& frame);
 
-  /// Fills the frame's rgb alone, which is smaller by `samples` along each side: each pixel is the
-  /// mean of its light.
+  /// Fills only the frame's rgb, which is smaller by the factor `samples` along each side: each
+  /// pixel is the mean of its samples in linear light.
   void read_light(int samples, Frame& frame);
 
   GLuint depth_texture() const { return depth_.name(); }
@@ -39,10 +40,10 @@ class Target {
   Texture id_;
   Texture depth_;
   Framebuffer framebuffer_;
-  std::vector<std::uint32_t> rgba_;  ///< as read, kept between frames
+  std::vector<std::uint32_t> rgba_;  ///< buffer for reading, kept between frames
 };
 
-/// Drops the fourth byte of each pixel.
+/// Converts RGBA to RGB by removing the fourth byte of each pixel.
 void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb);
 
 }  // namespace throng::render

@@ -1,5 +1,5 @@
-// Effects of time on an image: the world and the camera move while the shutter is open (motion
-// blur) and while the rows are read one after the other (rolling shutter).
+// Motion blur (motion while the shutter is open) and rolling shutter (motion while the rows are
+// read one after the other).
 #pragma once
 
 #include <functional>
@@ -19,36 +19,36 @@ struct ShutterMoment {
 };
 using MomentAt = std::function<ShutterMoment(double time_s)>;
 
-/// When a camera's other frames are taken that flow leads to (s).
+/// Times (s) of the neighboring frames of a camera, for optical flow.
 struct NeighborTimes {
   std::optional<double> next_s = std::nullopt;
   std::optional<double> previous_s = std::nullopt;
 };
 
-/// How a frame was exposed.
+/// A frame and the data of its exposure.
 struct Exposed {
   Frame frame;
-  int samples = 1;             ///< moments that each row's light is averaged over
-  int strips = 1;              ///< strips of rows that were each rendered at a time of their own
+  int samples = 1;             ///< number of moments over which each row's light is averaged
+  int strips = 1;              ///< number of strips of rows that were rendered at different times
   double blur_px = 0;          ///< max motion in the image during the exposure
-  double gain = 1;             ///< of all light
-  double illuminance_lux = 0;  ///< on level ground in the open
+  double gain = 1;             ///< gain of all light
+  double illuminance_lux = 0;  ///< on horizontal ground under open sky
 };
 
-/// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
-/// camera's motion, and people, by theirs as well.
+/// Max motion in the image (px) between two moments: of the ground (z = 0) due to the camera's
+/// motion, and of people.
 double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 
-/// Renders as many moments as the motion needs: one when nothing moves by a quarter of a pixel,
-/// else one per pixel of blur up to 15, and strips in which the reading moves nothing by more than
-/// half a pixel, 32 at most. Colors are averaged in linear light. Ids, depth, boxes and areas are
-/// those of the middle of each strip's exposure; a person's box is the union over the strips of
-/// what shows in each, their position that of the strip where most of them is. The frame's camera
-/// is the one at `time_s`.
+/// Renders a frame with as many moments as its motion requires: one if nothing moves by a quarter
+/// of a pixel, else one per pixel of blur up to 15; in strips of rows during whose readout nothing
+/// moves by more than half a pixel, 32 at most. Colors are averaged in linear light. Ids, depth,
+/// boxes and areas are those of the middle of each strip's exposure; a person's box is the union
+/// over the strips, the position is that of the strip with the largest part of the person. The
+/// frame's camera is the one at `time_s`.
 ///
-/// `neighbors` says when the next and the previous frame are taken, if flow is wanted: flow goes
-/// from each row's time to as long after or before it. The gain of all light is that of the
-/// camera's metering at `time_s` (render/lens/metering.h), or 1 if the image is not metered.
+/// `neighbors` has the times of the next and the previous frame if flow is requested; flow leads
+/// from each row's time by the same interval. The gain is that of the camera's metering at `time_s`
+/// (render/lens/metering.h), or 1 if `is_metered` is false.
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
                const camera::Exposure& exposure, const NeighborTimes& neighbors = {},
                bool is_metered = false);

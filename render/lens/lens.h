@@ -1,5 +1,5 @@
-// Images through any lens. A renderer renders pinhole images; for a lens that distorts, a pinhole
-// image that is wide enough is rendered and looked up pixel by pixel.
+// Rendering with any lens. The renderer makes pinhole images; for a lens with distortion, a
+// sufficiently wide pinhole image is rendered and resampled.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@
 namespace throng::render {
 
 /// Renders with cameras of any lens. Colors are interpolated; ids, depth, normals, parts and flow
-/// are those of the nearest pixel of the wide image, depth stays the camera's z, flow is that of
-/// the distorted image. Boxes are those of the skinned vertices
-/// projected through the lens, areas count the image's pixels; both as if the image went on around
-/// itself for a quarter of its size. Pinholes are rendered as they are. The renderer and the
-/// population, which is the renderer's, must outlive it.
+/// are those of the nearest pixel of the wide image. Depth is the camera's z, flow is that of the
+/// distorted image. Boxes are those of the skinned vertices projected through the lens, areas count
+/// pixels of the distorted image; both are computed up to a quarter of the image size beyond its
+/// borders. Pinhole cameras are rendered directly. The renderer and its population must outlive
+/// this object.
 class Lens {
  public:
   Lens(Renderer& renderer, const skinning::Population& population);
@@ -26,16 +26,16 @@ class Lens {
   Lens(const Lens&) = delete;
   Lens& operator=(const Lens&) = delete;
 
-  /// `next` serves the flow only.
+  /// Renders a frame. `next` is used for flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next = nullptr);
 
-  /// Only these rows: the frame's buffers hold them alone, while its camera and its people's boxes
-  /// are those of the whole image, the latter over what is in these rows. Of the
-  /// choice, `weights` are the lens's own.
+  /// Renders only these rows, which are the frame's buffers. The frame's camera is that of the
+  /// whole image; boxes of people are in the coordinates of the whole image and cover the parts in
+  /// these rows. DrawChoice::weights are ignored.
   Frame draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
                   const NeighborFrame* next = nullptr, const DrawChoice& choice = {});
 
-  /// Takes the buffers of a frame that is not needed any more for one to come.
+  /// Reuses the memory of a frame that is no longer needed.
   void recycle(Frame&& frame);
 
   Renderer& renderer() { return *renderer_; }

@@ -1,4 +1,5 @@
-// Automatic exposure: how a camera meters an image, and the noise of a sensor in that light.
+// Automatic exposure: the gain by which a camera corrects the lightness of an image, and the ISO
+// speed that it chooses.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +9,21 @@
 
 namespace throng::render {
 
-/// A pinhole camera of few pixels with the view of this one, at most 100 degrees wide.
+/// A pinhole camera with few pixels and the view of `camera`, limited to 100 degrees.
 camera::Camera metering_camera(const camera::Camera& camera);
 
-/// CIELAB's mean lightness that a camera's exposure aims at: 65 by day, 28 at night, between them
-/// linear in the illuminance's logarithm.
+/// The mean CIELAB lightness at which a camera's exposure aims: 65 by day, 28 at night, in between
+/// linear in the logarithm of the illuminance.
 double metered_lightness(double illuminance_lux);
 
-/// The gain of light by which an image of these sRGB bytes, as the film shows them, comes near a
-/// mean lightness: cameras correct most of a difference, so that places differ in brightness, and
-/// no more than their range allows.
+/// The gain of light by which an image with these sRGB bytes approaches a mean lightness. As in
+/// real cameras, it corrects most of the difference, within limits, so that scenarios still differ
+/// in brightness.
 double metering_gain(std::span<const std::uint8_t> rgb, double lightness);
 
 /// The ISO speed of a camera at f/2.8 and 1/60 s in this light (the incident-light equation of ISO
-/// 2720 with C = 250), times the gain. 0, no noise, below 400, where it cannot be seen; above 1600
-/// cameras remove what there is more.
+/// 2720 with C = 250), times the gain. Returns 0 (no noise) below 400, where noise is invisible,
+/// and at most 1600, since cameras remove more noise than that.
 double metered_iso(double illuminance_lux, double gain);
 
 }  // namespace throng::render

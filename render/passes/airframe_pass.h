@@ -1,4 +1,4 @@
-// Renders the drones that a camera may see: all but the one that it hangs from.
+// Renders the drones in view, except the one that carries the camera.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ namespace throng::render {
 
 class AirframePass {
  public:
-  /// `words` are the environment's of render/scenery/lighting.h. Needs the current context from
-  /// then on.
+  /// `words` are light_words() of the environment. The current context must stay current in all
+  /// calls.
   AirframePass(std::string_view words, const QualitySettings& quality);
 
-  /// Expects what SceneryPass::draw() expects. Drones cast no shadows: at the heights they fly at,
-  /// the sun's width blurs theirs away.
+  /// Expects the same bindings as SceneryPass::draw(). Drones cast no shadows, since the sun's
+  /// width blurs them at usual heights.
   void draw(const std::vector<DroneInstance>& drones, const camera::Camera& camera);
 
  private:
@@ -27,7 +27,7 @@ class AirframePass {
 
   std::string words_;
   bool has_shadows_;
-  bool is_prepared_ = false;  ///< most jobs have one drone, and need nothing of this
+  bool is_prepared_ = false;  ///< false until a drone is in view, as never in jobs with one drone
   Buffer vertices_;
   Buffer indices_;
   VertexArray array_;

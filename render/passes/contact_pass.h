@@ -1,5 +1,5 @@
-// The dark rim on the ground around people, props and walls: the sky that they hide from it.
-// Without it, what stands in the shade seems to float.
+// Contact shadows: dark rims on the ground around people, props and walls, which occlude the sky.
+// Without them, objects in the shade seem to float.
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@ class ContactPass {
  public:
   ContactPass(const world::Scenario& scenario, const Daylight& light);
 
-  /// Darkens the ground in the colors alone. Expects the View and Light blocks and the target to
-  /// be bound and the ground to be rendered. People smaller than a few pixels are left out.
+  /// Darkens the ground in the color buffer only. Expects the View and Light blocks and the target
+  /// to be bound, and the ground to be rendered. Skips people smaller than a few pixels.
   void draw(std::span<const PersonInstance> people, const camera::Camera& camera);
 
  private:
   /// One instance, as shaders/contact.vert.glsl reads it.
   struct Rim {
-    std::array<float, 4> footprint{};  ///< middle, half sizes (m)
+    std::array<float, 4> footprint{};  ///< center, half sizes (m)
     std::array<float, 4> shade{};      ///< heading's cosine and sine, reach (m), strength
     float rounding_m = 0;              ///< radius of the footprint's corners
   };
   static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
                  double reach_m, double strength);
 
-  std::vector<Rim> still_;  ///< of props and walls
-  std::vector<Rim> rims_;   ///< of the frame
+  std::vector<Rim> still_;  ///< rims of props and walls
+  std::vector<Rim> rims_;   ///< rims of the current frame
   double strength_;
   Buffer instances_;
   VertexArray array_;

@@ -1,4 +1,4 @@
-// Renders trees, benches, lamp posts, cars and the like, the meshes of users, and rubble.
+// Renders props (trees, benches, lamp posts, cars, ...), users' meshes and rubble.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,36 +15,36 @@
 
 namespace throng::render {
 
-/// How the device reads PropVertex from these buffers.
+/// The vertex array that describes PropVertex in these buffers.
 VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices);
 
 class PropPass {
  public:
-  /// `words` are the environment's of render/scenery/lighting.h. Throws InputError for a mesh file
-  /// that cannot be read.
+  /// `words` are light_words() of the environment; `semantic`: ids contain classes
+  /// (render/scenery/surface_classes.h). Throws InputError for a mesh file that cannot be read.
   PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality,
            bool semantic);
 
-  /// The props that the camera may see at a time of the run. Expects what SceneryPass::draw()
-  /// expects.
+  /// Draws the props in view at a time of the run. Expects the same bindings as
+  /// SceneryPass::draw().
   void draw(const ClipPlanes& planes, double time_s) const;
 
-  /// The props whose shade touches `area` of the ground, into the shadow map; `slope` is
+  /// Draws the props whose shadows touch `area` of the ground into the shadow map; `slope` is
   /// shadow_slope().
   void draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
                    double time_s) const;
 
  private:
-  /// One prop: a sphere that holds it and its triangles.
+  /// One prop: its bounding sphere and its triangles.
   struct Item {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     double radius_m = 0;
     Range solid;
     Range leaves;
-    bool closed = true;  ///< only its outside can be seen
-    double from_s = 0;   ///< not there before
+    bool closed = true;  ///< only its outside is visible
+    double from_s = 0;   ///< absent before this time
   };
-  /// Adds a mesh to the buffers in the making.
+  /// Appends a mesh to `vertices` and `indices`.
   Item& add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
             std::vector<std::uint32_t>& indices);
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,

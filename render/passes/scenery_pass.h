@@ -17,14 +17,16 @@ namespace throng::render {
 
 class SceneryPass {
  public:
-  /// Throws InputError when the scenario names a ground material that does not exist.
+  /// `semantic`: ids contain classes (render/scenery/surface_classes.h). Throws InputError if the
+  /// scenario names an unknown ground material.
   SceneryPass(const world::Scenario& scenario, const Environment& environment,
               const QualitySettings& quality, bool semantic);
 
-  /// Expects the View and Light blocks, the shadow map and the target to be bound.
+  /// Draws ground and buildings. Expects the View and Light blocks, the shadow map and the target
+  /// to be bound.
   void draw() const;
 
-  /// Buildings into the shadow map.
+  /// Draws buildings into the shadow map.
   void draw_shadow() const;
 
  private:
@@ -33,7 +35,7 @@ class SceneryPass {
     Program program;
     Texture texture;
   };
-  /// Makes the look of a material that has none yet.
+  /// Makes the look of a material unless it exists.
   void learn(const std::string& material, std::string_view shader, std::string_view words,
              const QualitySettings& quality);
   void draw_ground(const std::string& material, const Range& range) const;
@@ -47,7 +49,7 @@ class SceneryPass {
   Program walls_;
   Program roofs_;
   std::map<std::string, Look> looks_;  ///< by the ground's material
-  std::string material_;               ///< of the ground that no layer covers
+  std::string material_;               ///< material of the ground that no layer covers
   Program shadow_;
 };
 

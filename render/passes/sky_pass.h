@@ -1,4 +1,4 @@
-// Renders the sky where nothing else is, and rain between the camera and everything.
+// Renders the sky in the background, and rain in the foreground.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@ class SkyPass {
  public:
   explicit SkyPass(const Environment& environment);
 
-  /// Fills what is infinitely far. Expects the View and Light blocks and the target to be bound;
-  /// touches the color only.
+  /// Fills pixels with infinite depth. Expects the View and Light blocks and the target to be
+  /// bound. Changes only colors.
   void draw_sky(const camera::Camera& camera) const;
 
-  /// Drops as the streaks that they leave in 1/60 s. `frame` decides where they fall. Does nothing
-  /// unless it rains; touches the color only.
+  /// Draws raindrops as their streaks in 1/60 s. `frame` determines their positions. Does nothing
+  /// unless it rains. Changes only colors.
   void draw_rain(const camera::Camera& camera, std::int64_t frame) const;
 
  private:
   Environment environment_;
-  VertexArray nothing_;  ///< GL wants one bound, though vertices are made in the shader
+  VertexArray nothing_;  ///< GL requires a bound array although the shader makes the vertices
   Program sky_;
   Program rain_;
 };

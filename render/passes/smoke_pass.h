@@ -1,4 +1,4 @@
-// Smoke that rises from dangers, and the dust about them, as soft discs that face the camera.
+// Renders smoke, flames, gas and dust of hazards as soft discs (puffs) that face the camera.
 #pragma once
 
 #include <array>
@@ -13,52 +13,51 @@ namespace throng::render {
 
 class SmokePass {
  public:
-  /// Smoke rises from the disasters as they grow; in a scenario that describes none, from all
-  /// dangers and all the time.
+  /// Smoke rises from the growing disasters or, in a scenario without described disasters, from all
+  /// Scene::dangers at all times.
   SmokePass(const Environment& environment, std::vector<world::Disaster> disasters);
 
-  /// Changes the colors alone: nobody's outline or depth. Expects the View and Light blocks and
-  /// the target to be bound and everything solid to be rendered. Does nothing without smoke.
+  /// Changes only colors. Expects the View and Light blocks and the target to be bound, and all
+  /// solid objects to be rendered. Does nothing without smoke.
   void draw(const Scene& scene, const camera::Camera& camera);
 
-  /// Into an OpacityTarget: how much of what is behind it each kind hides.
+  /// Draws the opacity of each HazardMatter into an OpacityTarget.
   void draw_opacity(const Scene& scene, const camera::Camera& camera);
 
  private:
   /// One disc, as shaders/smoke.vert.glsl reads it.
   struct Puff {
-    std::array<float, 4> place{};  ///< middle and radius (m)
-    /// Linear albedo, how much of what is behind it hides; what shines by itself: radiance, that
-    /// + 2.
+    std::array<float, 4> place{};  ///< center and radius (m)
+    /// Linear albedo and opacity; for puffs that emit light: radiance and opacity + 2.
     std::array<float, 4> look{};
-    float depth_m = 0;  ///< of the camera
+    float depth_m = 0;  ///< the camera's z
     float kind = 0;     ///< HazardMatter
   };
   /// Shared properties of the puffs of one hazard.
   struct Source {
     Eigen::Vector2d place;
-    double age_s = 0;        ///< older puffs have not been
-    double reach_m = 0;      ///< how wide it is spread beyond what a small fire has
-    double rise = 1;         ///< of how a fire's smoke rises
-    std::uint64_t dust = 0;  ///< how many puffs stay on the ground
+    double age_s = 0;        ///< time since its start, the max age of puffs
+    double reach_m = 0;      ///< spread in addition to that of a small fire
+    double rise = 1;         ///< speed of rising, relative to a fire's smoke
+    std::uint64_t dust = 0;  ///< number of puffs that stay on the ground
     Eigen::Vector3d smoke_albedo;
     Eigen::Vector3d dust_albedo;
     HazardMatter matter = HazardMatter::smoke;
   };
-  /// Flames at the foot of a fire, and of an explosion for as long as its fireball lasts.
+  /// Adds flames at the base of a fire, and of an explosion while its fireball lasts.
   void add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
                   const camera::Camera& camera);
   static Source smoke_source(const world::Disaster& disaster, double time_s);
   void add_puffs(const Source& source, std::size_t number, double time_s,
                  const camera::Camera& camera);
 
-  /// Fills puffs_, the farthest first, and gives them to the device.
+  /// Fills puffs_, the farthest first, and uploads them to the device.
   void upload(const Scene& scene, const camera::Camera& camera);
   void draw_discs(const Program& program) const;
 
   Environment environment_;
   std::vector<world::Disaster> disasters_;
-  std::vector<Puff> puffs_;  ///< of the frame
+  std::vector<Puff> puffs_;  ///< puffs of the current frame
   Buffer instances_;
   VertexArray array_;
   Program program_;

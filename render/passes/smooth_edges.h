@@ -1,6 +1,6 @@
-// Smooth outlines at the price of their length: steps along the borders between instances are
-// filled as the straight lines that they stand for (after Reshetov, Morphological Antialiasing,
-// 2009). Only colors change; ids and depth stay what the rasterizer decided.
+// Morphological antialiasing (after Reshetov 2009) of the borders between instances: steps along a
+// border are blended as the straight lines that they approximate, at a cost proportional to the
+// borders' length. Changes only colors; ids and depth stay exact.
 #pragma once
 
 #include "render/frame.h"

@@ -1,4 +1,4 @@
-// Boxes around posed bodies with all that any level of detail draws of them.
+// Bounding boxes of posed bodies over all levels of detail.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,17 +14,18 @@
 
 namespace throng::render {
 
-/// The boxes of one character. They hold the vertices of every level, and are the same for every
-/// camera. How far a palette's body reaches is kept, as people of a crowd share poses.
+/// The boxes of one character. They contain the vertices of all levels and do not depend on
+/// cameras. The extents of palettes are cached, since people of a crowd share poses. Not
+/// thread-safe.
 class BodyBoxes {
  public:
-  /// Population and shapes must outlive it; the shapes are those of the character's levels.
+  /// `levels` are the shapes of the character's levels. Population and shapes must outlive this
+  /// object.
   BodyBoxes(const skinning::Population& population, std::uint32_t character,
             std::span<const BodyShape> levels);
 
-  /// The box of a pose, whose blended palette this is, in the model's axes, m: it holds all
-  /// vertices, and no side is more than a millimeter away from one. Not for several threads at
-  /// once.
+  /// The box (m, model axes) of a pose with the blended palette `blended`. It contains all
+  /// vertices; each side is within a millimeter of one.
   Eigen::AlignedBox3f box_of(const skinning::PoseBlend& pose, const skinning::Palette& blended);
 
  private:
@@ -40,7 +41,7 @@ class BodyBoxes {
   const skinning::Population* population_;
   std::uint32_t character_;
   std::span<const BodyShape> levels_;
-  std::unordered_map<std::uint32_t, Reach> known_;  ///< by palette
+  std::unordered_map<std::uint32_t, Reach> known_;  ///< cached extents by palette
 };
 
 }  // namespace throng::render

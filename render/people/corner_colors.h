@@ -1,6 +1,6 @@
-// Colors at a mesh's corners that show an image best. Small people are colored corner by corner
-// (QualitySettings::textured_levels), so what lies between corners is a mixture; picking each
-// corner's color where it is in the image would blur heads into collars and hands into sleeves.
+// Vertex colors that approximate a texture best. Small people have a color per vertex
+// (QualitySettings::textured_levels), interpolated in between; sampling the texture at each vertex
+// would blur heads into collars and hands into sleeves.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@ namespace throng::render {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-/// A triangle of the mesh and of the image.
+/// A triangle of the mesh with its texture coordinates.
 struct TexturedTriangle {
-  std::array<std::uint32_t, 3> corners{};    ///< which of the colors are at its corners
-  std::array<std::array<float, 2>, 3> uv{};  ///< where they are in the image, 0 to 1
+  std::array<std::uint32_t, 3> corners{};    ///< indices of the colors at its corners
+  std::array<std::array<float, 2>, 3> uv{};  ///< texture coordinates, 0 to 1
   float weight = 0;                          ///< its area
 };
 
-/// `count` colors, mixed between corners as the device mixes them, with the least squared
-/// difference to an image of `size` x `size` texels over the triangles' area. Values are taken as
-/// they are, so they should be sRGB; corners of no triangle stay black.
+/// Returns `count` vertex colors whose linear interpolation has the least squared difference from a
+/// texture of `size` x `size` texels over the triangles' area. Values are not converted, so they
+/// should be sRGB. Colors that no triangle uses are black.
 std::vector<Rgba> corner_colors(const skinning::Texture& image, int size,
                                 std::span<const TexturedTriangle> triangles, std::size_t count);
 

@@ -1,4 +1,5 @@
-// Visible people of a scene: their level of detail, and which measurements are made on the CPU.
+// Finds the people of a scene within the view, chooses their levels of detail, and measures their
+// ground truth on the CPU.
 #pragma once
 
 #include <cstddef>
@@ -18,33 +19,34 @@
 
 namespace throng::render {
 
-/// A sphere about a person's middle, as a share of stature, that holds any pose.
+/// Radius of a sphere around a person's center that contains any pose, as a share of stature.
 inline constexpr double kPersonReach = 1.2;
 
-/// A person who may be in view, and what was measured so far.
+/// A person in view, with the ground truth measured so far.
 struct Seen {
   PersonDraw draw;
-  /// Else only their umbrella touches the image: they are rendered, but not among the frame's
-  /// people.
+  /// False if only the umbrella is within the image: the person is rendered, but not listed in
+  /// Frame::people.
   bool is_listed = true;
   PersonInView truth;
-  std::optional<std::size_t> tile;  ///< of their silhouette
+  std::optional<std::size_t> tile;  ///< tile of the silhouette
 };
 
 class PeopleFinder {
  public:
-  /// The population must outlive it.
+  /// `population` must outlive this object.
   PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
 
-  /// Everybody whose box, or whose umbrella's, touches the image of a pinhole camera, by agent:
-  /// with box, body, level of detail and whether they are rendered with textures. A pure function
-  /// of the arguments, but not for several threads at once.
+  /// The people whose box, or whose umbrella's box, intersects the image of a pinhole camera, by
+  /// agent, with their boxes, levels of detail and shading. Depends only on the arguments, but is
+  /// not thread-safe.
   std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
 
-  /// Places on a character's head, as boxes of heads of people drawn at this level are taken from.
+  /// The points of a character's head from which the head boxes of people at this level are
+  /// computed.
   std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
-  /// How somebody is rendered into the shadow map, which shows no more than the coarsest level.
+  /// The draw of a person into the shadow map, at the coarsest level.
   PersonDraw caster(std::uint32_t person, const PersonInstance& instance) const;
 
  private:
@@ -57,10 +59,11 @@ class PeopleFinder {
 
   const skinning::Population* population_;
   QualitySettings quality_;
-  std::vector<std::vector<BodyShape>> bodies_;     ///< [character][level]
-  std::vector<std::vector<BodyShape>> umbrellas_;  ///< the same; without points where there is none
-  std::vector<skinning::Landmarks> landmarks_;     ///< per character
-  mutable std::vector<BodyBoxes> boxes_;           ///< per character; they keep what they found
+  std::vector<std::vector<BodyShape>> bodies_;  ///< [character][level]
+  /// [character][level]; without points if there is none.
+  std::vector<std::vector<BodyShape>> umbrellas_;
+  std::vector<skinning::Landmarks> landmarks_;  ///< per character
+  mutable std::vector<BodyBoxes> boxes_;        ///< per character; mutable for their caches
 };
 
 }  // namespace throng::render

@@ -1,5 +1,5 @@
-// People's meshes as they lie on the device: every character's levels of detail, packed
-// into as few attributes as a software driver fetches quickly.
+// People's meshes on the device: the levels of detail of all characters, packed into few
+// attributes, which a software driver fetches quickly.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@
 
 namespace throng::render {
 
-/// A vertex on the device. The words are four bytes each, the first one lowest.
+/// A vertex on the device. Words contain four bytes, the first one lowest.
 struct DeviceVertex {
   std::array<float, 3> position;
   std::uint32_t bones;
-  std::uint32_t weights;  ///< of 255, falling: the shader stops at the first zero
+  std::uint32_t weights;  ///< of 255, descending; the shader stops at the first zero
   std::uint32_t part;  ///< texture layer, a portrait's second one << 12, tint << 24, umbrella << 31
-  std::uint32_t normal;  ///< signed bytes of 127
+  std::uint32_t normal;  ///< signed bytes; 127 is 1
   std::array<float, 2> uv;
-  std::uint32_t base;    ///< the texture around it, sRGB
-  std::uint32_t shades;  ///< of a portrait, linear
+  std::uint32_t base;    ///< color of the surrounding texture, sRGB
+  std::uint32_t shades;  ///< shades of a portrait, linear
 };
 
 /// One level of detail of one character.
@@ -31,17 +31,17 @@ struct PeopleLevel {
   Range alpha_tested;
 };
 
-/// Packed data of each level, by its number.
+/// Selection of the levels to be packed in each form.
 struct Packing {
-  std::size_t textured_below = 0;  ///< so many levels with their texture coordinates
-  std::size_t corners_from = 0;    ///< those from here on colored corner by corner
+  std::size_t textured_below = 0;  ///< levels below this index have texture coordinates
+  std::size_t corners_from = 0;    ///< levels from this index on have a color per vertex
 };
 
 struct PeopleMeshes {
   Buffer vertices;
   Buffer indices;
-  /// [character][level]. Of those colored by their corners, opaque vertices that differ in texture
-  /// coordinates alone are one. Levels that are not packed are empty.
+  /// [character][level]; levels that are not packed are empty. In `by_corners`, opaque vertices
+  /// that differ only in texture coordinates are merged.
   std::vector<std::vector<PeopleLevel>> textured;
   std::vector<std::vector<PeopleLevel>> by_corners;
 };

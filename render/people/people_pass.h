@@ -1,5 +1,4 @@
-// Renders people with instanced GPU skinning: for the image, into the shadow map, or as bare
-// silhouettes.
+// Renders people by instanced GPU skinning: into the image, the shadow map, or as silhouettes.
 #pragma once
 
 #include <array>
@@ -15,44 +14,44 @@
 
 namespace throng::render {
 
-/// How a person's colors come about, the costliest first.
+/// Methods for a person's colors, the most expensive first.
 enum class Shading : std::uint8_t {
-  textured,        ///< texture and light for each pixel
-  lit_by_corners,  ///< texture for each pixel, light for each corner
-  by_corners       ///< both for each corner
+  textured,        ///< texture and light per pixel
+  lit_by_corners,  ///< texture per pixel, light per vertex
+  by_corners       ///< texture and light per vertex
 };
 
 /// One person in one draw.
 struct PersonDraw {
   std::uint32_t person = 0;  ///< index into the scene's people
-  std::uint32_t level = 0;   ///< of detail
+  std::uint32_t level = 0;   ///< level of detail
   Shading shading = Shading::by_corners;
-  float depth_m = 0;  ///< nearer ones are rendered first
-  /// Pixels right and down: from the image to the person's silhouette (Purpose::coverage, and
-  /// Purpose::image with silhouettes).
+  float depth_m = 0;  ///< nearer people are rendered first
+  /// Offset (pixels, right and down) from the image to the person's silhouette in the atlas
+  /// (Purpose::coverage and Purpose::image_and_silhouettes).
   std::array<std::int32_t, 2> shift = kNowhere;
 
-  /// Leads out of every atlas.
+  /// An offset outside of every atlas.
   static constexpr std::array<std::int32_t, 2> kNowhere = {1 << 24, 1 << 24};
 };
 
-/// Holds every character's meshes, palettes and textures on the device. Expects the View and Light
-/// blocks, the shadow map and the target to be bound.
+/// Owns the meshes, palettes and textures of all characters on the device. Draws expect the View
+/// and Light blocks, the shadow map and the target to be bound.
 class PeoplePass {
  public:
-  /// `words` are the environment's of render/scenery/lighting.h.
+  /// `words` are light_words() of the environment.
   PeoplePass(const skinning::Population& population, const QualitySettings& quality,
              std::string_view words);
 
-  /// With silhouettes an image's people also leave their whole outlines, hidden or not, in the
-  /// image that is bound at unit 0 (render/truth/silhouettes.h).
+  /// image_and_silhouettes also writes the people's whole silhouettes, visible or occluded, to the
+  /// atlas that is bound to image unit 0 (render/truth/silhouettes.h).
   enum class Purpose { image, image_and_silhouettes, shadow, coverage };
 
-  /// Renders level by level, near to far within a character. The order is a function of `draws`'
-  /// values, so equal scenes give equal pixels.
+  /// Renders level by level, from near to far within a character. The order depends only on the
+  /// values of `draws`, so that equal scenes give equal pixels.
   void draw(Purpose purpose, std::span<const PersonInstance> people, std::vector<PersonDraw> draws);
 
-  /// The same for a SurfaceTarget; `next` are the people of the next frame (none: no flow), whose
+  /// Renders into a SurfaceTarget. `next` are the people of the next frame (empty: no flow), whose
   /// View block is expected at binding point 2.
   void draw_surfaces(std::span<const PersonInstance> people, std::vector<PersonDraw> draws,
                      std::span<const PersonInstance> next);
@@ -86,7 +85,7 @@ class PeoplePass {
   std::uint32_t palettes_per_character_;
   PeopleMeshes meshes_;
   Buffer palettes_;
-  Texture palette_texels_;  ///< the same, as shaders read it
+  Texture palette_texels_;  ///< view of `palettes_` for shaders
   Buffer instances_;
   Buffer next_instances_;
   VertexArray array_;

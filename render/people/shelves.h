@@ -1,4 +1,4 @@
-// Packs rectangles into a bigger one, in rows.
+// Packs rectangles into a larger one, in rows (shelves).
 #pragma once
 
 #include <Eigen/Core>
@@ -6,21 +6,22 @@
 
 namespace throng::render {
 
-/// Fills row after row; rectangles that come by falling height waste the least.
+/// Fills row after row. Rectangles in order of descending height waste the least space.
 class Shelves {
  public:
   explicit Shelves(const Eigen::Vector2i& size) : size_(size) {}
 
-  /// Position of a rectangle; nothing when the space is used up. Others may still fit.
+  /// Returns the position of a rectangle, or nothing if it does not fit; smaller ones may still
+  /// fit.
   std::optional<Eigen::Vector2i> place(const Eigen::Vector2i& size);
 
-  /// Rows that hold something.
+  /// Number of pixel rows in use.
   int used_rows() const { return below_; }
 
  private:
   Eigen::Vector2i size_;
   Eigen::Vector2i next_ = Eigen::Vector2i::Zero();
-  int below_ = 0;  ///< first row under the shelf that is being filled
+  int below_ = 0;  ///< first pixel row below the current shelf
 };
 
 }  // namespace throng::render

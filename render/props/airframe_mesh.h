@@ -1,4 +1,4 @@
-// Quadcopters as others see them: a procedural body, four arms, motors, blades, skids and a camera.
+// Procedural meshes of quadcopters: body, four arms, motors, blades, skids and a camera.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,29 +8,29 @@
 
 namespace throng::render {
 
-/// Parameters of a quadcopter's appearance (spec/sim/airframe.h has all of them).
+/// The dimensions of a quadcopter that affect its appearance (from spec/sim/airframe.h).
 struct AirframeShape {
-  double arm_m = 0;               ///< center to rotor axis
-  double height_m = 0;            ///< of the body
-  double propeller_radius_m = 0;  ///< half a blade pair
-  /// Radius of a sphere about the center that holds everything.
+  double arm_m = 0;               ///< from the center to a rotor's axis
+  double height_m = 0;            ///< height of the body
+  double propeller_radius_m = 0;  ///< half the length of a pair of blades
+  /// Radius of a bounding sphere around the center.
   double reach_m() const { return 1.1 * (arm_m + propeller_radius_m) + height_m; }
 };
 
-/// One drone at one instant.
+/// One drone at one time (m, m/s, world).
 struct DroneInstance {
-  std::uint32_t drone = 0;  ///< number in the run's trace
+  std::uint32_t drone = 0;  ///< index in the run's trace
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
   AirframeShape shape;
 };
 
-/// The quadcopter in the world, with its id of the id buffer. Blades stand still: while they spin a
-/// camera sees little of them.
+/// The quadcopter's mesh in the world, with its id for the id buffer. Blades do not rotate, since
+/// spinning blades are hardly visible.
 PropMesh airframe_mesh(const DroneInstance& drone);
 
-/// Whether a camera with its center here hangs from this drone, and therefore sees nothing of it.
+/// Whether a camera with this center is mounted on the drone, which it therefore does not see.
 inline bool carries(const DroneInstance& drone, const Eigen::Vector3d& camera_center) {
   return (drone.position - camera_center).norm() < drone.shape.arm_m;
 }

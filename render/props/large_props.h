@@ -1,5 +1,4 @@
-// Shapes of what is built up for an occasion: barriers, fences, kiosks, tents, stages, and of
-// trains and fountains.
+// Shapes of large props: barriers, fences, kiosks, tents, stages, trains and fountains.
 #pragma once
 
 #include "render/props/prop_builder.h"

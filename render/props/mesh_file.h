@@ -1,4 +1,4 @@
-// A user's mesh (glTF, OBJ: whatever assimp reads) as a part of the scenario.
+// Meshes of users (glTF, OBJ and other formats of assimp) in a scenario.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@
 
 namespace throng::render {
 
-/// The mesh where the scenario puts it, colored by its materials (no textures), with `id` for the
-/// id buffer. Throws InputError naming the file when it cannot be read or has no triangles.
+/// Reads a mesh and transforms it to its pose in the world. It has the colors of its materials (no
+/// textures) and `id` for the id buffer. Throws InputError naming the file if it cannot be read or
+/// has no triangles.
 PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id);
 
 }  // namespace throng::render

@@ -1,4 +1,4 @@
-// Builds the triangles of procedural shapes out of quads, blocks and tubes.
+// Builds procedural shapes from quads, blocks and tubes.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,8 @@
 
 namespace throng::render {
 
-/// Collects surfaces in the prop's own frame: x along its heading, z up, the foot at the origin.
+/// Collects surfaces given in the prop's frame (m): x along its heading, z up, its ground point at
+/// the origin. `paint` is linear RGB, 0 to 1. Corners are counter-clockwise from outside.
 class PropBuilder {
  public:
   PropBuilder(const world::Prop& prop, std::uint32_t id)
@@ -45,8 +46,8 @@ class PropBuilder {
                          {first, first + 1, first + 2, first, first + 2, first + 3});
   }
 
-  /// A block between two rectangles at different heights; the lower side is left out where it
-  /// stands on the ground.
+  /// Adds a block between two horizontal rectangles; without its lower side if that is on the
+  /// ground.
   void block(const Eigen::AlignedBox2d& below, double z0, const Eigen::AlignedBox2d& above,
              double z1, const Eigen::Vector3d& paint, Finish finish = Finish::matt) {
     const auto at = [](const Eigen::AlignedBox2d& box, int corner, double z) {
@@ -70,7 +71,7 @@ class PropBuilder {
     block(outline, low.z(), outline, high.z(), paint, finish);
   }
 
-  /// A tube from one point to another, closed at its end.
+  /// Adds a tube from one point to another, closed at its end.
   void tube(const Eigen::Vector3d& from, double radius_from, const Eigen::Vector3d& to,
             double radius_to, const Eigen::Vector3d& paint, Finish finish = Finish::matt,
             int sides = 8) {

@@ -1,4 +1,4 @@
-// The vehicles of a scenario: cars and trains, which stand.
+// The vehicles of a scenario: parked cars and trains.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@
 namespace throng::render {
 
 struct Vehicle {
-  std::uint32_t id = 0;  ///< in the id buffer
+  std::uint32_t id = 0;  ///< value in the id buffer
   world::SemanticClass surface{};
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the middle of its foot, m
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< center on the ground, m
   double yaw_rad = 0;
-  PropMesh mesh;  ///< in the world
+  PropMesh mesh;  ///< in the world's frame
 };
 
-/// How many list_vehicles() a scenario there are.
+/// The size of list_vehicles() without reading meshes.
 std::size_t vehicle_count(const world::Scenario& scenario);
 
-/// Props and meshes whose class is car or train, by id. Throws InputError for a mesh file that
+/// The props and meshes whose class is car or train, by id. Throws InputError for a mesh file that
 /// cannot be read.
 std::vector<Vehicle> list_vehicles(const world::Scenario& scenario);
 

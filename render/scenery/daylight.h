@@ -1,8 +1,8 @@
-// The light of an environment: how strong and of which color sun, sky, lamps and air are, at every
-// hour and in every weather.
+// The light of an environment: intensities and colors of sun, sky, lamps and air at every hour and
+// in every weather.
 //
-// One unit of light is about 54 000 lux: the sun at its highest gives 1.85 of them. A surface's
-// radiance is its albedo times the light that it receives.
+// One unit of light is about 54 000 lux; the sun in the zenith has 1.85 units. A surface's radiance
+// is its albedo times the light that it receives.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 namespace throng::render {
 
 struct Daylight {
-  /// Unit vector to what casts shadows: the sun, at least 3 degrees above the horizon so that
-  /// shadows end, or the zenith, the brightest part of a gray sky.
+  /// Unit vector toward the light that casts shadows: the sun (at least 3 degrees above the
+  /// horizon, so that shadows are finite), or the zenith, the brightest part of an overcast sky.
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  Eigen::Array3d sun = Eigen::Array3d::Zero();     ///< on a white surface that faces it
+  Eigen::Array3d sun = Eigen::Array3d::Zero();     ///< on a white surface facing the sun
   Eigen::Array3d sky = Eigen::Array3d::Zero();     ///< on a white surface under open sky
-  Eigen::Array3d haze = Eigen::Array3d::Zero();    ///< color of far air and of the horizon
-  Eigen::Array3d zenith = Eigen::Array3d::Zero();  ///< color of the sky above
-  Eigen::Array3d lamps = Eigen::Array3d::Zero();   ///< where street lamps give one unit of light
-  bool soft = false;  ///< shadows have no edges: the light comes from the whole sky
-  bool dark = false;  ///< nothing casts shadows
+  Eigen::Array3d haze = Eigen::Array3d::Zero();    ///< color of distant air and the horizon
+  Eigen::Array3d zenith = Eigen::Array3d::Zero();  ///< color of the sky in the zenith
+  Eigen::Array3d lamps = Eigen::Array3d::Zero();   ///< color of one unit of lamp light
+  bool soft = false;  ///< soft shadows: the light comes from the whole sky
+  bool dark = false;  ///< no shadows
   bool lamps_on = false;
-  double extinction_per_m = 0;  ///< of the air
-  double illuminance_lux = 0;   ///< on level ground in the open, lamps included
+  double extinction_per_m = 0;  ///< extinction coefficient of the air
+  double illuminance_lux = 0;   ///< on horizontal ground under open sky, including lamps
 };
 
-/// All of it as the film sees it: the exposure has adapted.
+/// The light of an environment, scaled by the camera's adaptation to it.
 Daylight daylight(const Environment& environment);
 
 }  // namespace throng::render

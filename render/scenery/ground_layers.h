@@ -1,4 +1,5 @@
-// Areas of other materials, kerbs and paint on the ground: flat layers a millimeter above it.
+// Areas of other materials, kerbs and paint on the ground, as flat layers about a millimeter above
+// it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,18 +12,17 @@
 
 namespace throng::render {
 
-/// A layer's triangles, and the shader/material that they need: a ground material, "kerb" or
-/// "paint".
+/// A layer's triangles and their material: a ground material, "kerb" or "paint".
 struct GroundLayer {
   std::string material;
   Range range;
 };
 
-/// Share of the sky's light at a point of the ground.
+/// Returns the share of the sky's light at a point of the ground.
 using Openness = std::function<float(const Eigen::Vector2d&)>;
 
-/// Appends the layers of a scenario to the mesh, uppermost first, so that what they hide need not
-/// be rendered. All lie below kAboveGround of the people (2 mm), who therefore stand on top.
+/// Appends the layers of a scenario to the mesh, the uppermost first, so that covered ground need
+/// not be shaded. All are below people's soles (kAboveGround, 2 mm).
 std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
                                            const Openness& openness, SceneryMesh& mesh);
 

@@ -1,5 +1,5 @@
-// Textures of the ground's materials, rendered once when a scenario is loaded: looking one up for
-// each pixel costs a fraction of working the material out there, however rich it is.
+// Textures of the ground's materials, rendered once when a scenario is loaded, since sampling a
+// texture is much cheaper than evaluating a procedural material per pixel.
 #pragma once
 
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace throng::render {
 
-/// Side of the square of ground that a texture repeats (m); also in shaders/ground_tile.glsl.
+/// Side (m) of the square tile that a texture repeats; also in shaders/ground_tile.glsl.
 inline constexpr double kGroundTileM = 14.4;
 
-/// A tile of the material whose shader is given (shaders/ground_*.glsl), with mipmaps: square roots
-/// of albedos.
+/// Renders a tile of a material, given by its shader (shaders/ground_*.glsl), with mipmaps. Texels
+/// are square roots of albedos.
 Texture bake_ground(std::string_view material_shader, int texels);
 
 }  // namespace throng::render

@@ -1,4 +1,4 @@
-// Street lamps: where they are and what they give. Lit after sunset.
+// Street lamps, which are lit after sunset: their positions and light.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,20 +12,21 @@
 namespace throng::render {
 
 struct Lamp {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the light, m
-  /// A lamp on a wall shines to this side of it only (unit vector); zero: all around.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position of the light, m
+  /// Outward normal of the wall of a wall lamp, which shines to this side only; zero: all around.
   Eigen::Vector2d away = Eigen::Vector2d::Zero();
 };
 
-/// One on every 12 m of every wall of at least 4 m (also in shaders/wall.frag.glsl), 4.2 m up.
+/// Lamps on every 12 m of every wall that is at least 4 m long (also in
+/// shaders/wall.frag.glsl), 4.2 m above the ground.
 std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
 
 /// The lamps on walls and on lamp posts.
 std::vector<Lamp> all_lamps(const world::Scenario& scenario);
 
-/// Lamp light 1 m above a point of the ground, without occlusion by buildings: the sum of the unit
-/// directions to them times their strengths, and the sum of their strengths. One unit of light is
-/// that of render/scenery/daylight.h.
+/// Lamp light 1 m above a point of the ground, without lamps that buildings occlude: the sum of the
+/// unit directions to the lamps times their strengths, and the sum of their strengths, in the units
+/// of render/scenery/daylight.h.
 Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,
                               const Eigen::Vector2d& point);
 
@@ -36,7 +37,7 @@ class LampMap {
 
   const Eigen::AlignedBox2d& area() const { return area_; }
 
-  /// Binds it for lamp_light() of shaders/light.glsl.
+  /// Binds the texture for lamp_light() of shaders/light.glsl.
   void bind() const;
 
  private:

@@ -1,10 +1,10 @@
-// The Light block of shaders/light.glsl, the pieces of shader that an environment needs, and where
-// the shadow map lies.
+// The Light block of shaders/light.glsl, the preprocessor lines for an environment, and the layout
+// of the shadow map.
 //
-// The shadow map is laid out on the ground: every texel is the line toward the sun through one
-// square of the plane z = 0, and holds the max height on that line. A point is in the shade if
-// something on its line is higher. The texels of the ground are the map's own, so shadows on it are
-// equally sharp everywhere and do not swim when the camera moves.
+// The shadow map is aligned with the ground: a texel represents the lines toward the sun through
+// one square of the plane z = 0 and contains the max height on these lines. A point is in the shade
+// if a surface on its line is higher. Shadows on the ground are therefore equally sharp everywhere
+// and stable when the camera moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@
 
 namespace throng::render {
 
-/// Texels along each side of the shadow map.
+/// Steps along each side of shadow_area() to which it is aligned: texels at standard quality.
 inline constexpr int kShadowSize = 2048;
 
 /// The Light uniform block (std140).
@@ -35,25 +35,25 @@ struct LightBlock {
   std::array<float, 4> eye{};
 };
 
-/// Light that depends on the frame, in addition to the environment's.
+/// The inputs of the Light block that depend on the frame.
 struct LightFrame {
-  Eigen::AlignedBox2d shadow_area;  ///< of shadow_area()
-  Eigen::AlignedBox2d lamp_area;    ///< of the lamp map
+  Eigen::AlignedBox2d shadow_area;  ///< result of shadow_area()
+  Eigen::AlignedBox2d lamp_area;    ///< LampMap::area()
   double tallest_m = 0;
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
-  double exposure_gain = 1;  ///< of the camera's metering (render/lens/metering.h)
+  double exposure_gain = 1;  ///< gain of the camera's metering (render/lens/metering.h)
 };
 
-/// Lines "#define WORD" that the shaders of this environment start with: NO_SUN, SOFT (shadows
-/// without edges), LAMPS, WET.
+/// Preprocessor lines "#define WORD" for the shaders of this environment: NO_SUN, SOFT (soft
+/// shadows), LAMPS, WET.
 std::string light_words(const Environment& environment);
 
-/// Displacement of the shadow on the ground per meter of height is minus this.
+/// The negative displacement of a shadow on the ground per meter of height.
 Eigen::Vector2d shadow_slope(const Daylight& light);
 
-/// The part of the ground whose lines to the sun matter for what the camera sees of `ground`, up to
-/// height `tallest_m`. Grows in steps and moves in whole texels.
+/// The part of the ground (m) whose lines toward the sun affect the visible part of `ground` and of
+/// objects on it up to `tallest_m`. It grows in steps and moves by whole texels.
 Eigen::AlignedBox2d shadow_area(const ClipPlanes& planes, const Eigen::AlignedBox2d& ground,
                                 double tallest_m, const Eigen::Vector2d& slope);
 

@@ -1,4 +1,4 @@
-// Rubble of a collapse on the ground.
+// Rubble on the ground after a collapse.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 namespace throng::render {
 
-/// A broken piece of wall that lies there from a time on.
+/// A broken piece of wall that exists from a time on.
 struct RubblePiece {
   PropMesh mesh;
   double from_s = 0;
 };
 
-/// The pieces of a collapse, with `id` for the id buffer: as far as it comes to reach, higher
-/// toward its middle, each from when it has reached it. Nothing for other disasters.
+/// The pieces of a collapse within its final extent, higher toward its center, with `id` for the id
+/// buffer. Each exists from the time at which the collapse reaches its position. Empty for other
+/// disasters.
 std::vector<RubblePiece> make_rubble(const world::Disaster& disaster, std::uint32_t id);
 
 }  // namespace throng::render

@@ -1,4 +1,4 @@
-// Semantic classes of the scenario's surfaces. No GL here.
+// Semantic classes of the scenario's surfaces. Independent of GL.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace throng::render {
 
-/// Puts the class of each surface into the ids of the mesh's vertices (render/truth/
-/// surface_classes.h): facade, door, low wall or hedge; roof; the ground's materials. `layers` are
-/// the mesh's.
+/// Adds the class of each surface to the ids of the mesh's vertices
+/// (render/scenery/surface_classes.h): facade, door, low wall or hedge; roof; the ground's
+/// materials. `layers` are those of the mesh.
 void add_classes(const world::Scenario& scenario, const std::vector<GroundLayer>& layers,
                  SceneryMesh& mesh);
 

@@ -1,5 +1,5 @@
-// Semantic classes on their way through the id buffer: ids of what stands still have 16 bits of
-// index, and the class in the 8 bits above them, until a frame is read.
+// Encoding of semantic classes in the id buffer: until a frame is read, ids of static objects have
+// 16 bits of index and the class in the 8 bits above.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace throng::render {
 
-/// The id of a building, prop or the ground with the class of a surface.
+/// The id of a building, a prop or the ground, with the class of a surface.
 constexpr std::uint32_t id_with_class(std::uint32_t id, world::SemanticClass value) {
   constexpr std::uint32_t kClassBits = 0x00FF0000;
   return (id & ~kClassBits) | (static_cast<std::uint32_t>(value) << 16U);
 }
 
-/// Fills Frame::surface from the ids, and takes the classes out of them.
+/// Fills Frame::surface from the ids and removes the classes from the ids.
 void split_classes(Frame& frame);
 
 }  // namespace throng::render

@@ -1,6 +1,6 @@
-// How many pixels a person would cover with nothing in front, for those who reach beyond the image
-// (others: silhouettes.h): each is rendered alone into a tile of an atlas, moved by whole pixels so
-// that the rasterizer makes the same decisions as in the image.
+// Amodal areas of people who extend beyond the image (for others see silhouettes.h). Each person is
+// rendered separately into a tile of an atlas, moved by whole pixels, so that the rasterizer makes
+// the same decisions as in the image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace throng::render {
 
-/// The person to measure, and the image pixels [min, max) of the silhouette, with its limits
+/// A person to be measured, and the pixels [min, max) of the silhouette, limited as Silhouette::box
 /// (render/people/person_geometry.h).
 struct CoverageRequest {
   PersonDraw draw;
@@ -27,9 +27,9 @@ class CoverageCounter {
  public:
   CoverageCounter();
 
-  /// Covered pixels for each request, also those outside the image, weighted by `weights`, or once
-  /// each; `masks`, if given, one for each request, get those that lie in them. Leaves its own
-  /// target, viewport and View block bound.
+  /// Returns the number of covered pixels for each request, including pixels beyond the image,
+  /// weighted by `weights` (null: 1). Sets the covered pixels in `masks`, which is empty or has one
+  /// mask per request. Leaves its own target, viewport and View block bound.
   std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
                                    const camera::Camera& camera,
@@ -37,18 +37,19 @@ class CoverageCounter {
                                    std::span<PixelMask> masks = {});
 
  private:
-  /// A part of a request's bounds that fits the atlas, and where it lies there.
+  /// A part of a request's bounds that fits into the atlas, and its position there.
   struct Tile {
     std::size_t request = 0;
-    Eigen::Vector2i image = Eigen::Vector2i::Zero();  ///< its first pixel
+    Eigen::Vector2i image = Eigen::Vector2i::Zero();  ///< its first pixel in the image
     Eigen::Vector2i size = Eigen::Vector2i::Zero();
     Eigen::Vector2i atlas = Eigen::Vector2i::Zero();
-    bool holds_all = true;  ///< the whole silhouette, which is neither cut into tiles nor limited
+    bool holds_all = true;  ///< contains the whole silhouette, neither divided nor limited
   };
 
   static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests,
                                     const camera::Intrinsics& image);
-  /// Places tiles from `first` on in rows until the atlas is full; returns the end of the placed.
+  /// Places tiles from `first` on in rows until the atlas is full; returns the index after the last
+  /// one placed.
   static std::size_t place(std::vector<Tile>& tiles, std::size_t first, int& used_rows);
   std::uint64_t covered_in(const Tile& tile, const PixelWeights* weights) const;
   void draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,

@@ -1,6 +1,6 @@
-// Whole outlines of the people in an image, left behind by the image's own draw: every fragment
-// of a person, hidden or not, marks its pixel in that person's tile of an atlas. So what they cover
-// with nothing in front is exact, and contains what is visible.
+// Amodal silhouettes of the people in an image, written by the image's own draw: every fragment of
+// a person, visible or occluded, marks its pixel in the person's tile of an atlas. Amodal masks are
+// thus exact and contain the visible pixels.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,28 +20,28 @@ class Silhouettes {
  public:
   Silhouettes();
 
-  /// Forgets all tiles.
+  /// Removes all tiles.
   void begin();
 
-  /// A tile for the image pixels [min, max); returns the offset (pixels) from the image to it, or
-  /// nothing when the atlas is full.
+  /// Adds a tile for the image pixels [min, max). Returns the offset (pixels) from the image to the
+  /// tile, or nothing if the atlas is full.
   std::optional<Eigen::Vector2i> add(const Eigen::AlignedBox2i& pixels);
 
-  /// Empties the tiles and binds the atlas to image unit 0, for PeoplePass.
+  /// Clears the tiles and binds the atlas to image unit 0, for PeoplePass.
   void bind();
 
-  /// Fetches what the draw left.
+  /// Reads the atlas after the draw.
   void read();
 
-  /// Covered pixels of the `tile`-th one that was added, weighted by `weights`, or once each.
+  /// Number of covered pixels of a tile (index in order of add()), weighted by `weights` (null: 1).
   std::uint64_t count(std::size_t tile, const PixelWeights* weights) const;
 
-  /// The same pixels themselves.
+  /// The covered pixels of a tile.
   PixelMask mask(std::size_t tile) const;
 
  private:
   struct Tile {
-    Eigen::AlignedBox2i pixels;  ///< of the image
+    Eigen::AlignedBox2i pixels;  ///< pixels of the image
     Eigen::Vector2i atlas;
   };
 
@@ -52,11 +52,11 @@ class Silhouettes {
   std::vector<std::uint8_t> texels_;
 };
 
-/// Sets in a mask what of a row's texels is covered. The first one is image pixel `first`.
+/// Sets the covered texels of a row in a mask. The first texel is image pixel `first`.
 void add_covered(std::span<const std::uint8_t> row, const Eigen::Vector2i& first, PixelMask& mask);
 
-/// How many of a row's texels are covered, each counting for its weight or once. The first one is
-/// image pixel `first`.
+/// Number of covered texels of a row, weighted by `weights` (null: 1). The first texel is image
+/// pixel `first`.
 std::uint64_t covered(std::span<const std::uint8_t> row, const Eigen::Vector2i& first,
                       const PixelWeights* weights);
 
