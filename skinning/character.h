@@ -1,5 +1,4 @@
-// Characters and libraries of them as values: rig, meshes, textures, clips. Nothing here touches
-// GL.
+// Characters and character libraries as values: rig, meshes, textures, clips. Independent of GL.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +37,7 @@ enum class Bone : std::uint8_t {
   right_toe,
 };
 
-/// Model space: meters, Z up, facing +X, origin on the ground below the pelvis.
+/// A vertex in model space: meters, Z up, facing +X, origin on the ground below the pelvis.
 struct Vertex {
   std::array<float, 3> position;
   std::array<float, 3> normal;
@@ -48,12 +47,12 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 40);
 
-/// Per-instance color of a part of a character. The albedo of a tinted part is its texture times
-/// the instance's tint, both in linear light; such textures hold light and shade only. Tint::none
-/// is not tinted. Hats are colored like shoes. A portrait has all colors but the item's at once:
-/// its texture holds what is not tinted, black elsewhere, and its shades hold how bright the rest
-/// is: top, bottom, hair and shoes in red, green, blue (as sRGB) and alpha (linear). Its albedo is
-/// the first plus the sum of the latter times the instance's tints.
+/// Per-instance color of a part of a character. The albedo of a tinted part is its texture, which
+/// has only light and shade, times the instance's tint, both in linear light. Tint::none is not
+/// tinted; hats have the tint of shoes. A portrait combines all tints except the item's: its
+/// texture contains the parts that are not tinted (black elsewhere); its shades contain the
+/// brightness of top, bottom, hair and shoes in red, green, blue (sRGB) and alpha (linear). Its
+/// albedo is the texture plus the sum of the shades times the instance's tints.
 enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item, portrait };
 inline constexpr std::size_t kTintCount =
     6;  ///< colors of an instance; a portrait has none of its own
@@ -64,7 +63,7 @@ inline constexpr std::array<std::string_view, kTintCount + 1> kTintNames = {
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
-/// A run of triangles with one texture.
+/// A range of triangles with one texture.
 struct Part {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
@@ -72,18 +71,18 @@ struct Part {
   Tint tint = Tint::none;
   bool alpha_tested =
       false;  ///< discard where texture alpha < 0.5; rendered without back-face culling
-  std::int32_t shades = -1;  ///< a portrait's second layer
+  std::int32_t shades = -1;  ///< layer of a portrait's shades
 };
 
-/// One level of detail: an indexed triangle mesh (counter-clockwise seen from outside).
+/// One level of detail: an indexed triangle mesh, counter-clockwise from outside.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<Part> parts;
 };
 
-/// Carried item; see items.h for its attachment. Umbrellas are open; characters with one take part
-/// when it rains (Styling::umbrellas).
+/// A carried item; see items.h for its attachment. Umbrellas are open; characters with umbrellas
+/// take part only in rain (Styling::umbrellas).
 enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
 inline constexpr std::size_t kCarryCount = 5;
 
@@ -93,40 +92,41 @@ struct Character {
   float age_years = 35;
   bool male = true;
   Carry carries = Carry::nothing;
-  std::string wears;         ///< in words, e.g. "t-shirt, jeans, trainers"
+  std::string wears;         ///< description, such as "t-shirt, jeans, trainers"
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
   /// Joint position of each bone in the rest pose, in model space.
   std::array<Eigen::Vector3f, kBoneCount> joints{};
-  /// Colors that suit this character, by Tint: what sample_appearance picks from.
+  /// Colors that suit this character, by Tint, from which sample_appearance() chooses.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 
-/// Whether a part is a separate object rather than the person's: an open umbrella, which hides its
-/// owner as a stranger's would.
+/// Whether a part is a separate object instead of a part of the person: an open umbrella, which
+/// occludes its owner.
 bool is_apart(const Character& character, const Part& part);
 
-/// All textures have one square size, so that they fit one texture array.
+/// A texture. All textures of a library are squares of the same size, for one texture array.
 struct Texture {
   std::vector<std::uint8_t> rgba;  ///< size * size * 4, sRGB, top row first
 };
 
-/// A bone's motion: rest-pose model space to posed model space, 3x4 row-major affine.
+/// A bone's motion from the rest pose to the pose, in model space: 3x4 row-major affine.
 using BoneMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 using Palette = std::array<BoneMatrix, kBoneCount>;
 
-/// Frames of one clip inside every character's palettes.
+/// The frames of a clip within every character's palettes.
 struct Clip {
-  std::string name;          ///< what it shows, e.g. "walk"; the list is in clips.h
-  float speed_mps = 0;       ///< natural ground speed of a person of 1.7 m; 0 on the spot
+  std::string name;          ///< name of the motion, such as "walk"; clips.h has the list
+  float speed_mps = 0;       ///< natural speed of a person of 1.7 m; 0: on the spot
   std::uint32_t first = 0;   ///< index of its first palette
-  std::uint32_t frames = 0;  ///< evenly spaced
-  float stride = 0;          ///< length of a stride (two steps), in statures; 0 on the spot
+  std::uint32_t frames = 0;  ///< number of evenly spaced frames
+  float stride = 0;          ///< length of a stride (two steps), in statures; 0: on the spot
   float middle = 0;          ///< phase at which the left foot is below the body as in standing
   bool cyclic = true;        ///< the first frame follows the last
 };
 
+/// A character library.
 struct Population {
-  std::string content_hash;  ///< SHA-256 of everything that the people were made from
+  std::string content_hash;  ///< SHA-256 of all inputs of the build
   std::vector<Character> characters;
   int texture_size = 0;
   std::vector<Texture> textures;

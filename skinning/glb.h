@@ -1,5 +1,5 @@
-// Characters as GLB files: skinned meshes with embedded PNG textures, Y up and facing +Z as glTF
-// wants it. Written by us, read through assimp.
+// Characters as GLB files: skinned meshes with embedded PNG textures, Y up and facing +Z as in
+// glTF. Files are read by assimp.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace throng::skinning {
 
-/// Contents of one file. The parts' textures count into `images`.
+/// The content of a file. Part::texture is an index into `images`.
 struct CharacterAsset {
   std::string name;
   Joints joints;                    ///< rest pose, model space
@@ -21,8 +21,8 @@ struct CharacterAsset {
 
 std::string encode_glb(const CharacterAsset& asset);
 
-/// Throws InputError naming the file when assimp cannot read it or when it is not such a character
-/// (no levels, unknown bones, vertices without weights, images that are not PNG).
+/// Reads a file. Throws InputError naming the file if assimp cannot read it or it is not such a
+/// character (no levels, unknown bones, vertices without weights, images that are not PNG).
 CharacterAsset read_glb(const std::filesystem::path& path);
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// Textures: resizing, and filling what is not covered.
+// Operations on textures: resizing, and filling of unused pixels.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@ namespace throng::skinning {
 
 using Image = images::RgbaImage;
 
-/// Mask of the pixels in use; row-major, one entry per pixel.
+/// A mask of pixels, row-major, one element per pixel; not 0: set.
 using Mask = std::vector<std::uint8_t>;
 
-/// Square copy by averaging the area under each new pixel; colors are weighted by alpha.
+/// A square copy with `size` pixels along each side, by averaging the area of each new pixel;
+/// colors are weighted by alpha.
 Image resized(const Image& image, int size);
 
-/// Gives every pixel outside `covered` the color of a nearest covered one, so that filtering near
-/// a border does not pick up what lies behind it. Only the first `channels` are filled: alpha is
-/// left alone unless asked. Does nothing when no pixel is covered.
+/// Sets every pixel outside of `covered` to the color of a nearest covered pixel, so that filtering
+/// near borders does not mix in other colors. Changes only the first `channels` channels; the
+/// default leaves alpha unchanged. Does nothing if no pixel is covered.
 void fill_from_nearest(Image& image, Mask covered, int channels = 3);
 
 }  // namespace throng::skinning

@@ -1,9 +1,9 @@
-// Carried items: their attachment, their grip and their shapes.
+// Carried items and their grips.
 //
-// They are made by us, out of boxes and ribbons, around the dressed person in the neutral stance.
-// A backpack hangs on the chest, a bag on the hips with its strap across the trunk, a handbag on
-// the right hand, and an open umbrella stands on the chest so that it stays upright; the arm has to
-// reach for its grip.
+// Items are procedural meshes of boxes and ribbons around the dressed person in the neutral stance.
+// A backpack moves with the chest, a shoulder bag with the hips (its strap runs across the trunk),
+// a handbag with the right hand. An open umbrella moves with the chest, so that it stays upright,
+// and the arm reaches for its grip.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,19 +16,19 @@
 
 namespace throng::skinning {
 
-/// Names of what is carried, in files and for people.
+/// Names of items in files and messages, by Carry.
 inline constexpr std::array<std::string_view, kCarryCount> kCarryNames = {
     "nothing", "backpack", "shoulder bag", "handbag", "umbrella"};
 
-/// A place that a hand has to stay at.
+/// A point at which a hand must stay.
 struct Grip {
   Bone hand;              ///< which hand
-  Eigen::Vector3f point;  ///< middle of the palm, in the neutral stance
+  Eigen::Vector3f point;  ///< position of the palm's center in the neutral stance
   Bone bone;              ///< the point moves with this bone
 };
 
-/// Grip of the item; nothing when it needs no hand or hangs on the hand itself (a handbag, which
-/// wants a hand that stays upright and an arm that swings little).
+/// The grip of an item; nothing if it needs no hand or moves with the hand (a handbag, with which
+/// the hand stays upright and the arm swings little).
 std::optional<Grip> find_grip(Carry carry, const Joints& neutral);
 
 }  // namespace throng::skinning

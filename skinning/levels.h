@@ -1,4 +1,4 @@
-// The levels of detail that people are baked in, and how large somebody has to appear for each.
+// The levels of detail of characters, and the image heights at which they are used.
 #pragma once
 
 #include <array>
@@ -7,15 +7,15 @@
 namespace throng::skinning {
 
 struct DetailLevel {
-  std::size_t triangles;  ///< at most, with what is carried
-  double above_px;        ///< for who would cover more than this many pixels standing upright
+  std::size_t triangles;  ///< max number, including the carried item
+  double above_px;        ///< used for people whose standing height exceeds this
 };
 
-/// At each switch the triangles have become about as small as a pixel (somebody covers about a
-/// sixth of the square of their height in pixels, and half of the triangles face the camera), so
-/// that more of them cost time and show little. That nobody sees the switch
-/// tests/skinning/levels_test.cpp measures, over all people and all around them. The last level is
-/// chosen by nobody's size: it casts shadows and fills drafts.
+/// At each limit the triangles are about as small as a pixel (a person covers about a sixth of the
+/// squared height in pixels, and half of the triangles face the camera), so that more triangles
+/// would cost time without visible effect. tests/skinning/levels_test.cpp verifies that the change
+/// of levels is invisible, for all characters from all sides. The last level is never chosen by
+/// size: it is used for shadows and drafts.
 inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {8000, 160},
     {3000, 110},

@@ -1,5 +1,5 @@
-// The character library: the renderer's data of people. A population is baked once at set-up
-// (`throng people build`) and loaded from its folder; nothing here touches GL.
+// The character library, the renderer's data of people. A library is built once at set-up
+// (`throng people build`) and loaded from its folder. Independent of GL.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +9,19 @@
 
 namespace throng::skinning {
 
-/// Loads what `throng people build` wrote (GLB through assimp, palettes, textures). Throws
-/// InputError when a file is missing or malformed, naming it and what would fix it.
+/// Loads a character library. Throws InputError if a file is missing or malformed, naming the file
+/// and a remedy.
 Population load_population(const std::filesystem::path& folder);
 
-/// Folder of the character library: $THRONG_PEOPLE if set, else the installed folder, else the
-/// build tree's.
+/// The folder of the character library: $THRONG_PEOPLE if set, else the installed folder, else that
+/// of the build tree.
 std::filesystem::path population_folder();
 
-/// The skinning equation that the vertex shader runs too: sum of weights * (palette * position),
-/// with the two palettes blended linearly first.
+/// Linear blend skinning as in the vertex shader: the sum of weights * (palette * position), with
+/// the two palettes blended linearly before.
 Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend);
 
-/// Whether these bones together move a vertex by more than a half.
+/// Whether the weights of these bones for a vertex sum to more than a half.
 bool moves_mostly_with(const Vertex& vertex, std::initializer_list<Bone> bones);
 
 }  // namespace throng::skinning

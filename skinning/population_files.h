@@ -1,4 +1,4 @@
-// The files of a baked population besides its GLBs.
+// The files of a character library except its GLBs.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,15 @@
 
 namespace throng::skinning {
 
-/// Changes whenever the files mean something else, so that old ones are refused.
+/// Version of the format, which grows when the meaning of files changes, so that old files are
+/// refused.
 inline constexpr int kPopulationFormat = 4;
 inline constexpr const char* kIndexFile = "population.json";
 inline constexpr const char* kPalettesFile = "palettes.bin";
 
-/// population.json.
+/// The content of population.json.
 struct PopulationIndex {
-  std::string content_hash;  ///< of everything that the people were made from
+  std::string content_hash;  ///< SHA-256 of all inputs of the build
   std::string license;       ///< SPDX expression
   int texture_size = 0;
   std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
@@ -27,24 +28,23 @@ struct PopulationIndex {
 
 std::string encode_index(const PopulationIndex& index);
 
-/// Throws InputError naming what is missing or malformed.
+/// Reads population.json. Throws InputError naming the missing or malformed member.
 PopulationIndex read_index(const std::filesystem::path& folder);
 
-/// One character of the index on its own.
+/// Suffix of files with a single character of the index, during a build.
 inline constexpr const char* kCharacterExtension = ".character.json";
 std::string encode_character(const Character& character);
 Character read_character(const std::filesystem::path& path);
 
-/// Throws InputError unless it is from 32 to 2048 pixels.
+/// Throws InputError unless `pixels` is in [32, 2048].
 void check_texture_size(int pixels);
 
-/// Throws InputError unless the folder is new, empty or holds character library: only a character
-/// library is replaced for people.
+/// Throws InputError unless the folder does not exist, is empty or contains a character library, so
+/// that no other files are overwritten.
 void check_replaceable(const std::filesystem::path& folder);
 
-/// The palettes of all characters, whose joints these are, one character after the other; see
-/// packed.h. Throws InputError when the file is missing or does not hold `per_character` poses of
-/// each.
+/// Reads the palettes of all characters, in their order (packed.h); `characters` has their joints.
+/// Throws InputError if the file is missing or does not contain `per_character` poses of each.
 std::vector<Palette> read_palettes(const std::filesystem::path& folder,
                                    const std::vector<Joints>& characters,
                                    std::size_t per_character);

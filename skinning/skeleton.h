@@ -1,4 +1,4 @@
-// The 21-bone rig as a tree with joints, and posing it: rotations in, palette out.
+// The rig of 21 bones as a tree with joints, and the computation of palettes from poses.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,14 +14,14 @@ inline constexpr std::size_t index_from(Bone bone) { return static_cast<std::siz
 /// Parent of each bone; the hips are their own parent. A parent always comes before its children.
 extern const std::array<Bone, kBoneCount> kParent;
 
-/// Names as they stand in GLB files, in palette order.
+/// Names of bones in GLB files, in palette order.
 extern const std::array<std::string_view, kBoneCount> kBoneNames;
 
 /// Joint position of each bone, in model space (meters, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;
 
-/// A pose: how each bone is turned against the rest pose, all in model axes (not relative to the
-/// parent), and how far the hips are moved.
+/// A pose: the rotation of each bone from the rest pose in model axes (not relative to the parent),
+/// and the translation of the hips (m).
 struct Pose {
   std::array<Eigen::Matrix3f, kBoneCount> rotation;
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();
@@ -30,13 +30,13 @@ struct Pose {
   Eigen::Matrix3f& of(Bone bone) { return rotation[index_from(bone)]; }
 };
 
-/// Joint positions after the pose is applied.
+/// The joint positions in a pose.
 Joints pose_joints(const Joints& rest, const Pose& pose);
 
-/// The pose as matrices from rest to posed model space.
+/// The pose as matrices from the rest pose to the pose, in model space.
 Palette pose_palette(const Joints& rest, const Pose& pose);
 
-/// The least rotation that turns `from` to the direction of `to`; both non-zero.
+/// The smallest rotation from the direction of `from` to that of `to`; both must not be zero.
 Eigen::Matrix3f turn_between(const Eigen::Vector3f& from, const Eigen::Vector3f& to);
 
 /// Rotations about the axes of model space: x is forward, y is left, z is up.

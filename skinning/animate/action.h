@@ -1,4 +1,4 @@
-// Actions that the motion of a body shows.
+// Actions of people that are visible in their motion.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ enum class Action : std::uint8_t {
   stand,
   walk,
   run,
-  turn,  ///< on the spot
+  turn,  ///< turns on the spot
   fall,
   lie,
   get_up,
   look_around,
   use_phone,      ///< looks at a phone in the hand
-  look_at_drone,  ///< looks up at one
+  look_at_drone,  ///< looks up at a drone
   panic,          ///< runs with raised arms
 };
 inline constexpr std::size_t kActionCount = 11;
@@ -25,7 +25,7 @@ inline constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "stand",  "walk",        "run",       "turn",          "fall", "lie",
     "get_up", "look_around", "use_phone", "look_at_drone", "panic"};
 
-/// Several actions at once: one of stand to get_up, and others.
+/// A set of simultaneous actions: one of stand to get_up, and any of the others.
 class Actions {
  public:
   constexpr Actions() = default;

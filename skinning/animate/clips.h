@@ -1,4 +1,4 @@
-// The clips that every character gets, and baking them.
+// The clips of all characters, and their computation.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace throng::skinning {
 /// Frames per stride.
 inline constexpr std::uint32_t kClipFrames = 20;
 
-/// The clips of every baked character, one behind the other.
+/// The clips of every character of the library, in the order of their palettes.
 std::vector<Clip> standard_clips();
 
-/// The palettes of one of the standard clips. A character's own motion is used in "idle", "walk",
+/// Computes the palettes of a standard clip. A character's own motion is used in "idle", "walk",
 /// starts, stops and "run".
 std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const OwnMotion& own = {});
 

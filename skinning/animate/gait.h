@@ -1,5 +1,5 @@
-// How people walk and run: joint angles from published measurements, put on a character's own limbs
-// so that the feet that stand do so in their place while the body passes over them.
+// Walking and running: joint angles from published measurements, applied to a character's limbs so
+// that standing feet stay in place while the body moves over them.
 #pragma once
 
 #include "skinning/animate/figure.h"
@@ -12,20 +12,20 @@ struct Gait {
   bool runs = false;
   double stride = 0.8;    ///< length of a stride (two steps), in statures
   bool panics = false;    ///< arms up and out, leaning forwards
-  bool looks_up = false;  ///< at something in the sky ahead
+  bool looks_up = false;  ///< looks at an object in the sky ahead
 };
 
-/// Share of a stride that a foot is on the ground: Winiarski 2019 (walking), Fukuchi 2017
-/// (running; less the faster).
+/// Share of a stride during which a foot is on the ground: Winiarski 2019 (walking), Fukuchi 2017
+/// (running; decreases with speed).
 double duty(const Gait& gait);
 
-/// Phase at which the left foot's toe joint is under the same point of the body as in standing:
-/// there one clip can follow another. Runners put their feet down further back.
+/// Phase at which the left foot's toe joint is below the same point of the body as in standing, so
+/// that clips can be joined there. Runners place their feet further back.
 double middle(const Gait& gait);
 inline constexpr double kWalkMiddle = 0.25;
 
-/// One stride of one character. Phases are in strides from the left foot's strike. A character's
-/// own cycle, if it has one (it must outlive this), stands in for the measured gait.
+/// One stride of a character. Phases are in strides from the left foot's strike. The character's
+/// own cycle (if not null, it must outlive this object) replaces the measured gait.
 class Stride {
  public:
   Stride(const Walker& walker, const Gait& gait, const OwnMotion::Cycle* own = nullptr);
@@ -51,10 +51,11 @@ class Stride {
   const Walker* walker_;
   Gait gait_;
   const OwnMotion::Cycle* own_;
-  double swing_;  ///< of the hips against the measured gait
-  double bend_;   ///< of knees and ankles against the measured gait
+  double swing_;  ///< amplitude of the hips relative to the measured gait
+  double bend_;   ///< amplitude of knees and ankles relative to the measured gait
   double duty_;
-  std::array<double, 3> height_m_{};  ///< of the hips: mean, and cosine and sine over a step
+  /// Height of the hips: mean, and cosine and sine terms over a step.
+  std::array<double, 3> height_m_{};
 };
 
 }  // namespace throng::skinning

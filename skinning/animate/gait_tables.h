@@ -1,12 +1,13 @@
-// Joint angles over one stride, measured on people.
+// Measured joint angles over one stride.
 #pragma once
 
 #include <array>
 
 namespace throng::skinning {
 
-/// Degrees at every 2 % of a stride from one's own foot strike to the next; flexion and
-/// dorsiflexion positive. The hip's angle is against the pelvis, which is tilted forwards.
+/// Angles (degrees) at every 2 % of a stride, from a foot strike to the next one of the same foot;
+/// flexion and dorsiflexion are positive. The hip's angle is relative to the pelvis, which is
+/// tilted forward.
 struct GaitTable {
   static constexpr std::size_t kSamples = 51;
   std::array<float, kSamples> hip;

@@ -1,9 +1,9 @@
-// Motion plan of an agent's body during its stay: a sequence of pieces of clips, each joined to the
-// next in a frame that both share or by a blend from a frame of one to a frame of the other.
+// The motion plan of an agent's body during its stay: a sequence of pieces of clips. Each piece is
+// joined to the next by a common frame or by a blend between frames.
 //
-// Pieces of walking are driven by the distance walked, so that a foot that stands stays in its
-// place at any speed; all others by time. Nothing ever jumps, and a moment's pose needs no earlier
-// moment.
+// Pieces of walking are driven by the walked distance, so that standing feet stay in place at any
+// speed; all others are driven by time. Motion is continuous, and the pose at a time can be
+// computed without earlier poses.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace throng::skinning {
 
-/// A piece of motion: from one position in a clip to another, or from a frame to a frame.
+/// A piece of motion: between two positions in a clip, or a blend of two palettes.
 struct Piece {
-  double begin = 0;  ///< step of the crowd at which it begins
-  double from = 0;   ///< driver's value at its beginning: meters walked or steps
-  double to = 0;     ///< and at its end
-  double frame = 0;  ///< of the clip, or a palette
+  double begin = 0;  ///< step of the stay at which it starts
+  double from = 0;   ///< value of the driver at the start: walked distance (m) or steps
+  double to = 0;     ///< value of the driver at the end
+  double frame = 0;  ///< frame of the clip, or index of a palette, at the start
   double to_frame = 0;
   const Clip* clip = nullptr;  ///< null: blend between two palettes
   bool by_distance = false;
@@ -30,15 +30,15 @@ struct Piece {
 
 class MotionPlan {
  public:
-  /// The plan of an agent with this appearance; `key` identifies run and agent. The population must
-  /// outlive it.
+  /// Plans the motion of an agent with this appearance; `key`, a seed, identifies run and agent.
+  /// `moments` are the steps of the stay, `dt_s` apart. The population must outlive the plan.
   MotionPlan(const Population& population, const Appearance& appearance, std::uint64_t key,
              std::span<const Moment> moments, double dt_s);
 
-  /// The pose at a step of the stay, fractions included; clamped to the stay.
+  /// The pose at a step of the stay, possibly fractional; clamped to the stay.
   PoseBlend at(double step) const;
 
-  /// Actions that the pose is part of. A blend of two motions is the second one.
+  /// The actions to which the pose belongs. A blend of two motions counts as the second one.
   Actions actions_at(double step) const;
 
  private:

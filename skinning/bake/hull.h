@@ -1,10 +1,10 @@
-// Lower levels of detail: everything that a person wears as one closed surface, simplified to any
-// number of triangles and colored by images of that person.
+// Lower levels of detail: the dressed person as one closed surface, simplified to any number of
+// triangles and colored by images of the person.
 //
-// Simplifying the garments themselves breaks down below some thousand triangles (seams and open
-// borders cannot collapse), and hulls pushed out from the skin make leggings of skirts. One closed
-// surface around the outside has neither trouble, and all its triangles go into the outline: where
-// one color ends and another begins is in the images.
+// The simplification of garments fails below some thousand triangles (seams and open borders cannot
+// collapse), and hulls offset from the skin turn skirts into leggings. A closed outer surface
+// avoids both problems, and all its triangles serve the silhouette, since borders of colors are in
+// the images.
 #pragma once
 
 #include <cstdint>
@@ -22,23 +22,24 @@ namespace throng::skinning {
 
 class Hull {
  public:
-  /// `textures` holds those of the person's surfaces; the images will have `image_size` pixels
-  /// a side.
+  /// `textures` contains the textures of the person's surfaces, by key; the portrait's images have
+  /// `image_size` pixels along each side. `person` must outlive this object.
   Hull(const DressedPerson& person, const std::map<std::string, Image>& textures, int image_size);
 
   const Portrait& portrait() const { return portrait_; }
 
-  /// With about this many triangles, and never more; `image` is the number of the first of the
-  /// portrait's two images.
+  /// A mesh with at most, and about, this number of triangles; `image` is the texture index of the
+  /// first of the portrait's two images.
   Mesh level(std::size_t triangles, int image) const;
 
  private:
-  /// Skinning weights of a surface point: the mean of those of the nearest worn points.
+  /// Skinning weights of a point of the surface: the mean of the nearest points of the dressed
+  /// person.
   BoneWeights weights_at(const Eigen::Vector3f& point) const;
   void fit(ClosedSurface& coarse) const;
 
   const DressedPerson* person_;
-  Palette apart_;  ///< from the A-pose to the one the hull is made in
+  Palette apart_;  ///< from the A-pose to the pose of the hull
   std::vector<PosedSurface> posed_;
   Portrait portrait_;
   Carving carving_;

@@ -1,4 +1,4 @@
-// Levels of detail of a mesh that is not one of ours.
+// Levels of detail of imported meshes.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace throng::skinning {
 
-/// The mesh in the levels of levels.h; what is simple enough already stays as it is. Surfaces are
-/// joined across the seams of their textures while they are simplified, since seams cannot
-/// collapse, and parted again. A level that would lose a limb is the one before it.
+/// The mesh simplified to the levels of levels.h; a mesh that is simple enough is not changed.
+/// During the simplification, surfaces are joined across texture seams, which cannot collapse. A
+/// level that would lose a limb is replaced by the previous one.
 std::vector<Mesh> simplified_levels(const Mesh& mesh);
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// Attribution and licenses of the assets that characters are built from.
+// Attribution and licenses of the assets in a character library.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace throng::skinning {
 
-/// SPDX expression of the terms of everything that is used, e.g. "CC0-1.0 AND CC-BY-3.0".
+/// SPDX expression of the licenses of all assets used, such as "CC0-1.0 AND CC-BY-3.0".
 std::string license_expression(const std::vector<PersonSpec>& people);
 
-/// Text of NOTICE.txt for a population.
+/// The text of NOTICE.txt for a library with these characters.
 std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& wardrobe);
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// A person's silhouette and how far from it one is.
+// The signed distance from a person's silhouette.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,13 +10,13 @@
 
 namespace throng::skinning {
 
-/// Seen by a camera at infinity, to a few millimeters.
+/// The silhouette of a person for a camera at infinity, with a resolution of a few millimeters.
 class Outline {
  public:
-  /// The camera is at this yaw and elevation from the person.
+  /// `yaw_rad` and `elevation_rad` are the direction from the person to the camera.
   Outline(std::span<const PosedSurface> surfaces, double yaw_rad, double elevation_rad);
 
-  /// How far a point appears outside of the silhouette, negative inside; kFarM at most.
+  /// Distance (m) of the projected point from the silhouette, negative inside; at most kFarM.
   float distance_m(const Eigen::Vector3f& point) const;
 
   static constexpr float kFarM = 0.03F;

@@ -1,4 +1,4 @@
-// Images of a dressed person that the lower levels of detail are colored with.
+// Images of a dressed person, the textures of the lower levels of detail.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,18 +12,18 @@
 
 namespace throng::skinning {
 
-/// A person seen from the front (left half of the images) and from behind (right half), slightly
-/// from above so that crowns and shoulders show.
+/// A person from the front (left half of the images) and from behind (right half), slightly from
+/// above, so that crown and shoulders are visible.
 class Portrait {
  public:
   Portrait(std::span<const PosedSurface> surfaces, int size);
 
-  /// The parts that are not tinted in their colors, the others black; see Tint::portrait.
+  /// The colors of parts that are not tinted, black elsewhere; see Tint::portrait.
   Image colors() const;
-  /// How bright the tinted parts are; see Tint::portrait.
+  /// The brightness of the tinted parts; see Tint::portrait.
   Image shades() const;
 
-  /// Texture coordinates of a point of the same pose, in [0, 1].
+  /// Texture coordinates, in [0, 1], of a point in the same pose.
   Eigen::Vector2f uv_of(const Eigen::Vector3f& point, bool front) const;
 
  private:

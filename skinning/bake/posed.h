@@ -1,4 +1,4 @@
-// A dressed person's surfaces in the pose in which they are looked at.
+// A dressed person's surfaces in a pose, for images and silhouettes.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,11 +18,12 @@ struct PosedSurface {
 /// The texel of an image at texture coordinates in [0, 1].
 const std::uint8_t* texel_at(const Image& image, const Eigen::Vector2f& uv);
 
-/// Texture coordinates within the triangle whose first index is at `at`.
+/// Texture coordinates of a point, given by barycentric coordinates, of the triangle whose first
+/// index is at `at`.
 Eigen::Vector2f uv_within(const Surface& surface, std::size_t at,
                           const Eigen::Vector3f& barycentric);
 
-/// Whether a point of an alpha-tested surface is there; on others all are.
+/// Whether a point of the surface passes the alpha test; true for surfaces without alpha test.
 bool is_there(const PosedSurface& posed, std::size_t at, const Eigen::Vector3f& barycentric);
 
 }  // namespace throng::skinning

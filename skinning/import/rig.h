@@ -1,5 +1,5 @@
-// A foreign rig mapped to ours: its facing direction, the positions of our joints in it, how it
-// comes to stand, and what its animations do to our bones.
+// Mapping of a foreign rig to throng's: orientation, positions of joints, transformation to the
+// neutral stance, and animations.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 
 namespace throng::skinning {
 
-/// A rig turned to our axes, in the file's unit.
+/// A rig in the axes of model space and in the file's unit.
 struct Rig {
   BoneNodes nodes;
-  std::vector<Bone> bone_of_node;  ///< the nearest mapped node above, itself included, else hips
+  /// Bone of the node or of its nearest mapped ancestor, else hips.
+  std::vector<Bone> bone_of_node;
   Eigen::Matrix3f to_ours = Eigen::Matrix3f::Identity();
-  Joints rest;   ///< as the file has it at rest
-  Pose neutral;  ///< from there to standing
+  Joints rest;   ///< joints in the file's rest pose
+  Pose neutral;  ///< from the rest pose to the neutral stance
 };
 
-/// The up and forward directions follow from the positions of head, hips and feet and their sides.
-/// Throws InputError when the pose at rest is not one of somebody who stands upright with toes
-/// ahead.
+/// Fits a rig. The up and forward directions are derived from the positions of head, hips and feet.
+/// Throws InputError if the rest pose is not upright with the toes forward.
 Rig fit_rig(const RiggedModel& model, const BoneNodes& nodes);
 
-/// `count` poses of an animation, evenly spaced from its beginning to just before its end, against
-/// the neutral stance; hips are shifted as they are against rest, times `scale`.
+/// `count` poses of an animation, evenly spaced from its start to just before its end, relative to
+/// the neutral stance. The shift of the hips is relative to the rest pose, times `scale`.
 std::vector<Pose> sample_poses(const RiggedModel& model, const Rig& rig,
                                const ModelAnimation& animation, int count, float scale);
 

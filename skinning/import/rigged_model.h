@@ -1,5 +1,5 @@
-// Characters that others made, as assimp reads them (glTF, FBX, DAE, ...): nodes, skinned meshes
-// in the rest pose, images and animations, in the file's own axes and unit.
+// Foreign models as read by assimp (glTF, FBX, DAE, ...): nodes, skinned meshes in the rest pose,
+// images and animations, in the file's axes and unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,18 @@ namespace throng::skinning {
 
 struct ModelNode {
   std::string name;
-  int parent = -1;  ///< before its children; -1 for the root
+  int parent = -1;  ///< index of the parent, which precedes its children; -1: root
   Eigen::Matrix4f local = Eigen::Matrix4f::Identity();
-  bool deforms = false;  ///< some vertex hangs on it
+  bool deforms = false;  ///< moves at least one vertex
 };
 
-/// How strongly a node moves a vertex.
+/// The skinning weight of a node for a vertex.
 struct NodeWeight {
   int node;
   float weight;
 };
 
-/// A mesh with one material, posed as the nodes are at rest.
+/// A mesh with one material, in the rest pose.
 struct ModelPart {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
@@ -41,7 +41,7 @@ struct ModelMaterial {
   bool alpha_tested = false;
 };
 
-/// How one node moves; times in seconds. Empty rows leave the node as it is at rest.
+/// The animation of one node. An empty list of keys keeps the rest transform.
 struct ModelChannel {
   template <typename T>
   struct Key {
@@ -67,16 +67,16 @@ struct RiggedModel {
   std::vector<ModelMaterial> materials;
   std::vector<ModelAnimation> animations;
 
-  /// Node transforms at rest, or at a time of an animation, in the file's axes.
+  /// Global transforms of the nodes at rest, or at a time of an animation, in the file's axes.
   std::vector<Eigen::Matrix4f> rest() const;
   std::vector<Eigen::Matrix4f> at(const ModelAnimation& animation, double time_s) const;
 };
 
 enum class ModelUse : std::uint8_t { character, motion };
 
-/// Reads a model; for ModelUse::motion its nodes and animations only. Throws InputError naming the
-/// file when it is missing, when assimp cannot read it, or when a character has no mesh, no bones
-/// or images that are missing or neither PNG nor JPEG.
+/// Reads a model; for ModelUse::motion only its nodes and animations. Throws InputError naming the
+/// file if it is missing, if assimp cannot read it, or if a character has no mesh, no bones, or
+/// images that are missing or neither PNG nor JPEG.
 RiggedModel read_rigged_model(const std::filesystem::path& path, ModelUse use);
 
 }  // namespace throng::skinning

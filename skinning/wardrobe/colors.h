@@ -1,4 +1,4 @@
-// Colors that clothes, hair, shoes and bags come in.
+// Palettes of colors of clothes, hair, shoes and bags.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace throng::skinning {
 
-/// Something that is colored from one palette. `suit` holds faint tints for an image that has
-/// colors of its own.
+/// Kinds of items with a common palette. `suit` has faint tints, for images with their own colors.
 enum class Dye : std::uint8_t {
   shirt,
   dress,
@@ -24,10 +23,10 @@ enum class Dye : std::uint8_t {
   umbrella
 };
 
-/// `count` colors of a dye, sampled by how often they are seen (with repetition).
+/// Samples `count` colors of a dye by their frequency, with repetition.
 std::vector<Rgb> draw_colors(Dye dye, std::size_t count, Random& random);
 
-/// Character that the hair belongs to.
+/// Ranges of hair colors, by the wearer's age and ancestry.
 enum class HairRange : std::uint8_t { dark, any, graying, gray };
 std::vector<Rgb> draw_hair(HairRange range, std::size_t count, Random& random);
 

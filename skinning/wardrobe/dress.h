@@ -1,5 +1,5 @@
-// A sampled person becomes surfaces: body in the wanted height, clothes fitted, covered skin left
-// out, standing neutrally on the ground.
+// Converts a sampled person to surfaces: the body with the person's height and fitted clothes,
+// without covered skin, in the neutral stance on the ground.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct DressedPerson {
   std::vector<Surface> surfaces;      ///< the skin first
   std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose
   Joints joints;                      ///< standing neutrally
-  Palette to_neutral;                 ///< from the A-pose
+  Palette to_neutral;                 ///< from the A-pose to the neutral stance
   float stature_m = 0;                ///< sole of the shoes to crown
 };
 

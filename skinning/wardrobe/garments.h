@@ -1,4 +1,4 @@
-// Garments of the package, and their licenses.
+// The garments of the package, and their licenses.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace throng::skinning {
 
-/// The owners' terms. CC0 needs nothing; the others need the author's name in the NOTICE.
+/// Licenses of assets. CC0 has no conditions; the others require the author's name in the notice.
 enum class License : std::uint8_t { cc0, cc_by_3, cc_by_4 };
 
 std::string_view spdx_name(License license);
 
-/// How much of a person a garment dresses. Most suits of the package are a top and a bottom that
-/// are worn apart, with one entry for each.
+/// The part of a person that a garment covers. Most suits of the package have a top and a bottom
+/// that can be worn separately, with an entry for each.
 enum class Slot : std::uint8_t { top, bottom, whole, dress, shoes, hat, hair };
 
-/// Wearers that a garment suits.
+/// The people whom a garment suits.
 struct Wearers {
   bool men = true;
   bool women = true;
@@ -25,28 +25,27 @@ struct Wearers {
 };
 
 struct GarmentInfo {
-  std::string_view name;   ///< folder in the package, or of our own making (see kSkirt)
-  std::string_view label;  ///< for people
+  std::string_view name;   ///< folder in the package, or kSkirt
+  std::string_view label;  ///< word in descriptions
   Slot slot;
   License license;
   Wearers wearers;
-  /// Tops that end at the waist need bottoms that reach up to it.
+  /// A top that ends at the waist, or a bottom that reaches up to it, which such tops require.
   bool high = false;
   /// Acceptance rate of a sample.
   double share = 1;
 };
 
-/// A skirt cut from the base mesh's own helper skirt, down to one of kSkirtHems.
+/// The name of a skirt that is cut from the base mesh's helper skirt (wardrobe/skirt.h).
 inline constexpr std::string_view kSkirt = "helper-skirt";
 
-/// Everything that may be worn.
+/// All garments.
 std::span<const GarmentInfo> all_garments();
 
-/// The entry of a garment in a slot. Throws when there is none: what is not in the list is not
-/// worn.
+/// The entry of a garment in a slot, which must exist.
 const GarmentInfo& garment(std::string_view name, Slot slot);
 
-/// The terms of a proxy (clothes, hair, eyes or eyebrows). Throws when it is not in the list.
+/// The license of a proxy (clothes, hair, eyes or eyebrows), which must be in the list.
 License find_license(std::string_view name);
 
 }  // namespace throng::skinning

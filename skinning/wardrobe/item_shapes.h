@@ -1,4 +1,4 @@
-// The shapes of carried items, made of boxes, straps and domes around the dressed person.
+// The shapes of carried items: boxes, straps and domes around the dressed person.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,14 @@
 
 namespace throng::skinning {
 
-/// Key of the texture that all carried items share, and the image: light and shade of cloth with
+/// Key of the common texture of all carried items, and its image: light and shade of cloth with
 /// seams, to be tinted.
 inline constexpr std::string_view kItemTexture = "items";
 Image item_image(int size);
 
-/// The carried item in the neutral pose, as part of one level of detail: 0 is the finest, 3 and
-/// above the coarsest. Nothing for Carry::nothing. Its `fitted` positions are the neutral ones.
+/// The carried item in the neutral stance for a level of detail: 0 is the finest, 3 and above the
+/// coarsest. Nothing for Carry::nothing. Surface::fitted equals the positions in the neutral
+/// stance.
 std::optional<Surface> make_item(Carry carry, const DressedPerson& person, int level);
 
 }  // namespace throng::skinning

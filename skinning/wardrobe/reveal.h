@@ -1,4 +1,4 @@
-// Skin covered by a garment.
+// The skin that garments cover.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace throng::skinning {
 
-/// Per body vertex: whether the garment lies close over it, on the unmorphed body.
+/// Per body vertex: whether the garment covers it closely, on the unmorphed body.
 std::vector<bool> skin_under(const MakeHuman& makehuman, const Proxy& garment);
 
-/// Without the outermost `rows` of vertices along the borders.
+/// Removes the outermost `rows` of vertices along the borders of the set.
 std::vector<bool> without_border(const MakeHuman& makehuman, std::vector<bool> vertices, int rows);
 
 }  // namespace throng::skinning

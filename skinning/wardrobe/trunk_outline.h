@@ -1,4 +1,4 @@
-// The outside of a dressed trunk, for straps that run around it.
+// The outer surface of a dressed trunk, for straps around it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace throng::skinning {
 
-/// Skin and clothes of the trunk, standing neutrally; without arms, legs, head and hair.
+/// Skin and clothes of the trunk in the neutral stance, without arms, legs, head and hair.
 class TrunkOutline {
  public:
   explicit TrunkOutline(const DressedPerson& person);
@@ -18,7 +18,7 @@ class TrunkOutline {
     Eigen::Vector3f position;
     BoneWeights weights;
   };
-  /// The outermost point of the trunk on a ray; nothing when the ray misses it.
+  /// The outermost point of the trunk on a ray, or nothing if the ray misses it.
   std::optional<Point> outermost(const Eigen::Vector3f& origin,
                                  const Eigen::Vector3f& direction) const;
 

@@ -1,4 +1,4 @@
-// Clothes, shoes, hair and eyes cut into pieces that are colored as one, with their textures.
+// Clothes, shoes, hair and eyes, divided into pieces with one tint each, and their textures.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace throng::skinning {
 
-/// Some faces of a proxy with one coloring.
+/// Faces of a proxy with one tint and texture.
 struct Garment {
   const Proxy* proxy = nullptr;
   std::vector<Quad> quads;
@@ -25,20 +25,20 @@ struct Garment {
   std::string texture;  ///< key of Wardrobe::textures
 };
 
-/// A worn garment: its pieces, and the skin that it hides.
+/// A worn garment: its proxy, which lists the covered skin, and its pieces.
 struct Worn {
   const Proxy* proxy = nullptr;
   std::vector<Garment> pieces;
 };
 
-/// Everything that a set of people wears, loaded once; read-only afterwards.
+/// The garments of a set of people, loaded once and immutable afterwards.
 class Wardrobe {
  public:
-  /// Loads what `people` wear. Textures become squares of `texture_size`; those of tinted pieces
-  /// are light and shade, with the median at kMedianShade.
+  /// Loads the garments of `people`. Textures are resized to squares of `texture_size`; those of
+  /// tinted pieces are reduced to light and shade with the median kMedianShade.
   Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& people, int texture_size);
 
-  /// The outfit's garment in a slot; no pieces and no proxy if the slot is empty.
+  /// The outfit's garment in a slot; without proxy and pieces if the slot is empty.
   const Worn& top(const Outfit& outfit) const;
   const Worn& bottom(const Outfit& outfit) const;
   const Worn& shoes(const Outfit& outfit) const;
@@ -47,14 +47,14 @@ class Wardrobe {
   const Worn& eyebrows(const std::string& name) const;
   const Proxy& eyes() const { return *eyes_; }
 
-  /// Author of a proxy that is worn, as the package names them; empty when it does not.
+  /// The author of a worn proxy as stated in the package, or "".
   const std::string& author_of(const std::string& proxy) const;
 
-  /// By key. The keys of skins and eyes are their names.
+  /// All textures by key. The keys of skins and eyes are their names.
   const std::map<std::string, Image>& textures() const { return textures_; }
 
  private:
-  /// Part of a suit, its fabric and its color.
+  /// A garment with its cloth and tint.
   struct Key {
     std::string name;
     Slot slot = Slot::top;
@@ -83,10 +83,10 @@ class Wardrobe {
   std::map<std::string, Image> textures_;
 };
 
-/// The image of a skin, e.g. "old_asian_male". Throws InputError when the package has none.
+/// The image of a skin, such as "old_asian_male". Throws InputError if the package has none.
 std::filesystem::path skin_image(const std::filesystem::path& package, const std::string& skin);
 
-/// The package's folders that hold what these people are made of besides their bodies.
+/// The package's folders with the assets of these people, except the body.
 std::set<std::filesystem::path> folders_used(const std::filesystem::path& package,
                                              const std::vector<PersonSpec>& people);
 
