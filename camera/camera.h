@@ -61,6 +61,7 @@ struct Pose {
 /// up).
 Pose pose_looking(const Eigen::Vector3d& center, double yaw_rad, double pitch_rad);
 
+/// A camera with its pose in the world (m).
 struct Camera {
   Intrinsics intrinsics;
   Pose pose;

@@ -7,6 +7,7 @@
 
 namespace throng::metrics {
 
+/// A paragraph of the document.
 struct Definition {
   /// Values that the paragraph defines, as paths in metrics.json: "people", "exits[].net_out".
   std::vector<std::string> paths;

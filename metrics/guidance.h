@@ -11,6 +11,7 @@
 
 namespace throng::metrics {
 
+/// Metrics of guidance over a run.
 struct GuidanceFigures {
   int led = 0;                 ///< people who followed a guide at any time
   double mean_followed_s = 0;  ///< mean over these people

@@ -13,6 +13,7 @@
 
 namespace throng::sim {
 
+/// The coupling of one run.
 class GuidanceLoop {
  public:
   /// `scenario`, `roles` and `drones` must outlive the loop.

@@ -13,6 +13,7 @@
 
 namespace throng::sim {
 
+/// A running simulation of a scenario. Not thread-safe.
 class SteppedRun {
  public:
   /// Checks the specification and reports the start of the run to the observer. `scenario` and

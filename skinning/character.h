@@ -86,6 +86,7 @@ struct Mesh {
 enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
 inline constexpr std::size_t kCarryCount = 5;
 
+/// A person of the library: body, clothes and levels of detail.
 struct Character {
   std::string name;
   float stature_m = 0;  ///< sole of the shoes to crown, standing

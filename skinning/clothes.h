@@ -11,6 +11,7 @@ namespace throng::skinning {
 enum class ClothesSlot : std::uint8_t { upper, lower, whole, shoes, hat };
 std::string_view to_string(ClothesSlot slot);
 
+/// A garment in a description.
 struct Clothing {
   ClothesSlot slot;
   std::string_view type;  ///< word in Character::wears, such as "t-shirt"

@@ -6,6 +6,7 @@
 
 namespace throng::skinning {
 
+/// A level of detail.
 struct DetailLevel {
   std::size_t triangles;  ///< max number, including the carried item
   double above_px;        ///< used for people whose standing height exceeds this

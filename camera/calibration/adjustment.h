@@ -41,6 +41,7 @@ struct Observation {
   bool used = true;  ///< false: classified as an outlier
 };
 
+/// The variables and the data of the problem.
 struct Adjustment {
   Lens lens = Lens::brown5;
   Rules rules;

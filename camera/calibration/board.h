@@ -14,6 +14,7 @@
 
 namespace throng::calibrate {
 
+/// A calibration board.
 struct Board {
   enum class Kind { chessboard, charuco, circles };
   Kind kind = Kind::chessboard;

@@ -20,6 +20,7 @@ struct PointResult {
   bool used = true;
 };
 
+/// The result for one image.
 struct ViewResult {
   std::string name;
   ViewPose pose;
@@ -39,6 +40,7 @@ struct ModelScore {
   double bic = 0;  ///< m ln(SSE / m) + p ln m (Schwarz 1978), m coordinates, p unknowns
 };
 
+/// A calibration of any kind.
 struct Calibration {
   std::string kind;  ///< "intrinsics", "pose" or "bundle"
   Lens lens = Lens::brown5;

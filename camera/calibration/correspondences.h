@@ -19,6 +19,7 @@ struct View {
   std::vector<Eigen::Vector2d> pixels;
 };
 
+/// The correspondences of all images.
 struct Correspondences {
   ImageSize size;
   std::vector<View> views;

@@ -10,6 +10,7 @@
 
 namespace throng::calibrate {
 
+/// Options of calibrate_intrinsics().
 struct IntrinsicsOptions {
   Lens lens = Lens::brown5;
   bool choose_lens = false;  ///< fit every model and keep the one with the smallest BIC

@@ -12,6 +12,7 @@
 
 namespace throng::calibrate {
 
+/// Options of calibrate_pose().
 struct PoseOptions {
   FitOptions fit;
   std::string source = "calibration";  ///< named in errors
@@ -23,6 +24,7 @@ struct PoseOptions {
 Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& control_points,
                            const std::vector<NamedPixel>& pixels, const PoseOptions& options);
 
+/// Options of adjust_bundle().
 struct BundleOptions {
   FitOptions fit;
   Wishes wishes;          ///< parameters fixed without a value keep their initial value

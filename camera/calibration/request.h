@@ -17,6 +17,7 @@
 
 namespace throng::calibrate {
 
+/// A calibration with its input files and options.
 struct Request {
   std::string kind = "intrinsics";            ///< "intrinsics", "pose" or "bundle"
   std::vector<std::filesystem::path> images;  ///< intrinsics: images of a board

@@ -10,6 +10,7 @@
 
 namespace throng::calibrate {
 
+/// Options of fit().
 struct FitOptions {
   /// Whether observations are rejected whose residual exceeds both kOutlierSigmas robust standard
   /// deviations and outlier_px.
@@ -28,6 +29,7 @@ struct FitOptions {
 /// Max residual of an inlier, in robust standard deviations.
 inline constexpr double kOutlierSigmas = 6;
 
+/// Result of fit().
 struct Fit {
   bool converged = false;
   int iterations = 0;

@@ -6,6 +6,7 @@
 
 namespace throng::metrics {
 
+/// A person near an exit.
 struct NearPerson {
   std::size_t agent = 0;
   Eigen::Vector2d place = Eigen::Vector2d::Zero();     ///< m

@@ -18,6 +18,7 @@ using Ring = std::vector<Eigen::Vector2d>;
 /// Max radius of the cell of a person without neighbors.
 inline constexpr double kCellRadiusM = 2.0;
 
+/// The ground nearest to one person.
 struct VoronoiCell {
   std::vector<Ring> rings;  ///< the outline, then the holes
   double area_m2 = 0;       ///< area without holes; greater than 0

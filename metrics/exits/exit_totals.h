@@ -13,6 +13,7 @@
 
 namespace throng::metrics {
 
+/// Totals of one exit; docs/metrics.md defines them.
 struct ExitTotals {
   std::string exit_id;
   double width_m = 0;

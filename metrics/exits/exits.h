@@ -12,6 +12,7 @@
 
 namespace throng::metrics {
 
+/// States of an exit; metrics/exits/exit_state.h defines the transitions.
 enum class ExitState : std::uint8_t {
   idle = 0,
   flowing = 1,

@@ -9,6 +9,7 @@
 
 namespace throng::metrics {
 
+/// The size of a queue.
 struct Queue {
   int people = 0;
   /// Max path length from the exit's center along the queue to a person.

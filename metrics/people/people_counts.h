@@ -9,6 +9,7 @@
 
 namespace throng::metrics {
 
+/// Numbers of people by outcome.
 struct PeopleCounts {
   struct ByExit {
     std::string exit_id;

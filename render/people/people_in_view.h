@@ -32,6 +32,7 @@ struct Seen {
   std::optional<std::size_t> tile;  ///< tile of the silhouette
 };
 
+/// Finds the people in view.
 class PeopleFinder {
  public:
   /// `population` must outlive this object.

@@ -37,6 +37,7 @@ struct Packing {
   std::size_t corners_from = 0;    ///< levels from this index on have a color per vertex
 };
 
+/// The meshes of all characters on the device.
 struct PeopleMeshes {
   Buffer vertices;
   Buffer indices;

@@ -17,6 +17,7 @@ enum class Finish : std::uint8_t {
   lamp = 3     ///< emits light after sunset
 };
 
+/// A vertex of a prop.
 struct PropVertex {
   std::array<float, 3> position{};  ///< m, world
   std::array<float, 3> normal{};

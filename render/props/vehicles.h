@@ -11,6 +11,7 @@
 
 namespace throng::render {
 
+/// A vehicle, with ground truth.
 struct Vehicle {
   std::uint32_t id = 0;  ///< value in the id buffer
   world::SemanticClass surface{};

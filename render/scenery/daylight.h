@@ -11,6 +11,7 @@
 
 namespace throng::render {
 
+/// The light of an environment; colors are linear RGB.
 struct Daylight {
   /// Unit vector toward the light that casts shadows: the sun (at least 3 degrees above the
   /// horizon, so that shadows are finite), or the zenith, the brightest part of an overcast sky.

@@ -11,6 +11,7 @@
 
 namespace throng::render {
 
+/// A street lamp.
 struct Lamp {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position of the light, m
   /// Outward normal of the wall of a wall lamp, which shines to this side only; zero: all around.

@@ -12,6 +12,7 @@ namespace throng::render {
 /// Min height (m) of walls with stories, windows and lamps; also in shaders/wall.frag.glsl.
 inline constexpr double kMinStoryM = 2.6;
 
+/// A vertex of the scenery.
 struct SceneryVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};
@@ -30,6 +31,7 @@ struct Range {
   std::uint32_t count = 0;
 };
 
+/// The triangles of the scenery, by ranges of indices.
 struct SceneryMesh {
   std::vector<SceneryVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< counter-clockwise from outside

@@ -15,6 +15,7 @@
 
 namespace throng::sim {
 
+/// Observes the positions of people step by step.
 class PropWatch {
  public:
   /// `scenario` must outlive this object.

@@ -13,6 +13,7 @@
 
 namespace throng::sim {
 
+/// The crowd of a run and the roles of its agents.
 struct StartingPeople {
   std::unique_ptr<CrowdSource> crowd;  ///< only participants are present
   std::vector<world::AgentRole> roles;

@@ -8,6 +8,7 @@
 
 namespace throng::sim {
 
+/// The moving set-point of one drone.
 class Glide {
  public:
   Glide(const Eigen::Vector3d& start, double yaw_rad);

@@ -12,6 +12,7 @@
 
 namespace throng::sim {
 
+/// Records the crowd of one run.
 class CrowdRecorder {
  public:
   /// `moving_goals` are the goals that drones move. All arguments must outlive the recorder.

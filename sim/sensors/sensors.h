@@ -50,6 +50,7 @@ double height_at(double pressure_pa);
 /// +y is north.
 Eigen::Vector3d magnetic_field(double latitude_rad);
 
+/// A reading of the GPS.
 struct GpsFix {
   double time_s = 0;  ///< time of validity; it is available gps_delay_s later
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, world

@@ -25,6 +25,7 @@ struct LeadPlan {
   std::optional<Eigen::Vector2d> place = {};  ///< current or next work position, m
 };
 
+/// A drone, as other drones know it by radio.
 struct DroneSeen {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s

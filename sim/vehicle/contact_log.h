@@ -40,6 +40,7 @@ struct Touch {
   PerRotor rotor_ns{};
 };
 
+/// Collects contacts step by step.
 class ContactLog {
  public:
   /// Adds a contact; call it once per step for each pair of bodies in contact.

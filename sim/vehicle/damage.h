@@ -24,6 +24,7 @@ std::optional<std::size_t> propeller_hit(const Contact& contact);
 /// Speed (m/s) of an impact on a rigid wall with the same impulse: J / (m (1 + restitution)).
 double wall_speed_mps(double impulse_ns, const Airframe& airframe);
 
+/// The damage by one impact.
 struct Damage {
   bool structure = false;           ///< the frame is broken, so that no rotor produces thrust
   std::array<bool, 4> propeller{};  ///< broken by this impact

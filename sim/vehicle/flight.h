@@ -34,6 +34,7 @@ struct FlightWeather {
   std::uint64_t seed = 1;  ///< seed of the gusts
 };
 
+/// Simulates the flight of all drones. Deterministic; not thread-safe.
 class Flight {
  public:
   /// The clock has equal ticks of at most `physics_dt_s`, an integer number of them in

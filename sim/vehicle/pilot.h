@@ -13,6 +13,7 @@
 
 namespace throng::sim {
 
+/// Controls one drone.
 class Pilot {
  public:
   using Report = std::function<void(const world::EventKind&)>;

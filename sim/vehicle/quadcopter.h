@@ -30,6 +30,7 @@ struct RotorSeat {
 inline constexpr std::array<RotorSeat, 4> kRotorSeats{
     {{1, 1, -1}, {-1, 1, 1}, {-1, -1, -1}, {1, -1, 1}}};
 
+/// A force and a torque on the body.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N, world, without gravity
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, world

@@ -26,6 +26,7 @@ struct Footstep {
   double length_m = 0;     ///< half a stride
 };
 
+/// The steps along a moving stretch.
 struct Walk {
   std::vector<Footstep> steps;  ///< empty if the path is too short for a step
   bool from_rest = false;       ///< starts standing; else in the middle of a step

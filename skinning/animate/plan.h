@@ -28,6 +28,7 @@ struct Piece {
   bool by_distance = false;
 };
 
+/// The plan of one stay of an agent.
 class MotionPlan {
  public:
   /// Plans the motion of an agent with this appearance; `key`, a seed, identifies run and agent.

@@ -22,6 +22,7 @@ struct Moment {
   Gaze gaze = Gaze::none;
 };
 
+/// Activity of an agent over a stretch.
 enum class Activity : std::uint8_t { standing, moving, lying };
 
 /// Steps `first` to `last` with one activity; the next stretch starts at `last`.

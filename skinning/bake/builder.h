@@ -7,6 +7,7 @@
 
 namespace throng::skinning {
 
+/// Options of build_population().
 struct BuildOptions {
   int count = 96;                 ///< number of characters, 1 to 1000
   std::uint64_t seed = 1;         ///< seed of the sampled characters

@@ -20,6 +20,7 @@
 
 namespace throng::skinning {
 
+/// The closed surface of one dressed person.
 class Hull {
  public:
   /// `textures` contains the textures of the person's surfaces, by key; the portrait's images have

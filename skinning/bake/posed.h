@@ -9,6 +9,7 @@
 
 namespace throng::skinning {
 
+/// A surface with posed vertices. The referenced objects must outlive it.
 struct PosedSurface {
   const Surface* surface = nullptr;
   std::vector<Eigen::Vector3f> points;  ///< per vertex, m

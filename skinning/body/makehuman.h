@@ -61,6 +61,7 @@ struct BodyShape {
 /// MakeHuman's value for an age: 0 for 1 year, 0.5 for 25, 1 for 90, linear in between.
 double slider_of_age(double years);
 
+/// The content of the package.
 class MakeHuman {
  public:
   /// `folder` is the package's folder, which contains package.json. Throws InputError naming the

@@ -10,6 +10,7 @@
 
 namespace throng::skinning {
 
+/// A body in the A-pose and in the neutral stance.
 struct Stance {
   std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose
   Joints a_pose;                      ///< joints in the A-pose

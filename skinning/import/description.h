@@ -8,12 +8,14 @@
 
 namespace throng::skinning {
 
+/// The animation for a standard clip.
 struct ClipDescription {
   std::string name;            ///< name of the animation; "": the only one
   std::filesystem::path file;  ///< file with the animation; empty: the model's file
   double speed_mps = 0;        ///< speed at the described height; 0: on the spot
 };
 
+/// The content of a description.
 struct CharacterDescription {
   std::filesystem::path file;  ///< the description itself
   std::string name;            ///< name, also of files: letters, digits, - and _

@@ -9,6 +9,7 @@
 
 namespace throng::skinning {
 
+/// Options of import_characters().
 struct ImportOptions {
   std::filesystem::path with;  ///< folder of a character library to be extended; empty: none
   int texture_size = 256;      ///< pixels along each side, without `with`; 32 to 2048

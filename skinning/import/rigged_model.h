@@ -13,6 +13,7 @@
 
 namespace throng::skinning {
 
+/// A node of the scene graph.
 struct ModelNode {
   std::string name;
   int parent = -1;  ///< index of the parent, which precedes its children; -1: root
@@ -36,6 +37,7 @@ struct ModelPart {
   std::size_t material = 0;
 };
 
+/// A material of a model.
 struct ModelMaterial {
   Image image;  ///< base color
   bool alpha_tested = false;
@@ -54,12 +56,14 @@ struct ModelChannel {
   std::vector<Key<Eigen::Vector3f>> scales;
 };
 
+/// An animation of a model.
 struct ModelAnimation {
   std::string name;
   double duration_s = 0;
   std::vector<ModelChannel> channels;
 };
 
+/// The content of a model.
 struct RiggedModel {
   std::string file;
   std::vector<ModelNode> nodes;
@@ -72,6 +76,7 @@ struct RiggedModel {
   std::vector<Eigen::Matrix4f> at(const ModelAnimation& animation, double time_s) const;
 };
 
+/// Purpose for which a model is read.
 enum class ModelUse : std::uint8_t { character, motion };
 
 /// Reads a model; for ModelUse::motion only its nodes and animations. Throws InputError naming the

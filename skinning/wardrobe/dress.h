@@ -12,6 +12,7 @@
 
 namespace throng::skinning {
 
+/// A person with clothes.
 struct DressedPerson {
   std::vector<Surface> surfaces;      ///< the skin first
   std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose

@@ -24,6 +24,7 @@ struct Wearers {
   bool children = true;
 };
 
+/// An entry of the list of garments.
 struct GarmentInfo {
   std::string_view name;   ///< folder in the package, or kSkirt
   std::string_view label;  ///< word in descriptions

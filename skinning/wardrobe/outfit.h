@@ -25,6 +25,7 @@ enum class Cloth : std::uint8_t {
 /// the calf.
 enum class Hem : std::uint8_t { foot, calf, knee };
 
+/// Names of the garments of a person, with cloths and colors.
 struct Outfit {
   std::string top;
   std::string bottom;  ///< equal to `top` for overalls and suits; "" for a dress

@@ -10,6 +10,7 @@
 
 namespace throng::skinning {
 
+/// The properties of a sampled person.
 struct PersonSpec {
   std::string name;  ///< such as "person_003"
   bool male = true;

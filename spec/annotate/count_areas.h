@@ -7,6 +7,7 @@
 
 namespace throng::annotate {
 
+/// A polygon in which people are counted.
 struct CountZone {
   std::string id;
   std::vector<Eigen::Vector2d> corners;  ///< corners of a simple polygon, m
@@ -19,6 +20,7 @@ struct CountLine {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
 };
 
+/// The zones and lines of a job.
 struct CountAreas {
   std::vector<CountZone> zones;
   std::vector<CountLine> lines;

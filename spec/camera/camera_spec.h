@@ -38,6 +38,7 @@ struct FrameOffsets {
   double ev = 0;
 };
 
+/// Lens, sensor, exposure and mounting of a camera.
 struct CameraSpec {
   int width = 1280;
   int height = 720;

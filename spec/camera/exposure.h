@@ -3,6 +3,7 @@
 
 namespace throng::camera {
 
+/// Times of the exposure of a frame.
 struct Exposure {
   double exposure_s = 0;  ///< exposure time of each row; 0: an instant
   /// Time from the first row's readout to the last row's; 0: all rows at once (global shutter). The

@@ -5,6 +5,7 @@
 
 namespace throng::camera {
 
+/// Errors of a gimbal; only `ideal` counts if it is true.
 struct GimbalSpec {
   bool ideal = true;                    ///< follows commands exactly and without delay
   double natural_rad_s = 25;            ///< natural frequency of each axis's second-order response

@@ -51,10 +51,12 @@ struct ClassOptions {
   std::map<std::string, std::string> names;  ///< class names that replace values of the property
 };
 
+/// Options of `webdataset` exports.
 struct WebDatasetOptions {
   double shard_mb = 1000;  ///< size in 10^6 bytes at which the next tar file is started
 };
 
+/// Options of all exports of a dataset.
 struct ExportOptions {
   SplitOptions splits;
   FilterOptions filters;

@@ -19,6 +19,7 @@ namespace throng::jobs {
 
 using fields::Quantity;
 
+/// The distribution of the values of one field.
 class Distribution {
  public:
   enum class Kind : std::uint8_t { choice, uniform, log_uniform, normal };

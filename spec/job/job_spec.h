@@ -21,6 +21,7 @@
 
 namespace throng::jobs {
 
+/// A drone of a job: its mission and its camera.
 struct DroneSpec {
   sim::DroneMission mission;
   CameraSpec camera;
@@ -28,12 +29,14 @@ struct DroneSpec {
   std::filesystem::path pilot_log;
 };
 
+/// Times of the frames of all cameras, in simulated time.
 struct CaptureSpec {
   double rate_hz = 1;
   double from_s = 0;
   double to_s = 60;
 };
 
+/// Images, ground truth and exports that a job writes.
 struct OutputSpec {
   std::string image_format = "jpeg";
   int image_quality = 95;
@@ -57,6 +60,7 @@ struct ScenarioShare {
   std::optional<int> agents;                         ///< overrides the job's
 };
 
+/// A whole job; docs/reference/job.md describes the fields.
 struct JobSpec {
   std::string name;
   std::string scenario;  ///< its id; that of a generated one is generated_scenario_id()

@@ -11,6 +11,7 @@
 
 namespace throng::jobs {
 
+/// A trajectory file, its format, and properties of its people.
 struct RecordedSpec {
   std::filesystem::path file;  ///< path of the trajectory file
   std::string sha256;          ///< hash of its content (hex); "" until resolve() unless given

@@ -12,6 +12,7 @@
 
 namespace throng::jobs {
 
+/// The problems of one text.
 class SchemaProblems {
  public:
   /// Throws InputError if `text` is not JSON. `source` names the text in errors.

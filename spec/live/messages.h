@@ -19,6 +19,7 @@ enum class MessageType : char {
   alive = 'A',    ///< empty; a heartbeat of the service
 };
 
+/// A message without its length.
 struct Message {
   MessageType type = MessageType::alive;
   std::string bytes;

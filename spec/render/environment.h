@@ -7,6 +7,7 @@ namespace throng::render {
 
 enum class Weather : std::uint8_t { clear, overcast, fog, rain };
 
+/// Light and weather, as the renderer uses them.
 struct Environment {
   double sun_azimuth_rad = 0.9;    ///< direction to the sun, counter-clockwise from +x
   double sun_elevation_rad = 0.8;  ///< above the horizon; negative: below it

@@ -9,6 +9,7 @@ namespace throng::render {
 
 enum class Quality : std::uint8_t { draft, standard, high };
 
+/// A row of the table of quality levels.
 struct QualitySettings {
   std::string_view word;  ///< keyword in job files
   bool textured;          ///< else ground and walls have a color per vertex

@@ -84,6 +84,7 @@ struct CrowdSpec {
   crowd::Physical physical;
 };
 
+/// Everything that determines a run, except the scenario.
 struct RunSpec {
   std::uint64_t seed = 1;
   double duration_s = 120;              ///< simulated time; the run may not end earlier

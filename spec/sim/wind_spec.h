@@ -20,6 +20,7 @@ enum class GustModel : std::uint8_t {
   ou,      ///< Ornstein-Uhlenbeck process along each axis
 };
 
+/// Parameters of the wind; those that the chosen models do not use are ignored.
 struct WindSpec {
   double speed_mps = 0;      ///< mean at 10 m above the ground
   double direction_rad = 0;  ///< direction toward which it blows, counter-clockwise from +x

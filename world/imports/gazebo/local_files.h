@@ -8,6 +8,7 @@
 
 namespace throng::imports {
 
+/// The folders in which files are found.
 class LocalFiles {
  public:
   explicit LocalFiles(const std::vector<std::filesystem::path>& folders);

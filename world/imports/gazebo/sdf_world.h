@@ -8,6 +8,7 @@
 
 namespace throng::imports {
 
+/// Options of read_sdf().
 struct SdfOptions {
   std::vector<std::filesystem::path> models;  ///< folders in which model:// is resolved
   std::vector<Gate> gates;                    ///< exits; empty: openings of the edge

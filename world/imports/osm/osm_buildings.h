@@ -21,6 +21,7 @@ struct BuildingPiece {
   bool part = false;   ///< part of a building whose outline blocks people
 };
 
+/// All buildings of a map.
 struct MapBuildings {
   std::vector<BuildingPiece> pieces;
   std::vector<Area> outlines;  ///< obstacles for people that are not rendered

@@ -22,12 +22,14 @@ struct GeoPoint {
 
 using Tags = std::map<std::string, std::string>;
 
+/// A tagged node.
 struct OsmPoint {
   std::int64_t id = 0;
   Tags tags;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
 };
 
+/// A tagged way.
 struct OsmLine {
   std::int64_t id = 0;
   Tags tags;
@@ -42,6 +44,7 @@ struct OsmArea {
   Area area;
 };
 
+/// All tagged objects of an extract.
 struct OsmFile {
   world::Rectangle bounds;  ///< as stated in the file, else the bounding box of its nodes
   bool has_bounds = false;  ///< whether the file states them

@@ -11,6 +11,7 @@
 
 namespace throng::imports {
 
+/// A way that people or cars use.
 struct UsedWay {
   const OsmLine* line;
   WayKind kind;

@@ -10,6 +10,7 @@
 
 namespace throng::imports {
 
+/// Options of read_osm().
 struct OsmOptions {
   std::optional<GeoPoint> origin;  ///< default: the center of the bounds
   std::vector<Gate> gates;         ///< exits; empty: where ways leave the extract

@@ -13,6 +13,7 @@ namespace throng::imports {
 /// The type ('n', 'w' or 'r') and id of a node, way or relation.
 using OsmId = std::pair<char, std::int64_t>;
 
+/// The processed text, and the objects to be ignored.
 struct OsmText {
   std::string text;
   std::set<OsmId> deleted;  ///< objects marked as deleted by JOSM; libosmium ignores the mark

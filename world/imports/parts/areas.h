@@ -14,6 +14,7 @@ namespace throng::imports {
 /// end.
 using Corners = std::vector<Eigen::Vector2d>;
 
+/// An area with holes (m).
 struct Area {
   Corners outline;
   std::vector<Corners> holes;

@@ -42,6 +42,7 @@ struct Gate {
   double share = 0;  ///< relative number of people who enter here
 };
 
+/// The content of an imported file.
 struct ImportedScenario {
   std::string name;
   std::string description;

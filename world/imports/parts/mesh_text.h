@@ -7,6 +7,7 @@
 
 namespace throng::imports {
 
+/// The two files of an object.
 struct MeshText {
   std::string triangles;  ///< the .obj, with y up: the scenario's (x, y, z) becomes (x, z, -y)
   std::string materials;  ///< the .mtl

@@ -9,6 +9,7 @@
 
 namespace throng::imports {
 
+/// Number of people, and the seed of their positions.
 struct PopulateOptions {
   int people = 100;
   std::uint64_t seed = 1;

@@ -10,11 +10,13 @@
 
 namespace throng::scenarios {
 
+/// Severity of a finding.
 enum class Severity {
   warning,  ///< works, but is probably not intended
   error     ///< a run would fail or have useless results
 };
 
+/// A problem of a scenario, with a remedy.
 struct Finding {
   Severity severity = Severity::error;
   Problem problem;     ///< file, element, value found, value expected

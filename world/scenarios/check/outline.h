@@ -15,6 +15,7 @@ struct Gap {
   double width_m = 0;                                ///< between the walls on both sides
 };
 
+/// Result of survey_outline().
 struct OutlineSurvey {
   /// Gaps by width, the widest first; empty if people leave by exits only.
   std::vector<Gap> gaps;
