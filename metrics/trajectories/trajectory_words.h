@@ -8,8 +8,7 @@
 namespace throng::metrics {
 
 /// The frame rate (1/s) that a comment states, such as "# framerate: 16.00 fps", "#frame rate=25"
-/// or
-/// "# 25fps".
+/// or "# 25fps".
 std::optional<double> frame_rate_in(std::string_view comment);
 
 /// The unit of length, in m, that a comment or a column's name states, such as "x/cm", "in m" or
