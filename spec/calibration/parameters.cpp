@@ -82,15 +82,6 @@ camera::Intrinsics to_intrinsics(Lens lens, const Parameters& p, int width, int 
   return k;
 }
 
-Parameters to_parameters(const camera::Intrinsics& k) {
-  Parameters p{k.fx_px, k.fy_px, k.cx_px, k.cy_px, k.skew_px};
-  if (k.distortion) {
-    const auto& coefficients = k.distortion->coefficients();
-    std::copy(coefficients.begin(), coefficients.end(), p.begin() + kCoefficients);
-  }
-  return p;
-}
-
 std::vector<std::size_t> Rules::free_places() const {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < kParameters; ++i) {

@@ -42,8 +42,6 @@ std::string parameter_name(Lens lens, std::size_t index);
 /// Camera with these parameters: u = fx x' + skew y' + cx, v = fy y' + cy (Zhang 2000, eq. 1),
 /// where (x', y') are distorted normalized coordinates. `width` and `height` in pixels.
 camera::Intrinsics to_intrinsics(Lens lens, const Parameters& parameters, int width, int height);
-/// Parameters of a camera; the inverse of to_intrinsics().
-Parameters to_parameters(const camera::Intrinsics& intrinsics);
 
 /// A normal prior of a parameter.
 struct Prior {

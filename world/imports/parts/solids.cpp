@@ -103,15 +103,6 @@ class Raster {
 
 }  // namespace
 
-Triangles box_triangles(const Vector3d& size) {
-  const Vector3d half = 0.5 * size;
-  return prism_triangles(rectangle_corners({-half.head<2>(), half.head<2>()}), -half.z(), half.z());
-}
-
-Triangles cylinder_triangles(double radius, double length) {
-  return prism_triangles(circle(Vector2d::Zero(), radius), -0.5 * length, 0.5 * length);
-}
-
 Triangles cone_triangles(double radius, double length) {
   const Corners base = circle(Vector2d::Zero(), radius);
   const Vector3d tip(0, 0, 0.5 * length);

@@ -13,9 +13,7 @@ namespace throng::imports {
 using Triangle = std::array<Eigen::Vector3d, 3>;
 using Triangles = std::vector<Triangle>;
 
-/// Triangles (m) of shapes centered at the origin, with the axes of cylinder and cone along z.
-Triangles box_triangles(const Eigen::Vector3d& size);
-Triangles cylinder_triangles(double radius, double length);
+/// The triangles (m) of a cone centered at the origin, with its axis along z.
 Triangles cone_triangles(double radius, double length);
 /// An ellipsoid with these radii, divided at its equator and lengthened along z by `stretch` (a
 /// capsule).

@@ -8,6 +8,7 @@
 
 #include "base/compute/random.h"
 #include "base/geometry/polygon.h"
+#include "tests/world/imports/parts/box.h"
 #include "world/imports/parts/free_ground.h"
 #include "world/imports/parts/solids.h"
 

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/geometry/polygon.h"
+#include "tests/world/imports/parts/box.h"
 #include "tests/world/temporary_folder.h"
 #include "world/imports/gazebo/mesh_reader.h"
 #include "world/imports/parts/mesh_text.h"
@@ -54,9 +55,11 @@ TEST(BoxTriangles, HaveVolumeAndSurface) {
   }
 }
 
-TEST(CylinderTriangles, HaveVolume) {
-  EXPECT_NEAR(enclosed_volume(cylinder_triangles(2, 5)), round_m2(2) * 5, 1e-9);
-  EXPECT_NEAR(enclosed_volume(cylinder_triangles(2, 5)), std::numbers::pi * 4 * 5, 1)
+TEST(PrismTriangles, HaveVolume) {
+  EXPECT_NEAR(enclosed_volume(prism_triangles(circle(Vector2d::Zero(), 2), 0, 5)), round_m2(2) * 5,
+              1e-9);
+  EXPECT_NEAR(enclosed_volume(prism_triangles(circle(Vector2d::Zero(), 2), 0, 5)),
+              std::numbers::pi * 4 * 5, 1)
       << "about a circle";
 }
 
