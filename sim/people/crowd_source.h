@@ -13,8 +13,8 @@
 
 namespace throng::sim {
 
-/// The interface to a run's people. Spans are valid until step(); all except falls() have one element
-/// per agent.
+/// The interface to a run's people. Spans are valid until step(); all except falls() have one
+/// element per agent.
 class CrowdSource {
  public:
   CrowdSource() = default;
