@@ -30,15 +30,14 @@ class ImageFolderExporter : public Exporter {
   ImageFolderExporter(const DatasetInfo& info, Output output)
       : info_(info), output_(std::move(output)) {
     for (const Split split : info.splits()) {
-      lines_.try_emplace(
-          split, output_.open(fmt::format("{}/metadata.jsonl", ground_truth_folder(split))));
+      lines_.try_emplace(split,
+                         output_.open(fmt::format("{}/metadata.jsonl", split_folder(split))));
     }
   }
 
   void add(const Image& image) override {
     const std::string name = image.stem() + ".jpg";
-    output_.link(fmt::format("{}/{}", ground_truth_folder(image.split), name),
-                 info_.root / image.file);
+    output_.link(fmt::format("{}/{}", split_folder(image.split), name), info_.root / image.file);
     json objects = {{"bbox", json::array()},
                     {"categories", json::array()},
                     {"area", json::array()},
@@ -86,7 +85,7 @@ class ImageFolderExporter : public Exporter {
   }
 
   /// The loader's own names of splits.
-  static std::string_view ground_truth_folder(Split split) {
+  static std::string_view split_folder(Split split) {
     return split == Split::val ? "validation" : to_string(split);
   }
 

@@ -187,7 +187,7 @@ class Publisher {
     const FileDigest digest = this->digest(file);
     if (is_there(file, digest)) return report(file.bytes);
     std::vector<std::string> tags(digest.parts.size());
-    const ListedUpload upload = upload_name(file, digest, tags);
+    const ListedUpload upload = find_or_create_upload(file, digest, tags);
     std::size_t part = 0;
     store_.run([&]() -> std::optional<Transfers::Work> {
       while (part < tags.size() && !tags[part].empty()) ++part;
@@ -218,8 +218,8 @@ class Publisher {
   }
 
   /// An upload of the file that was broken off, with the tags of its parts, or a new one.
-  ListedUpload upload_name(const FileEntry& file, const FileDigest& digest,
-                           std::vector<std::string>& tags) {
+  ListedUpload find_or_create_upload(const FileEntry& file, const FileDigest& digest,
+                                     std::vector<std::string>& tags) {
     if (!uploads_) uploads_ = list_uploads(asked_, folder_prefix(address_));
     for (const ListedUpload& upload : *uploads_) {
       if (upload.key != key_of(file)) continue;

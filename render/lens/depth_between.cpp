@@ -12,8 +12,8 @@ namespace {
 class Slopes {
  public:
   Slopes(const Frame& image, const Eigen::Vector2i& at) : image_(image), at_(at) {
-    id_ = image.id[index_from(at)];
-    inverse_ = 1 / image.depth_m[index_from(at)];
+    id_ = image.id[pixel_index(at)];
+    inverse_ = 1 / image.depth_m[pixel_index(at)];
   }
 
   float inverse() const { return inverse_; }
@@ -29,7 +29,7 @@ class Slopes {
   }
 
  private:
-  std::size_t index_from(const Eigen::Vector2i& at) const {
+  std::size_t pixel_index(const Eigen::Vector2i& at) const {
     return static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(image_.width()) +
            static_cast<std::size_t>(at.x());
   }
@@ -38,8 +38,8 @@ class Slopes {
     const Eigen::Vector2i next = at_ + step;
     const bool is_inside =
         next.x() >= 0 && next.y() >= 0 && next.x() < image_.width() && next.y() < image_.height();
-    if (!is_inside || image_.id[index_from(next)] != id_) return std::nullopt;
-    const float change = 1 / image_.depth_m[index_from(next)] - inverse_;
+    if (!is_inside || image_.id[pixel_index(next)] != id_) return std::nullopt;
+    const float change = 1 / image_.depth_m[pixel_index(next)] - inverse_;
     // A body's or prop's other part behind its edge. The ground and buildings have one surface in a
     // pixel and its neighbors, however steeply they lead away.
     constexpr float kOneSurface = 0.02F;

@@ -68,7 +68,7 @@ class StudyWork {
   }
 
  private:
-  fs::path ground_truth_file(const StudyRun& run) const {
+  fs::path result_path(const StudyRun& run) const {
     return folder_.path() / study::result_file(plan_.at("cases")[run.one_case].at("id"),
                                                plan_.at("policies")[run.policy].at("id"), run.run);
   }
@@ -98,7 +98,7 @@ class StudyWork {
     std::vector<Task> tasks;
     for (std::size_t number = 0; number < size_.count(); ++number) {
       const StudyRun run = size_.at(number);
-      if (fs::exists(ground_truth_file(run))) {
+      if (fs::exists(result_path(run))) {
         ++cells_[run.one_case][run.policy];
         ++done_;
       } else {

@@ -230,7 +230,7 @@ class Import {
   };
 
   Sampled sample(const ClipDescription& clip, const char* key, const Walker& walker) const {
-    if (clip.file.empty()) return webdataset_sample(model_, rig_, scale_, clip, key);
+    if (clip.file.empty()) return sample_clip(model_, rig_, scale_, clip, key);
     const RiggedModel other = read_rigged_model(clip.file, ModelUse::motion);
     // Bone names that the user gives are those of the model; the same names in the clip mean the
     // same bones.
@@ -246,11 +246,11 @@ class Import {
       return (joints[index_from(Bone::left_shin)] - joints[index_from(Bone::left_thigh)]).norm() +
              (joints[index_from(Bone::left_foot)] - joints[index_from(Bone::left_shin)]).norm();
     };
-    return webdataset_sample(other, rig, leg(walker.joints) / leg(rig.rest), clip, key);
+    return sample_clip(other, rig, leg(walker.joints) / leg(rig.rest), clip, key);
   }
 
-  Sampled webdataset_sample(const RiggedModel& model, const Rig& rig, float scale,
-                            const ClipDescription& clip, const char* key) const {
+  Sampled sample_clip(const RiggedModel& model, const Rig& rig, float scale,
+                      const ClipDescription& clip, const char* key) const {
     const ModelAnimation* animation = find(model, clip.name);
     const std::vector<std::string> names = material_names(model);
     const std::string where = fmt::format("/clips/{}/name", key);

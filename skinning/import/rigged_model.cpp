@@ -156,7 +156,7 @@ class ModelReader {
 
   Image image_of(std::string name) const {
     const aiTexture* embedded = scene_->GetEmbeddedTexture(name.c_str());
-    if (embedded == nullptr) return images::read_image(ground_truth_file(std::move(name)));
+    if (embedded == nullptr) return images::read_image(texture_path(std::move(name)));
     if (embedded->mHeight == 0) {
       return images::decode_image(
           {reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
@@ -174,7 +174,7 @@ class ModelReader {
   }
 
   // Texture paths in files are often those of another machine.
-  fs::path ground_truth_file(std::string name) const {
+  fs::path texture_path(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
     const fs::path stated(name);
     const fs::path folder = path_.parent_path();

@@ -46,7 +46,7 @@ class Raster {
     flat.reserve(polygon.size());
     for (const Vector3d& p : polygon) flat.emplace_back(p.head<2>());
     const auto [low, high] = geometry::bounding_box(flat);
-    for (int row = read_row(low.y()); row <= read_row(high.y()); ++row) {
+    for (int row = row_at(low.y()); row <= row_at(high.y()); ++row) {
       for (int column = column_at(low.x()); column <= column_at(high.x()); ++column) {
         const Vector2d middle = low_ + cell_ * Vector2d(column + 0.5, row + 0.5);
         // Upright faces on the line between two cells, as at both ends of the raster, count.
@@ -83,7 +83,7 @@ class Raster {
   int column_at(double x) const {
     return std::clamp(static_cast<int>((x - low_.x()) / cell_), 0, columns_ - 1);
   }
-  int read_row(double y) const {
+  int row_at(double y) const {
     return std::clamp(static_cast<int>((y - low_.y()) / cell_), 0, rows_ - 1);
   }
   bool take(int from, int end, int row) {
