@@ -24,7 +24,7 @@ FILES = {
     "job": ("spec/job/job.schema.json", "job.md"),
     "scenario": ("base/schemas/scenario.schema.json", "scenario.md"),
     "blueprint": ("base/schemas/blueprint.schema.json", "blueprint.md"),
-    "study": ("base/schemas/study.schema.json", "guidance.md#studies"),
+    "study": ("base/schemas/study.schema.json", "study.md"),
     "airframe": ("base/schemas/airframe.schema.json", "drones.md#airframes"),
     "character": ("base/schemas/character.schema.json", "people.md#characters-of-your-own"),
     "camera": ("base/schemas/camera.schema.json", "calibration.md"),

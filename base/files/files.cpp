@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -63,9 +63,16 @@ std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail("read", path);
   if (fs::is_directory(path)) fail("read", path, EISDIR);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
+  constexpr std::size_t kBlockBytes = 1 << 16;
+  std::string bytes;
+  do {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kBlockBytes);
+    file.read(bytes.data() + size, kBlockBytes);
+    bytes.resize(size + static_cast<std::size_t>(file.gcount()));
+  } while (file);
+  if (file.bad()) fail("read", path);
+  return bytes;
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -8,7 +8,7 @@
 
 namespace throng::study {
 
-/// Checks the study `request`["study"] (docs/guidance.md) with the scenarios in the folder
+/// Checks the study `request`["study"] (docs/study.md) with the scenarios in the folder
 /// `request`["scenarios"] and returns its plan: {"name", "seed", "runs", "baseline", "cases":
 /// [{"id", "title", "scenario", "duration_s", "horizons_s"}], "policies": [{"id", "title"}],
 /// "simulations", "people", "memory_mib"}. The last two are those of the largest run. Throws

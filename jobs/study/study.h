@@ -49,7 +49,7 @@ struct Study {
   std::vector<std::vector<std::string>> fingerprints;
 };
 
-/// Reads and checks a study's file (docs/guidance.md). Throws InputError that names file and JSON
+/// Reads and checks a study's file (docs/study.md). Throws InputError that names file and JSON
 /// pointer, also for mistakes in the jobs of its cases and policies.
 Study load_study(const std::filesystem::path& file, const std::filesystem::path& scenarios);
 

@@ -171,7 +171,7 @@ std::string case_explanation(const Study& study) {
         study.policies[study.baseline].title);
   }
   return text +
-         "Left inside: unhurt at the end, mean. Bound, reference: docs/guidance.md. Exits: people "
+         "Left inside: unhurt at the end, mean. Bound, reference: docs/study.md. Exits: people "
          "who left by each exit, mean; by none: who left where there is no exit.";
 }
 

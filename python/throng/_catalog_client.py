@@ -144,7 +144,7 @@ class CatalogClient:
     # Studies.
 
     def submit_study(self, study: Mapping[str, Any]) -> Study:
-        """Queues a study: cases times policies times paired runs (docs/guidance.md)."""
+        """Queues a study: cases times policies times paired runs (docs/study.md)."""
         return self._send("POST", "/v1/studies", plain(study))
 
     def check_study(self, study: Mapping[str, Any]) -> StudyPlan:

@@ -126,7 +126,7 @@ def study(
     scenarios: PathLike | None = None,
     quiet: bool = False,
 ) -> Any:
-    """Compares cases and policies over many paired runs (docs/guidance.md): `throng study`. Returns its
+    """Compares cases and policies over many paired runs (docs/study.md): `throng study`. Returns its
     summary.json."""
     more = ["--runs", str(runs)] if runs else []
     with tempfile.TemporaryDirectory() as folder:

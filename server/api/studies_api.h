@@ -8,7 +8,7 @@ namespace throng::server {
 
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
-/// Submits a study's document (docs/guidance.md) as JSON; ?dry_run only checks it.
+/// Submits a study's document (docs/study.md) as JSON; ?dry_run only checks it.
 void submit_study(const RequestContext& context, const httplib::Request& request,
                   httplib::Response& response);
 void list_studies(const RequestContext& context, const httplib::Request& request,

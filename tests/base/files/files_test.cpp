@@ -43,6 +43,7 @@ TEST(Files, UnreadableFilesAreFaultsOfTheEnvironment) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_file(folder.path() / "nowhere"), EnvironmentError);
   EXPECT_THROW(read_file(folder.path()), EnvironmentError);
+  EXPECT_THROW(read_file("/proc/self/mem"), EnvironmentError) << "an error while reading";
 }
 
 TEST(Files, FailedWriteLeavesTheOldContentAndNothingElse) {
