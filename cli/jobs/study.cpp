@@ -50,8 +50,7 @@ void add_study(CLI::App& app) {
   auto* command = app.add_subcommand(
       "study", "Compare guidance policies over many simulations, without rendering");
   const auto arguments = std::make_shared<StudyArguments>();
-  command->add_option("study", arguments->file, "Study file (JSON; see docs/study.md)")
-      ->required();
+  command->add_option("study", arguments->file, "Study file (JSON; see docs/study.md)")->required();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for results and report; an interrupted study is resumed")

@@ -148,8 +148,7 @@ CLI::App* add_study_command(CLI::App& studies, const char* name, const char* wha
 void add_study_submission(CLI::App& studies) {
   auto* command = studies.add_subcommand("submit", "Send a study to a server");
   const auto arguments = std::make_shared<StudySubmission>();
-  command->add_option("study", arguments->file, "Study file (JSON; see docs/study.md)")
-      ->required();
+  command->add_option("study", arguments->file, "Study file (JSON; see docs/study.md)")->required();
   command->add_flag("--dry-run", arguments->dry_run, "Only check the study");
   command->add_flag("--watch", arguments->watch, "Follow the study to its end");
   command->add_option("--fetch", arguments->fetch_to,
