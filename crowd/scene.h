@@ -17,7 +17,7 @@ namespace throng::crowd {
 struct Scene {
   std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
   std::vector<std::unique_ptr<Process>> processes;      ///< arrivals of agents
-  /// Of social groups; they precede those of the behavior file.
+  /// Modifiers of social groups; they precede those of the behavior file.
   std::vector<std::unique_ptr<VelModifier>> modifiers;
 };
 

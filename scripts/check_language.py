@@ -238,12 +238,15 @@ class Report:
 
 def check_code(report):
     text, end = report.text, 0
-    block, start = "", 0  # consecutive comment lines are one text
+    block, start = "", 0  # consecutive comment lines are one text, apart from what follows code
+    follows_code = False
     for token in TOKEN.finditer(text):
         between = text[end : token.start()]
         report.identifiers(between, end)
         comment = token["comment"]
-        if block and (comment is None or between.strip() or between.count("\n") > 1):
+        ended = follows_code
+        follows_code = bool(text[text.rfind("\n", 0, token.start()) + 1 : token.start()].strip())
+        if block and (comment is None or between.strip() or between.count("\n") > 1 or ended):
             report.comment(block, start)
             block = ""
         if comment is None:

@@ -63,6 +63,11 @@ imports::ImportedScenario read_source(const ImportOptions& options) {
   }
   if (suffix == ".sdf" || suffix == ".world") {
     imports::SdfOptions sdf;
+    for (const std::string& folder : options.models) {
+      if (!fs::is_directory(folder)) {
+        throw InputError({"--models", "", folder + ", which is no folder", "a folder of models"});
+      }
+    }
     sdf.models.assign(options.models.begin(), options.models.end());
     sdf.gates = read_gates(options);
     return imports::read_sdf(file, sdf);

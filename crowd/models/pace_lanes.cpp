@@ -42,7 +42,7 @@ struct PaceKernel {
       const Float<kWidth> distance_sq = apart_x * apart_x + apart_y * apart_y;
       const auto counts = (count > static_cast<float>(i)) & (distance_sq < reach_sq);
       if (!any(counts)) break;  // others are farther still
-      // Who is behind gets weight 0.
+      // Agents behind get weight 0.
       const Float<kWidth> ahead = greater(way_x * apart_x + way_y * apart_y, none);
       const Float<kWidth> distance = root(greater(distance_sq, none + kMinSq));
       const Float<kWidth> near = ahead / distance * (reach_sq - distance_sq);

@@ -13,7 +13,7 @@ namespace throng::metrics {
 /// Notification of the evacuees (PersonRecord::is_evacuee()).
 struct Notification {
   int never = 0;  ///< evacuees who did not notice the alarm during the run
-  /// Of the other evacuees, from the later of alarm and arrival, sorted.
+  /// Times of the other evacuees from the later of alarm and arrival, sorted.
   std::vector<double> times_s;
   std::optional<double> first_s;  ///< earliest time, by the run's clock
   /// Times of all evacuees from the later of alarm and arrival until they noticed the alarm

@@ -112,6 +112,8 @@ class Imports(unittest.TestCase):
             cwd=self.folder,
             code=2,
         )
+        world = "tests/world/imports/data/yard.sdf"
+        throng("scenario", "import", world, "-o", "mine", "--models", "no_models", cwd=self.folder, code=2)
         self.assertFalse((self.folder / "mine").exists())
 
 

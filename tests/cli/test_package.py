@@ -133,7 +133,7 @@ class Package(unittest.TestCase):
         clean = {name: value for name, value in os.environ.items() if not name.startswith("THRONG_")}
         self.assertIn("city_square/nearest_exit", run(prefix / "bin/throng", "scenarios", env=clean))
         world = ROOT / "tests/world/imports/data/yard.sdf"  # imported by a program beside the installed one
-        models = ROOT / "tests/imports/data/models"
+        models = ROOT / "tests/world/imports/data/models"
         run(
             prefix / "bin/throng",
             "scenario",

@@ -98,8 +98,8 @@ void add_goals(const Scenario& scenario, const People& people, BehaviorBuilder& 
       .add_goal_set(kGuidesSet, std::move(guides));
 }
 
-/// Walking around obstacles. Coarser than its default, which is meant for gaps narrower than those
-/// of places.
+/// Walking around obstacles. The cells are coarser than by default, which serves narrower gaps than
+/// blueprints have.
 Node walk() { return describe::velocity("auto", {{"cell_size", "0.12"}}); }
 
 /// How those who stay somewhere move: they may be pushed.
