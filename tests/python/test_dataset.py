@@ -385,6 +385,10 @@ class Views(unittest.TestCase):
         self.assertEqual([f.id for f in again["val"]], [f.id for f in parts["val"]])
         parts = self.dataset.split(a=0.9, b=0.1, by="sequence")
         self.assertEqual([len(part.sequences) for part in parts.values()], [5, 1])
+        ids = [frame.id for frame in self.dataset]
+        for by in ("scenario", "place"):  # "place" in version 0.1
+            self.assertEqual([frame.id for frame in self.dataset.split(a=1, by=by)["a"]], ids)
+        self.assertEqual({frame.scenario for frame in self.dataset}, {frame.place for frame in self.dataset})
         for wrong in ({"train": 0.9, "val": 0.3}, {"train": -0.1}, {}, {"a": 0.3, "b": 0.3, "c": 0.3}):
             with self.assertRaises(ValueError):
                 self.dataset.split(**wrong)
