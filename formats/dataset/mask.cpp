@@ -104,7 +104,7 @@ Bitmap decode_bitmap(const std::vector<std::uint32_t>& runs, int image_height) {
   return mask;
 }
 
-std::vector<std::uint32_t> decode_runs(const std::vector<Bitmap>& bitmaps, int width, int height) {
+std::vector<std::uint32_t> union_runs(const std::vector<Bitmap>& bitmaps, int width, int height) {
   std::vector<std::uint32_t> runs = {0};
   bool is_set = false;
   for (int x = 0; x < width; ++x) {

@@ -39,6 +39,6 @@ Bitmap decode_bitmap(const std::vector<std::uint32_t>& runs, int image_height);
 render::PixelMask to_pixel_mask(const Bitmap& bitmap);
 
 /// The run lengths of the union of bitmaps in an image of this size.
-std::vector<std::uint32_t> decode_runs(const std::vector<Bitmap>& bitmaps, int width, int height);
+std::vector<std::uint32_t> union_runs(const std::vector<Bitmap>& bitmaps, int width, int height);
 
 }  // namespace throng::formats

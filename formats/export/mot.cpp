@@ -132,7 +132,7 @@ class MotsExporter : public SequenceExporter {
     }
     if (ignored.empty()) return;
     add(kMotsIgnoredId, kMotsIgnored,
-        encode_counts(decode_runs(ignored, image.width, image.height)));
+        encode_counts(union_runs(ignored, image.width, image.height)));
   }
 
   /// The same ids as pixels. Ids beyond 16 bits are ignored there.

@@ -168,7 +168,7 @@ void send_job(const RequestContext& context, const Request& request, Response& r
 
 void change_job(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_own(context, request);
-  const jobs::JobChange wanted = describe_change(context, request, row);
+  const jobs::JobChange wanted = read_change(context, request, row);
   const auto changed = context.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*changed, context.housekeeping.retention()));

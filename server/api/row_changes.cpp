@@ -51,8 +51,8 @@ void require_priority(const RequestContext& context, int priority, const std::st
                     fmt::format("at most {}", context.caller.max_priority)}}};
 }
 
-jobs::JobChange describe_change(const RequestContext& context, const Request& request,
-                                const jobs::JobRow& row) {
+jobs::JobChange read_change(const RequestContext& context, const Request& request,
+                            const jobs::JobRow& row) {
   require_json(request);
   const json change = parse_json_body(request);
   if (!change.is_object())

@@ -19,7 +19,7 @@ void require_priority(const RequestContext& context, int priority, const std::st
 
 /// The row's properties, changed by the body of a PATCH request with some of {"priority", "labels",
 /// "keep"}. Throws HttpError 400, 403 and 415.
-jobs::JobChange describe_change(const RequestContext& context, const httplib::Request& request,
-                                const jobs::JobRow& row);
+jobs::JobChange read_change(const RequestContext& context, const httplib::Request& request,
+                            const jobs::JobRow& row);
 
 }  // namespace throng::server

@@ -124,7 +124,7 @@ void send_study(const RequestContext& context, const Request& request, Response&
 
 void change_study(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow own = find_own_study(context, request);
-  const auto row = context.queue.change(own.id, describe_change(context, request, own));
+  const auto row = context.queue.change(own.id, read_change(context, request, own));
   if (!row) throw HttpError{404, "the study has been removed"};
   write_json(response, 200, study_json(*row, context.housekeeping.retention()));
 }

@@ -415,7 +415,7 @@ TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
 
 TEST(Mask, CountsGoThereAndBack) {
   const Bitmap mask{3, 2, 3, 2, {1, 0, 1, 1, 1, 0}};
-  const auto runs = decode_runs({mask}, 8, 6);
+  const auto runs = union_runs({mask}, 8, 6);
   EXPECT_EQ(decode_runs(encode_counts(runs), 48), runs);
   EXPECT_EQ(decode_bitmap(runs, 6).set, mask.set);
   EXPECT_THROW(decode_runs(encode_counts(runs), 49), InputError);

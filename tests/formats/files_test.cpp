@@ -176,15 +176,15 @@ TEST(Masks, TakePartsOfColumns) {
   EXPECT_FALSE(mask.at(0, 2));
   EXPECT_FALSE(mask.at(1, 2));
   EXPECT_EQ(mask.area(), 3);
-  EXPECT_EQ(decode_runs({mask}, 3, 4), (std::vector<std::uint32_t>{3, 3, 6})) << "and back";
+  EXPECT_EQ(union_runs({mask}, 3, 4), (std::vector<std::uint32_t>{3, 3, 6})) << "and back";
 }
 
 TEST(Masks, AreJoined) {
   const Bitmap a{0, 0, 2, 1, {1, 1}};
   const Bitmap b{1, 0, 2, 1, {1, 0}};
   const Bitmap c{3, 2, 1, 1, {1}};
-  EXPECT_EQ(decode_runs({a, b, c}, 4, 3), (std::vector<std::uint32_t>{0, 1, 2, 1, 7, 1}));
-  EXPECT_EQ(decode_runs(std::vector<Bitmap>{}, 4, 3), (std::vector<std::uint32_t>{12}));
+  EXPECT_EQ(union_runs({a, b, c}, 4, 3), (std::vector<std::uint32_t>{0, 1, 2, 1, 7, 1}));
+  EXPECT_EQ(union_runs(std::vector<Bitmap>{}, 4, 3), (std::vector<std::uint32_t>{12}));
 }
 
 TEST(Comparisons, NameDifferentMissingAndSurplusFiles) {

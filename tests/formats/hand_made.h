@@ -23,7 +23,7 @@ inline constexpr int kHeight = 80;
 inline std::string filled(int x, int y, int width, int height) {
   const Bitmap mask{x, y, width, height,
                     std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 1)};
-  return encode_counts(decode_runs({mask}, kWidth, kHeight));
+  return encode_counts(union_runs({mask}, kWidth, kHeight));
 }
 
 /// Somebody whose mask is their whole visible box.

@@ -419,7 +419,7 @@ TEST_F(Validate, MasksThatAreAPixelWider) {
         wide.set.push_back(mask.at(x - 1, y) || mask.at(x, y) || mask.at(x + 1, y) ? 1 : 0);
       }
     }
-    r["segmentation"]["counts"] = encode_counts(decode_runs({wide}, 160, 120));
+    r["segmentation"]["counts"] = encode_counts(union_runs({wide}, 160, 120));
     r["bbox"] = {wide.x, wide.y, wide.width, wide.height};
     r["bbox_amodal"] = {0, 0, 160, 120};
     r["area"] = wide.area();
