@@ -2,6 +2,9 @@
 // bottlenecks in series and those about stairs, which a crowd in a plane does not have.
 #include <fmt/core.h>
 
+#include <cmath>
+
+#include "base/compute/quantile.h"
 #include "crowd/validation/criteria.h"
 #include "crowd/validation/floors.h"
 #include "crowd/validation/flow.h"
@@ -121,7 +124,8 @@ Verdict exit_choice(const Tested& tested, Effort effort) {
 
 /// How long people need from a start area of 4 m x 50 m along a path of 4 m width: straight on for
 /// so long, or round a corner.
-std::optional<double> walk_path(const Tested& tested, std::size_t people, double straight_m) {
+std::optional<double> walk_path(const Tested& tested, std::size_t people, double straight_m,
+                                std::uint64_t seed) {
   constexpr double kWidth = 4;
   Scene scene;
   Group group;
@@ -138,15 +142,27 @@ std::optional<double> walk_path(const Tested& tested, std::size_t people, double
     scene.behavior.goal_box(0, 10.5, kWidth + 10, 9.5 + kWidth, kWidth + 14);
   }
   scene.behavior.walk_to(0).leave_at_goal();
-  crowd::Simulation crowd = load(scene, tested, kSeed);
+  crowd::Simulation crowd = load(scene, tested, seed);
   return until_all_left(crowd, 1800);
 }
 
-Verdict large_corner(const Tested& tested, Effort effort) {
+/// Median of the times of several runs, in which the last, slow person counts by chance; nothing
+/// where most runs jam.
+std::optional<double> median_walk(const Tested& tested, Effort effort, double straight_m) {
   const std::size_t people = effort == Effort::full ? 500 : 100;
-  const auto shorter = walk_path(tested, people, 20);
-  const auto corner = walk_path(tested, people, 0);
-  const auto longer = walk_path(tested, people, 28);
+  const std::uint64_t runs = effort == Effort::full ? 5 : 1;
+  std::vector<double> times_s;
+  for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+    times_s.push_back(walk_path(tested, people, straight_m, seed).value_or(INFINITY));
+  }
+  const double time_s = median(times_s);
+  return std::isinf(time_s) ? std::nullopt : std::optional(time_s);
+}
+
+Verdict large_corner(const Tested& tested, Effort effort) {
+  const auto shorter = median_walk(tested, effort, 20);
+  const auto corner = median_walk(tested, effort, 0);
+  const auto longer = median_walk(tested, effort, 28);
   return criteria::corner_times(shorter, corner, longer);
 }
 
@@ -179,7 +195,8 @@ std::vector<Test> rimea_tests() {
        "`exit_choice`",
        "reported; expected: all out, most by the nearer exit, some by the other", exit_choice,
        false},
-      {"rimea_15", "RiMEA 15", "500 people, 4 m wide: 20 m straight, round a corner, 28 m straight",
+      {"rimea_15", "RiMEA 15",
+       "500 people, 4 m wide: 20 m straight, round a corner, 28 m straight; medians of 5 runs",
        "times grow in this order", large_corner},
       {"rimea_16", "RiMEA 16",
        "single file in a ring of 26 m, 10 to 40 people; free speeds 1.34, 0.8 and 1.6 m/s",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "crowd/navigation/auto_navigation.h"
@@ -176,6 +177,127 @@ TEST(AutoNavigation, SharesMeshesAmongPeopleOfSimilarSize) {
   crowd.agents[Property::radius][0] = 0.5F;
   navigation.enter(crowd, 0);
   EXPECT_EQ(navigation.mesh_count(), meshes + 1) << "this one fits through other gaps";
+}
+
+/// A corridor 4 m wide, along the x axis and up at x = 10, around a block or thin walls, with the
+/// corner at (10, 4).
+std::vector<Box> turning_corridor(bool thin) {
+  std::vector<Box> walls = {{{-30, -1}, {15, 0}}, {{14, 0}, {15, 24}}, {{-31, -1}, {-30, 5}}};
+  if (thin) {
+    walls.push_back({{-30, 4}, {10, 4.2F}});
+    walls.push_back({{9.8F, 4.2F}, {10, 24}});
+  } else {
+    walls.push_back({{-30, 4}, {10, 24}});
+  }
+  return walls;
+}
+
+/// How far from the corner at (10, 4) everybody crosses the bisector of the turn, m.
+std::vector<float> crossings(const std::string& agents, bool thin) {
+  const std::string goal =
+      R"(<Goal type="AABB" id="0" min_x="10.3" min_y="20" max_x="13.7" max_y="23"/>)";
+  Simulation crowd =
+      test::load(scene_with(agents, "", "Start", obstacles(turning_corridor(thin))), go_to(goal));
+  std::vector<float> crossed;
+  std::vector<bool> is_behind(crowd.agent_count(), false);
+  while (!crowd.all_final() && crowd.time_s() < 200) {
+    crowd.step();
+    for (std::size_t i = 0; i < is_behind.size(); ++i) {
+      const Eigen::Vector2f from_corner = crowd.positions()[i] - Eigen::Vector2f(10, 4);
+      if (is_behind[i] || from_corner.x() + from_corner.y() < 0) continue;
+      is_behind[i] = true;
+      crossed.push_back(from_corner.norm());
+    }
+  }
+  EXPECT_TRUE(crowd.all_final()) << "nobody is stuck";
+  return crossed;
+}
+
+TEST(AutoNavigation, CrowdsUseTheWholeWidthOfACorner) {
+  std::string agents;
+  for (int i = 0; i < 200; ++i) agents += agent_at(8 - 0.6 * (i / 6), 0.4 + 0.64 * (i % 6));
+  for (const bool thin : {false, true}) {
+    std::vector<float> crossed = crossings(agents, thin);
+    ASSERT_EQ(crossed.size(), 200);
+    std::sort(crossed.begin(), crossed.end());
+    // The bisector is 5.7 m long; people who keep their place cross it all along.
+    EXPECT_GT(crossed[100], 2) << "the half of them; thin walls: " << thin;
+    EXPECT_GT(crossed[160], 3.5) << "a fifth of them; thin walls: " << thin;
+  }
+}
+
+TEST(AutoNavigation, SomebodyAlonePassesACornerTight) {
+  for (const bool thin : {false, true}) {
+    const std::vector<float> crossed = crossings(agent_at(-5, 1), thin);
+    ASSERT_EQ(crossed.size(), 1);
+    EXPECT_LT(crossed[0], 0.5) << "thin walls: " << thin;
+  }
+}
+
+TEST(AutoNavigation, CrowdsReachGoalsRightBehindACorner) {
+  std::string agents;
+  for (int i = 0; i < 100; ++i) agents += agent_at(8 - 0.6 * (i / 6), 0.4 + 0.64 * (i % 6));
+  for (const Eigen::Vector2f& place : {Eigen::Vector2f(10.4F, 4.4F), {13.5F, 0.5F}, {12, 5}}) {
+    const std::string goal = fmt::format(
+        R"(<Goal type="circle" id="0" x="{}" y="{}" radius="0.3"/>)", place.x(), place.y());
+    std::string behavior = go_to(goal);
+    const std::string end = R"(<State name="End" final="1"/>)";
+    behavior.replace(behavior.find(end), end.size(),
+                     R"(<State name="End" final="1"><Action type="leave"/></State>)");
+    Simulation crowd =
+        test::load(scene_with(agents, "", "Start", obstacles(turning_corridor(true))), behavior);
+    while (!crowd.all_final() && crowd.time_s() < 200) crowd.step();
+    EXPECT_TRUE(crowd.all_final()) << place.transpose();
+  }
+}
+
+/// A room of 20 m x 20 m with doors 1 m wide in its right wall, the first before the goal.
+std::vector<Box> room_with_two_doors() {
+  return {{{-1, -1}, {0, 21}},       {{0, -1}, {20, 0}},           {{0, 20}, {20, 21}},
+          {{20, -1}, {20.2F, 3.5F}}, {{20, 4.5F}, {20.2F, 15.5F}}, {{20, 16.5F}, {20.2F, 21}}};
+}
+
+/// The number of people who leave the room by the far door, of those who stand before the near one.
+int by_far_door(int people) {
+  std::string agents;
+  for (int i = 0; i < people; ++i) agents += agent_at(18 - 0.6 * (i / 10), 1 + 0.6 * (i % 10));
+  const std::string goal =
+      R"(<Goal type="AABB" id="0" min_x="28" max_x="30" min_y="3" max_y="5"/>)";
+  std::string behavior = go_to(goal);
+  const std::string end = R"(<State name="End" final="1"/>)";
+  behavior.replace(behavior.find(end), end.size(),
+                   R"(<State name="End" final="1"><Action type="leave"/></State>)");
+  Simulation crowd =
+      test::load(scene_with(agents, "", "Start", obstacles(room_with_two_doors())), behavior);
+  std::vector<bool> is_out(crowd.agent_count(), false);
+  int far = 0;
+  while (!crowd.all_final() && crowd.time_s() < 300) {
+    crowd.step();
+    for (std::size_t i = 0; i < is_out.size(); ++i) {
+      const Eigen::Vector2f& p = crowd.positions()[i];
+      if (is_out[i] || p.x() < 20.2F) continue;
+      is_out[i] = true;
+      if (p.y() > 10) ++far;
+    }
+  }
+  EXPECT_TRUE(crowd.all_final()) << "nobody is stuck";
+  return far;
+}
+
+TEST(AutoNavigation, PeopleTakeTheOtherDoorWhereAQueueMakesItQuicker) {
+  EXPECT_EQ(by_far_door(10), 0) << "the detour costs 24 m";
+  const int far = by_far_door(160);
+  // It takes 160 people two minutes through one door: some 18 s of detour are worth it for many.
+  EXPECT_GT(far, 30);
+  EXPECT_LT(far, 90) << "and no more than half of them";
+}
+
+TEST(AutoNavigation, DetoursAreTheSameForAnyNumberOfThreads) {
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return by_far_door(100);
+  };
+  EXPECT_EQ(with_threads(1), with_threads(4));
 }
 
 TEST(AutoNavigation, IsTheSameForAnyNumberOfThreads) {
