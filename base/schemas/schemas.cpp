@@ -9,6 +9,7 @@ extern const std::string_view kStudySchema;
 extern const std::string_view kAirframeSchema;
 extern const std::string_view kCharacterSchema;
 extern const std::string_view kCameraSchema;
+extern const std::string_view kExperimentsSchema;
 }  // namespace throng::embedded
 
 namespace throng::schemas {
@@ -24,14 +25,15 @@ const JsonSchema& compiled() {
 
 }  // namespace
 
-const std::array<Entry, 6>& entries() {
-  static const std::array<Entry, 6> all = {{
+const std::array<Entry, 7>& entries() {
+  static const std::array<Entry, 7> all = {{
       {Kind::scenario, "scenario", embedded::kScenarioSchema},
       {Kind::blueprint, "blueprint", embedded::kBlueprintSchema},
       {Kind::study, "study", embedded::kStudySchema},
       {Kind::airframe, "airframe", embedded::kAirframeSchema},
       {Kind::character, "character", embedded::kCharacterSchema},
       {Kind::camera, "camera", embedded::kCameraSchema},
+      {Kind::experiments, "experiments", embedded::kExperimentsSchema},
   }};
   return all;
 }
@@ -49,9 +51,11 @@ const JsonSchema& schema_for(Kind kind) {
     case Kind::character:
       return compiled<Kind::character>();
     case Kind::camera:
+      return compiled<Kind::camera>();
+    case Kind::experiments:
       break;
   }
-  return compiled<Kind::camera>();
+  return compiled<Kind::experiments>();
 }
 
 void add_schema_problems(Kind kind, const nlohmann::json& document, const std::string& source,

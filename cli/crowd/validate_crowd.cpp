@@ -1,28 +1,106 @@
-// throng validate-crowd: standard tests of the pedestrian models.
+// throng validate-crowd: standard tests of the pedestrian models, and comparisons with recorded
+// people.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "base/error.h"
 #include "base/files/files.h"
+#include "base/graphics/drawing/drawing.h"
+#include "base/text/suggest.h"
 #include "cli/shell/commands.h"
+#include "cli/shell/file_kind.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"
+#include "crowd/validation/experiments/plots.h"
+#include "crowd/validation/experiments/report.h"
 #include "crowd/validation/suite.h"
 
 namespace throng::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
 struct ValidateCrowdArguments {
   std::vector<std::string> models;
   std::vector<std::string> tests;
+  std::string data;
+  std::vector<std::string> experiments;
+  std::optional<std::size_t> seeds;
   std::string output;
   int threads = 0;
   bool reduced = false;
+  bool as_json = false;
 };
 
-void validate_crowd(const ValidateCrowdArguments& arguments) {
+std::vector<validation::Experiment> read_experiments(const ValidateCrowdArguments& arguments) {
+  std::vector<validation::Experiment> all = validation::find_experiments(arguments.data);
+  if (arguments.experiments.empty()) return all;
+  std::vector<std::string_view> names;
+  names.reserve(all.size());
+  for (const validation::Experiment& experiment : all) names.emplace_back(experiment.name);
+  std::vector<validation::Experiment> chosen;
+  for (const std::string& name : arguments.experiments) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw InputError(unknown_name("", "--experiments", "experiment", name, names));
+    }
+    chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
+  }
+  return chosen;
+}
+
+validation::Comparison compare_with_people(const ValidateCrowdArguments& arguments) {
+  constexpr std::size_t kSeeds = 20;
+  constexpr std::size_t kReducedSeeds = 2;
+  std::vector<validation::Tested> models;
+  for (const std::string& name : validation::chosen_models(arguments.models)) {
+    models.push_back({name});
+  }
+  const Interrupt interrupt;
+  ProgressBar bar("validation");
+  return validation::compare(
+      read_experiments(arguments), models,
+      arguments.seeds.value_or(arguments.reduced ? kReducedSeeds : kSeeds), arguments.threads,
+      [&](std::size_t done, std::size_t total) {
+        bar.show(static_cast<double>(done) / static_cast<double>(total),
+                 fmt::format("{} of {} simulations", done, total));
+      },
+      interrupt.token());
+}
+
+/// Writes a figure beside the page and returns its name; nothing where there is no figure.
+std::string write_beside(const fs::path& page, const char* ending,
+                         const std::optional<drawing::Drawing>& figure) {
+  if (!figure) return "";
+  const std::string name = page.stem().string() + ending;
+  drawing::write_drawing(*figure, page.parent_path() / name);
+  return name;
+}
+
+void report_comparison(const ValidateCrowdArguments& arguments) {
+  check_ending("--output", arguments.output, {".md"});
+  const validation::Comparison comparison = compare_with_people(arguments);
+  if (arguments.as_json) fmt::print("{}", validation::comparison_json(comparison));
+  if (arguments.output.empty()) {
+    if (!arguments.as_json) fmt::print("{}", validation::markdown(comparison));
+    return;
+  }
+  const fs::path page = arguments.output;
+  validation::Figures figures;
+  if (page.extension() == ".md") {  // no device
+    figures.curves = write_beside(page, "_curves.svg", validation::curves_plot(comparison));
+    figures.diagram = write_beside(page, "_diagram.svg", validation::diagram_plot(comparison));
+  }
+  write_file_atomically(page, validation::markdown(comparison, figures));
+}
+
+void run_tests(const ValidateCrowdArguments& arguments) {
   validation::Results results;
   {
     const Interrupt interrupt;
@@ -50,19 +128,44 @@ void validate_crowd(const ValidateCrowdArguments& arguments) {
 void add_validate_crowd(CLI::App& app) {
   auto* command = app.add_subcommand(
       "validate-crowd",
-      "Run the RiMEA and NIST verification tests of pedestrian models (docs/validation.md)");
+      "Run the RiMEA and NIST verification tests of pedestrian models, or compare them with "
+      "recorded people (docs/validation.md)");
   const auto arguments = std::make_shared<ValidateCrowdArguments>();
-  command->add_option("-m,--models", arguments->models, "Only these models (a,b,...)")
+  command
+      ->add_option("-m,--models", arguments->models,
+                   "Only these models (a,b,...); else all but dummy")
       ->delimiter(',');
-  command->add_option("--tests", arguments->tests, "Only these tests (rimea_1,nist_2_8,...)")
-      ->delimiter(',');
+  auto* tests =
+      command->add_option("--tests", arguments->tests, "Only these tests (rimea_1,nist_2_8,...)")
+          ->delimiter(',');
+  auto* data =
+      command
+          ->add_option("--data", arguments->data,
+                       "Folder of recorded experiments to repeat with the models instead of tests")
+          ->excludes(tests);
+  command->add_option("--experiments", arguments->experiments, "Only these experiments (a,b,...)")
+      ->delimiter(',')
+      ->needs(data);
+  command
+      ->add_option("--seeds", arguments->seeds,
+                   "Simulations of each experiment with each model; else 20, reduced 2")
+      ->check(CLI::Range(1, 1000))
+      ->needs(data);
   command->add_flag("--reduced", arguments->reduced, "Fewer people and runs: seconds per model");
   command->add_option("-j,--threads", arguments->threads, "Parallel tests (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output,
-                      "File (Markdown) to write instead of standard output");
-  command->callback([arguments] { validate_crowd(*arguments); });
+                      "File (Markdown) to write instead of standard output; with --data figures "
+                      "(NAME_curves.svg, NAME_diagram.svg) beside it");
+  command->add_flag("--json", arguments->as_json, "Print all values as JSON")->needs(data);
+  command->callback([arguments, data] {
+    if (data->count() > 0) {
+      report_comparison(*arguments);
+    } else {
+      run_tests(*arguments);
+    }
+  });
 }
 
 }  // namespace throng::cli

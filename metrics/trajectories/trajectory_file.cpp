@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/gunzip.h"
 #include "base/resource_exhaustion.h"
 #include "metrics/trajectories/number_in.h"
 #include "metrics/trajectories/trajectory_words.h"
@@ -257,9 +258,20 @@ TrajectoryKind detect_kind(const fs::path& file, std::string_view bytes) {
 }
 
 Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
-  const std::string whole = read_file(file);
+  std::string whole = read_file(file);
+  fs::path name = file;
+  if (is_gzip(whole)) {
+    whole = gunzipped(whole, file.string());
+    name = file.stem();
+  }
   const std::string_view bytes = without_byte_order_mark(whole);
-  switch (format.kind == TrajectoryKind::any ? detect_kind(file, bytes) : format.kind) {
+  const TrajectoryKind kind =
+      format.kind == TrajectoryKind::any ? detect_kind(name, bytes) : format.kind;
+  if (name != file && (kind == TrajectoryKind::scb || kind == TrajectoryKind::sqlite)) {
+    throw InputError({file.string(), "", "a compressed file of this format",
+                      "text or a table (csv), or the file decompressed"});
+  }
+  switch (kind) {
     case TrajectoryKind::scb: {
       Recorded recorded = read_scb(file);
       if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;

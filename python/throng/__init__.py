@@ -37,7 +37,7 @@ from ._live import LiveFlight, LiveMessage, LiveImage, LiveState
 from ._trajectories import Trajectories
 from .frame import Frame
 from .plotting import animate, show, show_labels
-from .program import find_program, metrics, run, simulate, study
+from .program import find_program, metrics, run, simulate, study, validate_crowd
 from .real_sets import REAL_SETS, open_real_set
 from .scenario import Scenario
 from .tables import Table
@@ -94,4 +94,5 @@ __all__ = [
     "show_labels",
     "simulate",
     "study",
+    "validate_crowd",
 ]

@@ -1,4 +1,4 @@
-"""The throng program on this machine: simulate, measure, make datasets and studies."""
+"""The throng program on this machine: simulate, measure, compare, make datasets and studies."""
 
 from __future__ import annotations
 
@@ -139,6 +139,26 @@ def study(
         )
     summary = Path(out) / "summary.json"
     return json.loads(summary.read_text())
+
+
+def validate_crowd(
+    data: PathLike,
+    *,
+    models: Sequence[str] | None = None,
+    experiments: Sequence[str] | None = None,
+    seeds: int | None = None,
+    program: PathLike | None = None,
+    quiet: bool = False,
+) -> Any:
+    """Compares pedestrian models with the recorded people of a folder (docs/validation.md): `throng validate-crowd
+    --data`. Returns all values; those that were not reached or measured are None."""
+    command: list[PathLike] = ["validate-crowd", "--data", os.fspath(data), "--json"]
+    for option, names in (("--models", models), ("--experiments", experiments)):
+        if names is not None:
+            command += [option, ",".join(names)]
+    if seeds is not None:
+        command += ["--seeds", str(seeds)]
+    return json.loads(call(command, program=program, quiet=quiet))
 
 
 def _write_json(folder: str, value: Any) -> str:

@@ -15,29 +15,22 @@ constexpr const char* kRecordedFolder = "recorded";
 /// In the order of metrics::TrajectoryKind.
 constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv"};
 
-struct LengthUnit {
-  const char* word;
-  double meters;
-};
-constexpr std::array<LengthUnit, 4> kLengthUnits = {
-    {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}}};
-
 std::vector<std::string> unit_words() {
   std::vector<std::string> words;
-  words.reserve(kLengthUnits.size());
-  for (const LengthUnit& unit : kLengthUnits) words.emplace_back(unit.word);
+  words.reserve(metrics::kLengthUnits.size());
+  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) words.emplace_back(unit.word);
   return words;
 }
 
 json unit_json(const RecordedSpec& spec) {
-  for (const LengthUnit& unit : kLengthUnits) {
+  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) {
     if (spec.format.unit_m == unit.meters) return unit.word;
   }
   return {};
 }
 
 void set_unit(RecordedSpec& spec, const json& value, const FieldLocation& /*place*/) {
-  for (const LengthUnit& unit : kLengthUnits) {
+  for (const metrics::LengthUnit& unit : metrics::kLengthUnits) {
     if (value == unit.word) spec.format.unit_m = unit.meters;
   }
 }

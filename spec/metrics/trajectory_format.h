@@ -1,6 +1,7 @@
 // A user's description of a trajectory file (metrics/trajectories/trajectory_file.h reads it).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +16,14 @@ struct WalkerDefaults {
 
 /// File format. any: detected by suffix and first bytes, as read_trajectory() documents.
 enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
+
+/// Units of length by the words of users.
+struct LengthUnit {
+  const char* word;
+  double meters;
+};
+inline constexpr std::array<LengthUnit, 4> kLengthUnits = {
+    {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}}};
 
 /// Columns of a table by their names in its header; or, if all are integers, by their numbers from
 /// 1, for a table without a header. Either `frame` or `time` is given; the other is empty.

@@ -82,6 +82,12 @@ def traces(folder, throng):
     write_json(folder / "place.json", place)
 
 
+def recordings(folder, throng):
+    """recordings/walk.txt: people who walk through a corridor from x = 1 to 19 m."""
+    lines = [f"{who} {15 * who + i} {1 + 0.1 * i:.1f} {1.5 if who % 2 else 1}" for who in range(12) for i in range(181)]
+    (folder / "recordings" / "walk.txt").write_text("# framerate: 10\n" + "\n".join(lines))
+
+
 def my_place(folder, throng):
     """my_place.json, its crowd, a trace in it and a job that flies there."""
     traces(folder, throng)

@@ -68,6 +68,7 @@ NEEDS = {
     ("docs/rendering.md", "THRONG_DEVICE"): ["job"],
     ("docs/scenario.md", "throng scenario check"): ["my_place"],
     ("docs/service.md", "THRONG_FAULTS"): ["job"],
+    ("docs/validation.md", "throng validate-crowd"): ["recordings"],
 }
 
 BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```[ \t]*$", re.M | re.S)

@@ -236,6 +236,30 @@ class Simulated(unittest.TestCase):
             )
             self.assertEqual(answer, json.loads((pathlib.Path(folder) / "out/summary.json").read_text()))
 
+    def test_a_comparison_with_recorded_people(self):
+        with tempfile.TemporaryDirectory() as folder:
+            lines = [f"{who} {20 * who + i} {1 + 0.1 * i:.1f} 1" for who in range(5) for i in range(181)]
+            pathlib.Path(folder, "walk.txt").write_text("# framerate: 10\n" + "\n".join(lines))
+            corridor = {
+                "name": "corridor",
+                "file": "walk.txt",
+                "walkable": [[0, 0], [20, 0], [20, 2], [0, 2]],
+                "goals": [{"min": [18, 0.2], "max": [19.5, 1.8]}],
+                "area": {"min": [8, 0], "max": [12, 2]},
+                "line": [[10, 0], [10, 2]],
+            }
+            file = pathlib.Path(folder, "experiments.json")
+            file.write_text(json.dumps({"experiments": [corridor]}))
+            answer = throng.validate_crowd(folder, models=["orca"], experiments=["corridor"], seeds=2, quiet=True)
+            self.assertEqual((answer["models"], answer["seeds"]), (["orca"], 2))
+            quantities = {one["name"]: one for one in answer["experiments"][0]["quantities"]}
+            self.assertAlmostEqual(quantities["speed"]["recorded"], 1, places=3)
+            self.assertEqual(len(quantities["speed"]["models"][0]["values"]), 2)
+            with self.assertRaisesRegex(ProgramError, 'did you mean "loop"') as caught:
+                file.write_text(json.dumps({"experiments": [{**corridor, "lop": {}}]}))
+                throng.validate_crowd(folder, quiet=True)
+            self.assertEqual(caught.exception.exit_code, 2)
+
     def test_what_the_program_refuses(self):
         with self.assertRaisesRegex(ProgramError, "doing") as caught:
             Scenario("room", ROOM).exit("door", (20, 4), (20, 6)).group(count=3, doing="fly").simulate()

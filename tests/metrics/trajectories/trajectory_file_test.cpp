@@ -1,6 +1,7 @@
 #include "metrics/trajectories/trajectory_file.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <tuple>
 
@@ -36,6 +37,34 @@ TEST(TrajectoryFile, ReadsThePedPyText) {
     EXPECT_NEAR(trace.velocity[trace.at(step, 0)].x(), 1.6, 1e-5);
   }
   EXPECT_EQ(trace.velocity[trace.at(2, 1)].norm(), 0);
+}
+
+std::filesystem::path write_gzip(const TemporaryFolder& folder, const std::string& name,
+                                 const std::string& text) {
+  const std::filesystem::path path = folder.path() / name;
+  gzFile file = gzopen(path.c_str(), "wb");
+  EXPECT_EQ(gzwrite(file, text.data(), static_cast<unsigned>(text.size())),
+            static_cast<int>(text.size()));
+  EXPECT_EQ(gzclose(file), Z_OK);
+  return path;
+}
+
+TEST(TrajectoryFile, ReadsCompressedTextAndTables) {
+  const TemporaryFolder folder;
+  const std::string lines = "1,0,100,200\n1,1,110,200\n";
+  TrajectoryFormat format;
+  format.frames_per_s = 10;
+  for (const auto& [name, text] : {std::pair("a.txt.gz", "# x/cm\n" + lines),
+                                   std::pair("a.csv.gz", "id,frame,x,y\n" + lines)}) {
+    format.unit_m = 0.01;
+    const world::Trace trace = read_trajectory(write_gzip(folder, name, text), {}, format);
+    ASSERT_EQ(trace.steps(), 2U) << name;
+    EXPECT_NEAR(trace.position[1].x(), 1.1, 1e-6) << name;
+  }
+  for (const char* name : {"a.scb.gz", "a.sqlite.gz"}) {
+    const auto file = write_gzip(folder, name, "SQLite format 3 and more");
+    EXPECT_THROW(read_trajectory(file, {}, format), InputError) << name;
+  }
 }
 
 class TrajectoryRoundTrip : public ::testing::TestWithParam<const char*> {};
