@@ -109,7 +109,7 @@ void add_open_square(const std::string& model, double density, int side, std::si
 
 bool register_all() {
   for (const std::size_t threads : {1, 2}) {
-    for (const std::string model : {"orca", "helbing"}) {
+    for (const std::string model : {"ttc", "orca", "helbing"}) {
       for (const int side : {32, 100, 316, 1000}) {
         for (const double density : {0.5, 2.0}) add_open_square(model, density, side, threads);
       }
@@ -118,7 +118,7 @@ bool register_all() {
         [=](benchmark::State& state) { step_city_square(state, threads); });
   }
   for (const ModelEntry& model : models()) {
-    if (model.name == "orca" || model.name == "helbing") continue;
+    if (model.name == "ttc" || model.name == "orca" || model.name == "helbing") continue;
     for (const double density : {0.5, 2.0})
       add_open_square(std::string(model.name), density, 32, 1);
   }

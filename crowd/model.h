@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -34,6 +35,12 @@ struct ModelParameter {
   std::string_view property_name = {};  ///< name in a <Property> if it differs from `name`
 };
 
+/// A constant with another value than that of the table.
+struct ConstantValue {
+  std::string_view name;
+  float value;
+};
+
 /// A pedestrian model, as find_model() finds it.
 struct ModelEntry {
   std::string_view name;  ///< name in projects, jobs and on the command line
@@ -43,6 +50,13 @@ struct ModelEntry {
   std::vector<ModelParameter> constants;   ///< in the order of Crowd::model_constants
   std::unique_ptr<Model> (*make)(const Crowd& crowd);
   std::string_view alias = {};  ///< alternative name; may be empty
+  /// Whether bodies are kept apart unless the user says otherwise (BodySeparation::automatic).
+  bool separates = false;
+  /// Draws from the posterior of a fit, as a table (CSV) with the names of constants in its first
+  /// line; empty if the model was not fitted.
+  std::string_view posterior = {};
+  /// Values with which exits pass no more people than standards allow; may be empty.
+  std::vector<ConstantValue> conservative = {};
 };
 
 /// Returns all pedestrian models.
@@ -50,6 +64,11 @@ const std::vector<ModelEntry>& models();
 /// Returns the model with this name or alias. Throws InputError, with a list of names, if there is
 /// none.
 const ModelEntry& find_model(std::string_view name);
+
+/// Returns the constants of a model, in the order of ModelEntry::constants; a draw from the
+/// posterior depends on the seed. Throws InputError if the model has no such values.
+std::vector<float> chosen_constants(const ModelEntry& model, ConstantsChoice choice,
+                                    std::uint64_t seed);
 
 /// The entries of models(), defined in models/*.cpp.
 ModelEntry orca_model();

@@ -94,8 +94,12 @@ Compat parse_compat(std::string_view word) {
   return static_cast<Compat>(word_index(word, kCompatWords, "compat"));
 }
 
-bool is_hard(std::string_view separation) {
-  return word_index(separation, kSeparationWords, "separation") == 1;
+ConstantsChoice parse_constants(std::string_view word) {
+  return static_cast<ConstantsChoice>(word_index(word, kConstantsWords, "constants"));
+}
+
+BodySeparation parse_separation(std::string_view separation) {
+  return static_cast<BodySeparation>(word_index(separation, kSeparationWords, "separation"));
 }
 
 AttributeTable project_attributes() {
@@ -109,9 +113,9 @@ AttributeTable project_attributes() {
       optional(integer("subSteps", "steps in between that are not recorded", 0, 1000), "0"),
       optional(integer("random", "seed; 0 is taken for 1", 0, kMaxSeed), "0"),
       optional(word("compat", listed(kCompatWords), "whose results are wanted"), "none"),
-      optional(
-          word("separation", listed(kSeparationWords), "hard: bodies overlap by no more than 1 cm"),
-          "soft"),
+      optional(word("separation", listed(kSeparationWords),
+                    "hard: bodies overlap by no more than 1 cm; auto: hard with ttc, else soft"),
+               "auto"),
       optional(text("output", "trajectory file to write: .scb or .h5")),
       optional(word("scbVersion", listed(kScbVersions), "of an .scb file"), "2.1"),
       optional(text("view", "camera and lights of Menge's viewer; not used")),
@@ -132,7 +136,7 @@ Project load_project(const fs::path& file) {
   project.options.model = read_model(element, attributes);
   project.options.seed = read_seed(element, attributes);
   project.options.compat = parse_compat(attributes.text("compat"));
-  project.options.hard_separation = is_hard(attributes.text("separation"));
+  project.options.separation = parse_separation(attributes.text("separation"));
   project.options.sub_steps = static_cast<int>(attributes.integer("subSteps"));
   project.options.time_step_s = read_time_step(element, attributes);
   project.duration_s = attributes.number("duration");

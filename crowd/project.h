@@ -13,8 +13,10 @@ namespace throng::crowd {
 
 /// Parses one of kCompatWords. Throws InputError for other words.
 Compat parse_compat(std::string_view word);
-/// Returns true for "hard" and false for "soft". Throws InputError for other words.
-bool is_hard(std::string_view separation);
+/// Parses one of kConstantsWords. Throws InputError for other words.
+ConstantsChoice parse_constants(std::string_view word);
+/// Parses one of kSeparationWords. Throws InputError for other words.
+BodySeparation parse_separation(std::string_view separation);
 
 /// Content of a project file.
 struct Project {

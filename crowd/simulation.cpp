@@ -50,8 +50,13 @@ Simulation::State::State(const SceneDescription& scene_description,
   Reading behavior(behavior_description, "BFSM", words_are_zero);
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
+  if (options.separation == BodySeparation::automatic) {
+    const bool hard = entry.separates && options.compat == Compat::none;
+    options.separation = hard ? BodySeparation::hard : BodySeparation::soft;
+  }
   crowd.compat = options.compat;
   crowd.compliance = options.compliance;
+  crowd.constants = options.constants;
   crowd.seed = options.seed;
   MengeSequences sequences(options.compat, options.seed);
   Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);
@@ -66,7 +71,7 @@ Simulation::State::State(const SceneDescription& scene_description,
                         std::move_iterator(parts.modifiers.end()));
   machine = std::make_unique<Machine>(std::move(made), count);
   model = entry.make(crowd);
-  if (options.hard_separation) separation = std::make_unique<Separation>(crowd);
+  if (options.separation == BodySeparation::hard) separation = std::make_unique<Separation>(crowd);
   if (options.physical.on) bodies = std::make_unique<Bodies>(options.physical, count);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);

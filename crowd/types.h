@@ -23,7 +23,8 @@ struct LoadOptions {
   Compat compat = Compat::none;
   std::optional<double> time_step_s = {};  ///< replaces the time step of the scene
   int sub_steps = 0;                       ///< unrecorded steps between two time steps
-  bool hard_separation = false;            ///< bodies overlap by at most 1 cm
+  BodySeparation separation = BodySeparation::automatic;  ///< Simulation::options() has the result
+  ConstantsChoice constants = ConstantsChoice::best;
   double compliance = 1;  ///< multiplies the probability that a person follows a guide
   Physical physical = {};
 };

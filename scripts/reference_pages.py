@@ -28,6 +28,7 @@ FILES = {
     "airframe": ("base/schemas/airframe.schema.json", "drones.md#airframes"),
     "character": ("base/schemas/character.schema.json", "people.md#characters-of-your-own"),
     "camera": ("base/schemas/camera.schema.json", "calibration.md"),
+    "experiments": ("base/schemas/experiments.schema.json", "validation.md"),
 }
 
 

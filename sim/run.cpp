@@ -65,7 +65,8 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
   options.seed = seed;
   options.model = model_for(scenario, spec);
   options.compat = spec.compat;
-  options.hard_separation = spec.hard_separation;
+  options.separation = spec.separation;
+  options.constants = spec.constants;
   options.compliance = spec.compliance;
   options.physical = spec.physical;
   return {description.scene, description.behavior, options};

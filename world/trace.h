@@ -46,6 +46,7 @@ struct CrowdOrigin {
   std::string model;
   std::string compat = "none";
   bool hard_separation = false;
+  std::string constants = "best";  ///< choice of the model's constants
   double compliance = 1;
   bool physical = false;
   double fall_impulse_ns = 20;

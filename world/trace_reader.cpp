@@ -81,6 +81,7 @@ class Reader {
     crowd.model = text("crowd_model");
     crowd.compat = text("crowd_compat");
     crowd.hard_separation = flag("crowd_hard_separation");
+    if (H5Aexists(root_.id(), "crowd_constants") > 0) crowd.constants = text("crowd_constants");
     crowd.compliance = number("crowd_compliance", 1);
     crowd.physical = flag("crowd_physical");
     crowd.fall_impulse_ns = number("crowd_fall_impulse_ns", kMaxImpulseNs);

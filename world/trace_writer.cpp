@@ -235,6 +235,7 @@ void write_origin(const hdf5::Handle& file, const CrowdOrigin& crowd) {
   hdf5::write_text_attribute(file, "crowd_model", crowd.model);
   hdf5::write_text_attribute(file, "crowd_compat", crowd.compat);
   hdf5::write_attribute(file, "crowd_hard_separation", std::uint8_t{crowd.hard_separation});
+  hdf5::write_text_attribute(file, "crowd_constants", crowd.constants);
   hdf5::write_attribute(file, "crowd_compliance", crowd.compliance);
   hdf5::write_attribute(file, "crowd_physical", std::uint8_t{crowd.physical});
   hdf5::write_attribute(file, "crowd_fall_impulse_ns", crowd.fall_impulse_ns);

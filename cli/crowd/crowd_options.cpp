@@ -37,10 +37,20 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
       ->check(CLI::IsMember(
           std::vector<std::string>(crowd::kCompatWords.begin(), crowd::kCompatWords.end())));
   command
-      .add_option("--separation", arguments.separation,
-                  "hard: no two bodies overlap by more than 1 cm, whatever the model does")
+      .add_option(
+          "--separation", arguments.separation,
+          "hard: no two bodies overlap by more than 1 cm, whatever the model does; auto (the "
+          "default): hard with ttc, else soft")
       ->check(CLI::IsMember(std::vector<std::string>(crowd::kSeparationWords.begin(),
                                                      crowd::kSeparationWords.end())));
+  command
+      .add_option(
+          "--constants", arguments.constants,
+          "Constants of ttc: those of the best fit to recorded people (best), a draw from "
+          "the posterior of that fit by the seed (posterior), or those with which exits pass "
+          "no more than standards allow (conservative)")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(crowd::kConstantsWords.begin(), crowd::kConstantsWords.end())));
   command.add_option("--threads", arguments.threads, "Threads (0: one per core)")
       ->check(CLI::Range(0, kMaxThreads))
       ->capture_default_str();
@@ -99,7 +109,10 @@ crowd::Project load_project(const CrowdArguments& arguments) {
   if (!arguments.model.empty()) project.options.model = arguments.model;
   if (!arguments.compat.empty()) project.options.compat = crowd::parse_compat(arguments.compat);
   if (!arguments.separation.empty()) {
-    project.options.hard_separation = crowd::is_hard(arguments.separation);
+    project.options.separation = crowd::parse_separation(arguments.separation);
+  }
+  if (!arguments.constants.empty()) {
+    project.options.constants = crowd::parse_constants(arguments.constants);
   }
   if (!arguments.output.empty()) project.output = arguments.output;
   if (!arguments.scb_version.empty()) project.scb_version = arguments.scb_version;

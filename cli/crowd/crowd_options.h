@@ -17,6 +17,7 @@ struct CrowdArguments {
   std::string model;
   std::string compat;
   std::string separation;
+  std::string constants;
   std::string output;
   std::string scb_version;
   std::optional<double> duration_s;

@@ -9,11 +9,13 @@ namespace throng::crowd {
 /// Cosine of the angle between the directions of two people below which they are oncoming.
 inline constexpr float kOncoming = -0.3F;
 
+/// Tangent of half of the greatest turn to the right, 1 rad.
+inline constexpr float kMaxHalfTurn = 0.5463F;
+
 /// Returns `direction`, a unit vector, turned right by 2 atan(keep_right density / 2), at most 1
 /// rad. `density` is that of oncoming people (1/m^2), `keep_right` is in rad m^2.
 inline Eigen::Vector2f turned_right(const Eigen::Vector2f& direction, float keep_right,
                                     float density) {
-  constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of 1 rad
   const float t = std::min(keep_right * density / 2, kMaxHalfTurn);
   const float c = (1 - t * t) / (1 + t * t);
   const float s = 2 * t / (1 + t * t);

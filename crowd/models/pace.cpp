@@ -19,7 +19,10 @@ Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& aro
   if (!around.neighbors.empty() && around.neighbors.size() == max_neighbors) {
     view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
   }
-  const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
+  const float file = around.walls.empty() ? 0
+                                          : singleness(crowd, grid, around,
+                                                       {kOneRadii * grid.radius(around.slot),
+                                                        kPassingRadii * grid.radius(around.slot)});
   if (file > 0 && view.free_speed > 0) {
     const float share =
         std::clamp(gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),

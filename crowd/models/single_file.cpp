@@ -9,11 +9,10 @@
 
 namespace throng::crowd {
 
-float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) {
-  constexpr float kOne = 4.5F;     // radii: with less, there is one after the other
+float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                 const PassingRoom& room) {
   constexpr float kBeside = 0.7F;  // sine of the least angle between the way and what is beside it
-  const float radius = grid.radius(around.slot);
-  const float reach = kPassingRadii * radius;
+  const float reach = room.two_m;
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
   const std::vector<Segment>& segments = crowd.obstacles.segments();
@@ -30,10 +29,11 @@ float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) 
     float& beside = side > 0 ? left : right;
     beside = std::min(beside, distance);
   }
-  return std::clamp((reach - left - right) / ((kPassingRadii - kOne) * radius), 0.0F, 1.0F);
+  return std::clamp((reach - left - right) / (reach - room.one_m), 0.0F, 1.0F);
 }
 
-float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around) {
+float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                  std::span<const float> file, float foresight_s) {
   constexpr float kLane = 0.5F;  // of where two touch: farther aside one zips in
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
@@ -45,7 +45,9 @@ float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around)
     const float touch = grid.radius(around.slot) + grid.radius(other.slot);
     if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
     if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOncoming) continue;
-    gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside));
+    if (!file.empty() && file[grid.id(other.slot)] <= 0.5F) continue;
+    const float faster = direction.dot(grid.velocity(other.slot) - grid.velocity(around.slot));
+    gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside) + foresight_s * faster);
   }
   return gap;
 }

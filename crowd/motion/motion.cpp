@@ -179,9 +179,46 @@ unsigned which(bool mask) { return mask ? 1 : 0; }
 unsigned which(Int4 mask) { return movemask(mask); }
 unsigned which(Int8 mask) { return movemask(mask); }
 
+/// `from` (unit) turned left by an angle of at most pi.
+template <typename Float>
+Vector<Float> turned_left(const Vector<Float>& from, const Float& angle) {
+  const Float z = angle * angle;
+  // Taylor's polynomials, within 5e-4; the length is mended below.
+  const Float sine =
+      angle * (1 + z * (z * (1.0F / 120 + z * (z * (1.0F / 362880) - 1.0F / 5040)) - 1.0F / 6));
+  const Float cosine = 1 + z * (z * (1.0F / 24 + z * (z * (1.0F / 40320) - 1.0F / 720)) - 0.5F);
+  const Vector<Float> made{cosine * from.x - sine * from.y, sine * from.x + cosine * from.y};
+  return (1 / root(dot(made, made))) * made;
+}
+
+/// The orientation after a step: people turn to where they want to look with a lag, and slowly
+/// when they stand, since feet turn while they step.
+template <typename Float>
+Vector<Float> calmly_turned(const Vector<Float>& from, const Vector<Float>& to,
+                            const Vector<Float>& velocity, const Float& max_turn_rad, float dt_s) {
+  constexpr float kLagS = 0.6F;
+  constexpr float kStandingTurn = 0.25F;  // rad/s
+  constexpr float kWalkingTurn = 6.3F;    // rad/s
+  constexpr float kWalkingMps = 1.0F;     // at which people turn as fast as they can
+  const Float angle = angle_rad<Float>({dot(from, to), from.x * to.y - from.y * to.x}) *
+                      std::min(1.0F, dt_s / kLagS);
+  const Float square = dot(velocity, velocity) / (kWalkingMps * kWalkingMps);
+  const Float rate =
+      kStandingTurn + (kWalkingTurn - kStandingTurn) * (square < 1 ? square : Float{} + 1);
+  const Float able = rate * dt_s;
+  const Float limit = able < max_turn_rad ? able : max_turn_rad;
+  return turned_left(from, angle > limit ? limit : (angle < -limit ? -limit : angle));
+}
+
+/// Settings of a step.
+struct Step {
+  float dt_s = 0;
+  bool calm = true;  ///< false: people turn at once, as Menge's do
+};
+
 /// Moves as many agents as a Float has lanes.
 template <typename Float>
-void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, float dt_s,
+void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, const Step& step,
                 std::size_t i) {
   Mover<Float> mover;
   read(&agents.position[i], mover.position);
@@ -193,14 +230,20 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   read(&agents[Property::pref_speed][i], mover.pref_speed);
   read(&agents[Property::max_accel][i], mover.accel_limit);
   read(&agents[Property::max_angle_vel][i], mover.max_turn_rad);
-  mover.max_turn_rad *= dt_s;
+  mover.max_turn_rad *= step.dt_s;
 
-  const Float step_s = dt_s - Float{};
+  const Float step_s = step.dt_s - Float{};
   const Vector<Float> velocity = approach(mover.velocity, mover.wanted, step_s * mover.accel_limit);
   Vector<Float> ahead = facing(velocity, mover.preferred, mover.orientation, mover.pref_speed);
   ahead = select(keeps_facing(velocity, mover.watched), mover.watched, ahead);
   write(velocity, &agents.velocity[i]);
   write(mover.position + step_s * velocity, &agents.position[i]);
+  if (step.calm) {
+    ahead = calmly_turned(mover.orientation, ahead, velocity, mover.max_turn_rad, step.dt_s);
+    write(ahead, &agents.orientation[i]);
+    write(angle_rad(ahead), &agents.yaw_rad[i]);
+    return;
+  }
 
   constexpr std::size_t kLanes =
       sizeof(Float) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
@@ -217,7 +260,8 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
     Eigen::Vector2f& now = agents.orientation[i + lane];
     Vector<float> turned{goals[lane].x(), goals[lane].y()};
     if ((there & (1U << lane)) == 0) {
-      turned = turn({now.x(), now.y()}, turned, agents[Property::max_angle_vel][i + lane] * dt_s);
+      turned =
+          turn({now.x(), now.y()}, turned, agents[Property::max_angle_vel][i + lane] * step.dt_s);
     }
     now = {turned.x, turned.y};
     agents.yaw_rad[i + lane] = angle_rad(turned);
@@ -226,14 +270,14 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
 
 struct MoveKernel {
   template <int kWidth>
-  static void run(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, float dt_s,
+  static void run(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, const Step& step,
                   std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end;) {
       if (i + kWidth <= end && all_present(agents, i, kWidth)) {
-        move_lanes<typename Vectors<kWidth>::Float>(agents, new_velocity, dt_s, i);
+        move_lanes<typename Vectors<kWidth>::Float>(agents, new_velocity, step, i);
         i += kWidth;
       } else {
-        if (agents.present[i] != 0) move_lanes<float>(agents, new_velocity, dt_s, i);
+        if (agents.present[i] != 0) move_lanes<float>(agents, new_velocity, step, i);
         ++i;
       }
     }
@@ -250,11 +294,11 @@ struct MoveKernel {
 
 void move(Crowd& crowd, std::span<const Eigen::Vector2f> new_velocity) {
   const auto move_some =
-      Versions<MoveKernel, void(Agents&, std::span<const Eigen::Vector2f>, float, std::size_t,
+      Versions<MoveKernel, void(Agents&, std::span<const Eigen::Vector2f>, const Step&, std::size_t,
                                 std::size_t)>::pick(crowd.instruction_set);
-  const auto dt_s = static_cast<float>(crowd.dt_s);
+  const Step step{static_cast<float>(crowd.dt_s), crowd.compat == Compat::none};
   parallel_ranges(crowd.agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
-    move_some(crowd.agents, new_velocity, dt_s, begin, end);
+    move_some(crowd.agents, new_velocity, step, begin, end);
   });
 }
 

@@ -75,25 +75,39 @@ class Arrivals : public Process {
   void before_decisions(Crowd& crowd, Machine& machine) override {
     if (crowd.time_s() >= plan_.closed_from_s - kRounding) return close(crowd);
     const Agents& agents = crowd.agents;
-    std::size_t alive = 0;
-    bool counted = false;
+    bool looked = false;
     while (next_ < order_.size() && due(crowd)) {
       const std::size_t agent = plan_.first + order_[next_];
       if (agents.awaited[agent] == 0) {  // taken out of this run
         ++next_;
         continue;
       }
-      if (!counted) alive = std::count(agents.present.begin(), agents.present.end(), 1);
-      counted = true;
-      if (alive >= plan_.max_alive || !find_place(crowd, agent)) return;
+      if (!looked) look(agents);
+      looked = true;
+      if (there_.size() >= plan_.max_alive || !find_place(crowd, agent)) return;
       machine.arrive(crowd, agent);
-      ++alive;
+      there_.push_back({agents.position[agent], agents[Property::radius][agent]});
       ++next_;
     }
   }
 
  private:
   static constexpr double kRounding = 1e-6;  // s
+
+  /// A body that is there.
+  struct Body {
+    Eigen::Vector2f position;
+    float radius;
+  };
+
+  void look(const Agents& agents) {
+    there_.clear();
+    for (std::size_t i = 0; i < agents.count(); ++i) {
+      if (agents.present[i] != 0) {
+        there_.push_back({agents.position[i], agents[Property::radius][i]});
+      }
+    }
+  }
 
   // Nobody waits for those who will not come.
   void close(Crowd& crowd) {
@@ -112,7 +126,7 @@ class Arrivals : public Process {
   bool find_place(Crowd& crowd, std::size_t agent) {
     for (std::size_t i = 0; i < plan_.places.size(); ++i) {
       const Eigen::Vector2f& place = plan_.places[(turn_ + i) % plan_.places.size()];
-      if (!is_free(crowd.agents, agent, place)) continue;
+      if (!is_free(place, crowd.agents[Property::radius][agent])) continue;
       crowd.agents.position[agent] = place;
       turn_ = (turn_ + i + 1) % plan_.places.size();
       return true;
@@ -120,17 +134,15 @@ class Arrivals : public Process {
     return false;
   }
 
-  static bool is_free(const Agents& agents, std::size_t agent, const Eigen::Vector2f& place) {
-    const std::vector<float>& radius = agents[Property::radius];
-    for (std::size_t i = 0; i < agents.count(); ++i) {
-      if (agents.present[i] == 0) continue;
-      const float apart = radius[i] + radius[agent];
-      if ((agents.position[i] - place).squaredNorm() < apart * apart) return false;
-    }
-    return true;
+  bool is_free(const Eigen::Vector2f& place, float radius) const {
+    return std::none_of(there_.begin(), there_.end(), [&](const Body& body) {
+      const float apart = body.radius + radius;
+      return (body.position - place).squaredNorm() < apart * apart;
+    });
   }
 
   ArrivalPlan plan_;
+  std::vector<Body> there_;         // in this step
   std::vector<std::size_t> order_;  // by time, ties by id
   std::size_t next_ = 0;            // who comes next
   std::size_t turn_ = 0;            // the place to be tried first

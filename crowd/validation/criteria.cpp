@@ -230,9 +230,9 @@ Verdict corner_flow(const std::vector<CornerFlow>& flows) {
   std::string measured;
   bool passed = true;
   for (const CornerFlow& flow : flows) {
-    passed = passed && flow.straight > 0 && flow.corner >= 0.85 * flow.straight;
-    measured +=
-        fmt::format("{}{:.2f}, {:.2f}", measured.empty() ? "" : "; ", flow.straight, flow.corner);
+    passed = passed && flow.straight > 0 && std::min(flow.block, flow.thin) >= 0.85 * flow.straight;
+    measured += fmt::format("{}{:.2f}, {:.2f}, {:.2f}", measured.empty() ? "" : "; ", flow.straight,
+                            flow.block, flow.thin);
   }
   return {passed, measured + " /(m s)"};
 }
@@ -241,6 +241,25 @@ Verdict evasion(const MeetingRun& run) {
   return {run.passed && run.begins_s >= 2 && run.acceleration_mps2 <= 1,
           fmt::format("{:.1f} s, {:.1f} m/s²{}", run.begins_s, run.acceleration_mps2,
                       run.passed ? "" : ", they touch")};
+}
+
+Verdict calm(const std::vector<CalmRun>& runs) {
+  CalmRun worst;
+  for (const CalmRun& run : runs) {
+    worst.turns = std::max(worst.turns, run.turns);
+    worst.slow_yaw_rate_deg_s = std::max(worst.slow_yaw_rate_deg_s, run.slow_yaw_rate_deg_s);
+    worst.overlap_m = std::max(worst.overlap_m, run.overlap_m);
+  }
+  return {worst.turns < 1 && worst.slow_yaw_rate_deg_s < 30 && worst.overlap_m <= 0.02,
+          fmt::format("{:.1f} turns, {:.0f}°/s, {:.1f} cm", worst.turns, worst.slow_yaw_rate_deg_s,
+                      100 * worst.overlap_m)};
+}
+
+Verdict same_capacity(const std::vector<double>& flows) {
+  std::string measured;
+  for (const double flow : flows) measured += fmt::format("{:.2f} ", flow);
+  const auto [least, greatest] = std::minmax_element(flows.begin(), flows.end());
+  return {!flows.empty() && *least > 0 && *greatest <= 1.1 * *least, measured + "/(m s)"};
 }
 
 Verdict queue(const QueueRun& run) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd/validation/calm.h"
 #include "crowd/validation/flow.h"
 #include "crowd/validation/suite.h"
 #include "crowd/validation/walking.h"
@@ -92,16 +93,24 @@ Verdict open_square(double half_density, double full_density);
 Verdict counter_flow(const CounterRun& alone, const std::vector<CounterRun>& against);
 /// The outflow is at least 75 % of the inflow `each` (1/(m s)).
 Verdict two_way(const std::vector<TwoWayRun>& runs, double each);
-/// Flows of a straight corridor and of one with a turn (1/(m s)).
+/// Flows of a straight corridor, and of corridors with a turn around a block and around thin walls
+/// (1/(m s)).
 struct CornerFlow {
   double straight = 0;
-  double corner = 0;
+  double block = 0;
+  double thin = 0;
 };
-/// The flow with a turn is at least 85 % of the straight one.
+/// Each flow with a turn is at least 85 % of the straight one.
 Verdict corner_flow(const std::vector<CornerFlow>& flows);
 /// The two do not touch, start to evade at least 2 s before they meet, and accelerate by at most 1
 /// m/s^2.
 Verdict evasion(const MeetingRun& run);
+/// In each scene: people turn less than once per minute, who are slow turn at less than 30°/s, and
+/// bodies overlap by at most 2 cm.
+Verdict calm(const std::vector<CalmRun>& runs);
+/// Greatest flows of corridors of several widths (1/(m s)): the greatest is at most 10 % above the
+/// least.
+Verdict same_capacity(const std::vector<double>& flows);
 /// Some people pass the door; there is less than one turn per person and minute.
 Verdict queue(const QueueRun& run);
 

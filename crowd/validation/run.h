@@ -15,6 +15,9 @@ using Look = std::function<void(const crowd::Simulation&)>;
 /// has left for a minute: people block each other.
 std::optional<double> until_all_left(crowd::Simulation& crowd, double max_s, const Look& look = {});
 
+/// Returns the deepest overlap of two bodies, m; negative if nobody touches anybody.
+double deepest_overlap_m(const crowd::Simulation& crowd);
+
 /// Number of people who are present.
 std::size_t count_present(const crowd::Simulation& crowd);
 

@@ -22,6 +22,7 @@ crowd::SceneDescription describe_scene(const Scene& scene, const Tested& tested)
                          .common = {{"r", group.radius_m},
                                     {"max_accel", 5},
                                     {"max_speed", 2.5},
+                                    {"neighbor_dist", 8},
                                     {"obstacleSet", 1},
                                     {"class", i}},
                          .properties = {describe::property("pref_speed", group.speed)},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "crowd/description/builder.h"
+#include "crowd/description/options.h"
 #include "crowd/simulation.h"
 
 namespace throng::validation {
@@ -26,7 +27,7 @@ struct Group {
   std::vector<Eigen::Vector2d> places;
   /// Free speed, m/s; by default that of Weidmann (1993).
   Sampled speed = Sampled::normal(1.34, 0.26).limited(0.58, 2.1);
-  double radius_m = 0.2;
+  double radius_m = crowd::kAdultRadiusM;
   double aside_m = 0.02;  ///< max random offset of the start position per axis
   std::string state = "Walk";
   std::vector<crowd::Node> more = {};  ///< further elements, e.g. <Arrivals>

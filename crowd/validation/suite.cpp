@@ -62,6 +62,8 @@ std::vector<Test> chosen_tests(const std::vector<std::string>& ids) {
   return chosen;
 }
 
+}  // namespace
+
 std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
   std::vector<std::string> chosen;
   chosen.reserve(crowd::models().size());
@@ -73,8 +75,6 @@ std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
   }
   return chosen;
 }
-
-}  // namespace
 
 std::vector<Test> all_tests() {
   std::vector<Test> all;

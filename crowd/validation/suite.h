@@ -40,6 +40,10 @@ std::vector<Test> walking_tests();
 /// Returns all tests in the order of the report.
 std::vector<Test> all_tests();
 
+/// Returns the names of these models (empty: all but `dummy`, the default one first). Throws
+/// InputError for an unknown one.
+std::vector<std::string> chosen_models(const std::vector<std::string>& names);
+
 /// Results of run_suite().
 struct Results {
   Effort effort = Effort::full;

@@ -19,20 +19,6 @@ using Eigen::Vector2f;
 
 namespace {
 
-double worst_overlap_m(const crowd::Simulation& crowd) {
-  double worst = 0;
-  const auto p = crowd.positions();
-  const auto r = crowd.radii_m();
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (crowd.present()[i] == 0) continue;
-    for (std::size_t j = i + 1; j < p.size(); ++j) {
-      if (crowd.present()[j] == 0) continue;
-      worst = std::max(worst, static_cast<double>(r[i] + r[j] - (p[i] - p[j]).norm()));
-    }
-  }
-  return worst;
-}
-
 /// Steps, and calls act(agent) for those who have left.
 class Leavers {
  public:
@@ -71,7 +57,7 @@ ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
   std::vector<bool> passed(crowd.agent_count(), false);
   while (out < 100 && crowd.time_s() < 400) {
     crowd.step();
-    overlap = std::max(overlap, worst_overlap_m(crowd));
+    overlap = std::max(overlap, deepest_overlap_m(crowd));
     for (std::size_t i = 0; i < 100; ++i) {
       if (passed[i] || crowd.positions()[i].x() <= 0.1F) continue;
       passed[i] = true;
@@ -82,7 +68,7 @@ ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
   return {out == 100, out > 0 ? static_cast<double>(out) / last_s : 0, overlap};
 }
 
-SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed) {
+Scene square_scene(double density) {
   Scene scene;
   scene.walls = {box(-16, -16, 16, -15), box(-16, 15, 16, 16), box(-16, -15, -15, 15),
                  box(15, -15, 16, 15)};
@@ -103,7 +89,11 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
   }
   scene.behavior.add_transition("Walk", "On", describe::goal_reached());
   scene.behavior.add_transition("On", "Walk", describe::goal_reached());
-  crowd::Simulation crowd = load(scene, tested, seed);
+  return scene;
+}
+
+SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed) {
+  crowd::Simulation crowd = load(square_scene(density), tested, seed);
   while (crowd.time_s() < 110) crowd.step();
   const std::vector<Vector2f> before(crowd.positions().begin(), crowd.positions().end());
   double speed = 0;
@@ -185,20 +175,34 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
   return {static_cast<double>(out[0]) / kMeterSeconds, static_cast<double>(out[1]) / kMeterSeconds};
 }
 
-double corridor_flow(const Tested& tested, bool turns, double width, std::uint64_t seed) {
+double corridor_flow(const Tested& tested, const Passage& passage, std::uint64_t seed) {
+  constexpr double kTurn = 10;   // m from the origin
+  constexpr double kThin = 0.2;  // m
+  const double width = passage.width_m;
   Scene scene;
   Group group;
-  group.places = lattice({-40, 0.3}, {-0.5, width - 0.3}, static_cast<std::size_t>(80 * width));
+  const double first = passage.queued ? kTurn - 0.5 : -0.5;
+  const double per_m2 = passage.queued ? 3 : 2;
+  group.places = lattice({-40, 0.3}, {first, width - 0.3},
+                         static_cast<std::size_t>(per_m2 * (first + 40.5) * width));
   group.aside_m = 0.05;
   scene.groups = {group};
-  if (turns) {
-    scene.walls = {box(-42, -1, 10 + width + 1, 0), box(-42, width, 10, 19 + width),
-                   box(-43, -1, -42, width + 1), box(10 + width, 0, 11 + width, 19 + width)};
-    scene.behavior.goal_box(0, 10.3, width + 10, 9.7 + width, width + 14);
-  } else {
-    scene.walls = {box(-42, -1, 40, 0), box(-42, width, 40, width + 1),
-                   box(-43, -1, -42, width + 1)};
+  scene.walls = {box(-43, -1, -42, width + 1)};
+  if (passage.turn == Turn::none) {
+    scene.walls.push_back(box(-42, -1, 40, 0));
+    scene.walls.push_back(box(-42, width, 40, width + 1));
     scene.behavior.goal_box(0, 20 + width, 0.3, 24 + width, width - 0.3);
+  } else {
+    const double end = 19 + width;
+    scene.walls.push_back(box(-42, -1, kTurn + width + 1, 0));
+    scene.walls.push_back(box(kTurn + width, 0, kTurn + width + 1, end));
+    if (passage.turn == Turn::block) {
+      scene.walls.push_back(box(-42, width, kTurn, end));
+    } else {
+      scene.walls.push_back(box(-42, width, kTurn, width + kThin));
+      scene.walls.push_back(box(kTurn - kThin, width + kThin, kTurn, end));
+    }
+    scene.behavior.goal_box(0, kTurn + 0.3, width + 10, kTurn + width - 0.3, width + 14);
   }
   scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, seed);
@@ -244,7 +248,8 @@ MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
     if (turned_s < 0 && std::abs(crowd.velocities()[0].y()) > 0.03F) turned_s = crowd.time_s();
     nearest_m = std::min(nearest_m, (crowd.positions()[0] - crowd.positions()[1]).norm());
   }
-  const bool passed = crowd.positions()[0].x() >= crowd.positions()[1].x() && nearest_m >= 0.4F;
+  const bool passed = crowd.positions()[0].x() >= crowd.positions()[1].x() &&
+                      nearest_m >= 2 * static_cast<float>(crowd::kAdultRadiusM);
   return {passed, turned_s < 0 ? 0 : crowd.time_s() - turned_s, accel};
 }
 

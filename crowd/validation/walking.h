@@ -23,6 +23,9 @@ struct SquareRun {
   double speed_mps = 0;          ///< mean of these 10 s
   double acceleration_mps2 = 0;  ///< root mean square of these 10 s
 };
+/// Returns the scene of an open square of 30 m x 30 m in which people (1/m^2) walk to random
+/// points, one after the other.
+Scene square_scene(double density);
 /// Simulates an open square of 30 m x 30 m in which people walk to random points, one after the
 /// other.
 SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed);
@@ -45,9 +48,22 @@ struct TwoWayRun {
 /// Simulates a corridor 4 m wide that `each` people per meter and second enter at both ends.
 TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed);
 
-/// Flow (1/(m s)) between the 10th and the 80th percentile of the people who leave a corridor that
-/// is straight or has a turn by 90 degrees; 0 if that takes longer than 600 s.
-double corridor_flow(const Tested& tested, bool turns, double width_m, std::uint64_t seed);
+/// A turn of a corridor by 90 degrees, by what its inner side is made of.
+enum class Turn {
+  none,   ///< the corridor is straight
+  block,  ///< one solid box
+  thin    ///< two walls, 0.2 m thick, that touch
+};
+struct Passage {
+  double width_m = 4;
+  Turn turn = Turn::none;
+  /// Whether people stand at 3 per m^2 up to the turn; otherwise at 2 per m^2, the first of them
+  /// 10 m before it.
+  bool queued = false;
+};
+/// Flow (1/(m s)) between the 10th and the 80th percentile of the people who leave a corridor; 0 if
+/// that takes longer than 600 s.
+double corridor_flow(const Tested& tested, const Passage& passage, std::uint64_t seed);
 
 struct MeetingRun {
   bool passed = false;  ///< within 60 s, and without touching

@@ -596,8 +596,14 @@ class Crowd(Part):
     compat: Literal["none", "menge", "huang2016"] | None = None
     """Program whose results are reproduced where the scenario's files leave a choice: none, Menge with its quirks
     (menge), or also the elements that Huang's group added to it (huang2016). Default: "none"."""
-    separation: Literal["soft", "hard"] | None = None
-    """soft: as the model gives it; hard: no two people ever overlap by more than 1 cm. Default: "soft"."""
+    separation: Literal["auto", "soft", "hard"] | None = None
+    """soft: as the model gives it; hard: no two people ever overlap by more than 1 cm; auto: hard with ttc (without
+    compat), else soft. Default: "auto"."""
+    constants: Literal["best", "posterior", "conservative"] | None = None
+    """best: those that fit recorded people best; posterior: each run draws them from the posterior of that fit by
+    its seed, so that results spread as widely as the recordings leave open; conservative: exits pass no more than
+    IMO 4 and NIST 5.2 allow, which is less than recorded people do. Models other than ttc have best. Default:
+    "best"."""
     compliance: float | None = None
     """Probability that a person near a guide follows it; multiplies that of the behavior file. Default: 1."""
     physical: bool | None = None

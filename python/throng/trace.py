@@ -22,14 +22,15 @@ ROLES = ("person", "disaster", "absent", "attacker")
 
 
 def _read_crowd(attributes: dict[str, Any]) -> dict[str, Any]:
-    """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `compliance`,
-    `physical`, `fall_impulse_ns`; empty in traces of earlier versions."""
+    """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `constants`,
+    `compliance`, `physical`, `fall_impulse_ns`; empty in traces of earlier versions."""
     if "crowd_model" not in attributes:
         return {}
     return {
         "model": _text(attributes["crowd_model"]),
         "compat": _text(attributes.get("crowd_compat", b"none")),
         "hard_separation": _number(attributes.get("crowd_hard_separation")) == 1,
+        "constants": _text(attributes.get("crowd_constants", b"best")),
         "compliance": _number(attributes.get("crowd_compliance")),
         "physical": _number(attributes.get("crowd_physical")) == 1,
         "fall_impulse_ns": _number(attributes.get("crowd_fall_impulse_ns")),

@@ -7,7 +7,10 @@
 //
 // - fd_DENSITY: specific flow in a ring, 1/(m s)
 // - door_WIDTH: specific flow through a door, 1/(m s)
-// - straight_WIDTH, corner_WIDTH: specific flow out of a corridor, 1/(m s)
+// - straight_WIDTH, corner_WIDTH, corner_thin_WIDTH: specific flow out of a corridor that is
+// straight
+//   or has a turn around a block or thin walls, 1/(m s); with _queued before WIDTH: of people who
+//   stand close together up to the turn
 // - imo_4: people per second over the entire time; deepest overlap, m
 // - square_DENSITY: share of people who are stuck; speed, m/s; rms acceleration, m/s^2
 // - room_OTHERS: time of 100 people through a corridor against so many, s; people left after 600 s
@@ -22,6 +25,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -46,17 +50,35 @@ void add_flows(std::vector<Gate>& all) {
                      return Numbers{walk_in_ring(t, density, seed).speed_mps * density};
                    }});
   }
+  for (const double width : {1.2, 1.8, 3.0, 6.0}) {
+    for (const double density : {1.1, 1.6, 2.1, 2.9}) {
+      all.push_back({fmt::format("ring_{}_{}", width, density),
+                     [width, density](const Tested& t, std::uint64_t seed) {
+                       Ring spec;
+                       spec.width_m = width;
+                       spec.people = static_cast<std::size_t>(
+                           std::lround(density * 2 * M_PI * spec.radius_m * width));
+                       crowd::Simulation crowd = load(ring(spec), t, seed);
+                       return Numbers{density * mean_ring_speed(crowd, 20, 50)};
+                     }});
+    }
+  }
   for (const double width : {0.8, 1.0, 1.2, 1.6, 2.0}) {
     all.push_back({fmt::format("door_{}", width), [width](const Tested& t, std::uint64_t seed) {
                      return Numbers{specific_flow(t, {width, 0.2}, seed)};
                    }});
   }
   for (const double width : {2.0, 4.0}) {
-    for (const bool turns : {false, true}) {
-      all.push_back({fmt::format("{}_{}", turns ? "corner" : "straight", width),
-                     [width, turns](const Tested& t, std::uint64_t seed) {
-                       return Numbers{corridor_flow(t, turns, width, seed)};
-                     }});
+    for (const bool queued : {false, true}) {
+      for (const auto& [name, turn] : {std::pair("straight", Turn::none),
+                                       {"corner", Turn::block},
+                                       {"corner_thin", Turn::thin}}) {
+        all.push_back(
+            {fmt::format("{}{}_{}", name, queued ? "_queued" : "", width),
+             [passage = Passage{width, turn, queued}](const Tested& t, std::uint64_t seed) {
+               return Numbers{corridor_flow(t, passage, seed)};
+             }});
+      }
     }
   }
   all.push_back({"imo_4", [](const Tested& t, std::uint64_t seed) {
@@ -148,7 +170,7 @@ void run(const Command& command) {
   });
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (i % command.seeds == 0)
-      fmt::print("{}{:14}", i > 0 ? "\n" : "", gates[i / command.seeds].name);
+      fmt::print("{}{:24}", i > 0 ? "\n" : "", gates[i / command.seeds].name);
     fmt::print(" |");
     for (const double number : results[i]) fmt::print(" {:.3g}", number);
   }

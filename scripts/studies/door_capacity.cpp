@@ -4,7 +4,7 @@
 //   build/release/scripts/studies/door_capacity [MODEL ...]
 //
 // A crowd as dense as people stand (5 per m²) presses through a door in a wall, with the bodies and
-// the speeds of people who flee in the places (radius 0.195 to 0.24 m, 2 ± 0.25 m/s). Of every
+// the speeds of people who flee in the places (radius 0.155 to 0.185 m, 2 ± 0.25 m/s). Of every
 // window of 1 to 20 s, begun at every step while the door is saturated, the people who pass are
 // counted. Printed are per model and width the 99.9 % quantiles of these counts, the rate (that of
 // 20 s) and the burst with which burst + rate * t is at least the quantile of every window t.
@@ -53,8 +53,10 @@ crowd::Simulation crowd_before_door(const std::string& model, double width_m, st
                   {"max_speed", 3},
                   {"max_accel", 5},
                   {"max_angle_vel", 360}},
-       .properties = {describe::property("pref_speed", describe::Sampled::normal(2, 0.25)),
-                      describe::property("r", describe::Sampled::uniform(0.195, 0.24))}});
+       .properties = {
+           describe::property("pref_speed", describe::Sampled::normal(2, 0.25)),
+           describe::property("r", describe::Sampled::uniform(crowd::kAdultRadiusM - 0.015,
+                                                              crowd::kAdultRadiusM + 0.015))}});
   scene.add_group({"a", "Flee",
                    describe::typed("Generator", "rect_grid",
                                    {{"anchor_x", -1 - (kRows - 1) * kPitchM},

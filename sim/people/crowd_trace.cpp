@@ -24,7 +24,8 @@ world::TraceHeader named(world::TraceHeader header, const std::string& name) {
 world::CrowdOrigin crowd_origin(const crowd::LoadOptions& options) {
   return {options.model,
           std::string(crowd::kCompatWords.at(static_cast<std::size_t>(options.compat))),
-          options.hard_separation,
+          options.separation == crowd::BodySeparation::hard,
+          std::string(crowd::kConstantsWords.at(static_cast<std::size_t>(options.constants))),
           options.compliance,
           options.physical.on,
           static_cast<double>(options.physical.fall_impulse_ns)};

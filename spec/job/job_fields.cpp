@@ -83,9 +83,19 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
       "Menge with its quirks (menge), or also the elements that "
       "Huang's group added to it (huang2016).");
   table
-      .add_word("crowd/separation", "Separation", crowd::kSeparationWords,
-                at(&JobSpec::crowd, &sim::CrowdSpec::hard_separation),
-                "soft: as the model gives it; hard: no two people ever overlap by more than 1 cm.")
+      .add_word(
+          "crowd/separation", "Separation", crowd::kSeparationWords,
+          at(&JobSpec::crowd, &sim::CrowdSpec::separation),
+          "soft: as the model gives it; hard: no two people ever overlap by more than 1 cm; auto: "
+          "hard with ttc (without compat), else soft.")
+      .randomized();
+  table
+      .add_word("crowd/constants", "Constants of the model", crowd::kConstantsWords,
+                at(&JobSpec::crowd, &sim::CrowdSpec::constants),
+                "best: those that fit recorded people best; posterior: each run draws them from "
+                "the posterior of that fit by its seed, so that results spread as widely as the "
+                "recordings leave open; conservative: exits pass no more than IMO 4 and NIST 5.2 "
+                "allow, which is less than recorded people do. Models other than ttc have best.")
       .randomized();
   table.add("crowd/compliance", "Compliance", "", numbers(0, 1),
             at(&JobSpec::crowd, &sim::CrowdSpec::compliance),

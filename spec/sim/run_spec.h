@@ -79,7 +79,8 @@ struct DroneMission {
 struct CrowdSpec {
   std::string model;  ///< a name in crowd::models(); empty: model_for()
   crowd::Compat compat = crowd::Compat::none;
-  bool hard_separation = false;
+  crowd::BodySeparation separation = crowd::BodySeparation::automatic;
+  crowd::ConstantsChoice constants = crowd::ConstantsChoice::best;
   double compliance = 1;  ///< probability that a person near a guide follows it
   crowd::Physical physical;
 };

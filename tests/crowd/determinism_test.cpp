@@ -54,8 +54,9 @@ constexpr int kCrowd = 700;  // more than one thread's share
 Outcome run_model(std::string_view model, int threads) {
   Outcome outcome;
   with_threads(threads, [&] {
-    Simulation crowd = test::load(test::model_crowd_scene(kCrowd), test::to_point_behavior(5, 4),
-                                  {.model = std::string(model), .hard_separation = true});
+    Simulation crowd =
+        test::load(test::model_crowd_scene(kCrowd), test::to_point_behavior(5, 4),
+                   {.model = std::string(model), .separation = BodySeparation::hard});
     for (int i = 0; i < 60; ++i) crowd.step();
     outcome = run_to_end(crowd);
   });

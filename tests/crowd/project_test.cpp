@@ -46,7 +46,7 @@ TEST_F(Projects, HaveMengesDefaults) {
   EXPECT_EQ(project.options.sub_steps, 0);
   EXPECT_EQ(project.options.seed, 1U);
   EXPECT_EQ(project.options.compat, Compat::none);
-  EXPECT_FALSE(project.options.hard_separation);
+  EXPECT_EQ(project.options.separation, BodySeparation::automatic);
   EXPECT_TRUE(project.output.empty());
   EXPECT_EQ(project.scb_version, "2.1");
   EXPECT_TRUE(project.warnings.empty());
@@ -62,7 +62,7 @@ TEST_F(Projects, SayAllOfIt) {
   EXPECT_EQ(project.options.sub_steps, 3);
   EXPECT_EQ(project.options.seed, 77U);
   EXPECT_EQ(project.options.compat, Compat::huang2016);
-  EXPECT_TRUE(project.options.hard_separation);
+  EXPECT_EQ(project.options.separation, BodySeparation::hard);
   EXPECT_EQ(project.output.filename(), "a");
   EXPECT_EQ(project.output.parent_path().filename(), "out");
   EXPECT_EQ(project.scb_version, "2.4");

@@ -53,14 +53,14 @@ TEST(Run, SaysWhichModelMovedThePeople) {
   RunSpec spec = short_run();
   spec.duration_s = 0.2;
   EXPECT_EQ(simulate_trace(spec).header.crowd,
-            (world::CrowdOrigin{"orca", "none", false, 1, false, 20}));
+            (world::CrowdOrigin{"orca", "none", false, "best", 1, false, 20}));
   spec.crowd.model = "helbing";
   spec.crowd.compat = crowd::Compat::menge;
-  spec.crowd.hard_separation = true;
+  spec.crowd.separation = crowd::BodySeparation::hard;
   spec.crowd.compliance = 0.5;
   spec.crowd.physical = {true, 35};
   EXPECT_EQ(simulate_trace(spec).header.crowd,
-            (world::CrowdOrigin{"helbing", "menge", true, 0.5, true, 35}));
+            (world::CrowdOrigin{"helbing", "menge", true, "best", 0.5, true, 35}));
 }
 
 TEST(Run, RecordsTheWholeDurationOfCrowdAndDrone) {

@@ -364,7 +364,7 @@ TEST(TraceFile, RecordsTheModelOfThePeople) {
   };
   TraceHeader header = make_header(3);
   EXPECT_EQ(read_back(header), CrowdOrigin{}) << "files of earlier versions do not say it";
-  header.crowd = {"helbing", "menge", true, 0.25, true, 35};
+  header.crowd = {"helbing", "menge", true, "posterior", 0.25, true, 35};
   EXPECT_EQ(read_back(header), header.crowd);
   header.crowd = {};
   header.crowd.model = kRecordedCrowd;

@@ -4,8 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <vector>
 
+#include "base/compute/random.h"
+#include "base/error.h"
+#include "crowd/model.h"
 #include "tests/crowd/crowd_files.h"
+#include "tests/crowd/model_scenes.h"
 
 namespace throng::crowd {
 namespace {
@@ -60,7 +66,8 @@ neighbor_dist="20" obstacleSet="1"/></AgentProfile>{}{}</Experiment>)",
 
 TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
   constexpr double kDt = 0.02;  // the model's own step: nothing is averaged
-  Simulation crowd = meeting(0.15, kDt, R"(keep_right="0")");
+  Simulation crowd = meeting(0.15, kDt, R"(keep_right="0" caution="0" clearance="0" strength="1.5"
+horizon="3" relaxation="0.3")");
   double compared = 0;
   int steps = 0;
   while (crowd.positions()[1].x() - crowd.positions()[0].x() > 0.8F) {
@@ -110,6 +117,100 @@ TEST(Ttc, OncomingPeopleAvoidEachOtherEarlyAndGently) {
     EXPECT_LT(hardest, 1.5) << aside;
     EXPECT_GT(nearest, 0.4) << aside;
   }
+}
+
+/// 300 people in a corridor of 4 m with walls, some of them against the others.
+Crowd busy_corridor(InstructionSet set) {
+  Crowd crowd;
+  crowd.instruction_set = set;
+  crowd.model_constants = chosen_constants(find_model("ttc"), ConstantsChoice::best, 1);
+  Agents& agents = crowd.agents;
+  agents.resize(301, 0);
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    Random random(5, Stream::crowd_generator, i);
+    const auto x = 0.5F * static_cast<float>(i / 8);
+    const auto y = 0.25F + 0.5F * static_cast<float>(i % 8);
+    agents.position[i] = {x + static_cast<float>(random.uniform(0, 0.1)), y};
+    const float way = i % 3 == 0 ? -1.0F : 1.0F;
+    agents.preferred_direction[i] = {way, 0};
+    agents.preferred_speed[i] = 1.3F;
+    agents[Property::pref_speed][i] = 1.3F;
+    agents[Property::radius][i] = 0.17F;
+    agents[Property::max_neighbors][i] = 10;
+    agents[Property::max_speed][i] = 2.5F;
+    agents[Property::neighbor_dist][i] = 8;
+    agents.obstacle_mask[i] = 1;
+    agents.velocity[i] = {way * static_cast<float>(random.uniform(0, 1.3)), 0};
+    agents.present[i] = 1;
+  }
+  using Corners = std::vector<Eigen::Vector2f>;
+  crowd.obstacles.add_polygon(Corners{{-5, -1}, {40, -1}, {40, 0}, {-5, 0}}, 1);
+  crowd.obstacles.add_polygon(Corners{{-5, 4}, {40, 4}, {40, 5}, {-5, 5}}, 1);
+  crowd.obstacles.build();
+  return crowd;
+}
+
+std::vector<Eigen::Vector2f> velocities(const Crowd& crowd) {
+  Grid grid(crowd.instruction_set);
+  grid.build(crowd.agents);
+  std::vector<Eigen::Vector2f> result(crowd.agents.count(), Eigen::Vector2f::Zero());
+  find_model("ttc").make(crowd)->step(crowd, grid, result);
+  return result;
+}
+
+TEST(Ttc, EveryInstructionSetGivesTheSameBits) {
+  const auto baseline = velocities(busy_corridor(InstructionSet::baseline));
+  EXPECT_EQ(baseline, velocities(busy_corridor(best_instruction_set())));
+  EXPECT_NE(baseline, std::vector<Eigen::Vector2f>(301, Eigen::Vector2f::Zero()));
+}
+
+TEST(Ttc, NeighborsInTheBatchDoNotMatter) {
+  // The last agents of the grid are computed in a batch that is not full.
+  Crowd crowd = busy_corridor(best_instruction_set());
+  const auto all = velocities(crowd);
+  // People far away change the batches, but nobody's surroundings.
+  for (std::size_t i = 0; i < 3; ++i) crowd.agents.position[i] += Eigen::Vector2f(0, 500);
+  const auto fewer = velocities(crowd);
+  for (std::size_t i = 200; i < 301; ++i) EXPECT_EQ(all[i], fewer[i]) << i;
+}
+
+TEST(Constants, OfThePosteriorFollowTheSeed) {
+  const ModelEntry& ttc = find_model("ttc");
+  const auto best = chosen_constants(ttc, ConstantsChoice::best, 1);
+  const auto first = chosen_constants(ttc, ConstantsChoice::posterior, 1);
+  EXPECT_EQ(first, chosen_constants(ttc, ConstantsChoice::posterior, 1));
+  EXPECT_NE(first, best);
+  std::set<std::vector<float>> draws;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    draws.insert(chosen_constants(ttc, ConstantsChoice::posterior, seed));
+  }
+  EXPECT_GT(draws.size(), 20U) << "many different draws";
+  for (const auto& draw : draws) {
+    for (std::size_t i = 0; i < draw.size(); ++i) {
+      EXPECT_GE(draw[i], ttc.constants[i].min) << ttc.constants[i].name;
+      EXPECT_LE(draw[i], ttc.constants[i].max) << ttc.constants[i].name;
+      EXPECT_NEAR(draw[i], best[i], 0.5F * best[i]) << ttc.constants[i].name;
+    }
+  }
+}
+
+TEST(Constants, OfModelsThatWereNotFittedAreRefused) {
+  EXPECT_THROW(chosen_constants(find_model("orca"), ConstantsChoice::posterior, 1), InputError);
+  EXPECT_THROW(chosen_constants(find_model("helbing"), ConstantsChoice::conservative, 1),
+               InputError);
+  EXPECT_NO_THROW(chosen_constants(find_model("orca"), ConstantsChoice::best, 1));
+}
+
+TEST(Ttc, BodiesAreKeptApartUnlessTheUserSaysOtherwise) {
+  const auto mode = [](const LoadOptions& options) {
+    return test::load(test::model_crowd_scene(4), test::to_point_behavior(5, 4), options)
+        .options()
+        .separation;
+  };
+  EXPECT_EQ(mode({.model = "ttc"}), BodySeparation::hard);
+  EXPECT_EQ(mode({.model = "ttc", .separation = BodySeparation::soft}), BodySeparation::soft);
+  EXPECT_EQ(mode({.model = "ttc", .compat = Compat::menge}), BodySeparation::soft);
+  EXPECT_EQ(mode({.model = "orca"}), BodySeparation::soft);
 }
 
 }  // namespace

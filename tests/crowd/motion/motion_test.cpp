@@ -93,5 +93,44 @@ TEST(Motion, EveryInstructionSetGivesTheSameBits) {
   EXPECT_EQ(one.agents.yaw_rad, other.agents.yaw_rad);
 }
 
+TEST(Motion, PeopleWhoStandHardlyTurnAndWalkersTurnSoon) {
+  Crowd crowd;
+  crowd.agents.resize(2, 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    crowd.agents.present[i] = 1;
+    crowd.agents.orientation[i] = {1, 0};
+    crowd.agents.preferred_direction[i] = {1, 0};
+    crowd.agents[Property::pref_speed][i] = 1.3F;
+    crowd.agents[Property::max_accel][i] = 100;
+    crowd.agents[Property::max_angle_vel][i] = 6.3F;
+  }
+  // The velocity swings to both sides every 0.2 s: one shuffles, the other one walks to the left.
+  double squares = 0;
+  for (int step = 0; step < 40; ++step) {
+    const float side = step / 2 % 2 == 0 ? 1.0F : -1.0F;
+    const float before = crowd.agents.yaw_rad[0];
+    const std::vector<Eigen::Vector2f> velocities = {{0.02F, 0.12F * side}, {0, 1.3F}};
+    move(crowd, velocities);
+    const double rate = (crowd.agents.yaw_rad[0] - before) / 0.1;
+    squares += rate * rate;
+  }
+  EXPECT_LT(std::sqrt(squares / 40), 30 * std::numbers::pi / 180) << "who stands is calm";
+  EXPECT_NEAR(crowd.agents.yaw_rad[1], std::numbers::pi / 2, 0.05);
+}
+
+TEST(Motion, MengesPeopleTurnAtOnce) {
+  Crowd crowd;
+  crowd.compat = Compat::menge;
+  crowd.agents.resize(1, 0);
+  crowd.agents.present[0] = 1;
+  crowd.agents.orientation[0] = {1, 0};
+  crowd.agents.preferred_direction[0] = {1, 0};
+  crowd.agents[Property::pref_speed][0] = 1.3F;
+  crowd.agents[Property::max_accel][0] = 100;
+  crowd.agents[Property::max_angle_vel][0] = 100;
+  move(crowd, std::vector<Eigen::Vector2f>{{0, 1.3F}});
+  EXPECT_NEAR(crowd.agents.yaw_rad[0], std::numbers::pi / 2, 1e-5);
+}
+
 }  // namespace
 }  // namespace throng::crowd

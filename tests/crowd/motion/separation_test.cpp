@@ -37,7 +37,7 @@ Simulation circle(const LoadOptions& options) {
 
 TEST(Separation, BodiesDoNotOverlapWhereAllWaysCross) {
   Simulation soft = circle({});
-  Simulation hard = circle({.hard_separation = true});
+  Simulation hard = circle({.separation = BodySeparation::hard});
   float soft_worst = 0;
   while (hard.time_s() < 25) {
     soft.step();
@@ -73,7 +73,7 @@ Simulation bottleneck(const std::string& model) {
     <Transition from="Start" to="Out"><Condition type="AABB" inside="1" min_x="0.5" max_x="50"
       min_y="-9" max_y="9"/></Transition></BFSM>)";
   return test::load(test::scene_with(agents, R"(r="0.2")", "Start", walls), behavior,
-                    {.model = model, .hard_separation = true});
+                    {.model = model, .separation = BodySeparation::hard});
 }
 
 void expect_clear_of_walls(const Simulation& crowd) {
@@ -110,8 +110,8 @@ TEST(Separation, HoldsForForceModelsToo) {
 TEST(Separation, SeparatesAgentsThatOverlapAtTheStart) {
   std::string agents;
   for (int i = 0; i < 25; ++i) agents += test::agent_at(0.1 * (i / 5), 0.1 * (i % 5));
-  Simulation crowd =
-      test::load(test::scene_with(agents), test::mirror_behavior(), {.hard_separation = true});
+  Simulation crowd = test::load(test::scene_with(agents), test::mirror_behavior(),
+                                {.separation = BodySeparation::hard});
   while (crowd.time_s() < 5) crowd.step();
   EXPECT_LE(max_depth(crowd), 0.01F + 1e-4F);
 }
@@ -120,7 +120,7 @@ TEST(Separation, ThreadsDoNotChangeASingleBit) {
   std::vector<std::vector<Eigen::Vector2f>> outcomes;
   for (const std::size_t threads : {1, 2, 16}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    Simulation crowd = circle({.hard_separation = true});
+    Simulation crowd = circle({.separation = BodySeparation::hard});
     while (crowd.time_s() < 12) crowd.step();
     outcomes.emplace_back(crowd.positions().begin(), crowd.positions().end());
   }

@@ -282,11 +282,13 @@ TEST(TwoWay, LooksAtTheWorseDirectionOfTheWorstRun) {
 }
 
 TEST(Corner, KeepsEightyFivePercent) {
-  EXPECT_TRUE(corner_flow({{1, 0.86}, {2, 2}}).passed);
-  EXPECT_FALSE(corner_flow({{1, 0.84}, {2, 2}}).passed);
-  EXPECT_FALSE(corner_flow({{1, 0.86}, {2, 1}}).passed);
-  EXPECT_FALSE(corner_flow({{0, 0}}).passed) << "a jam is no success";
-  EXPECT_EQ(corner_flow({{1, 0.86}, {2, 1}}).measured, "1.00, 0.86; 2.00, 1.00 /(m s)");
+  EXPECT_TRUE(corner_flow({{1, 0.86, 0.86}, {2, 2, 2}}).passed);
+  EXPECT_FALSE(corner_flow({{1, 0.84, 0.86}, {2, 2, 2}}).passed);
+  EXPECT_FALSE(corner_flow({{1, 0.86, 0.84}, {2, 2, 2}}).passed) << "thin walls count too";
+  EXPECT_FALSE(corner_flow({{1, 0.86, 0.86}, {2, 1, 2}}).passed);
+  EXPECT_FALSE(corner_flow({{0, 0, 0}}).passed) << "a jam is no success";
+  EXPECT_EQ(corner_flow({{1, 0.86, 0.9}, {2, 1, 1}}).measured,
+            "1.00, 0.86, 0.90; 2.00, 1.00, 1.00 /(m s)");
 }
 
 TEST(Evasion, WantsAnEarlyGentleTurn) {
@@ -302,6 +304,20 @@ TEST(Queue, WantsFewTurnsAndSomePassage) {
   EXPECT_FALSE(queue({1, 1, 0}).passed);
   EXPECT_FALSE(queue({0, 0, 0}).passed) << "nobody passes";
   EXPECT_EQ(queue({3, 0.94, 2}).measured, "0.9 turns, 2.0 stops");
+}
+
+TEST(Criteria, CalmIsTheWorstOfAllScenes) {
+  EXPECT_TRUE(calm({{0.9, 29, 0.02}, {0.1, 2, 0}}).passed);
+  EXPECT_FALSE(calm({{0, 0, 0}, {1, 0, 0}}).passed);
+  EXPECT_FALSE(calm({{0, 30, 0}}).passed);
+  EXPECT_FALSE(calm({{0, 0, 0.021}}).passed);
+  EXPECT_EQ(calm({{0.9, 3, 0.01}, {0.1, 29, 0.02}}).measured, "0.9 turns, 29°/s, 2.0 cm");
+}
+
+TEST(Criteria, CapacitiesAreTheSameWithinATenth) {
+  EXPECT_TRUE(same_capacity({1.0, 1.1, 1.05}).passed);
+  EXPECT_FALSE(same_capacity({1.0, 1.11}).passed);
+  EXPECT_FALSE(same_capacity({0, 0}).passed) << "nobody walks";
 }
 
 }  // namespace

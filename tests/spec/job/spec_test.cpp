@@ -150,7 +150,7 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.agents, 2);
   EXPECT_EQ(job.crowd.model, "orca");
   EXPECT_EQ(job.crowd.compat, crowd::Compat::huang2016);
-  EXPECT_TRUE(job.crowd.hard_separation);
+  EXPECT_EQ(job.crowd.separation, crowd::BodySeparation::hard);
   EXPECT_EQ(job.drones[0].mission.start, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));

@@ -10,6 +10,7 @@
 #include "base/geometry/angle.h"
 #include "crowd/description/builder.h"
 #include "crowd/description/menge_files/write.h"
+#include "crowd/description/options.h"
 #include "world/imports/parts/mesh_text.h"
 
 namespace throng::imports {
@@ -172,8 +173,8 @@ crowd::SceneDescription describe_scene(const ImportedScenario& scenario,
                      .common = {{"max_angle_vel", 360},
                                 {"max_neighbors", 10},
                                 {"obstacleSet", 1},
-                                {"neighbor_dist", 5},
-                                {"r", 0.2},
+                                {"neighbor_dist", 8},
+                                {"r", crowd::kAdultRadiusM},
                                 {"class", 1},
                                 {"pref_speed", kUsualSpeedMps},
                                 {"max_speed", 2},

@@ -9,6 +9,7 @@
 
 #include "base/geometry/angle.h"
 #include "crowd/description/builder.h"
+#include "crowd/description/options.h"
 #include "world/scenarios/blueprint/blocked.h"
 #include "world/scenarios/blueprint/crowd_behavior.h"
 
@@ -28,7 +29,8 @@ namespace {
 
 constexpr double kClearanceM = 0.45;
 constexpr double kSourceBehindM = 6;  // beyond the door that people come in by
-constexpr double kSlimmestM = 0.195;  // radius
+constexpr double kSlimmestM = crowd::kAdultRadiusM - 0.015;  // radius
+constexpr double kWidestM = crowd::kAdultRadiusM + 0.015;
 constexpr int kOutlineDecimals = 3;
 
 Node facing_element(const Facing& facing) {
@@ -227,14 +229,14 @@ void add_person(std::string name, const SampledValue& speed_mps, SceneBuilder& s
        .common = {{"max_angle_vel", 360},
                   {"max_neighbors", 10},
                   {"obstacleSet", 1},
-                  {"neighbor_dist", 5},
+                  {"neighbor_dist", 8},
                   {"class", 1},
                   {"max_speed", 3},
                   {"max_accel", 5}},
        .properties = {
            Node("Property", std::move(speed)),
            // So alike that all of them share one mesh (crowd/navigation/auto_navigation.h).
-           describe::property("r", describe::Sampled::uniform(kSlimmestM, 0.24))}});
+           describe::property("r", describe::Sampled::uniform(kSlimmestM, kWidestM))}});
 }
 
 void add_profiles(const People& people, SceneBuilder& scene) {
