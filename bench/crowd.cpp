@@ -83,10 +83,11 @@ void step_open_square(benchmark::State& state, const std::string& model, int sid
   run(state, open_square(model, side, density));
 }
 
-void step_city_square(benchmark::State& state, std::size_t threads) {
+void step_city_square(benchmark::State& state, const std::string& model, std::size_t threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   const std::filesystem::path folder = source_folder() / "scenarios/city_square";
-  Simulation crowd(folder / "square_scene.xml", folder / "nearest_exit_behavior.xml", {});
+  Simulation crowd(folder / "square_scene.xml", folder / "nearest_exit_behavior.xml",
+                   {.model = model});
   while (crowd.time_s() < 25) crowd.step();  // in the middle of the flight
   run(state, std::move(crowd));
 }
@@ -109,13 +110,16 @@ void add_open_square(const std::string& model, double density, int side, std::si
 
 bool register_all() {
   for (const std::size_t threads : {1, 2}) {
+    // The default model first, open and with walls.
+    for (const std::string model : {"ttc", "orca"}) {
+      add(fmt::format("BM_Step/{}/city_square/agents:261", model), threads, 400,
+          [=](benchmark::State& state) { step_city_square(state, model, threads); });
+    }
     for (const std::string model : {"ttc", "orca", "helbing"}) {
       for (const int side : {32, 100, 316, 1000}) {
         for (const double density : {0.5, 2.0}) add_open_square(model, density, side, threads);
       }
     }
-    add("BM_Step/orca/city_square/agents:261", threads, 400,
-        [=](benchmark::State& state) { step_city_square(state, threads); });
   }
   for (const ModelEntry& model : models()) {
     if (model.name == "ttc" || model.name == "orca" || model.name == "helbing") continue;

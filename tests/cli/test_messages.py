@@ -164,6 +164,9 @@ class Messages(unittest.TestCase):
             outputs={"annotations": ["coco", "densty"]},
         )
         self.run_job('unknown airframe "f45"; did you mean "f450"?', drones=drone(airframe="f45"))
+        self.run_job(
+            "/crowd/constants: found posterior of the model orca", crowd={"model": "orca", "constants": "posterior"}
+        )
         self.run_job('unknown scenario "city_square/nearest_exti"; did you mean', scenario="city_square/nearest_exti")
         self.run_job(
             'unknown path "crowd.agent"; did you mean "crowd.agents"?', randomize={"crowd.agent": {"uniform": [1, 2]}}

@@ -214,11 +214,14 @@ void check_with_simulation(const ScenarioRuns& place, const JobSpec& job,
                            std::vector<Problem>& problems) {
   const world::Scenario& scenario = place.scenario;
   check_flight(place, job, place.runs.front(), problems);
+  const char* field = "/crowd/model";
   try {
-    crowd::find_model(sim::model_for(scenario, job.crowd));
+    const crowd::ModelEntry& model = crowd::find_model(sim::model_for(scenario, job.crowd));
+    field = "/crowd/constants";
+    crowd::chosen_constants(model, job.crowd.constants, job.seed);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
-    problems.push_back({"", "/crowd/model", problem.found, problem.expected});
+    problems.push_back({"", field, problem.found, problem.expected});
     return;
   }
   if (job.recorded) return check_recording(job, problems);

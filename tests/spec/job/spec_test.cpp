@@ -126,7 +126,8 @@ TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
 TEST_F(Spec, ReadsEveryField) {
   const JobSpec job = parse(R"({
     "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5,
-    "crowd": {"agents": 2, "model": "orca", "compat": "huang2016", "separation": "hard"},
+    "crowd": {"agents": 2, "model": "orca", "compat": "huang2016", "separation": "hard",
+              "constants": "posterior"},
     "drones": [{"id": "a", "airframe": "f450", "battery": {"charge": 0.75}, "start": [1, 2, 3], "moves_goal": [4, 5],
                 "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
                              "speed_mps": 2},
@@ -151,6 +152,7 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.crowd.model, "orca");
   EXPECT_EQ(job.crowd.compat, crowd::Compat::huang2016);
   EXPECT_EQ(job.crowd.separation, crowd::BodySeparation::hard);
+  EXPECT_EQ(job.crowd.constants, crowd::ConstantsChoice::posterior);
   EXPECT_EQ(job.drones[0].mission.start, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
