@@ -20,8 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t choice = data[after];
   options.model = models()[choice % models().size()].name;
   options.compat = static_cast<Compat>(choice / 32 % 3);
-  options.separation =
-      choice / 96 % 2 == 1 ? crowd::BodySeparation::hard : crowd::BodySeparation::soft;
+  options.separation = choice / 96 % 2 == 1 ? BodySeparation::hard : BodySeparation::soft;
   // The files that corpus inputs refer to.
   folder.write("map.txt", "2\n1 0 0\n1 9 0\n1\n0 1\n");
   folder.write("field.txt", "2 2\n8\n-8 -8\n1 0\n0 1\n1 0\n0 1\n");
