@@ -26,7 +26,7 @@ def shipped():
     folder = ROOT / "scenarios"
     for file in sorted(folder.rglob("*.json")):
         if not file.name.endswith(".job.json") and file.name != "study.json":
-            yield re.sub(r"(\.scenario)?\.json$", "", str(file.relative_to(folder)))
+            yield re.sub(r"(\.scenario|\.blueprint)?\.json$", "", str(file.relative_to(folder)))
 
 
 def crowd_options(scenario, agents):
