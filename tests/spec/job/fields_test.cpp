@@ -40,7 +40,8 @@ TEST(JobFields, EveryPathIsUniqueAndHasTitleAndHelp) {
 
 // Results of the version before the tables for 9 jobs, 8 of them random:
 // tests/spec/job/recorded_jobs.jsonl. Fields that have come since may be there beside the
-// recorded ones; "centre" of guidance is printed by its new name, and "iso" has no default.
+// recorded ones; "centre" of guidance is printed by its new name, "iso" has no default, and the
+// default of the crowd's separation was "soft".
 void expect_holds(const json& found, const json& recorded, const std::string& place) {
   if (recorded.is_object() && found.is_object()) {
     for (const auto& [key, value] : recorded.items()) {
@@ -52,7 +53,7 @@ void expect_holds(const json& found, const json& recorded, const std::string& pl
     for (std::size_t i = 0; i < recorded.size(); ++i) {
       expect_holds(found[i], recorded[i], place + "/" + std::to_string(i));
     }
-  } else {
+  } else if (!(place.ends_with("/crowd/separation") && found == "auto")) {
     EXPECT_EQ(found, recorded) << place;
   }
 }

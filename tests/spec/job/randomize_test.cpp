@@ -58,6 +58,7 @@ json two_values(const std::string& path) {
                                                {"drones.0.camera.hfov_deg", {50, 60}},
                                                {"drones.0.start.2", {12, 15}},
                                                {"crowd.separation", {"soft", "hard"}},
+                                               {"crowd.constants", {"best", "posterior"}},
                                                {"quality", {"draft", "high"}}};
   const auto found = special.find(path);
   if (found != special.end()) return found->second;
