@@ -196,16 +196,17 @@ Vector<Float> turned_left(const Vector<Float>& from, const Float& angle) {
 template <typename Float>
 Vector<Float> calmly_turned(const Vector<Float>& from, const Vector<Float>& to,
                             const Vector<Float>& velocity, const Float& max_turn_rad, float dt_s) {
-  constexpr float kLagS = 0.6F;
+  constexpr float kStandingLagS = 0.6F;
+  constexpr float kWalkingLagS = 0.1F;
   constexpr float kStandingTurn = 0.25F;  // rad/s
-  constexpr float kWalkingTurn = 6.3F;    // rad/s
+  constexpr float kWalkingTurn = 9;       // rad/s
   constexpr float kWalkingMps = 1.0F;     // at which people turn as fast as they can
-  const Float angle = angle_rad<Float>({dot(from, to), from.x * to.y - from.y * to.x}) *
-                      std::min(1.0F, dt_s / kLagS);
+  const Float wanted = angle_rad<Float>({dot(from, to), from.x * to.y - from.y * to.x});
   const Float square = dot(velocity, velocity) / (kWalkingMps * kWalkingMps);
-  const Float rate =
-      kStandingTurn + (kWalkingTurn - kStandingTurn) * (square < 1 ? square : Float{} + 1);
-  const Float able = rate * dt_s;
+  const Float walks = square < 1 ? square : Float{} + 1;
+  const Float part = dt_s * (1 / kStandingLagS + (1 / kWalkingLagS - 1 / kStandingLagS) * walks);
+  const Float angle = wanted * (part < 1 ? part : Float{} + 1);
+  const Float able = dt_s * (kStandingTurn + (kWalkingTurn - kStandingTurn) * walks);
   const Float limit = able < max_turn_rad ? able : max_turn_rad;
   return turned_left(from, angle > limit ? limit : (angle < -limit ? -limit : angle));
 }

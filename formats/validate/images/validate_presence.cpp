@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "formats/dataset/image_camera.h"
 #include "formats/validate/run_checks.h"
@@ -30,8 +31,13 @@ void check_between(const Image& before, const Image& image, const Image& after,
     const auto seen = camera.project(middle);
     if (!seen.visible || !(seen.depth_m > 1)) continue;
     const Vector2d at = seen.pixel.array() + 0.5;
-    // They may have made a detour.
-    const double away_m = 0.3 + 0.25 * (then.box_middle - later->box_middle).norm();
+    // They may have made a detour, or turned back in between: as far as they get at their speeds.
+    const double half_m = 0.5 * (then.box_middle - later->box_middle).norm();
+    const double walked_m = 0.5 * (after.time_s - before.time_s) *
+                            std::max(then.velocity.norm(), later->velocity.norm());
+    const double turned_m = std::sqrt(std::max(0.0, walked_m * walked_m - half_m * half_m));
+    const bool turns = then.velocity.dot(later->velocity) < 0;
+    const double away_m = std::max(0.3 + 0.5 * half_m, turns ? turned_m : 0.0);
     const double margin_px = 4 + away_m * image.camera_matrix(0, 0) / seen.depth_m;
     const auto hidden =
         std::find_if(image.hidden.begin(), image.hidden.end(),
