@@ -197,10 +197,10 @@ template <typename Float>
 Vector<Float> calmly_turned(const Vector<Float>& from, const Vector<Float>& to,
                             const Vector<Float>& velocity, const Float& max_turn_rad, float dt_s) {
   constexpr float kStandingLagS = 0.6F;
-  constexpr float kWalkingLagS = 0.1F;
+  constexpr float kWalkingLagS = 0.15F;
   constexpr float kStandingTurn = 0.25F;  // rad/s
   constexpr float kWalkingTurn = 9;       // rad/s
-  constexpr float kWalkingMps = 1.0F;     // at which people turn as fast as they can
+  constexpr float kWalkingMps = 1.2F;     // at which people turn as fast as they can
   const Float wanted = angle_rad<Float>({dot(from, to), from.x * to.y - from.y * to.x});
   const Float square = dot(velocity, velocity) / (kWalkingMps * kWalkingMps);
   const Float walks = square < 1 ? square : Float{} + 1;
