@@ -22,7 +22,6 @@ struct Crowd {
   /// Resources that several elements of the files share, e.g. a mesh; loaders of elements add them.
   std::shared_ptr<SharedParts> parts = std::make_shared<SharedParts>();
   std::shared_ptr<const Elevation> elevation;  ///< null: level ground
-  ConstantsChoice constants = ConstantsChoice::best;
   std::vector<float> model_constants;  ///< set in the scene, in the order of ModelEntry::constants
   std::vector<std::string_view> model_parameter_names;  ///< names of Agents::model_parameters
   Compat compat = Compat::none;

@@ -50,7 +50,6 @@ Scene load_scene(const Element& experiment, const std::vector<std::string>& stat
                  const ModelEntry& model, MengeSequences& sequences, Crowd& crowd) {
   const Attributes root_attributes(experiment,
                                    {optional(text("version", "of the format: 2.0"), "2.0")});
-  crowd.model_constants = chosen_constants(model, crowd.constants, crowd.seed);
   for (const ModelParameter& parameter : model.parameters) {
     crowd.model_parameter_names.push_back(parameter.name);
   }

@@ -24,8 +24,9 @@ struct Scene {
 /// Returns the attributes of <SpatialQuery>.
 AttributeTable spatial_query_attributes();
 
-/// Reads an <Experiment> into `crowd`, whose seed and compat must be set: time step, obstacles, and
-/// agents with their properties, positions and initial states. Throws InputError.
+/// Reads an <Experiment> into `crowd`, whose seed, compat and constants of the model must be set:
+/// time step, obstacles, and agents with their properties, positions and initial states. Throws
+/// InputError.
 Scene load_scene(const Element& experiment, const std::vector<std::string>& state_names,
                  const ModelEntry& model, MengeSequences& sequences, Crowd& crowd);
 

@@ -56,7 +56,7 @@ Simulation::State::State(const SceneDescription& scene_description,
   }
   crowd.compat = options.compat;
   crowd.compliance = options.compliance;
-  crowd.constants = options.constants;
+  crowd.model_constants = chosen_constants(entry, options.constants, options.seed);
   crowd.seed = options.seed;
   MengeSequences sequences(options.compat, options.seed);
   Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);

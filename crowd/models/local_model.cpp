@@ -82,6 +82,14 @@ bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
   return geometry::cross(segments[wall.next].direction, p - wall.end) < 0;
 }
 
+float known_reach_sq(const Crowd& crowd, const AgentView& around, float reach_m) {
+  const Agents& agents = crowd.agents;
+  const float reach = std::min(reach_m, agents[Property::neighbor_dist][around.agent]);
+  const auto limit = static_cast<std::size_t>(agents[Property::max_neighbors][around.agent]);
+  const bool sees_all = around.neighbors.empty() || around.neighbors.size() < limit;
+  return sees_all ? reach * reach : std::min(reach * reach, around.neighbors.back().distance_sq);
+}
+
 void LocalModel::step(const Crowd& crowd, const Grid& grid,
                       std::span<Eigen::Vector2f> new_velocity) {
   prepare();

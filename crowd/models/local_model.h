@@ -62,6 +62,10 @@ struct BodyOffset {
 bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
                       const Eigen::Vector2f& p);
 
+/// Returns the square of the distance (m^2) up to which the agent knows all others: `reach_m`, its
+/// range, or the distance of its last neighbor if it sees as many as it can.
+float known_reach_sq(const Crowd& crowd, const AgentView& around, float reach_m);
+
 /// Calls act(wall) for the walls around an agent, nearest first, and for each shared corner once.
 template <typename Act>
 void for_each_wall(const Crowd& crowd, const Grid& grid, const AgentView& around, const Act& act) {

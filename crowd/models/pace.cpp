@@ -13,12 +13,7 @@ Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& aro
   View view;
   view.direction = crowd.agents.preferred_direction[id];
   view.free_speed = crowd.agents[Property::pref_speed][id];
-  const float reach = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
-  view.reach_sq = reach * reach;
-  const auto max_neighbors = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
-  if (!around.neighbors.empty() && around.neighbors.size() == max_neighbors) {
-    view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
-  }
+  view.reach_sq = known_reach_sq(crowd, around, spec_.reach_m);
   const float file = around.walls.empty() ? 0
                                           : singleness(crowd, grid, around,
                                                        {kOneRadii * grid.radius(around.slot),

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/geometry/polygon.h"
@@ -147,12 +146,8 @@ class TimeToCollision : public Model {
   void add(const Crowd& crowd, const Grid& grid, const AgentView& around, Workspace& work) {
     const Agents& agents = crowd.agents;
     const std::size_t id = around.agent;
-    float reach_sq = constants_.reach_m * constants_.reach_m;
-    const auto limit = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
-    if (!around.neighbors.empty() && around.neighbors.size() == limit) {
-      reach_sq = std::min(reach_sq, around.neighbors.back().distance_sq);
-    }
-    reach_sq = std::max(reach_sq, 0.01F);
+    constexpr float kMinReachSq = 0.01F;  // m^2: people at one position have no density
+    const float reach_sq = std::max(kMinReachSq, known_reach_sq(crowd, around, constants_.reach_m));
     const float free_mps = agents[Property::pref_speed][id];
     work.batch.add({around.slot, around.neighbors, reach_sq, free_mps, agents.preferred_speed[id],
                     file_share(crowd, grid, around, free_mps), perceived_[id]});

@@ -125,94 +125,141 @@ struct TtcKernel {
     return greater(fall, jam);
   }
 
+  /// A neighbor of each agent.
+  template <int kWidth>
+  struct Other {
+    DiscLanes<FloatOf<kWidth>> disc;
+    FloatOf<kWidth> x;  // offset from the agent, m
+    FloatOf<kWidth> y;
+    FloatOf<kWidth> distance_sq;  // m^2
+    FloatOf<kWidth> cosine;       // between the directions of both
+    FloatOf<kWidth> walks;        // 1: wants to go; 0: stands
+    typename Vectors<kWidth>::Int there;
+  };
+
+  /// Sums over the neighbors, weighted by the kernel of the density.
+  template <int kWidth>
+  struct Sums {
+    FloatOf<kWidth> near{};  // without the direction
+    FloatOf<kWidth> aligned{};
+    FloatOf<kWidth> all{};
+    FloatOf<kWidth> same{};
+    FloatOf<kWidth> left{};
+    FloatOf<kWidth> oncoming{};
+    FloatOf<kWidth> opposed{};
+  };
+
   /// Fills the rows of the batch and computes densities.
   template <int kWidth>
   static Self<kWidth> look(const TtcBatch::Setting& setting, std::size_t first, TtcBatch& batch) {
     using Float = FloatOf<kWidth>;
     const LaneBatch& agents = batch.agents_;
-    const TtcConstants& c = setting.constants;
     Self<kWidth> self;
     self.disc = discs_in<kWidth>(setting.grid, &agents.slots()[first]);
     Float walks;
     intents_in<kWidth>(setting, &agents.slots()[first], self.direction_x, self.direction_y, walks);
     self.count = load<kWidth>(&agents.neighbors()[first]);
     const Float reach_sq = load<kWidth>(&batch.reach_sq_[first]);
-    Float weights{};
-    Float aligned{};
-    Float all{};
-    Float same{};
-    Float oncoming{};
-    Float opposed{};
-    Float left{};
+    Sums<kWidth> sums;
     for (std::size_t i = 0; i < agents.rows(); ++i) {
-      const auto there = self.count > static_cast<float>(i);
-      const LaneBatch::Slots slots = agents.row(i);
-      const auto other = discs_in<kWidth>(setting.grid, &slots[first]);
-      Float other_x;
-      Float other_y;
-      Float other_walks;
-      intents_in<kWidth>(setting, &slots[first], other_x, other_y, other_walks);
-      Float x = other.x - self.disc.x;
-      Float y = other.y - self.disc.y;
-      Float distance_sq = x * x + y * y;
-      const auto together = there & (distance_sq < kSamePosition * kSamePosition);
-      if (any(together))
-        part<kWidth>(setting, &agents.slots()[first], &slots[first], together, x, y);
-      const Float cosine = self.direction_x * other_x + self.direction_y * other_y;
-      const Float alongside = clamped<Float>(2 * cosine - 1, 0, 1);
-      TtcBatch::Row& row = batch.rows_[i];
-      store(x, &row.x[first]);
-      store(y, &row.y[first]);
-      store(other.vx, &row.vx[first]);
-      store(other.vy, &row.vy[first]);
-      const Float touch = self.disc.radius + other.radius;
-      store(touch, &row.touch[first]);
-      store((1 - cosine) / 2, &row.against[first]);
-      store(1 - (1 - c.alongside_share) * alongside, &row.weight[first]);
-      // The expected place of the other; those who come towards the agent are gone by then.
-      const Float with = (1 + cosine) / 2;
-      const Float foresight = c.foresight_s * with;
-      const Float soon_x = x + foresight * (other.vx - self.disc.vx);
-      const Float soon_y = y + foresight * (other.vy - self.disc.vy);
-      const Float soon_sq = soon_x * soon_x + soon_y * soon_y;
-      const Float near = there & (soon_sq < reach_sq) ? reach_sq - soon_sq : Float{};
-      const Float inverse = 1 / square_root<kWidth>(greater(soon_sq, Float{} + 1e-12F));
-      const Float along = (self.direction_x * soon_x + self.direction_y * soon_y) * inverse;
-      const Float aside = (self.direction_x * soon_y - self.direction_y * soon_x) * inverse;
-      const Float lobe = greater((1 + along) / 2, Float{});
-      const Float weight = near * lobe * lobe;
-      weights += near;
-      aligned += near * clamped<Float>(0.5F + 2.5F * cosine, 0, 1);
-      all += weight;
-      // Somebody who stands does not walk the same way.
-      const Float counts = weight * with * other_walks;
-      same += counts;
-      left += counts * aside;
-      const Float against = greater((kOncoming - cosine) / (kOncoming + 1), Float{});
-      const Float around = there & (distance_sq < reach_sq) ? reach_sq - distance_sq : Float{};
-      opposed += around * against * other_walks;
-      const Float ahead = greater((self.direction_x * x + self.direction_y * y) /
-                                      square_root<kWidth>(greater(distance_sq, Float{} + 1e-12F)),
-                                  Float{});
-      oncoming += around * against * ahead;
+      const Other<kWidth> other = look_at<kWidth>(setting, first, i, self, agents);
+      fill_row<kWidth>(setting.constants, first, self, other, batch.rows_[i]);
+      count<kWidth>(setting.constants, self, other, reach_sq, sums);
     }
-    // The kernel (1 - d²/R²) ((1 + cos) / 2)² has the mean 3/8 of its isotropic part.
+    find_densities<kWidth>(setting.constants, first, reach_sq, sums, batch, self);
+    return self;
+  }
+
+  template <int kWidth>
+  static Other<kWidth> look_at(const TtcBatch::Setting& setting, std::size_t first, std::size_t i,
+                               const Self<kWidth>& self, const LaneBatch& agents) {
+    const LaneBatch::Slots slots = agents.row(i);
+    Other<kWidth> other;
+    other.disc = discs_in<kWidth>(setting.grid, &slots[first]);
+    FloatOf<kWidth> direction_x;
+    FloatOf<kWidth> direction_y;
+    intents_in<kWidth>(setting, &slots[first], direction_x, direction_y, other.walks);
+    other.there = self.count > static_cast<float>(i);
+    other.x = other.disc.x - self.disc.x;
+    other.y = other.disc.y - self.disc.y;
+    other.distance_sq = other.x * other.x + other.y * other.y;
+    other.cosine = self.direction_x * direction_x + self.direction_y * direction_y;
+    const auto together = other.there & (other.distance_sq < kSamePosition * kSamePosition);
+    if (any(together)) {
+      part<kWidth>(setting, &agents.slots()[first], &slots[first], together, other.x, other.y);
+    }
+    return other;
+  }
+
+  template <int kWidth>
+  static void fill_row(const TtcConstants& c, std::size_t first, const Self<kWidth>& self,
+                       const Other<kWidth>& other, TtcBatch::Row& row) {
+    using Float = FloatOf<kWidth>;
+    const Float alongside = clamped<Float>(2 * other.cosine - 1, 0, 1);
+    store(other.x, &row.x[first]);
+    store(other.y, &row.y[first]);
+    store(other.disc.vx, &row.vx[first]);
+    store(other.disc.vy, &row.vy[first]);
+    store(self.disc.radius + other.disc.radius, &row.touch[first]);
+    store((1 - other.cosine) / 2, &row.against[first]);
+    store(1 - (1 - c.alongside_share) * alongside, &row.weight[first]);
+  }
+
+  template <int kWidth>
+  static void count(const TtcConstants& c, const Self<kWidth>& self, const Other<kWidth>& other,
+                    FloatOf<kWidth> reach_sq, Sums<kWidth>& sums) {
+    using Float = FloatOf<kWidth>;
+    const Float tiny = Float{} + 1e-12F;
+    // The expected place of the other; those who come towards the agent are gone by then.
+    const Float with = (1 + other.cosine) / 2;
+    const Float foresight = c.foresight_s * with;
+    const Float soon_x = other.x + foresight * (other.disc.vx - self.disc.vx);
+    const Float soon_y = other.y + foresight * (other.disc.vy - self.disc.vy);
+    const Float soon_sq = soon_x * soon_x + soon_y * soon_y;
+    const Float near = other.there & (soon_sq < reach_sq) ? reach_sq - soon_sq : Float{};
+    const Float inverse = 1 / square_root<kWidth>(greater(soon_sq, tiny));
+    const Float along = (self.direction_x * soon_x + self.direction_y * soon_y) * inverse;
+    const Float aside = (self.direction_x * soon_y - self.direction_y * soon_x) * inverse;
+    const Float lobe = greater((1 + along) / 2, Float{});
+    const Float weight = near * lobe * lobe;
+    // People who stand do not walk the same way.
+    const Float counts = weight * with * other.walks;
+    sums.near += near;
+    sums.aligned += near * clamped<Float>(0.5F + 2.5F * other.cosine, 0, 1);
+    sums.all += weight;
+    sums.same += counts;
+    sums.left += counts * aside;
+    const Float against = greater((kOncoming - other.cosine) / (kOncoming + 1), Float{});
+    const Float around =
+        other.there & (other.distance_sq < reach_sq) ? reach_sq - other.distance_sq : Float{};
+    sums.opposed += around * against * other.walks;
+    const Float ahead = greater((self.direction_x * other.x + self.direction_y * other.y) /
+                                    square_root<kWidth>(greater(other.distance_sq, tiny)),
+                                Float{});
+    sums.oncoming += around * against * ahead;
+  }
+
+  template <int kWidth>
+  static void find_densities(const TtcConstants& c, std::size_t first, FloatOf<kWidth> reach_sq,
+                             const Sums<kWidth>& sums, const TtcBatch& batch, Self<kWidth>& self) {
+    using Float = FloatOf<kWidth>;
+    constexpr float kPi = std::numbers::pi_v<float>;
     const Float square = reach_sq * reach_sq;
-    const Float open_unit = (16 / (3 * std::numbers::pi_v<float>)) / square;
+    // The kernel (1 - d²/R²) ((1 + cos) / 2)² has the mean 3/8 of its isotropic part.
+    const Float open_unit = (16 / (3 * kPi)) / square;
     Float free_left{};
     const Float unit = open_unit / free_shares<kWidth>(first, self, reach_sq, batch, free_left);
     // In crossing and opposite flows gaps open and close: the diagram is one of people who walk
     // the same way.
-    const Float order = aligned / greater(weights, Float{} + 1e-6F);
-    self.same = order * order * same * unit;
-    self.left = left * open_unit - same * unit * free_left;
-    self.others = greater(all * unit - self.same, Float{});
+    const Float order = sums.aligned / greater(sums.near, Float{} + 1e-6F);
+    self.same = order * order * sums.same * unit;
+    self.left = sums.left * open_unit - sums.same * unit * free_left;
+    self.others = greater(sums.all * unit - self.same, Float{});
     // Nobody keeps a distance in a dense crowd.
-    const Float around = weights * (2 / std::numbers::pi_v<float>) / square;
+    const Float around = sums.near * (2 / kPi) / square;
     self.clearance = c.clearance_m * greater(1 - around / kDense, Float{});
-    self.oncoming = oncoming * 2 / square;
-    self.opposed = opposed * (2 / std::numbers::pi_v<float>) / square;
-    return self;
+    self.oncoming = sums.oncoming * 2 / square;
+    self.opposed = sums.opposed * (2 / kPi) / square;
   }
 
   template <int kWidth>
@@ -320,15 +367,15 @@ struct TtcKernel {
                         const Self<kWidth>& self, FloatOf<kWidth> speed, TtcBatch& batch) {
     using Float = FloatOf<kWidth>;
     const TtcConstants& c = setting.constants;
-    // Turned right by those who come towards one (turned_right() in oncoming.h).
-    // People spread to where it is less crowded.
+    // People spread to the less crowded side, and keep right of those who come towards them.
     const Float aside =
         clamped<Float>(c.spread_m2 * self.left / 2, -c.max_spread / 2, c.max_spread / 2);
     const Float t = smaller(c.keep_right_m2 * self.oncoming / 2 + aside, Float{} + kMaxHalfTurn);
-    const Float turn_cos = (1 - t * t) / (1 + t * t);
-    const Float turn_sin = 2 * t / (1 + t * t);
-    const Float wish_x = speed * (turn_cos * self.direction_x + turn_sin * self.direction_y);
-    const Float wish_y = speed * (turn_cos * self.direction_y - turn_sin * self.direction_x);
+    Float wish_x = self.direction_x;
+    Float wish_y = self.direction_y;
+    turn_right(t, wish_x, wish_y);
+    wish_x *= speed;
+    wish_y *= speed;
     const Float max_back = kStepBack * self.others;
     const int steps = std::max(1, static_cast<int>(std::lround(setting.dt_s / kStepS)));
     const float step_s = setting.dt_s / static_cast<float>(steps);

@@ -183,7 +183,7 @@ unsigned which(Int8 mask) { return movemask(mask); }
 template <typename Float>
 Vector<Float> turned_left(const Vector<Float>& from, const Float& angle) {
   const Float z = angle * angle;
-  // Taylor's polynomials, within 5e-4; the length is mended below.
+  // Taylor's polynomials, within 5e-4; the result is normalized.
   const Float sine =
       angle * (1 + z * (z * (1.0F / 120 + z * (z * (1.0F / 362880) - 1.0F / 5040)) - 1.0F / 6));
   const Float cosine = 1 + z * (z * (1.0F / 24 + z * (z * (1.0F / 40320) - 1.0F / 720)) - 0.5F);

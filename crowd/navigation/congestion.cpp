@@ -7,7 +7,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kSlow = 0.6F;      // of the preferred speed: who is faster does not queue
+constexpr float kSlow = 0.6F;      // of the preferred speed: faster people do not queue
 constexpr float kSlowest = 0.05F;  // of the preferred speed
 
 }  // namespace
@@ -66,7 +66,7 @@ void Congestion::count(const Agents& agents) {
   }
   for (Cell& cell : cells_) {
     if (cell.slowness <= 0) continue;
-    // Somebody alone who is slow is in nobody's way.
+    // A slow person alone is in nobody's way.
     cell.slowness *= std::min(1.0F, (cell.people - 1) / 2) / cell.people;
     if (cell.slowness > 0) ++slow_cells_;
   }

@@ -44,7 +44,7 @@ class Congestion {
   float cell_m_ = 1;
   int columns_ = 0;
   int rows_ = 0;
-  Box slow_;  // of all who are slow
+  Box slow_;  // around all slow people
   std::size_t slow_cells_ = 0;
   std::vector<Cell> cells_;
 };

@@ -16,11 +16,10 @@ enum class WatchedScene : std::uint8_t {
 };
 
 struct CalmRun {
-  /// Turns of the heading by more than 90° from the way, per person and minute; those of people
-  /// who have just got another goal do not count.
+  /// Turns of the heading by more than 90° from the preferred direction, per person and minute;
+  /// those within 3 s of another goal do not count.
   double turns = 0;
-  /// Root mean square of the rate at which people turn who are slower than 0.2 m/s, in °/s; 0 if
-  /// nobody is.
+  /// Root mean square of the turning rate of people slower than 0.2 m/s, in °/s; 0 without any.
   double slow_yaw_rate_deg_s = 0;
   double overlap_m = 0;  ///< deepest overlap of two bodies from the first step on
 };

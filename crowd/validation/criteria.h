@@ -105,7 +105,7 @@ Verdict corner_flow(const std::vector<CornerFlow>& flows);
 /// The two do not touch, start to evade at least 2 s before they meet, and accelerate by at most 1
 /// m/s^2.
 Verdict evasion(const MeetingRun& run);
-/// In each scene: people turn less than once per minute, who are slow turn at less than 30°/s, and
+/// In each scene, people turn less than once per minute, slow people turn at less than 30°/s, and
 /// bodies overlap by at most 2 cm.
 Verdict calm(const std::vector<CalmRun>& runs);
 /// Greatest flows of corridors of several widths (1/(m s)): the greatest is at most 10 % above the

@@ -87,11 +87,10 @@ double mean_ring_speed(crowd::Simulation& crowd, double from_s, double until_s) 
   return sum / static_cast<double>(samples);
 }
 
-DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed) {
-  Ring spec;
-  const double area = 2 * M_PI * spec.radius_m * spec.width_m;
-  spec.people = static_cast<std::size_t>(std::lround(density * area));
-  crowd::Simulation crowd = load(ring(spec), tested, seed);
+DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed, Ring corridor) {
+  const double area = 2 * M_PI * corridor.radius_m * corridor.width_m;
+  corridor.people = static_cast<std::size_t>(std::lround(density * area));
+  crowd::Simulation crowd = load(ring(corridor), tested, seed);
   return {density, mean_ring_speed(crowd, 20, 50)};
 }
 

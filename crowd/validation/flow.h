@@ -29,9 +29,10 @@ Scene ring(const Ring& spec);
 /// Mean speed along a ring around the origin between two times (m/s).
 double mean_ring_speed(crowd::Simulation& crowd, double from_s, double until_s);
 
-/// Returns the mean speed from 20 to 50 s of people in a ring of 3 m width and 12.5 m mean radius
-/// at a density (1/m^2).
-DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed);
+/// Returns the mean speed from 20 to 50 s of people in a ring at a density (1/m^2), which sets
+/// their number.
+DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t seed,
+                          Ring corridor = {});
 
 /// A room of 10 m x 10 m with a door in the middle of a wall.
 struct Bottleneck {

@@ -1,6 +1,5 @@
 // IMO's exit, and tests of our own: how people move where no standard asks.
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "crowd/validation/calm.h"
@@ -96,12 +95,8 @@ Verdict same_capacity(const Tested& tested, Effort effort) {
     double capacity = 0;
     for (const double density : {1.1, 1.4, 1.7, 2.0}) {
       if (effort == Effort::reduced && density != 1.4) continue;
-      Ring corridor;
-      corridor.width_m = width_m;
-      const double area = 2 * M_PI * corridor.radius_m * width_m;
-      corridor.people = static_cast<std::size_t>(std::lround(density * area));
-      crowd::Simulation crowd = load(ring(corridor), tested, 1);
-      capacity = std::max(capacity, density * mean_ring_speed(crowd, 20, 50));
+      const DensitySpeed walk = walk_in_ring(tested, density, 1, {.width_m = width_m});
+      capacity = std::max(capacity, density * walk.speed_mps);
     }
     capacities.push_back(capacity);
   }
@@ -141,9 +136,9 @@ std::vector<Test> walking_tests() {
        "ours: they do not touch; begins 2 s before they meet, at most 1 m/s²", evasion},
       {"calm", "Calm",
        "the queue below, the open squares, the counter-flow: the worst of each from 20 to 60 s",
-       "ours: less than one turn by more than 90° per person and minute; who is slower than 0.2 "
+       "ours: less than one turn by more than 90° per person and minute; people slower than 0.2 "
        "m/s "
-       "turns at less than 30°/s (root mean square); bodies never overlap by more than 2 cm",
+       "turn at less than 30°/s (root mean square); bodies never overlap by more than 2 cm",
        calm},
       {"queue", "Queue", "150 people before a door of 0.8 m, from 20 to 60 s",
        "ours: less than one turn of the heading by more than 90° per person and minute", queue},

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -67,11 +66,6 @@ double normal_p(const std::vector<int>& ranks, double w_plus) {
 
 }  // namespace
 
-double mean(const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed) {
   if (values.empty()) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -88,21 +82,6 @@ Interval bootstrap_mean(const std::vector<double>& values, double confidence, st
   }
   const double tail = 0.5 * (1 - confidence);
   return {quantile(means, tail), quantile(means, 1 - tail)};
-}
-
-Interval student_interval(const std::vector<double>& values, double confidence) {
-  if (values.size() < 2) {
-    constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-    return {kNotKnown, kNotKnown};
-  }
-  const double middle = mean(values);
-  double squares = 0;
-  for (const double value : values) squares += (value - middle) * (value - middle);
-  const auto count = static_cast<double>(values.size());
-  const double error = std::sqrt(squares / (count - 1) / count);
-  const double half =
-      error * boost::math::quantile(boost::math::students_t(count - 1), 0.5 + 0.5 * confidence);
-  return {middle - half, middle + half};
 }
 
 Interval quantile_interval(std::vector<double> values, double p, double confidence) {

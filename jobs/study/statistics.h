@@ -4,24 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/compute/mean_interval.h"
 #include "base/compute/quantile.h"
 
 namespace throng::study {
 
-double mean(const std::vector<double>& values);
-
-/// A confidence interval.
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-
 /// Percentile bootstrap interval (Efron 1979) of the mean, from 10 000 resamples that `seed`
 /// determines.
 Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed);
-
-/// Student's t interval of the mean of normally distributed values; NaN for fewer than two values.
-Interval student_interval(const std::vector<double>& values, double confidence);
 
 /// Distribution-free interval of the p-quantile from order statistics (Conover, Practical
 /// Nonparametric Statistics, 3.2). An end is infinite if there are too few values for it.

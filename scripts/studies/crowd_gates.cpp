@@ -5,7 +5,8 @@
 //
 // One line per scene, one column per seed:
 //
-// - fd_DENSITY: specific flow in a ring, 1/(m s)
+// - fd_DENSITY: specific flow in a ring 3 m wide, 1/(m s)
+// - ring_WIDTH_DENSITY: the same in a ring of another width
 // - door_WIDTH: specific flow through a door, 1/(m s)
 // - straight_WIDTH, corner_WIDTH, corner_thin_WIDTH: specific flow out of a corridor that is
 // straight
@@ -54,12 +55,8 @@ void add_flows(std::vector<Gate>& all) {
     for (const double density : {1.1, 1.6, 2.1, 2.9}) {
       all.push_back({fmt::format("ring_{}_{}", width, density),
                      [width, density](const Tested& t, std::uint64_t seed) {
-                       Ring spec;
-                       spec.width_m = width;
-                       spec.people = static_cast<std::size_t>(
-                           std::lround(density * 2 * M_PI * spec.radius_m * width));
-                       crowd::Simulation crowd = load(ring(spec), t, seed);
-                       return Numbers{density * mean_ring_speed(crowd, 20, 50)};
+                       return Numbers{density *
+                                      walk_in_ring(t, density, seed, {.width_m = width}).speed_mps};
                      }});
     }
   }

@@ -9,12 +9,12 @@ FOLDER has recordings (docs/validation.md); FILE.json has the constants: where a
 build/release/scripts/studies/replay_crowd and crowd_gates.
 
 - fit: minimizes the sum of squared errors, each in units of its tolerance, by CMA-ES (Hansen 2016, arXiv:1604.00772).
-  Errors are those of recorded flows, speeds and times (ln of model / people, tolerance 0.1; 0.2 for two directions, whose
-  people had other free speeds, and 0.25 for the speed before a bottleneck, whose area is 0.6 m^2), and distances from the
+  Errors are those of recorded flows, speeds and times (ln of model / people, tolerance 0.1; 0.2 for two directions,
+  whose free speeds are not known, and 0.25 for the speed before a bottleneck, whose area is 0.6 m^2), and distances from the
   limits of the suite's own tests, where no recording says anything.
 - posterior: approximate Bayesian computation by rejection. Constants are drawn around the fit, uniformly within +-SPREAD of
-  each, and kept if the errors of their replay are as small as those of a model that one would still call right: each
-  recorded quantity within 15 % (bottleneck's speed 35 %, two directions' 35 %), 8 % on average, and limits kept.
+  each, and kept if in one replay each recorded quantity is within 15 % (35 % for the speed before a bottleneck and for
+  two directions), 8 % on average, and no limit is missed by more than six tolerances.
 """
 import json
 import math

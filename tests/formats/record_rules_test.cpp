@@ -252,6 +252,19 @@ TEST(PresenceRules, NobodyIsMissingBetweenTwoFrames) {
   EXPECT_TRUE(any_with(presence_findings(images), "hidden-box image 11"));
 }
 
+TEST(PresenceRules, PeopleWhoTurnBackMayHaveLeftTheImage) {
+  std::vector<Image> images = {frame_at(0, -0.4), frame_at(1, 0), frame_at(2, 0.4)};
+  images[1].people.clear();
+  images[0].people[0].velocity = {8, 0};
+  images[2].people[0].velocity = {8, 0};
+  EXPECT_TRUE(any_with(presence_findings(images), "nobody-left-out")) << "they walked on";
+  images[2].people[0].velocity = {-8, 0};
+  EXPECT_THAT(presence_findings(images), ::testing::IsEmpty()) << "4 m away, if fast enough";
+  images[0].people[0].velocity = {0.1, 0};
+  images[2].people[0].velocity = {-0.1, 0};
+  EXPECT_TRUE(any_with(presence_findings(images), "nobody-left-out")) << "not that fast";
+}
+
 TEST(PresenceRules, OnlyConsecutiveFramesOfOneCameraTell) {
   std::vector<Image> images = {frame_at(0, -0.4), frame_at(1, 0), frame_at(2, 0.4)};
   images[1].people.clear();

@@ -1,26 +1,19 @@
 #include "crowd/validation/experiments/comparison.h"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 
+#include "base/compute/mean_interval.h"
 #include "base/compute/run_items.h"
 
 namespace throng::validation {
 
-double Sample::mean() const {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
+double Sample::mean() const { return throng::mean(values); }
 
 double Sample::half_interval() const {
   if (values.size() < 2) return 0;
-  const double middle = mean();
-  double squares = 0;
-  for (const double value : values) squares += (value - middle) * (value - middle);
-  const auto count = static_cast<double>(values.size());
-  const boost::math::students_t spread(count - 1);
-  return boost::math::quantile(spread, 0.975) * std::sqrt(squares / (count - 1) / count);
+  const Interval interval = student_interval(values, 0.95);
+  return 0.5 * (interval.high - interval.low);
 }
 
 namespace {

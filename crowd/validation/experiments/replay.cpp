@@ -201,16 +201,14 @@ Measures Replay::simulate(const Tested& tested, std::uint64_t seed,
 }
 
 Measures Replay::walk_around(const Tested& tested, std::uint64_t seed) const {
+  Ring corridor;
+  corridor.radius_m = loop_.length_m / (2 * std::numbers::pi);
+  corridor.width_m = loop_.width_m;
+  corridor.speed = experiment_.free_speeds.sampled();
   Measures measures;
   for (const DensitySpeed& point : loop_.recorded) {
-    Ring spec;
-    spec.radius_m = loop_.length_m / (2 * std::numbers::pi);
-    spec.width_m = loop_.width_m;
-    spec.people =
-        static_cast<std::size_t>(std::lround(point.density * loop_.length_m * loop_.width_m));
-    spec.speed = experiment_.free_speeds.sampled();
-    crowd::Simulation crowd = load(ring(spec), tested, seed);
-    measures.quantities.push_back(specific_flow({point.density, mean_ring_speed(crowd, 20, 50)}));
+    measures.quantities.push_back(
+        specific_flow(walk_in_ring(tested, point.density, seed, corridor)));
   }
   return measures;
 }

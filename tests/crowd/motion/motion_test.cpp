@@ -114,7 +114,7 @@ TEST(Motion, PeopleWhoStandHardlyTurnAndWalkersTurnSoon) {
     const double rate = (crowd.agents.yaw_rad[0] - before) / 0.1;
     squares += rate * rate;
   }
-  EXPECT_LT(std::sqrt(squares / 40), 30 * std::numbers::pi / 180) << "who stands is calm";
+  EXPECT_LT(std::sqrt(squares / 40), 30 * std::numbers::pi / 180) << "a standing person is calm";
   EXPECT_NEAR(crowd.agents.yaw_rad[1], std::numbers::pi / 2, 0.05);
 }
 

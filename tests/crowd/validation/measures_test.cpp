@@ -241,8 +241,10 @@ TEST(Watch, FindsOverlapsAndCalmWalkers) {
   EXPECT_GT(run.overlap_m, 0.2) << "nobody minds anybody";
   EXPECT_LE(run.overlap_m, 2 * crowd::kAdultRadiusM + 1e-6);
   EXPECT_LT(run.turns, 0.5) << "they walk straight on";
-  const CalmRun twitching = watch({"weidmann"}, WatchedScene::queue, 1);
-  EXPECT_GT(twitching.overlap_m, run.overlap_m - 1);
+  EXPECT_EQ(run.slow_yaw_rate_deg_s, 0) << "nobody slows down";
+  const CalmRun queue = watch({"orca"}, WatchedScene::queue, 1);
+  EXPECT_GT(queue.slow_yaw_rate_deg_s, 0) << "people wait, and turn a little";
+  EXPECT_LT(queue.overlap_m, run.overlap_m);
 }
 
 }  // namespace
