@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "base/compute/parallel.h"
@@ -32,16 +34,29 @@ class Separation {
   struct Body {
     Eigen::Vector2f position;
     Eigen::Vector2f push;  // half of the sum of overlaps, away from the others
-    float clearance = 0;   // distance from walls, m
+    float clearance = 0;   // distance from walls, m; -1: not yet known
     float overlap = 0;     // max overlap, m
     bool stays = false;    // whether it returns to the position before the step
+    int moved_round = 0;   // last round in which it moved
   };
 
+  /// The slots that an agent may touch until somebody has moved by kSlackM / 2.
+  struct Near {
+    static constexpr std::size_t kMany = 12;
+    std::size_t count = 0;  // above kMany: more than fit
+    std::array<std::uint32_t, kMany> slots{};
+  };
+  static constexpr float kSlackM = 0.2F;
+
   void sort(const Crowd& crowd);
+  void find_near();
   /// Computes overlaps and pushes; returns the max overlap.
   float look_around();
   void look_around(std::size_t slot);
+  void add_overlap(std::size_t slot, std::size_t other);
   void push_apart(const Crowd& crowd);
+  float clearance_before_m(const Crowd& crowd, std::size_t slot,
+                           std::vector<Obstacles::Near>& walls) const;
   Eigen::Vector2f kept_off_walls(const Crowd& crowd, std::size_t slot,
                                  const Eigen::Vector2f& wanted,
                                  std::vector<Obstacles::Near>& walls) const;
@@ -49,11 +64,12 @@ class Separation {
   bool send_back();
 
   Grid grid_;        // positions after the step, before corrections
+  int round_ = 0;    // number of times that overlaps were computed in this step
   float drift_ = 0;  // max distance of an agent from that position, m
   float largest_radius_ = 0;
   std::vector<Eigen::Vector2f> before_;  // positions before the step, by agent
-  std::vector<float> clearance_before_;  // by agent
   std::vector<Body> bodies_;
+  std::vector<Near> near_;
   PerThread<std::vector<Obstacles::Near>> walls_;
 };
 
