@@ -20,7 +20,7 @@ job() {
       | .outputs.previews = 1' "$root/scenarios/$1/$file.job.json"
 }
 
-printf '| scenario | variant | people | out after 60 s | simulated and drawn in |\n|---|---|---|---|---|\n'
+printf '| scenario | variant | people | out after 60 s | simulated and rendered in |\n|---|---|---|---|---|\n'
 for scenario in "${scenarios[@]}"; do
   for variant in everyday emergency; do
     out="$folder/${scenario}_$variant"
@@ -28,7 +28,7 @@ for scenario in "${scenarios[@]}"; do
       job "$scenario" "$variant" > "$out.job.json"
       start=$(date +%s.%N)
       "$throng" run "$out.job.json" -o "$out" > "$out.log" 2>&1 || { tail -3 "$out.log"; exit 1; }
-      echo "$(date +%s.%N) - $start" | bc > "$out.seconds"
+      printf '%.0f' "$(echo "$(date +%s.%N) - $start" | bc)" > "$out.seconds"
       "$throng" validate "$out/dataset" > "$out.validation"
     fi
     jq -r --arg scenario "$scenario" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Writes the table of docs/crowd.md between its markers, from build/release/scripts/studies/crowd_gates.
+"""Writes the table of docs/crowd.md between its comments, from build/release/scripts/studies/crowd_gates.
 
 usage: scripts/studies/crowd_figures.py [MODEL ...]    default: ttc weidmann orca
 """
-import os
-import re
+import pathlib
 import subprocess
 import sys
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+from doc_blocks import replace_passage  # noqa: E402
+
 RING = "flow in a ring 3 m wide at {} /m², 1/(m s)"
 ROWS = (
     [(RING.format(density), f"fd_{density}", (0,)) for density in (0.6, 1.1, 1.6, 2.1, 2.9, 4, 6)]
@@ -44,7 +46,7 @@ ROWS = (
 
 
 def measure(model):
-    program = os.path.join(ROOT, "build", "release", "scripts", "studies", "crowd_gates")
+    program = ROOT / "build/release/scripts/studies/crowd_gates"
     lines = subprocess.run([program, model, "seeds=2"], capture_output=True, text=True, check=True).stdout.splitlines()
     found = {}
     for line in lines:
@@ -64,12 +66,8 @@ def main(models):
     table = ["| | " + " | ".join(f"`{model}`" for model in models) + " |", "|---" * (len(models) + 1) + "|"]
     for title, gate, columns in ROWS:
         table.append(f"| {title} | " + " | ".join(cell(figures[model][gate], columns) for model in models) + " |")
-    page = os.path.join(ROOT, "docs", "crowd.md")
-    with open(page) as stream:
-        text = stream.read()
-    new = "<!-- crowd_figures -->\n" + "\n".join(table) + "\n<!-- /crowd_figures -->"
-    with open(page, "w") as stream:
-        stream.write(re.sub(r"<!-- crowd_figures -->.*<!-- /crowd_figures -->", lambda _: new, text, flags=re.S))
+    page = ROOT / "docs/crowd.md"
+    page.write_text(replace_passage(page.read_text(), "crowd figures", table))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+from doc_blocks import replace_passage  # noqa: E402
+
 PAGE = ROOT / "docs/training.md"
 THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
 PRESETS = ("detection", "counting", "tracking", "segmentation", "keypoints", "evacuation_video")
@@ -26,13 +29,6 @@ def run(*command, cwd=ROOT):
     if done.returncode:
         raise SystemExit(f"{command}: {done.stderr}")
     return done.stdout
-
-
-def replaced(text, name, lines):
-    """The page with the lines between two comments of this name replaced."""
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)", re.S)
-    assert pattern.search(text), name
-    return pattern.sub(lambda match: match[1] + "".join(f"{line}\n" for line in lines) + match[2], text)
 
 
 def write_presets():
@@ -109,9 +105,9 @@ def write_scores(folder):
         " | unseen scenario |",
         "|---|---|---|---|---|",
     ]
-    text = replaced(PAGE.read_text(), "facts", [facts])
-    text = replaced(text, "detectors", [*head, *detectors])
-    PAGE.write_text(replaced(text, "counters", [*counter_head, *counters]))
+    text = replace_passage(PAGE.read_text(), "facts", [facts])
+    text = replace_passage(text, "detectors", [*head, *detectors])
+    PAGE.write_text(replace_passage(text, "counters", [*counter_head, *counters]))
 
 
 def main():

@@ -3,17 +3,19 @@
 
 usage: scripts/studies/validation_page.py DATA [-m MODELS] [--seeds N] [--page PAGE] [--throng PROGRAM]
 
-The part stands between two marks in the page; the recordings are not part of the repository.
+The part stands between two comments in the page; the recordings are not part of the repository.
 """
 import argparse
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BEGIN = "<!-- recorded people: scripts/studies/validation_page.py writes this part -->"
-END = "<!-- recorded people: end -->"
+sys.path.insert(0, str(ROOT / "scripts"))
+from doc_blocks import replace_passage  # noqa: E402
+
 FIGURES = ("_curves.svg", "_diagram.svg")
 
 
@@ -32,8 +34,7 @@ def main():
     parser.add_argument("--throng", default=ROOT / "build/release/cli/throng")
     arguments = parser.parse_args()
     page = arguments.page.read_text()
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        parser.error(f"{arguments.page}: expected the lines {BEGIN} and {END}")
+    replace_passage(page, "recorded people", [])  # before an hour of simulations
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder, arguments.page.name)
         command = [arguments.throng, "validate-crowd", "--data", arguments.data, "--seeds", str(arguments.seeds)]
@@ -44,8 +45,7 @@ def main():
             if figure.exists():
                 arguments.page.with_name(figure.name).write_bytes(figure.read_bytes())
         part = generated_part(report.read_text())
-    before, rest = page.split(BEGIN)
-    arguments.page.write_text(f"{before}{BEGIN}\n\n{part}\n{END}{rest.split(END)[1]}")
+    arguments.page.write_text(replace_passage(page, "recorded people", ["", part]))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ one second), and the character library has one character, made of boxes. Port 80
 
 import os
 import pathlib
-import re
 import resource
 import shutil
 import subprocess
@@ -17,11 +16,12 @@ import tempfile
 import unittest
 
 THRONG = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(pathlib.Path(__file__).parent), str(ROOT / "scripts")]
 import doc_fixtures as fixtures  # noqa: E402
+from doc_blocks import read_blocks, save_files  # noqa: E402
 from free_ports import free_port  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake"}
 
@@ -70,9 +70,6 @@ NEEDS = {
     ("docs/service.md", "THRONG_FAULTS"): ["job"],
     ("docs/validation.md", "throng validate-crowd"): ["recordings"],
 }
-
-BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```[ \t]*$", re.M | re.S)
-SAVED = re.compile(r"[Ss]ave this as\s+`([\w./]+)`(?::\s`([^`]+)`)?")
 
 
 def name_of(page):
@@ -142,33 +139,26 @@ class Page:
         return server
 
 
-def save_files(folder, text, next_block):
-    """Files that the text before a block says to save: given in the text, or the block itself."""
-    for name, content in SAVED.findall(text):
-        (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_text(content or next_block)
-
-
 class DocBlocks(unittest.TestCase):
     maxDiff = None
 
     def test_every_block_has_a_language(self):
         found = {
-            name_of(page): {language for language, _ in BLOCK.findall(page.read_text())} - LANGUAGES for page in PAGES
+            name_of(page): {language for _, language, _ in read_blocks(page.read_text())} - LANGUAGES for page in PAGES
         }
         self.assertEqual({page: languages for page, languages in found.items() if languages}, {})
 
     def test_tables_name_blocks_that_exist(self):
         used = set()
         for page in PAGES:
-            for language, block in BLOCK.findall(page.read_text()):
+            for _, language, block in read_blocks(page.read_text()):
                 if language == "sh":
                     used |= {entry(table, page, block)[0] for table in (NOT_RUN, NEEDS)}
         self.assertEqual((set(NOT_RUN) | set(NEEDS)) - used, set())
 
     def test_most_blocks_run(self):
         blocks = [
-            (page, block) for page in PAGES for language, block in BLOCK.findall(page.read_text()) if language == "sh"
+            (page, block) for page in PAGES for _, language, block in read_blocks(page.read_text()) if language == "sh"
         ]
         # Here, or as it stands in the page by another test.
         run = [
@@ -189,27 +179,24 @@ class RunBlocks(unittest.TestCase):
 
     def run_page(self, page):
         text = page.read_text()
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
         with tempfile.TemporaryDirectory() as folder:
             runner = Page(pathlib.Path(folder), self.people)
-            end = 0
-            for match in BLOCK.finditer(text):
-                language, block = match.groups()
-                save_files(runner.folder, text[end : match.start()], block)
-                end = match.end()
+            for before, language, block in read_blocks(text):
+                save_files(runner.folder, before, block)
                 if language != "sh" or entry(NOT_RUN, page, block)[1]:
                     continue
                 wrong = runner.run(block, entry(NEEDS, page, block)[1] or [])
                 self.assertIsNone(wrong, f"{name_of(page)}:\n{block}\n{wrong}")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        spent_s = after.ru_utime + after.ru_stime - used.ru_utime - used.ru_stime
         print(f"{page.name}: {spent_s:.1f} s of CPU time", file=sys.stderr)
 
 
 def runs_blocks(page):
     """Whether any block of the page is run."""
     return any(
-        language == "sh" and not entry(NOT_RUN, page, block)[1] for language, block in BLOCK.findall(page.read_text())
+        language == "sh" and not entry(NOT_RUN, page, block)[1] for _, language, block in read_blocks(page.read_text())
     )
 
 

@@ -68,11 +68,13 @@ std::optional<std::vector<Chord>> closing_lines(ClosedGround& ground) {
   for (std::vector<int> way = ground.way_out(); !way.empty(); way = ground.way_out()) {
     const Cells reached = ground.reached_from(way.front());
     std::vector<Chord> chords = chords_across(way, ground);
-    std::erase_if(chords, [&](const Chord& chord) { return !ground.may_close(chord, reached); });
-    if (chords.empty() || lines.size() == kMaxGaps) return std::nullopt;
-    lines.push_back(*std::min_element(
-        chords.begin(), chords.end(),
-        [](const Chord& a, const Chord& b) { return a.length_m() < b.length_m(); }));
+    std::stable_sort(chords.begin(), chords.end(),
+                     [](const Chord& a, const Chord& b) { return a.length_m() < b.length_m(); });
+    const auto shortest = std::find_if(chords.begin(), chords.end(), [&](const Chord& chord) {
+      return ground.may_close(chord, reached);
+    });
+    if (shortest == chords.end() || lines.size() == kMaxGaps) return std::nullopt;
+    lines.push_back(*shortest);
     ground.close(lines);
   }
   return needed(lines, lines.size(), ground);
