@@ -3,7 +3,7 @@
 
 usage: scripts/studies/evacuation_figures.py
 
-THRONG names another program than build/release/cli/throng. The pictures beside the page need Chromium (Debian: chromium).
+THRONG names another program than build/release/cli/throng. The images beside the page need Chromium (Debian: chromium).
 Half a minute on two idle cores; times are those of this machine, so that nothing else should run.
 """
 import json
@@ -97,8 +97,8 @@ def write_page(folder, spent, summary, other):
     PAGE.write_text(replace_passage(page, "model", [model]))
 
 
-def draw(folder, report, picture, size, figure=None):
-    """A picture of the report's top, or of one of its figures by number."""
+def draw(folder, report, image, size, figure=None):
+    """An image of the report's top, or of one of its figures by number."""
     html = report.read_text()
     if figure is not None:
         html = html.replace('http-equiv="Content-Security-Policy"', 'name="removed"')  # it refuses scripts
@@ -109,7 +109,7 @@ def draw(folder, report, picture, size, figure=None):
     page.write_text(html)
     command = ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
     command += [f"--user-data-dir={folder / 'profile'}", "--virtual-time-budget=10000", "--hide-scrollbars"]
-    command += [f"--window-size={size[0]},{size[1]}", f"--screenshot={picture}", f"file://{page}"]
+    command += [f"--window-size={size[0]},{size[1]}", f"--screenshot={image}", f"file://{page}"]
     subprocess.run(command, check=True, capture_output=True)
 
 
