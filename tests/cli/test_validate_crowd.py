@@ -124,7 +124,7 @@ class ValidateCrowd(unittest.TestCase):
         self.assertEqual(written.count("](validation_curves.svg)"), 1)
         self.assertTrue((self.folder / "validation_diagram.svg").exists())
         self.assertTrue(written.endswith(text[text.index("## Standard tests") :]))
-        self.assertTrue(written.startswith(text[: text.index("<!-- recorded people: s")]))
+        self.assertTrue(written.startswith(text[: text.index("<!-- recorded people -->")]))
 
     def test_mistakes_are_named(self):
         data = ["--data", self.folder, "-m", "orca", "--seeds", 1]
