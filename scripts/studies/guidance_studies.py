@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
-"""Runs the studies of docs/guidance.md, and prints their tables.
+"""Runs the studies of docs/guidance.md; scripts/studies/guidance_page.py writes their figures into the page.
 
-usage: scripts/studies/guidance_studies.py FOLDER [--runs N] [--threads N] [--figure FILE.svg] [STUDY...]
+usage: scripts/studies/guidance_studies.py FOLDER [--runs N] [--threads N] [STUDY...]
 
 Studies (all without a name): square (scenarios/city_square/study.json), baselines (nobody informed or a siren at t = 0,
 without and with three drones, for the crowd models orca and ttc), unseen (another seed, drones lead at 1.6 m/s), camera
 (drones see what their cameras count), compliance (half of the people follow), signage, everyday_square (the four cases of
-city_square). FOLDER has a folder per study; an interrupted one is resumed. --figure draws the escape curves of case 2 of
-the study baselines (docs/guidance_baselines.svg). THRONG names another program than
+city_square). FOLDER has a folder per study; an interrupted one is resumed. THRONG names another program than
 build/release/cli/throng.
+Half an hour on two idle cores.
 """
 import argparse
 import json
-import math
 import os
 import pathlib
 import shutil
@@ -111,97 +110,11 @@ def studies():
     }
 
 
-def p_text(p):
-    """Two digits."""
-    return f"{p:.2g}"
-
-
-def print_rows(summary):
-    """Rows of docs/guidance.md: times are medians, means and differences those to the longer horizon."""
-    print(
-        "| case | policy | T50 | T75 | T90 | T95 | all out | mean escape, s | ratio | difference, s [95 %] | p | p (Holm) "
-        "| T90/reference |"
-    )
-    print("|" + "---|" * 13)
-    for row in summary["rows"]:
-        times = [row["times"][f"t{p}_s"] for p in (50, 75, 90, 95)]
-        cells = [row["case"], row["policy"]]
-        cells += ["never" if time is None or time["median"] is None else f"{time['median']:.0f}" for time in times]
-        mean = row["restricted_means"][-1]
-        cells += [f"{row['all_out']}/{row['runs']}", f"{mean['mean_s']:.1f}"]
-        if row["policy"] == summary["baseline"]:
-            cells += ["", "", "", ""]
-        else:
-            low, high = mean["difference_95_s"]
-            cells += [
-                f"{mean['ratio_to_baseline']:.2f}",
-                f"{mean['difference_s']:+.1f} [{low:+.1f}, {high:+.1f}]",
-                p_text(mean["wilcoxon"]["p"]),
-                p_text(mean["holm_p"]),
-            ]
-        ratio = row["t90_to_reference"]
-        cells.append("" if ratio is None or math.isinf(ratio) else f"{ratio:.2f}")
-        print("| " + " | ".join(cells) + " |")
-
-
-CURVES = [
-    ("orca_ours_2", "none", "nobody informed", "#000000"),
-    ("orca_ours_2", "balance_3", "3 drones", "#009E73"),
-    ("orca_siren_ours_2", "none", "siren", "#0072B2"),
-    ("orca_siren_ours_2", "balance_3", "siren and 3 drones", "#D55E00"),
-]
-END_S = 100
-LEFT, RIGHT, TOP, BOTTOM = 60, 560, 20, 330  # of the axes, pixels
-
-
-def mean_out(folder, case, policy):
-    """Mean number of people who are out at each second, over the runs."""
-    runs = [json.loads(file.read_text())["outcome"]["escapes"] for file in (folder / "runs" / case / policy).iterdir()]
-    return [sum(time <= second for run in runs for time in run["escape_s"]) / len(runs) for second in range(END_S + 1)]
-
-
-def figure(folder):
-    """Escape curves of CURVES as SVG."""
-    curves = [mean_out(folder, case, policy) for case, policy, _, _ in CURVES]
-    most = 20 * math.ceil(max(map(max, curves)) / 20)
-
-    def x(second):
-        return LEFT + (RIGHT - LEFT) * second / END_S
-
-    def y(count):
-        return BOTTOM - (BOTTOM - TOP) * count / most
-
-    parts = [
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 720 380" font-family="sans-serif" font-size="12">',
-        '<rect width="720" height="380" fill="white"/>',
-    ]
-    for count in range(0, most + 1, 20):
-        parts.append(
-            f'<line x1="{LEFT}" x2="{RIGHT}" y1="{y(count):.1f}" y2="{y(count):.1f}" stroke="#ddd"/>'
-            f'<text x="{LEFT - 6}" y="{y(count) + 4:.1f}" text-anchor="end">{count}</text>'
-        )
-    for second in range(0, END_S + 1, 20):
-        parts.append(f'<text x="{x(second):.1f}" y="{BOTTOM + 18}" text-anchor="middle">{second}</text>')
-    parts.append(
-        f'<text x="{x(END_S / 2):.1f}" y="{BOTTOM + 38}" text-anchor="middle">time since the alarm, s</text>'
-        f'<text transform="translate(18 {y(most / 2):.1f}) rotate(-90)" text-anchor="middle">people out</text>'
-    )
-    for row, (curve, (_, _, title, color)) in enumerate(zip(curves, CURVES)):
-        points = " ".join(f"{x(second):.1f},{y(count):.1f}" for second, count in enumerate(curve))
-        parts.append(
-            f'<polyline fill="none" stroke="{color}" stroke-width="2" points="{points}"/>'
-            f'<line x1="{RIGHT + 10}" x2="{RIGHT + 30}" y1="{40 + 20 * row}" y2="{40 + 20 * row}" stroke="{color}" '
-            f'stroke-width="2"/><text x="{RIGHT + 36}" y="{44 + 20 * row}">{title}</text>'
-        )
-    return "\n".join(parts) + "\n</svg>\n"
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0)
-    parser.add_argument("--figure", type=pathlib.Path)
     parser.add_argument("study", nargs="*")
     options = parser.parse_intermixed_args()
     scenarios = options.folder.resolve() / "scenarios"
@@ -228,10 +141,6 @@ def main():
             stdout=subprocess.DEVNULL,
             env={**os.environ, "THRONG_SCENARIOS": str(scenarios)},
         )
-        print(f"\n{name}\n", flush=True)
-        print_rows(json.loads((options.folder / name / "summary.json").read_text()))
-    if options.figure:
-        options.figure.write_text(figure(options.folder / "baselines"))
 
 
 if __name__ == "__main__":
