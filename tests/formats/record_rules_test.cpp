@@ -253,7 +253,8 @@ TEST(PresenceRules, NobodyIsMissingBetweenTwoFrames) {
 }
 
 TEST(PresenceRules, PeopleWhoTurnBackMayHaveLeftTheImage) {
-  std::vector<Image> images = {frame_at(0, -0.4), frame_at(1, 0), frame_at(2, 0.4)};
+  // At 20 m, 10 pixels from the left edge, which are 4 m.
+  std::vector<Image> images = {frame_at(0, -16.4), frame_at(1, -16), frame_at(2, -15.6)};
   images[1].people.clear();
   images[0].people[0].velocity = {8, 0};
   images[2].people[0].velocity = {8, 0};
