@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "base/geometry/angle.h"
 #include "sim/vehicle/quadcopter.h"
 #include "spec/sim/airframe.h"
 
@@ -17,18 +16,12 @@ struct Setpoint {
   double yaw_rad = 0;
 };
 
-/// Max speeds at which a vehicle corrects a position error, and its max tilt.
-struct FlightLimits {
-  double horizontal_mps = 5;
-  double vertical_mps = 2;
-  double tilt_rad = 35 * kDegree;
-};
-
 /// A cascaded controller: position -> velocity (P) -> acceleration (PI) -> attitude and thrust ->
-/// angular acceleration (PD on SO(3), attitude error by Lee et al. 2010) -> rotor speeds (X mixer).
+/// angular acceleration (attitude error on SO(3) by Lee et al. 2010) -> rotor speeds (the inverse
+/// of what the rotors' thrusts amount to). Gains and limits are those of the airframe's autopilot.
 class Controller {
  public:
-  explicit Controller(Airframe airframe, FlightLimits limits = {});
+  explicit Controller(Airframe airframe);
 
   /// Returns the rotor speeds (rad/s) to command for the next `dt_s`.
   PerRotor update(const FlightState& state, const Setpoint& setpoint, double dt_s);
@@ -42,11 +35,14 @@ class Controller {
 
  private:
   Eigen::Vector3d wanted_force(const FlightState& state, const Setpoint& setpoint, double dt_s);
+  void add_to_integral(const Eigen::Vector3d& velocity_error, bool horizontal, bool vertical,
+                       double dt_s);
   Eigen::Vector3d wanted_torque(const FlightState& state, const Eigen::Vector3d& force,
                                 double yaw_rad) const;
 
   Airframe airframe_;
-  FlightLimits limits_;
+  Eigen::Matrix4d
+      thrusts_;  ///< of the rotors for thrust and torques, the inverse of rotor_mixing()
   Eigen::Vector3d integral_ = Eigen::Vector3d::Zero();  ///< m/s²
   bool tilt_saturated_ = false;
 };

@@ -23,10 +23,11 @@ void list_airframes(const std::vector<sim::Airframe>& frames) {
   fmt::print("{:<14}{:>8}{:>10}{:>10}{:>11}{:>10}{:>9}\n", "airframe", "mass kg", "width m",
              "thrust/w", "speed m/s", "hover W", "minutes");
   for (const sim::Airframe& frame : frames) {
-    fmt::print("{:<14}{:>8.3f}{:>10.2f}{:>10.2f}{:>11.1f}{:>10.0f}{:>9.1f}\n", frame.name,
+    const double minutes = sim::hover_endurance_s(frame) / kSecondsPerMinute;
+    fmt::print("{:<14}{:>8.3f}{:>10.2f}{:>10.2f}{:>11.1f}{:>10.0f}{:>9}\n", frame.name,
                frame.mass_kg, 2 * frame.radius_m(), frame.max_thrust_n() / frame.weight_n(),
                frame.top_speed_mps(), sim::hover_power_w(frame),
-               sim::hover_endurance_s(frame) / kSecondsPerMinute);
+               minutes > 0 ? fmt::format("{:.1f}", minutes) : "-");
   }
 }
 

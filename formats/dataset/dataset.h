@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "base/error.h"
 #include "spec/annotate/ground_truth.h"
 #include "spec/formats/options.h"
+#include "spec/sim/sensor_noise.h"
 
 namespace throng::formats {
 
@@ -110,6 +112,8 @@ struct DatasetInfo {
   std::vector<double> field_cells_m;  ///< additional cell sizes of ground fields
   nlohmann::json count_areas = nlohmann::json::object();  ///< the job's outputs.counts
   std::string scenario;                                   ///< its id; "" for several scenarios
+  /// Errors of the drones' sensors, by drone; those of datasets that were merged may be unknown.
+  std::map<std::string, sim::SensorNoise> sensors;
   std::int64_t frames_per_camera = 0;
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has

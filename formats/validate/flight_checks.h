@@ -37,12 +37,13 @@ bool may_have_touched(const DatasetInfo& info, const std::string& run, const std
 
 /// Describes a reading beyond six standard deviations of the sensors' errors; "" if there is none.
 /// Readings are at most `age_s` older than the true state, the GPS fix at most `gps_age_s`.
-std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
-                                double gps_age_s);
+std::string implausible_reading(const SensorSample& sample, const sim::SensorNoise& noise,
+                                double latitude_deg, double age_s, double gps_age_s);
 
 /// Checks an image's flight record: camera, gimbal, sensors. `may_touch` permits jumps of the
 /// velocity.
-void check_flight(const Image& image, Findings& findings, bool may_touch = false);
+void check_flight(const DatasetInfo& info, const Image& image, Findings& findings,
+                  bool may_touch = false);
 
 /// Compares the flight records of consecutive frames of one camera.
 void check_flight_between(const Image& before, const Image& after, Findings& findings,

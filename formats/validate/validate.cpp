@@ -185,7 +185,7 @@ class RecordChecks {
   void add(const DatasetInfo& info, const Image& image, Findings& findings) {
     const auto [touch, is_new] = may_touch_.try_emplace({image.run, image.camera}, false);
     if (is_new) touch->second = may_have_touched(info, image.run, image.camera);
-    check_flight(image, findings, touch->second);
+    check_flight(info, image, findings, touch->second);
     const auto before = last_.find(image.camera);
     if (before != last_.end() && before->second.run == image.run &&
         before->second.frame + 1 == image.frame) {

@@ -59,8 +59,7 @@ OnboardCamera::OnboardCamera(Surroundings place, const world::TraceHeader& heade
       renderer_(scenario_, population_, place.light, {}, draft()) {
   for (const sim::PlannedDrone& drone : drones) {
     cameras_.push_back(shown_camera(drone.mission.camera));
-    shapes_.push_back(
-        {drone.airframe.arm_m, drone.airframe.height_m, drone.airframe.propeller_radius_m});
+    shapes_.push_back(render::airframe_shape(drone.airframe));
   }
 }
 

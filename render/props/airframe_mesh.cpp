@@ -1,7 +1,6 @@
 #include "render/props/airframe_mesh.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "render/frame.h"
 #include "render/props/prop_builder.h"
@@ -27,21 +26,20 @@ void add_blades(PropBuilder& builder, const Vector3d& hub, double radius_m, doub
       kCarbon, Finish::matt);
 }
 
-void add_arm(PropBuilder& builder, const AirframeShape& shape, int corner, double middle_z) {
-  const double x = (corner < 2 ? 1 : -1) * shape.arm_m / std::numbers::sqrt2;
-  const double y = (corner % 2 == 0 ? 1 : -1) * shape.arm_m / std::numbers::sqrt2;
+void add_arm(PropBuilder& builder, const AirframeShape& shape, std::size_t rotor, double middle_z) {
+  const double x = shape.rotors_m.at(rotor).x();
+  const double y = shape.rotors_m.at(rotor).y();
   const double h = shape.height_m;
   const double thickness = 0.055 * shape.arm_m;
   builder.tube({0, 0, middle_z}, 1.4 * thickness, {x, y, middle_z}, thickness, kPlastic);
   builder.tube({x, y, middle_z - 0.25 * h}, 1.8 * thickness, {x, y, middle_z + 0.35 * h},
                1.8 * thickness, kCarbon, Finish::glossy);
   add_blades(builder, {x, y, middle_z + 0.42 * h}, shape.propeller_radius_m,
-             0.3 + 0.9 * static_cast<double>(corner));
+             0.3 + 0.9 * static_cast<double>(rotor));
   // Lights as aircraft have them: red on the left, green on the right.
   const double size = thickness;
   const Vector3d lamp(0.93 * x, 0.93 * y, middle_z - 0.2 * h);
-  builder.box(lamp.array() - size, lamp.array() + size, corner % 2 == 0 ? kRed : kGreen,
-              Finish::lamp);
+  builder.box(lamp.array() - size, lamp.array() + size, y > 0 ? kRed : kGreen, Finish::lamp);
 }
 
 void add_skid(PropBuilder& builder, const AirframeShape& shape, double side, double top_z) {
@@ -58,6 +56,14 @@ void add_skid(PropBuilder& builder, const AirframeShape& shape, double side, dou
 }
 
 }  // namespace
+
+AirframeShape airframe_shape(const sim::Airframe& airframe) {
+  AirframeShape shape{airframe.arm_m, airframe.height_m, airframe.propeller_radius_m};
+  for (std::size_t i = 0; i < shape.rotors_m.size(); ++i) {
+    shape.rotors_m[i] = airframe.rotors[i].at_m;
+  }
+  return shape;
+}
 
 PropMesh airframe_mesh(const DroneInstance& drone) {
   const AirframeShape& shape = drone.shape;
@@ -76,7 +82,7 @@ PropMesh airframe_mesh(const DroneInstance& drone) {
                 middle_z + 0.5 * h, kShell, Finish::glossy);
   builder.box({0.3 * a, -0.1 * a, middle_z - 0.75 * h}, {0.5 * a, 0.1 * a, middle_z - 0.3 * h},
               kCarbon, Finish::glossy);
-  for (int corner = 0; corner < 4; ++corner) add_arm(builder, shape, corner, middle_z);
+  for (std::size_t i = 0; i < shape.rotors_m.size(); ++i) add_arm(builder, shape, i, middle_z);
   for (const double side : {-1.0, 1.0}) add_skid(builder, shape, side, middle_z - 0.3 * h);
   PropMesh mesh = builder.take();
   const Eigen::Matrix3d turn = drone.orientation.toRotationMatrix();

@@ -2,20 +2,25 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 
 #include "render/props/prop_shapes.h"
+#include "spec/sim/airframe.h"
 
 namespace throng::render {
 
-/// The dimensions of a quadcopter that affect its appearance (from spec/sim/airframe.h).
+/// The dimensions of a quadcopter that affect its appearance.
 struct AirframeShape {
-  double arm_m = 0;               ///< from the center to a rotor's axis
-  double height_m = 0;            ///< height of the body
-  double propeller_radius_m = 0;  ///< half the length of a pair of blades
+  double arm_m = 0;                           ///< from the center to the farthest rotor's axis
+  double height_m = 0;                        ///< height of the body
+  double propeller_radius_m = 0;              ///< half the length of a pair of blades
+  std::array<Eigen::Vector2d, 4> rotors_m{};  ///< their axes, x ahead, y left
   /// Radius of a bounding sphere around the center.
   double reach_m() const { return 1.1 * (arm_m + propeller_radius_m) + height_m; }
 };
+
+AirframeShape airframe_shape(const sim::Airframe& airframe);
 
 /// One drone at one time (m, m/s, world).
 struct DroneInstance {

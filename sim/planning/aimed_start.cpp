@@ -30,14 +30,6 @@ struct View {
   double yaw_rad = 0;  ///< heading
 };
 
-Airframe find_airframe(const DroneMission& mission) {
-  if (mission.own_airframe) return *mission.own_airframe;
-  for (const Airframe& frame : shipped_airframes()) {
-    if (frame.name == mission.airframe) return frame;
-  }
-  return {};  // the plan reports it
-}
-
 double ground_distance_m(const DroneMission& mission) {
   const double down_rad = -mission.camera.pitch_deg * kDegree;
   const double drop_m = mission.aim->height_m - kChestM;
@@ -61,7 +53,7 @@ class Aim {
         people_(people),
         taken_(taken),
         mission_(mission),
-        frame_(find_airframe(mission)) {}
+        frame_(find_airframe(mission).value_or(Airframe{})) {}  // the plan reports unknown ones
 
   /// The first view with nothing in between, else the first from a free start.
   std::optional<View> view(Random random) const {

@@ -3,8 +3,8 @@
 namespace throng::sim {
 
 PlannedMotion::PlannedMotion(const PlannedDrone& drone)
-    : policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad, FlightLimits{},
-                                  drone.scenario, drone.index})),
+    : policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad,
+                                  drone.airframe.autopilot, drone.scenario, drone.index})),
       yaw_rad_(drone.yaw_rad) {
   state_.position = drone.start;
 }

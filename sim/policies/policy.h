@@ -18,7 +18,7 @@ struct PolicyContext {
   const DroneMission& mission;
   Eigen::Vector3d start;
   double yaw_rad;
-  FlightLimits limits;
+  const Autopilot& autopilot;
   const world::Scenario* scenario = nullptr;  ///< null only for policies that do not use it
   int drone = 0;                              ///< index among the run's drones
 };

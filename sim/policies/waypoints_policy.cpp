@@ -32,7 +32,7 @@ std::vector<Leg> legs_through(const PolicyContext& context) {
     const Vector3d direction = (to - from) / length_m;
     const double climb = std::abs(direction.z());
     const double speed_mps =
-        climb > 0 ? std::min(context.mission.speed_mps, context.limits.vertical_mps / climb)
+        climb > 0 ? std::min(context.mission.speed_mps, context.autopilot.max_speed_mps.y() / climb)
                   : context.mission.speed_mps;
     legs.push_back({from, direction, length_m, speed_mps, 0});
     from = to;

@@ -61,7 +61,7 @@ class InertialTriad {
   }
 
   Vector3d read(const Vector3d& truth, double dt_s) {
-    const Vector3d white = noise_.density / std::sqrt(dt_s) * normals(random_);
+    const Vector3d white = noise_.density.cwiseProduct(normals(random_)) / std::sqrt(dt_s);
     return truth + turn_on_ + wander_.advance(dt_s, random_) + white;
   }
 
@@ -93,9 +93,10 @@ class Gps {
 
  private:
   GpsFix fix(const world::DroneSample& truth) {
-    const Vector3d wander(noise_.gps_horizontal_m, noise_.gps_horizontal_m, noise_.gps_vertical_m);
-    const Vector3d speed(noise_.gps_horizontal_mps, noise_.gps_horizontal_mps,
-                         noise_.gps_vertical_mps);
+    const Vector3d wander(noise_.gps_wander_m.x(), noise_.gps_wander_m.x(),
+                          noise_.gps_wander_m.y());
+    const Eigen::Vector2d& sd = noise_.gps_velocity_mps;
+    const Vector3d speed(sd.x(), sd.x(), sd.y());
     // Starts anywhere, not at the truth: the receiver has been on for a while.
     const double kept = std::exp(-1 / (noise_.gps_hz * noise_.gps_wander_s));
     if (next_ > 0) error_ = kept * error_ + std::sqrt(1 - kept * kept) * normals(random_);
@@ -120,17 +121,20 @@ class Barometer {
   Barometer(const SensorNoise& noise, Random random)
       : noise_(noise),
         random_(random),
-        weather_(random_walk_step(noise.weather_share, noise.weather_s), noise.weather_s) {}
+        weather_(random_walk_step(noise.weather_share, noise.weather_s), noise.weather_s) {
+    if (noise.pressure_offset_pa > 0) offset_pa_ = random_.normal(0, noise.pressure_offset_pa);
+  }
 
   double read(double height_m, double dt_s) {
     const double share = 1 + weather_.advance(dt_s, random_).x();
-    return pressure_at(height_m) * share + random_.normal(0, noise_.pressure_pa);
+    return pressure_at(height_m) * share + offset_pa_ + random_.normal(0, noise_.pressure_pa);
   }
 
  private:
   SensorNoise noise_;
   Random random_;
   Wander weather_;
+  double offset_pa_ = 0;
 };
 
 }  // namespace

@@ -6,41 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/geometry/angle.h"
+#include "spec/sim/sensor_noise.h"
 #include "world/trace.h"
 
 namespace throng::sim {
-
-/// Errors of a three-axis sensor: white noise, a variable bias (a first-order Gauss-Markov process)
-/// and a constant bias that is sampled at every start.
-struct InertialNoise {
-  double density;  ///< unit / sqrt(Hz)
-  double walk;     ///< random walk of the variable bias, unit / (s sqrt(Hz))
-  double walk_s;   ///< correlation time of the variable bias
-  double turn_on;  ///< standard deviation of the constant bias
-};
-
-/// Noise of the sensors. IMU: ADIS16448 as in RotorS' gazebo plug-in (Furrer et al. 2016). GPS:
-/// rate, delay and velocity noise as in PX4's gazebo plug-in, whose random walk (2 and 4
-/// m/s/sqrt(Hz)) corresponds to the standard deviations here. Barometer: 1 Pa of noise (PX4) and
-/// weather drift as in AirSim. Magnetometer: noise relative to the field as in hector_quadrotor.
-struct SensorNoise {
-  InertialNoise gyro{3.394e-4, 3.88e-5, 1000, 0.5 * kDegree};  ///< rad/s
-  InertialNoise accelerometer{4e-3, 6e-3, 300, 0.196};         ///< m/s²
-  double gps_hz = 5;
-  double gps_delay_s = 0.12;
-  double gps_white_m = 0.01;
-  double gps_horizontal_m = 1;  ///< standard deviation of the correlated error
-  double gps_vertical_m = 2;
-  double gps_wander_s = 60;          ///< correlation time of this error
-  double gps_horizontal_mps = 0.09;  ///< white noise of velocity
-  double gps_vertical_mps = 0.18;
-  double pressure_pa = 1;  ///< white noise
-  /// Standard deviation of the weather drift, relative to the pressure.
-  double weather_share = 0.001825;
-  double weather_s = 3600;     ///< correlation time of the weather drift
-  double field_share = 0.013;  ///< white noise per axis, relative to the field's strength
-};
 
 /// Pressure (Pa) at a height in the standard atmosphere (ISO 2533), and the inverse.
 double pressure_at(double height_m);

@@ -6,16 +6,15 @@
 
 namespace throng::sim {
 
-std::optional<std::size_t> propeller_hit(const Contact& contact) {
+std::optional<std::size_t> propeller_hit(const Contact& contact, const Airframe& airframe) {
   // A push within 45 degrees of straight up comes in through the landing gear.
   constexpr double kFromBelow = 0.7071;
   if (contact.push_ns.z() > kFromBelow * contact.push_ns.norm()) return std::nullopt;
   std::size_t nearest = 0;
   double best = -1;
-  for (std::size_t i = 0; i < kRotorSeats.size(); ++i) {
-    // All seats are as far from the middle: the nearest one is the one most nearly in line.
-    const double along =
-        kRotorSeats[i].x * contact.point.x() + kRotorSeats[i].y * contact.point.y();
+  for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
+    // The rotor most nearly in line with the point, seen from the middle.
+    const double along = airframe.rotors[i].at_m.normalized().dot(contact.point.head<2>());
     if (i > 0 && along <= best) continue;
     best = along;
     nearest = i;

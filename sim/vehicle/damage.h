@@ -19,7 +19,7 @@ struct Contact {
 
 /// The rotor whose propeller a contact hits: the nearest one, or none if the push comes from below,
 /// where the landing gear is.
-std::optional<std::size_t> propeller_hit(const Contact& contact);
+std::optional<std::size_t> propeller_hit(const Contact& contact, const Airframe& airframe);
 
 /// Speed (m/s) of an impact on a rigid wall with the same impulse: J / (m (1 + restitution)).
 double wall_speed_mps(double impulse_ns, const Airframe& airframe);

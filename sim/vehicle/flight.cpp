@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kControlHz = 240;
+constexpr double kWindHz = 240;
 constexpr double kSampleHz = 60;
 // Slower contact is a landing.
 constexpr double kCollisionMps = 0.3;
@@ -28,10 +28,9 @@ int nearest_ticks(double hz, double tick_s) {
 // The air that one hovering vehicle blows down on another's rotors.
 void add_downwash(const Jet& jet, const FlightState& from, const FlightState& to,
                   const Airframe& frame, PerRotor& downwash_mps) {
-  const double seat_m = frame.arm_m / std::sqrt(2.0);
   for (std::size_t i = 0; i < downwash_mps.size(); ++i) {
-    const Vector3d rotor = to.position + to.rotation * Vector3d(kRotorSeats[i].x * seat_m,
-                                                                kRotorSeats[i].y * seat_m, 0);
+    const Eigen::Vector2d& at_m = frame.rotors[i].at_m;
+    const Vector3d rotor = to.position + to.rotation * Vector3d(at_m.x(), at_m.y(), 0);
     const Vector3d below = from.position - rotor;
     downwash_mps[i] += jet.speed_mps(below.z(), below.head<2>().norm());
   }
@@ -43,7 +42,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
                const std::vector<PlannedDrone>& drones, double interval_s, double physics_dt_s,
                FlightLog log, const FlightWeather& weather)
     : ticks_per_interval_(whole_ticks(interval_s, physics_dt_s)),
-      ticks_per_control_(nearest_ticks(kControlHz, interval_s / ticks_per_interval_)),
+      ticks_per_wind_(nearest_ticks(kWindHz, interval_s / ticks_per_interval_)),
       ticks_per_sample_(nearest_ticks(kSampleHz, interval_s / ticks_per_interval_)),
       interval_s_(interval_s),
       world_(buildings, interval_s / ticks_per_interval_),
@@ -58,7 +57,11 @@ Flight::Flight(const std::vector<world::Building>& buildings,
   for (std::size_t i = 0; i < drones.size(); ++i) {
     const PlannedDrone& drone = drones[i];
     world_.add(drone.airframe, drone.start, drone.yaw_rad);
-    pilots_.emplace_back(drone, static_cast<std::int32_t>(pilots_.size()), FlightLimits{});
+    pilots_.emplace_back(drone, static_cast<std::int32_t>(pilots_.size()));
+    const Autopilot& autopilot = drone.airframe.autopilot;
+    clocks_.push_back({nearest_ticks(autopilot.rate_hz, world_.dt_s()),
+                       static_cast<int>(std::lround(autopilot.delay_s / world_.dt_s())),
+                       {}});
     gusts_.emplace_back(wind_, weather.seed, i);
     jets_.emplace_back(drone.airframe);
     falls_.emplace_back(i);
@@ -72,7 +75,9 @@ void Flight::advance(const PeopleView& people_at_end) {
   people_.begin(people_at_end, interval_s_);
   meet_people();
   for (int i = 1; i <= ticks_per_interval_; ++i) {
-    if (tick_ % ticks_per_control_ == 0) control();
+    if (tick_ % ticks_per_wind_ == 0) blow();
+    control();
+    command();
     world_.step();
     ++tick_;
     // From the interval's number, so that no rounding adds up over a run.
@@ -123,12 +128,26 @@ void Flight::meet_people() {
   world_.set_people(touchable);
 }
 
+// Lets those pilots decide whose turn it is.
 void Flight::control() {
-  const double dt_s = ticks_per_control_ * world_.dt_s();
-  blow();
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
+    ControlClock& clock = clocks_[i];
+    if (tick_ % clock.ticks_per_control != 0) continue;
+    const double dt_s = clock.ticks_per_control * world_.dt_s();
     const auto report = [&](const world::EventKind& event) { log_.event({time_s_, event}); };
-    world_.command(i, pilots_[i].control(states_[i], dt_s, report));
+    clock.commands.emplace_back(tick_ + clock.delay_ticks,
+                                pilots_[i].control(world_.state(i), dt_s, report));
+  }
+}
+
+// Hands the motors what they have by now.
+void Flight::command() {
+  for (std::size_t i = 0; i < clocks_.size(); ++i) {
+    auto& commands = clocks_[i].commands;
+    while (!commands.empty() && commands.front().first <= tick_) {
+      world_.command(i, commands.front().second);
+      commands.pop_front();
+    }
   }
 }
 

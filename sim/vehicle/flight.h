@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/policies/planned_drone.h"
@@ -34,6 +36,13 @@ struct FlightWeather {
   std::uint64_t seed = 1;  ///< seed of the gusts
 };
 
+/// When a pilot decides, and the decisions that its motors do not have yet.
+struct ControlClock {
+  int ticks_per_control = 1;
+  int delay_ticks = 0;
+  std::deque<std::pair<long, PerRotor>> commands;  ///< with the tick from which each holds
+};
+
 /// Simulates the flight of all drones. Deterministic; not thread-safe.
 class Flight {
  public:
@@ -58,6 +67,7 @@ class Flight {
  private:
   void meet_people();
   void control();
+  void command();
   void blow();
   void record_samples();
   void record_impacts(std::span<const Impact> impacts);
@@ -66,7 +76,7 @@ class Flight {
   void watch_surroundings();
 
   int ticks_per_interval_;
-  int ticks_per_control_;
+  int ticks_per_wind_;
   int ticks_per_sample_;
   double interval_s_;
   long interval_ = 0;
@@ -77,6 +87,7 @@ class Flight {
   FlightLog log_;
   WindSpec wind_;
   std::vector<Pilot> pilots_;
+  std::vector<ControlClock> clocks_;  ///< of the pilots
   std::vector<Gusts> gusts_;
   std::vector<Jet> jets_;
   std::vector<FallWarning> falls_;

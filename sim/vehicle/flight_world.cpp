@@ -45,8 +45,12 @@ struct Vehicle {
   }
 
   static btVector3 half_extents(const Airframe& airframe) {
-    const double half_width = airframe.arm_m / std::sqrt(2.0) + airframe.propeller_radius_m;
-    return {half_width, half_width, 0.5 * airframe.height_m};
+    Eigen::Vector2d reach_m = Eigen::Vector2d::Zero();
+    for (const Rotor& rotor : airframe.rotors) {
+      reach_m = reach_m.cwiseMax(rotor.at_m.cwiseAbs());
+    }
+    reach_m.array() += airframe.propeller_radius_m;
+    return {reach_m.x(), reach_m.y(), 0.5 * airframe.height_m};
   }
 
   FlightState state() const {
@@ -201,7 +205,8 @@ struct FlightWorld::Bodies {
       const btVector3 at = first ? point.m_positionWorldOnA : point.m_positionWorldOnB;
       const Contact contact{to_eigen(pose.invXform(at)),
                             to_eigen(pose.getBasis().transpose() * -push)};
-      if (const auto rotor = propeller_hit(contact)) touch.rotor_ns[*rotor] += impulse_ns;
+      const Airframe& airframe = vehicles[touch.vehicle]->quadcopter.airframe();
+      if (const auto rotor = propeller_hit(contact, airframe)) touch.rotor_ns[*rotor] += impulse_ns;
     }
     // Bodies that are near but do not push yet do not touch.
     if (touch.impulse_ns <= 0) return;

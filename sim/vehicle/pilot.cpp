@@ -22,14 +22,14 @@ constexpr double kRestingS = 0.5;
 
 }  // namespace
 
-Pilot::Pilot(const PlannedDrone& drone, std::int32_t index, const FlightLimits& limits)
+Pilot::Pilot(const PlannedDrone& drone, std::int32_t index)
     : drone_(index),
       airframe_(drone.airframe),
-      policy_(drone.policy->make(
-          {drone.mission, drone.start, drone.yaw_rad, limits, drone.scenario, drone.index})),
+      policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad,
+                                  drone.airframe.autopilot, drone.scenario, drone.index})),
       guides_(guides(*drone.policy)),
       beacon_asked_(drone.mission.guidance.beacon.value_or(false)),
-      controller_(drone.airframe, limits),
+      controller_(drone.airframe),
       battery_(drone.airframe.battery_wh, drone.mission.battery_charge) {
   setpoint_.position = drone.start;
   setpoint_.yaw_rad = drone.yaw_rad;

@@ -20,7 +20,7 @@ class Pilot {
 
   /// `index` is the drone's index in events. `drone` must outlive the pilot, whose policy refers to
   /// its mission.
-  Pilot(const PlannedDrone& drone, std::int32_t index, const FlightLimits& limits);
+  Pilot(const PlannedDrone& drone, std::int32_t index);
 
   /// Trims the autopilot for a constant wind (m/s, world), at the start.
   void trim(const Eigen::Vector3d& wind) { controller_.trim(wind); }

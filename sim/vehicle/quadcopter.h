@@ -17,18 +17,8 @@ struct FlightState {
   Eigen::Vector3d body_rates = Eigen::Vector3d::Zero();    ///< rad/s, body
 };
 
-/// One value per rotor: front left, rear left, rear right, front right.
+/// One value per rotor, in the order of Airframe::rotors.
 using PerRotor = std::array<double, 4>;
-
-/// A rotor's position in the body frame (in units of arm / sqrt 2) and sense of rotation (+1:
-/// counter-clockwise from above).
-struct RotorSeat {
-  double x;
-  double y;
-  double sense;
-};
-inline constexpr std::array<RotorSeat, 4> kRotorSeats{
-    {{1, 1, -1}, {-1, 1, 1}, {-1, -1, -1}, {1, -1, 1}}};
 
 /// A force and a torque on the body.
 struct Wrench {
@@ -36,11 +26,20 @@ struct Wrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, world
 };
 
-/// Rotors and aerodynamics. Motors are first-order lags, integrated exactly. Thrust and reaction
-/// torque are proportional to the squared speed; ground effect by Cheeseman and Bennett (1955);
-/// rotor drag linear (Martin and Salaün 2010), body drag quadratic. Downwash on a rotor reduces its
-/// thrust, to zero at an advance ratio of 0.65 (UIUC propeller data, slow flyers of 8 to 11 inches:
-/// 0.6 to 0.7).
+/// Velocity of a rotor along its axis through the air, m/s, upward.
+double axial_inflow_mps(const Airframe& airframe, std::size_t rotor, const FlightState& state,
+                        const Eigen::Vector3d& air_velocity);
+
+/// Torque (N m, body frame) of the drag of a body that turns, which acts against the rates (rad/s).
+Eigen::Vector3d turn_drag_nm(const Airframe& airframe, const Eigen::Vector3d& body_rates);
+
+/// Rotors and aerodynamics. Motors are first-order lags, integrated exactly, or follow the equation
+/// of the airframe's electric motor. Thrust is proportional to the squared speed, and so is the
+/// reaction torque, which is that of the motor where there is an equation; ground effect by
+/// Cheeseman and Bennett (1955); rotor drag linear (Martin and Salaün 2010), body drag quadratic.
+/// Downwash on a rotor reduces its thrust, to zero at an advance ratio of 0.65 (UIUC propeller
+/// data, slow flyers of 8 to 11 inches: 0.6 to 0.7), or as the electric motor's figures of axial
+/// flow say.
 class Quadcopter {
  public:
   /// The rotors initially turn at hover speed.
@@ -62,9 +61,19 @@ class Quadcopter {
   const PerRotor& rotor_speeds() const { return speeds_; }
 
  private:
+  /// Thrust and reaction torque of one rotor.
+  struct RotorLoad {
+    double thrust_n = 0;
+    double torque_nm = 0;
+  };
+  RotorLoad turn(std::size_t rotor, double command_rad_s, double inflow_mps, double downwash_mps);
+  RotorLoad turn_electric(const ElectricMotor& motor, std::size_t rotor, double command_rad_s,
+                          double inflow_mps);
+
   Airframe airframe_;
   double keep_up_;  ///< share of the difference to a higher command that remains after a step
   double keep_down_;
+  double dt_s_;
   PerRotor speeds_;
   PerRotor works_{1, 1, 1, 1};  ///< 0: no propeller
   double thrust_n_;

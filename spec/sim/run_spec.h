@@ -75,6 +75,9 @@ struct DroneMission {
   camera::CameraSpec camera;
 };
 
+/// The mission's airframe: its own, or the shipped one that it names; nothing if there is none.
+std::optional<Airframe> find_airframe(const DroneMission& mission);
+
 /// Settings of the crowd engine.
 struct CrowdSpec {
   std::string model;  ///< a name in crowd::models(); empty: model_for()

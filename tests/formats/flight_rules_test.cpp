@@ -12,6 +12,7 @@
 #include "formats/validate/flight_checks.h"
 #include "formats/validate/run_checks.h"
 #include "spec/annotate/table_columns.h"
+#include "spec/sim/airframe.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {
@@ -40,7 +41,7 @@ SensorSample hovering() {
 std::string implausible(const std::function<void(SensorSample&)>& change, double gps_age_s = 0) {
   SensorSample sample = hovering();
   change(sample);
-  return implausible_reading(sample, 45, 0, gps_age_s);
+  return implausible_reading(sample, sim::SensorNoise{}, 45, 0, gps_age_s);
 }
 
 TEST(SensorErrors, AreWithinSixDeviations) {
@@ -67,6 +68,22 @@ TEST(SensorErrors, AreWithinSixDeviations) {
               ::testing::HasSubstr("velocity"));
   EXPECT_EQ(implausible([](SensorSample& s) { s.gps_velocity.x() = 1.1; }, 0.2), "")
       << "an old fix may be off by what the drone did";
+}
+
+TEST(SensorErrors, AreThoseOfTheAirframe) {
+  const sim::SensorNoise hector = sim::find_airframe(std::string("hector"))->sensors;
+  const auto off = [&](const std::function<void(SensorSample&)>& change) {
+    SensorSample sample = hovering();
+    change(sample);
+    return implausible_reading(sample, hector, 45, 0, 0);
+  };
+  EXPECT_EQ(off([](SensorSample& s) { s.gps_position.x() += 20; }), "");
+  EXPECT_THAT(off([](SensorSample& s) { s.gps_position.x() += 31; }), ::testing::HasSubstr("GPS"));
+  EXPECT_EQ(off([](SensorSample& s) { s.gyro.x() = 0.4; }), "");
+  EXPECT_THAT(off([](SensorSample& s) { s.gyro.x() = 0.7; }), ::testing::HasSubstr("gyro"));
+  EXPECT_THAT(off([](SensorSample& s) { s.gps_velocity.x() = 0.4; }),
+              ::testing::HasSubstr("velocity"))
+      << "less than the default";
 }
 
 TEST(SensorErrors, SeeTheFieldInTheBodysFrame) {
@@ -114,15 +131,23 @@ Image with_flight() {
   return image;
 }
 
+DatasetInfo info_with_noise() {
+  DatasetInfo info;
+  info.sensors[hand_made::image().camera] = {};
+  return info;
+}
+
 std::vector<std::string> flight_faults(const std::function<void(json&)>& damage) {
   Image image = with_flight();
   damage(image.record["flight"]);
-  return found_by([&](Findings& findings) { check_flight(image, findings); });
+  return found_by([&](Findings& findings) { check_flight(info_with_noise(), image, findings); });
 }
 
 TEST(FlightRecords, SoundOnesHaveNoFaults) {
   EXPECT_THAT(flight_faults([](json&) {}), IsEmpty());
-  EXPECT_THAT(found_by([](Findings& findings) { check_flight(hand_made::image(), findings); }),
+  EXPECT_THAT(found_by([](Findings& findings) {
+                check_flight(info_with_noise(), hand_made::image(), findings);
+              }),
               IsEmpty())
       << "an image without one";
 }
@@ -213,6 +238,7 @@ std::vector<std::string> sensor_faults(
   return found_by([&](Findings& findings) {
     SensorTableCheck check;
     DatasetInfo info = hand_made::info(folder.path());
+    info.sensors = info_with_noise().sensors;
     info.frames_per_camera = 6;  // to 2.5 s
     check.add(info, image, findings);
   });

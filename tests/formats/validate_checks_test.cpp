@@ -280,16 +280,16 @@ TEST(ValidateChecks, ReadingsAreWithinTheSensorsErrors) {
   const SensorSample sound{
       zero, zero, Eigen::Quaterniond::Identity(), zero, weight, zero, weight, field, 101'325, 0,
       zero, zero};
-  EXPECT_EQ(implausible_reading(sound, 45, 0.02, 0.3), "");
+  EXPECT_EQ(implausible_reading(sound, sim::SensorNoise{}, 45, 0.02, 0.3), "");
   SensorSample swapped = sound;
   std::swap(swapped.gyro, swapped.accelerometer);
-  EXPECT_NE(implausible_reading(swapped, 45, 0.02, 0.3), "");
+  EXPECT_NE(implausible_reading(swapped, sim::SensorNoise{}, 45, 0.02, 0.3), "");
   SensorSample turned = sound;
   turned.magnetometer = {field.y(), field.x(), field.z()};
-  EXPECT_NE(implausible_reading(turned, 45, 0.02, 0.3), "");
+  EXPECT_NE(implausible_reading(turned, sim::SensorNoise{}, 45, 0.02, 0.3), "");
   SensorSample far = sound;
   far.gps_position.x() = 60;
-  EXPECT_NE(implausible_reading(far, 45, 0.02, 0.3), "");
+  EXPECT_NE(implausible_reading(far, sim::SensorNoise{}, 45, 0.02, 0.3), "");
 }
 
 TEST(ValidateChecks, TablesWithQuotesAndLinesThatAreCutOff) {

@@ -16,7 +16,7 @@ const Eigen::Vector3d kHigh(0, 0, 20);
 
 /// The camera's own drone, and another that hovers 6 m below and 6 m ahead of it.
 Scene two_drones(const Eigen::Vector3d& shift = Eigen::Vector3d::Zero(), double roll_rad = 0) {
-  const AirframeShape shape{0.225, 0.1, 0.11};
+  const AirframeShape shape = airframe_shape(*sim::find_airframe(std::string("f450")));
   Scene scene;
   scene.drones.push_back(
       {0, kHigh, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), shape});

@@ -42,7 +42,7 @@ TEST(Airframe, ShippedOnesCanClimbAndSteer) {
 TEST(Airframe, TopSpeedBalancesDragAtThirtyDegrees) {
   const Airframe frame = testing::airframe_named("f450");
   const double v = frame.top_speed_mps();
-  EXPECT_NEAR(frame.body_drag * v * v, frame.weight_n() * std::tan(EIGEN_PI / 6), 1e-9);
+  EXPECT_NEAR(frame.body_drag.x() * v * v, frame.weight_n() * std::tan(EIGEN_PI / 6), 1e-9);
 }
 
 TEST(Airframe, ReadsAUsersOwn) {
@@ -69,6 +69,66 @@ TEST(Airframe, BadValuesAreReportedWhereTheyStand) {
   EXPECT_THAT(problem, HasSubstr("/mine/colour"));
   EXPECT_THAT(problem, HasSubstr("motor_up_s"));
   EXPECT_THAT(caught_problem(json::array()), HasSubstr("one airframe per name"));
+}
+
+json hector() {
+  const std::string text = read_file(source_folder().string() + "/spec/sim/airframes.json");
+  return {{"mine", json::parse(text)["hector"]}};
+}
+
+TEST(Airframe, IsWrittenAsItWasRead) {
+  for (const Airframe& frame : shipped_airframes()) {
+    const json written = to_json(frame);
+    const auto again = parse_airframes(json{{frame.name, written}}.dump(), "again.json");
+    EXPECT_EQ(to_json(again.at(0)), written) << frame.name;
+  }
+}
+
+TEST(Airframe, HectorHasThePublishedFigures) {
+  const Airframe frame = testing::airframe_named("hector");
+  EXPECT_EQ(frame.mass_kg, 1.477);
+  EXPECT_EQ(frame.body_drag, Eigen::Vector2d(0.12, 0.1));
+  EXPECT_EQ(frame.turn_drag, Eigen::Vector2d(0.0741562, 0.0506433));
+  ASSERT_TRUE(frame.electric_motor.has_value());
+  EXPECT_EQ(frame.electric_motor->supply_v, 14.8);
+  EXPECT_EQ(frame.autopilot.velocity_gain_s, Eigen::Vector2d(2, 5));
+  EXPECT_NEAR(frame.autopilot.max_tilt_rad, EIGEN_PI / 4, 1e-12);
+  EXPECT_EQ(frame.autopilot.max_torque_nm, Eigen::Vector3d(10, 10, 1));
+  // Deviations of the IMU at 100 Hz.
+  EXPECT_NEAR(10 * frame.sensors.gyro.density.z(), 0.015, 1e-12);
+  EXPECT_NEAR(10 * frame.sensors.accelerometer.density.x(), 0.35, 1e-12);
+  EXPECT_EQ(frame.rotors[0].at_m, Eigen::Vector2d(0.275, 0));
+}
+
+TEST(Airframe, RotorsMustBeAbleToSteer) {
+  json airframes = hector();
+  airframes["mine"]["rotors"][0]["turns"] = "counterclockwise";
+  airframes["mine"]["rotors"][2]["turns"] = "counterclockwise";
+  EXPECT_THAT(caught_problem(airframes), HasSubstr("/mine/rotors: found rotors that cannot turn"));
+  airframes = hector();
+  airframes["mine"]["arm_m"] = 0.3;
+  EXPECT_THAT(caught_problem(airframes), HasSubstr("0.275, the distance of the farthest"));
+  airframes = hector();
+  airframes["mine"]["rotors"][1]["turns"] = "left";
+  EXPECT_THAT(caught_problem(airframes), HasSubstr("/mine/rotors/1/turns"));
+  airframes = hector();
+  airframes["mine"]["propeller_radius_m"] = 0.2;
+  EXPECT_THAT(caught_problem(airframes), HasSubstr("at most 0.194"));
+}
+
+TEST(Airframe, PartsAreReadStrictly) {
+  json airframes = hector();
+  airframes["mine"]["autopilot"]["max_tilt_deg"] = 90;
+  airframes["mine"]["autopilot"]["position_gain"] = 1;
+  airframes["mine"]["electric_motor"].erase("flux_vs");
+  airframes["mine"]["sensors"]["gyroscope"]["density"] = {1, 2};
+  airframes["mine"]["body_drag_n_s2_m2"] = "much";
+  const std::string problem = caught_problem(airframes);
+  for (const char* part :
+       {"/mine/autopilot/max_tilt_deg", "/mine/autopilot/position_gain", "flux_vs",
+        "/mine/sensors/gyroscope/density", "/mine/body_drag_n_s2_m2"}) {
+    EXPECT_THAT(problem, HasSubstr(part));
+  }
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(BatteryOfADrone, WithoutAChargeItLastsAndIsCountedAllTheSame) {
 TEST(Storm, ACraftThatCannotHoldSaysSo) {
   // A frame with four times the drag of an F450 in 12 m/s.
   PlannedDrone drone = planned_drone({0, 0, 30}, {}, 1);
-  drone.airframe.body_drag = 0.12;
+  drone.airframe.body_drag.setConstant(0.12);
   FlightWeather weather;
   weather.wind.speed_mps = 12;
   weather.wind.profile = WindProfile::uniform;
@@ -196,7 +196,7 @@ TEST(Storm, ACraftThatCannotHoldSaysSo) {
   EXPECT_GT(record.of_type("blown_away")[0].value, 5);
   EXPECT_GT(record.samples[0].back().position.x(), 10);
   // And one that holds, does not.
-  drone.airframe.body_drag = 0.03;
+  drone.airframe.body_drag.setConstant(0.03);
   EXPECT_TRUE(fly_with({drone}, 20, {}, {}, weather).events.empty());
 }
 

@@ -43,11 +43,12 @@ TEST(Damage, NeedsAnImpactAboveTheAirframesLimit) {
 }
 
 TEST(Damage, APushFromBelowGoesThroughTheLandingGear) {
-  EXPECT_EQ(propeller_hit({{0.2, 0.2, -0.05}, {0, 0, 3}}), std::nullopt);
-  EXPECT_EQ(propeller_hit({{0.2, 0.2, 0}, {-3, 0, 0}}), 0U);
-  EXPECT_EQ(propeller_hit({{-0.2, 0.2, 0}, {3, 0, 0}}), 1U);
-  EXPECT_EQ(propeller_hit({{-0.2, -0.2, 0.05}, {0, 0, -3}}), 2U);
-  EXPECT_EQ(propeller_hit({{0.2, -0.2, 0}, {-3, 0, 1}}), 3U);
+  EXPECT_EQ(propeller_hit({{0.2, 0.2, -0.05}, {0, 0, 3}}, testing::airframe_named("f450")),
+            std::nullopt);
+  EXPECT_EQ(propeller_hit({{0.2, 0.2, 0}, {-3, 0, 0}}, testing::airframe_named("f450")), 0U);
+  EXPECT_EQ(propeller_hit({{-0.2, 0.2, 0}, {3, 0, 0}}, testing::airframe_named("f450")), 1U);
+  EXPECT_EQ(propeller_hit({{-0.2, -0.2, 0.05}, {0, 0, -3}}, testing::airframe_named("f450")), 2U);
+  EXPECT_EQ(propeller_hit({{0.2, -0.2, 0}, {-3, 0, 1}}, testing::airframe_named("f450")), 3U);
 }
 
 TEST(Damage, ASlowTouchBreaksNothing) {

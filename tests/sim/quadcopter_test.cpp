@@ -58,7 +58,7 @@ TEST_P(EveryQuadcopter, LeansToTheSideOfItsSlowRotors) {
 TEST_P(EveryQuadcopter, YawsAgainstItsFastRotors) {
   PerRotor speeds = even(hover_rad_s);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    speeds[i] *= kRotorSeats[i].sense > 0 ? 1.1 : 0.9;
+    speeds[i] *= frame.rotors[i].sense > 0 ? 1.1 : 0.9;
   }
   const Wrench wrench = settled(frame, high_up(), speeds);
   EXPECT_LT(wrench.torque.z(), 0);  // counter-clockwise rotors push the body clockwise

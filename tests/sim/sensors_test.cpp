@@ -46,9 +46,10 @@ Moments compute_moments(const SensorLog& log, const Value& value) {
 
 SensorNoise quiet_but_for(const std::function<void(SensorNoise&)>& change) {
   SensorNoise noise;
-  noise.gyro = noise.accelerometer = {0, 0, 1000, 0};
-  noise.gps_white_m = noise.gps_horizontal_m = noise.gps_vertical_m = 0;
-  noise.gps_horizontal_mps = noise.gps_vertical_mps = 0;
+  noise.gyro = noise.accelerometer = {Vector3d::Zero(), 0, 1000, 0};
+  noise.gps_white_m = 0;
+  noise.gps_wander_m.setZero();
+  noise.gps_velocity_mps.setZero();
   noise.pressure_pa = noise.weather_share = noise.field_share = 0;
   change(noise);
   return noise;
@@ -81,8 +82,8 @@ TEST(Sensors, WithoutNoiseTellTheTruth) {
 
 TEST(Sensors, WhiteNoiseHasItsDensity) {
   const SensorNoise noise = quiet_but_for([](SensorNoise& n) {
-    n.gyro.density = 3.394e-4;
-    n.accelerometer.density = 4e-3;
+    n.gyro.density.setConstant(3.394e-4);
+    n.accelerometer.density.setConstant(4e-3);
   });
   const SensorLog log = record_log(600, noise);
   for (int axis = 0; axis < 3; ++axis) {
@@ -112,7 +113,7 @@ double allan_deviation(const SensorLog& log, std::size_t n) {
 }
 
 TEST(Sensors, AllanDeviationFallsWithNoiseAndRisesWithTheBias) {
-  const SensorNoise white = quiet_but_for([](SensorNoise& n) { n.gyro.density = 1e-3; });
+  const SensorNoise white = quiet_but_for([](SensorNoise& n) { n.gyro.density.setConstant(1e-3); });
   const SensorLog noisy = record_log(4000, white);
   for (const std::size_t n : {60U, 240U, 960U}) {  // 1, 4 and 16 s
     const double expected = 1e-3 / std::sqrt(static_cast<double>(n) * kStepS);
@@ -153,8 +154,7 @@ TEST(Sensors, TurnOnBiasesDifferFromRunToRun) {
 
 TEST(Sensors, GpsIsLateAndSeldomAndWanders) {
   SensorNoise noise = quiet_but_for([](SensorNoise& n) {
-    n.gps_horizontal_m = 1;
-    n.gps_vertical_m = 2;
+    n.gps_wander_m = {1, 2};
     n.gps_wander_s = 10;
   });
   const SensorLog log = record_log(6000, noise);

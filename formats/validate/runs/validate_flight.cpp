@@ -18,13 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-// The sensors' errors, standard deviations: docs/drones.md.
-constexpr double kGyroTurnOnRadS = 0.5 * kDegree;
-constexpr double kAccelerometerTurnOnMps2 = 0.196;
-constexpr double kFieldShare = 0.013;
-constexpr double kWeatherShare = 0.0018;
-constexpr double kGpsVerticalMps = 0.18;
-
 constexpr double kMaxImpactMps = 25;  ///< that drones fall or fly with
 
 /// ISO 2533, and the height that a pressure stands for.
@@ -43,6 +36,13 @@ Vector3d field_at(double latitude_deg) {
   constexpr double kEquatorUt = 30;
   return kEquatorUt *
          Vector3d(0, std::cos(latitude_deg * kDegree), -2 * std::sin(latitude_deg * kDegree));
+}
+
+/// Standard deviation of a reading along the noisiest axis, 60 readings a second.
+double reading_sd(const sim::InertialNoise& noise) {
+  constexpr double kReadingsHz = 60;
+  return std::hypot(noise.turn_on, noise.walk * std::sqrt(0.5 * noise.walk_s),
+                    noise.density.maxCoeff() * std::sqrt(kReadingsHz));
 }
 
 bool are_alike(double a, double b, double slack) { return std::abs(a - b) <= slack; }
@@ -73,8 +73,10 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 class FlightRecord {
  public:
-  FlightRecord(const Image& image, Findings& findings, bool may_touch)
-      : image_(image),
+  FlightRecord(const DatasetInfo& info, const Image& image, Findings& findings, bool may_touch)
+      : noise_(info.sensors.find(image.camera)),
+        is_noise_known_(noise_ != info.sensors.end()),
+        image_(image),
         flight_(image.record.at("flight")),
         findings_(findings),
         may_touch_(may_touch) {}
@@ -177,13 +179,17 @@ class FlightRecord {
     if (!(gps_age_s >= -1e-6 && gps_age_s <= kMaxGpsAgeS)) {
       fault(fmt::format("the GPS fix is {:.3f} s old", gps_age_s));
     }
-    const std::string what = implausible_reading(sample, latitude_deg, kMaxAgeS, kMaxGpsAgeS);
+    if (!is_noise_known_) return;
+    const std::string what =
+        implausible_reading(sample, noise_->second, latitude_deg, kMaxAgeS, kMaxGpsAgeS);
     if (!what.empty()) fault("flight.measured: " + what);
   }
 
   static constexpr double kMaxAgeS = 0.05;  // readings come about 60 times a second
   static constexpr double kMaxGpsAgeS = 0.45;
 
+  std::map<std::string, sim::SensorNoise>::const_iterator noise_;
+  bool is_noise_known_;
   const Image& image_;
   const json& flight_;
   Findings& findings_;
@@ -192,8 +198,8 @@ class FlightRecord {
 
 }  // namespace
 
-std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
-                                double gps_age_s) {
+std::string implausible_reading(const SensorSample& sample, const sim::SensorNoise& noise,
+                                double latitude_deg, double age_s, double gps_age_s) {
   // Six standard deviations of the sensors' errors (docs/drones.md), and what the drone does until
   // then.
   constexpr double kSigmas = 6;
@@ -204,40 +210,42 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
     return (a - b).cwiseAbs().maxCoeff();
   };
   const double gyro = off(sample.gyro, sample.body_rates);
-  if (gyro > kSigmas * kGyroTurnOnRadS + kMaxTurnRadS2 * age_s * age_s + 0.02 +
+  if (gyro > kSigmas * reading_sd(noise.gyro) + kMaxTurnRadS2 * age_s * age_s + 0.02 +
                  kMaxTurnRadS2 * 0.02 * age_s) {
     return fmt::format("gyro is {:.3f} rad/s off body_rates", gyro);
   }
   const double force = off(sample.accelerometer, sample.specific_force);
-  if (force > kSigmas * kAccelerometerTurnOnMps2 + 0.2 + kMaxJerkMps3 * age_s * 0.1) {
+  if (force > kSigmas * reading_sd(noise.accelerometer) + 0.1 + kMaxJerkMps3 * age_s * 0.1) {
     return fmt::format("the accelerometer is {:.2f} m/s2 off specific_force", force);
   }
   const Vector3d field = field_at(latitude_deg);
   const double magnetic = off(sample.magnetometer, sample.orientation.conjugate() * field);
-  if (magnetic > kSigmas * kFieldShare * field.norm() + 0.5) {
+  if (magnetic > kSigmas * noise.field_share * field.norm() + 0.5) {
     return fmt::format("the magnetometer is {:.2f} uT off the field", magnetic);
   }
   if (!are_alike(sample.height_m, height_at(sample.pressure_pa), 0.01)) {
     return fmt::format("height_m is {:.2f}, but the pressure is that of {:.2f} m", sample.height_m,
                        height_at(sample.pressure_pa));
   }
-  const double weather_pa = kSigmas * kWeatherShare * sample.pressure_pa + kSigmas;
-  if (!are_alike(sample.pressure_pa, pressure_at(sample.position.z()), weather_pa)) {
+  const double pressure_sd_pa = std::hypot(noise.weather_share * sample.pressure_pa,
+                                           noise.pressure_pa, noise.pressure_offset_pa);
+  if (!are_alike(sample.pressure_pa, pressure_at(sample.position.z()),
+                 kSigmas * pressure_sd_pa + 1)) {
     return fmt::format("pressure_pa is {:.0f}, expected about {:.0f}", sample.pressure_pa,
                        pressure_at(sample.position.z()));
   }
   const Vector3d drift =
       (sample.velocity.cwiseAbs().array() + sample.max_jump_mps).matrix() * gps_age_s +
       Vector3d::Constant(kMaxAccelerationMps2 * gps_age_s * gps_age_s / 2);
-  const Vector3d wander(1, 1, 2);
+  const Vector3d wander(noise.gps_wander_m.x(), noise.gps_wander_m.x(), noise.gps_wander_m.y());
   const Vector3d gps = (sample.gps_position - sample.position).cwiseAbs();
-  if (((gps - kSigmas * wander - drift).array() > 0).any()) {
+  if (((gps - kSigmas * wander - drift).array() > kSigmas * noise.gps_white_m).any()) {
     return fmt::format("the GPS is ({:.1f}, {:.1f}, {:.1f}) m off the position", gps.x(), gps.y(),
                        gps.z());
   }
   const Vector3d speed = (sample.gps_velocity - sample.velocity).cwiseAbs();
-  const double max_speed =
-      kSigmas * kGpsVerticalMps + kMaxAccelerationMps2 * gps_age_s / 2 + sample.max_jump_mps;
+  const double max_speed = kSigmas * noise.gps_velocity_mps.maxCoeff() +
+                           kMaxAccelerationMps2 * gps_age_s / 2 + sample.max_jump_mps;
   if (speed.maxCoeff() > max_speed) {
     return fmt::format("the GPS's velocity is ({:.2f}, {:.2f}, {:.2f}) m/s off", speed.x(),
                        speed.y(), speed.z());
@@ -245,8 +253,8 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
   return "";
 }
 
-void check_flight(const Image& image, Findings& findings, bool may_touch) {
-  if (image.record.contains("flight")) FlightRecord(image, findings, may_touch).check();
+void check_flight(const DatasetInfo& info, const Image& image, Findings& findings, bool may_touch) {
+  if (image.record.contains("flight")) FlightRecord(info, image, findings, may_touch).check();
 }
 
 void check_flight_between(const Image& before, const Image& after, Findings& findings,

@@ -29,10 +29,17 @@ json angles_json(const sim::ViewAngles& angles) {
 
 }  // namespace
 
+sim::SensorNoise sensor_noise(const sim::DroneMission& mission) {
+  const std::optional<sim::Airframe> airframe = sim::find_airframe(mission);
+  check(airframe.has_value(), "airframes are checked when a job is read");
+  return airframe->sensors;
+}
+
 sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
                               const std::vector<world::DroneSample>& truth, std::size_t drone) {
   const double latitude_deg = environment_of_run(job.environment, run_seed).latitude_deg;
-  return {truth, run_seed, drone, latitude_deg * kDegree};
+  const sim::SensorNoise noise = sensor_noise(job.drones[drone].mission);
+  return {truth, run_seed, drone, latitude_deg * kDegree, noise};
 }
 
 json horizon_rows(const camera::Camera& camera) {
@@ -76,9 +83,10 @@ json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise) {
          {{"time_s", reading.gps.time_s},
           {"position", vector_json(reading.gps.position)},
           {"velocity", vector_json(reading.gps.velocity)},
-          {"position_sd_m", {noise.gps_horizontal_m, noise.gps_horizontal_m, noise.gps_vertical_m}},
+          {"position_sd_m",
+           {noise.gps_wander_m.x(), noise.gps_wander_m.x(), noise.gps_wander_m.y()}},
           {"velocity_sd_mps",
-           {noise.gps_horizontal_mps, noise.gps_horizontal_mps, noise.gps_vertical_mps}}}},
+           {noise.gps_velocity_mps.x(), noise.gps_velocity_mps.x(), noise.gps_velocity_mps.y()}}}},
         {"gimbal", angles_json(moment.gimbal_reading)}}}};
 }
 

@@ -31,8 +31,11 @@ struct FlightMoment {
 /// down, so that the horizon crosses no column.
 nlohmann::json horizon_rows(const camera::Camera& camera);
 
+/// The noise of the sensors of a mission's airframe.
+sim::SensorNoise sensor_noise(const sim::DroneMission& mission);
+
 /// The object `flight` of an image: "true" and "measured" (docs/formats.md).
-nlohmann::json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise = {});
+nlohmann::json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise);
 
 /// A CSV table of a drone's sensor readings and true values, one line per sample
 /// (sensors/run000/d1.csv).

@@ -29,18 +29,9 @@ std::size_t drone_index(const world::Trace& trace, const std::string& id) {
 }
 
 render::AirframeShape airframe_shape(const sim::DroneMission& mission) {
-  sim::Airframe airframe;
-  if (mission.own_airframe) {
-    airframe = *mission.own_airframe;
-  } else {
-    const std::vector<sim::Airframe> shipped = sim::shipped_airframes();
-    const auto named = std::find_if(shipped.begin(), shipped.end(), [&](const auto& each) {
-      return each.name == mission.airframe;
-    });
-    check(named != shipped.end(), "airframes are checked when a job is read");
-    airframe = *named;
-  }
-  return {airframe.arm_m, airframe.height_m, airframe.propeller_radius_m};
+  const std::optional<sim::Airframe> airframe = sim::find_airframe(mission);
+  check(airframe.has_value(), "airframes are checked when a job is read");
+  return render::airframe_shape(*airframe);
 }
 
 }  // namespace
@@ -108,7 +99,8 @@ std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
   const sim::ViewAngles view = view_at(drone, frame, sample);
   return flight_record({sample, view, camera_on(sample, cameras_[drone], view),
-                        sensors_[drone].at(time_s), gimbals_[drone].reading_at(time_s)})
+                        sensors_[drone].at(time_s), gimbals_[drone].reading_at(time_s)},
+                       sensor_noise(job_->drones[drone].mission))
       .dump();
 }
 

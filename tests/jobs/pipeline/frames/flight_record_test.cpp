@@ -28,15 +28,33 @@ std::vector<world::DroneSample> passage() {
   return samples;
 }
 
+TEST(FlightRecord, ReadingsHaveTheErrorsOfTheAirframe) {
+  const auto truth = passage();
+  JobSpec job;
+  job.drones.resize(2);
+  job.drones[1].mission.airframe = "hector";
+  const auto largest_rate = [&](std::size_t drone) {
+    double rate_rad_s = 0;
+    for (const sim::SensorReading& each : record_sensors(job, 3, truth, drone).readings()) {
+      rate_rad_s = std::max(rate_rad_s, each.gyro.cwiseAbs().maxCoeff());
+    }
+    return rate_rad_s;
+  };
+  EXPECT_LT(largest_rate(0), 0.04);
+  EXPECT_GT(largest_rate(1), 0.08) << "0.1 rad/s at switching on, 0.04 of noise";
+  EXPECT_EQ(sensor_noise(job.drones[1].mission).gps_hz, 4);
+}
+
 TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   const auto truth = passage();
-  const JobSpec job;
+  JobSpec job;
+  job.drones.resize(1);
   const sim::SensorLog log = record_sensors(job, 3, truth, 0);
   camera::CameraSpec spec;
   const sim::ViewAngles view{90 * kDegree, -40 * kDegree, 0.5 * kDegree};
   const camera::Camera camera = camera_on(truth[60], spec, view);
   const nlohmann::json record =
-      flight_record({truth[60], view, camera, log.at(1), {91 * kDegree, -40 * kDegree, 0}});
+      flight_record({truth[60], view, camera, log.at(1), {91 * kDegree, -40 * kDegree, 0}}, {});
   const nlohmann::json& real = record["true"];
   EXPECT_EQ(real["position"], nlohmann::json({6, 4, 20}));
   EXPECT_EQ(real["height_m"], 20);
@@ -79,7 +97,8 @@ TEST(HorizonRows, AreWhereFarGroundIsSeen) {
 
 TEST(SensorsCsv, HasALinePerSampleAndAColumnPerName) {
   const auto truth = passage();
-  const JobSpec job;
+  JobSpec job;
+  job.drones.resize(1);
   std::istringstream csv(sensors_csv(truth, record_sensors(job, 3, truth, 0)));
   std::string line;
   std::size_t lines = 0;
