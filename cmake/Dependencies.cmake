@@ -25,6 +25,7 @@ pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
 pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(isal REQUIRED IMPORTED_TARGET libisal)
 pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
+pkg_check_modules(libzstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(libexif REQUIRED IMPORTED_TARGET libexif)
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(pangocairo REQUIRED IMPORTED_TARGET pangocairo)
@@ -71,18 +72,6 @@ foreach(module IN ITEMS core imgproc)
 endforeach()
 find_path(OPENCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
 target_include_directories(throng_opencv SYSTEM INTERFACE "${OPENCV_INCLUDE}")
-
-# Debian's pkg-config file of rosbag asks for one of pluginlib, which there is not.
-add_library(throng_rosbag INTERFACE)
-foreach(library IN ITEMS rosbag_storage roscpp_serialization rostime cpp_common console_bridge class_loader
-    ament_index_cpp rcutils rcpputils)
-  find_library(ROS_${library} ${library} REQUIRED)
-  target_link_libraries(throng_rosbag INTERFACE "${ROS_${library}}")
-endforeach()
-find_path(ROS_INCLUDE rosbag/bag.h REQUIRED)
-foreach(package IN ITEMS pluginlib class_loader ament_index_cpp rcutils rcpputils)
-  target_include_directories(throng_rosbag SYSTEM INTERFACE "${ROS_INCLUDE}/${package}")
-endforeach()
 
 # OpenCV's modules for the detection of calibration boards, for the one module that uses them. ArUco is linked statically:
 # Debian's shared one is a part of libopencv-contrib, which comes with GDAL, Qt and Tesseract (150 packages).

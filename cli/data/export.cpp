@@ -87,6 +87,19 @@ formats::ExportOptions read_options(const ExportArguments& arguments) {
   return options;
 }
 
+/// Recordings are complete up to the time at which the disk was full: they stay in OUTPUT.partial,
+/// which a new error says.
+void keep_recordings(const fs::path& staged, const std::string& output,
+                     const EnvironmentError& error) {
+  const fs::path kept = output + ".partial";
+  std::error_code failed;
+  if (!fs::exists(staged / "mcap", failed) || fs::exists(kept, failed)) return;
+  fs::rename(staged / "mcap", kept, failed);
+  if (failed) return;
+  throw EnvironmentError(
+      fmt::format("{}; recordings until then are in {}", error.what(), kept.string()));
+}
+
 void export_formats(const ExportArguments& arguments) {
   const fs::path root = arguments.dataset;
   const formats::DatasetInfo info =
@@ -101,8 +114,13 @@ void export_formats(const ExportArguments& arguments) {
   }
   StagingFolder staging(arguments.output);
   std::vector<Problem> warnings = formats::split_warnings(info, chosen);
-  for (Problem& warning : formats::export_dataset(info, chosen, staging.path())) {
-    warnings.push_back(std::move(warning));
+  try {
+    for (Problem& warning : formats::export_dataset(info, chosen, staging.path())) {
+      warnings.push_back(std::move(warning));
+    }
+  } catch (const EnvironmentError& error) {
+    keep_recordings(staging.path(), arguments.output, error);
+    throw;
   }
   staging.commit();
   for (const Problem& warning : warnings) {

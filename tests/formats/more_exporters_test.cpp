@@ -444,15 +444,14 @@ TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
   EXPECT_THAT(lines[1], ::testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
 }
 
-// Their content is read by rosbag itself: tests/cli/test_external_readers.py.
-TEST_F(MoreExports, BagsAreTheSameEveryTime) {
-  const std::string bag = read_file(exported("rosbag") / "train/run001.bag");
-  EXPECT_TRUE(bag.starts_with("#ROSBAG V2.0\n"));
-  EXPECT_EQ(read_file(exported("rosbag") / "train/run001.bag"), bag);
-  EXPECT_LT(read_file(exported("rosbag-lz4") / "train/run001.bag").size(), bag.size());
+// Their content is read by @mcap/core: tests/cli/test_external_readers.py.
+TEST_F(MoreExports, RecordingsAreTheSameEveryTime) {
+  const std::string recording = read_file(exported("mcap") / "train/run001.mcap");
+  EXPECT_TRUE(recording.starts_with("\x89MCAP0\r\n"));
+  EXPECT_EQ(read_file(exported("mcap") / "train/run001.mcap"), recording);
 }
 
-TEST_F(MoreExports, BagsRefuseDronesThatRosCannotTellApart) {
+TEST_F(MoreExports, RecordingsRefuseDronesThatRosCannotTellApart) {
   std::string text = read_file(root_ / kCocoFile);
   for (const auto& [from, to] : {std::pair{R"("d1")", R"("d-1")"}, {R"("d2")", R"("d_1")"}}) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
@@ -460,7 +459,7 @@ TEST_F(MoreExports, BagsRefuseDronesThatRosCannotTellApart) {
     }
   }
   write_file_atomically(root_ / kCocoFile, text);
-  EXPECT_THROW(exported("rosbag"), InputError);
+  EXPECT_THROW(exported("mcap"), InputError);
 }
 
 TEST_F(MoreExports, DroneCrowdBoxesAreAboutHeads) {

@@ -95,7 +95,7 @@ const kReaders: Reader[] = [
     names: ["movingdronecrowd"],
     text: 'import glob, numpy as np\nfor name in glob.glob("FOLDER/annotations/*/*.csv"):\n    heads = np.loadtxt(name, delimiter=",", ndmin=2)  # frame, person, left, top, width, height',
   },
-  { names: ["rosbag", "rosbag-lz4"], text: "rosbag info FOLDER/SPLIT/run000.bag" },
+  { names: ["mcap"], text: "ros2 bag info --storage mcap FOLDER/SPLIT/run000.mcap  # or open it in Foxglove" },
   { names: ["table"], text: 'import glob, pandas\npeople = pandas.read_csv(glob.glob("FOLDER/**/people.csv", recursive=True)[0])' },
 ];
 
