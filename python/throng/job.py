@@ -14,8 +14,8 @@ from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 __all__ = [
     "Aim", "Appearance", "Area", "Battery", "Camera", "Capture", "Classes", "Columns", "Counts", "Crowd", "Density",
     "Distortion", "Distribution", "Drone", "Environment", "Fields", "Filters", "Gimbal", "Guidance", "Image", "Job",
-    "Line", "Outputs", "PerFrame", "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits", "Webdataset",
-    "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
+    "Line", "Mount", "Outputs", "PerFrame", "Perception", "Props", "Recorded", "ScenarioShare", "Sensor", "Splits",
+    "Webdataset", "Wind", "Zone", "choice", "log_uniform", "normal", "uniform",
 ]
 
 
@@ -323,9 +323,9 @@ class Gimbal(Part):
     """The stabilized mount of the camera."""
 
     _: KW_ONLY
-    model: Literal["ideal", "second_order"] | None = None
+    model: Literal["ideal", "second_order", "rigid"] | None = None
     """ideal: exact direction; second_order: follows the heading as a damped second-order system, with jitter and a
-    misaligned mount. Default: "ideal"."""
+    misaligned mount; rigid: no gimbal, the camera rolls and pitches with the drone. Default: "ideal"."""
     natural_rad_s: float | Distribution | None = None
     """Natural frequency of the response. Unit: rad/s. Default: 25."""
     damping: float | Distribution | None = None
@@ -350,6 +350,19 @@ class PerFrame(Part):
     Default: 0."""
     ev: float | Distribution | None = None
     """Standard deviation of each frame's offset from sensor.ev. Unit: EV. Default: 0."""
+
+
+@dataclass
+class Mount(Part):
+    """Position of the camera's center on the drone."""
+
+    _: KW_ONLY
+    x_m: float | Distribution | None = None
+    """Distance from the drone's center, ahead. Unit: m. Default: 0."""
+    y_m: float | Distribution | None = None
+    """Distance from the drone's center, to the left. Unit: m. Default: 0."""
+    z_m: float | Distribution | None = None
+    """Distance from the drone's center, above. Unit: m. Default: 0."""
 
 
 @dataclass
@@ -411,6 +424,8 @@ class Camera(Part):
     """Angle above the horizon; -90 looks straight down. Unit: degrees. Default: -50."""
     yaw_deg: float | Distribution | None = None
     """Angle to the left of the drone's heading. Unit: degrees. Default: 0."""
+    mount: Mount | None = None
+    """Position of the camera's center on the drone."""
     per_frame: PerFrame | None = None
     """Differences from frame to frame: standard deviations of normal numbers that are sampled for each."""
     gimbal: Gimbal | None = None

@@ -37,7 +37,7 @@ PropMesh airframe_mesh(const DroneInstance& drone);
 
 /// Whether a camera with this center is mounted on the drone, which it therefore does not see.
 inline bool carries(const DroneInstance& drone, const Eigen::Vector3d& camera_center) {
-  return (drone.position - camera_center).norm() < drone.shape.arm_m;
+  return (drone.position - camera_center).norm() < drone.shape.reach_m();
 }
 
 }  // namespace throng::render

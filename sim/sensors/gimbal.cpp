@@ -54,6 +54,22 @@ class SecondOrder {
   Vector3d rate_ = Vector3d::Zero();
 };
 
+/// Angles of a camera that is fixed to the body, at its yaw and pitch there.
+ViewAngles rigid_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
+  const double yaw_rad = camera.yaw_deg * kDegree;
+  const double pitch_rad = camera.pitch_deg * kDegree;
+  const Vector3d ahead =
+      orientation * Vector3d(std::cos(pitch_rad) * std::cos(yaw_rad),
+                             std::cos(pitch_rad) * std::sin(yaw_rad), std::sin(pitch_rad));
+  const Vector3d right = orientation * Vector3d(std::sin(yaw_rad), -std::cos(yaw_rad), 0);
+  ViewAngles view;
+  view.yaw = std::atan2(ahead.y(), ahead.x());
+  view.pitch = std::asin(std::clamp(ahead.z(), -1.0, 1.0));
+  const Vector3d level_right(std::sin(view.yaw), -std::cos(view.yaw), 0);
+  view.roll = std::atan2(right.dot(ahead.cross(level_right)), right.dot(level_right));
+  return view;
+}
+
 }  // namespace
 
 double heading_from_orientation(const Eigen::Quaterniond& orientation) {
@@ -62,6 +78,7 @@ double heading_from_orientation(const Eigen::Quaterniond& orientation) {
 }
 
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
+  if (camera.gimbal.model == camera::GimbalModel::rigid) return rigid_view(orientation, camera);
   return {heading_from_orientation(orientation) + camera.yaw_deg * kDegree,
           camera.pitch_deg * kDegree, 0};
 }
@@ -86,8 +103,9 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
     // Heading without jumps at half a turn.
     heading += std::remainder(heading_from_orientation(sample.orientation) - heading, 2 * EIGEN_PI);
     const Vector3d next(heading + yaw_rad, pitch_rad, 0);
-    if (spec.ideal) {
-      points_.push_back({sample.time_s, view_angles(next), view_angles(next)});
+    if (spec.model != camera::GimbalModel::second_order) {
+      const ViewAngles view = ideal_view(sample.orientation, camera);
+      points_.push_back({sample.time_s, view, view});
       continue;
     }
     const Vector3d angle = response.advance(target, next, dt_s);

@@ -22,8 +22,8 @@ struct ViewAngles {
 /// independent of its tilt.
 double heading_from_orientation(const Eigen::Quaterniond& orientation);
 
-/// Viewing direction with an ideal gimbal: the drone's heading plus the camera's yaw, the camera's
-/// pitch, no roll.
+/// Viewing direction with an ideal gimbal, the drone's heading plus the camera's yaw, the camera's
+/// pitch, no roll; or of a rigid mount, which tilts with the drone.
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera);
 
 /// The viewing direction of a camera over a run, computed from a trace, as SensorLog.

@@ -3,6 +3,7 @@
 // for each run.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "camera/camera.h"
@@ -53,6 +54,7 @@ struct CameraSpec {
   std::optional<Intrinsics> calibrated;
   double pitch_deg = -50;  ///< angle above the horizon; negative looks down
   double yaw_deg = 0;      ///< to the left of the drone's heading
+  Eigen::Vector3d mount_m = Eigen::Vector3d::Zero();  ///< camera's center in the body frame
   Sensor sensor;
   Exposure exposure;
   GimbalSpec gimbal;

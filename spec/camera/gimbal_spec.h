@@ -1,13 +1,22 @@
-// Accuracy with which a camera's gimbal follows its commands (sim/sensors/gimbal.h).
+// Mount of a camera on its drone: a gimbal, and the accuracy with which it follows its commands, or
+// none (sim/sensors/gimbal.h).
 #pragma once
+
+#include <cstdint>
 
 #include "base/geometry/angle.h"
 
 namespace throng::camera {
 
-/// Errors of a gimbal; only `ideal` counts if it is true.
+enum class GimbalModel : std::uint8_t {
+  ideal,         ///< follows commands exactly and without delay
+  second_order,  ///< follows them with errors
+  rigid,         ///< none: the camera tilts with the drone
+};
+
+/// A gimbal; its errors count for GimbalModel::second_order only.
 struct GimbalSpec {
-  bool ideal = true;                    ///< follows commands exactly and without delay
+  GimbalModel model = GimbalModel::ideal;
   double natural_rad_s = 25;            ///< natural frequency of each axis's second-order response
   double damping = 0.7;                 ///< damping ratio of this response
   double jitter_rad = 0.015 * kDegree;  ///< standard deviation of the residual vibration

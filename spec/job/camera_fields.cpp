@@ -13,7 +13,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::array kModels{"pinhole", "brown_conrady", "fisheye"};
-constexpr std::array kGimbals{"ideal", "second_order"};
+constexpr std::array kGimbals{"ideal", "second_order", "rigid"};
 constexpr std::array kMeterings{"image", "light"};
 constexpr std::array kCalibrated = {"preset", "width", "height", "hfov_deg", "fx_px",
                                     "fy_px",  "cx_px", "cy_px",  "model",    "distortion"};
@@ -94,10 +94,13 @@ void set_model(CameraSpec& spec, const json& value, const FieldLocation& /*place
       std::find(kModels.begin(), kModels.end(), value) - kModels.begin());
 }
 
-json gimbal_json(const CameraSpec& spec) { return kGimbals.at(spec.gimbal.ideal ? 0 : 1); }
+json gimbal_json(const CameraSpec& spec) {
+  return kGimbals.at(static_cast<std::size_t>(spec.gimbal.model));
+}
 
 void set_gimbal(CameraSpec& spec, const json& value, const FieldLocation& /*place*/) {
-  spec.gimbal.ideal = value == kGimbals.front();
+  spec.gimbal.model = static_cast<camera::GimbalModel>(
+      std::find(kGimbals.begin(), kGimbals.end(), value) - kGimbals.begin());
 }
 
 json metering_json(const CameraSpec& spec) { return kMeterings.at(spec.sensor.is_metered ? 0 : 1); }
@@ -197,6 +200,17 @@ void add_view_fields(FieldTable<CameraSpec>& table) {
              "Angle above the horizon; -90 looks straight down.");
   add_number(table, "yaw_deg", "Yaw", "degrees", -180, 180, at(&CameraSpec::yaw_deg),
              "Angle to the left of the drone's heading.");
+  table.group("mount", "Mount", "Position of the camera's center on the drone.");
+  const std::array<std::pair<const char*, const char*>, 3> axes{
+      {{"x", "ahead"}, {"y", "to the left"}, {"z", "above"}}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& [name, direction] = axes.at(static_cast<std::size_t>(axis));
+    add_number(
+        table, std::string("mount/") + name + "_m", std::string("Mount ") + name, "m", -2, 2,
+        [axis](const CameraSpec& spec) { return std::optional<double>(spec.mount_m[axis]); },
+        [axis](CameraSpec& spec, double value) { spec.mount_m[axis] = value; },
+        std::string("Distance from the drone's center, ") + direction + ".");
+  }
   table.group("per_frame", "Per frame",
               "Differences from frame to frame: standard deviations of normal numbers that are "
               "sampled for each.");
@@ -216,7 +230,8 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
   table.group("gimbal", "Gimbal", "The stabilized mount of the camera.");
   table.add("gimbal/model", "Model", "", one_of_words(kGimbals), gimbal_json, set_gimbal,
             "ideal: exact direction; second_order: follows the heading as a damped second-order "
-            "system, with jitter and a misaligned mount.");
+            "system, with jitter and a misaligned mount; rigid: no gimbal, the camera rolls and "
+            "pitches with the drone.");
   add_number(table, "gimbal/natural_rad_s", "Natural frequency", "rad/s", 1, 100,
              at(&CameraSpec::gimbal, &camera::GimbalSpec::natural_rad_s),
              "Natural frequency of the response.");

@@ -35,7 +35,7 @@ camera::CameraSpec camera_at(double yaw_rad, double pitch_rad, const camera::Gim
 
 camera::GimbalSpec still() {
   camera::GimbalSpec spec;
-  spec.ideal = false;
+  spec.model = camera::GimbalModel::second_order;
   spec.jitter_rad = spec.bias_rad = spec.reading_rad = 0;
   return spec;
 }
@@ -70,7 +70,7 @@ TEST(GimbalLog, ADroneThatTurnsRoundAndRoundIsFollowedWithoutJumps) {
 
 TEST(GimbalLog, ShakesAndIsMisalignedAsMuchAsItSays) {
   camera::GimbalSpec spec;
-  spec.ideal = false;
+  spec.model = camera::GimbalModel::second_order;
   const auto truth = turning(300, [](double) { return 0.0; });
   double biases = 0;
   constexpr int kCameras = 60;

@@ -71,6 +71,7 @@ json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise) {
         {"energy_wh", truth.energy_j / kJoulesPerWh},
         {"gimbal", angles_json(moment.view)},
         {"camera_orientation_wxyz", {c.w(), c.x(), c.y(), c.z()}},
+        {"mount_m", vector_json(q.conjugate() * (moment.camera.pose.center() - truth.position))},
         {"horizon_rows", horizon_rows(moment.camera)}}},
       {"measured",
        {{"time_s", reading.time_s},

@@ -86,8 +86,9 @@ std::vector<render::DroneInstance> FrameCapture::drones_at(double time_s) const 
 sim::ViewAngles FrameCapture::view_at(std::size_t drone, std::int64_t frame,
                                       const world::DroneSample& sample) const {
   const camera::CameraSpec& camera = cameras_[drone];
-  sim::ViewAngles view = camera.gimbal.ideal ? sim::ideal_view(sample.orientation, camera)
-                                             : gimbals_[drone].view_at(sample.time_s);
+  sim::ViewAngles view = camera.gimbal.model == camera::GimbalModel::second_order
+                             ? gimbals_[drone].view_at(sample.time_s)
+                             : sim::ideal_view(sample.orientation, camera);
   const camera::FrameOffsets draw = draw_of_frame(camera, run_seed_, drone, frame);
   view.yaw += draw.yaw_deg * kDegree;
   view.pitch += draw.pitch_deg * kDegree;

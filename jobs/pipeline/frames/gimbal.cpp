@@ -14,14 +14,15 @@ camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSp
                          const sim::ViewAngles& view) {
   const std::optional<camera::Intrinsics> intrinsics = spec.intrinsics();
   check(intrinsics.has_value(), "a job's lenses are checked when it is read");
-  camera::Pose pose = camera::pose_looking(drone.position, view.yaw, view.pitch);
+  const Eigen::Vector3d center = drone.position + drone.orientation * spec.mount_m;
+  camera::Pose pose = camera::pose_looking(center, view.yaw, view.pitch);
   if (view.roll != 0) {
     // Clockwise about the view: what was right of the camera goes down.
     const Eigen::Vector3d right = pose.R.row(0);
     const Eigen::Vector3d down = pose.R.row(1);
     pose.R.row(0) = std::cos(view.roll) * right + std::sin(view.roll) * down;
     pose.R.row(1) = std::cos(view.roll) * down - std::sin(view.roll) * right;
-    pose.t = -pose.R * drone.position;
+    pose.t = -pose.R * center;
   }
   return {*intrinsics, pose};
 }

@@ -159,7 +159,7 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
   const camera::GimbalSpec gimbal =
       camera_of_run(job.drones[0].camera, 5, camera_pointer(0)).gimbal;
-  EXPECT_FALSE(gimbal.ideal);
+  EXPECT_EQ(gimbal.model, camera::GimbalModel::second_order);
   EXPECT_EQ(gimbal.natural_rad_s, 30);
   EXPECT_NEAR(gimbal.bias_rad, 0.2 * EIGEN_PI / 180, 1e-12);
   EXPECT_GE(gimbal.jitter_rad, 0.01 * EIGEN_PI / 180);

@@ -40,6 +40,33 @@ TEST(Gimbal, TheDronesTiltDoesNotReachTheCamera) {
   EXPECT_TRUE(tilted.pose.R.isApprox(level.pose.R, 1e-12));
 }
 
+TEST(Gimbal, RigidMountTiltsWithTheDrone) {
+  camera::CameraSpec spec;
+  spec.gimbal.model = camera::GimbalModel::rigid;
+  spec.pitch_deg = -30;
+  spec.yaw_deg = 20;
+  spec.mount_m = {0.1, 0.03, -0.2};
+  world::DroneSample drone = drone_heading(0.7, 0.4);
+  drone.orientation = drone.orientation * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
+  const camera::Camera camera = camera_on(drone, spec);
+  // A point 10 m away on the camera's axis, in the body frame, and one to the right of it there.
+  const Eigen::Vector3d axis = Eigen::AngleAxisd(20 * kDegree, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(30 * kDegree, Eigen::Vector3d::UnitY()) *
+                               Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d right =
+      Eigen::AngleAxisd(20 * kDegree, Eigen::Vector3d::UnitZ()) * -Eigen::Vector3d::UnitY();
+  const auto world = [&](const Eigen::Vector3d& in_body) -> Eigen::Vector3d {
+    return drone.position + drone.orientation * in_body;
+  };
+  EXPECT_TRUE(camera.pose.center().isApprox(world(spec.mount_m), 1e-12));
+  const auto middle = camera.project(world(spec.mount_m + 10 * axis));
+  EXPECT_NEAR(middle.pixel.x(), camera.intrinsics.cx_px, 1e-6);
+  EXPECT_NEAR(middle.pixel.y(), camera.intrinsics.cy_px, 1e-6);
+  const auto beside = camera.project(world(spec.mount_m + 10 * axis + right));
+  EXPECT_NEAR(beside.pixel.x(), camera.intrinsics.cx_px + camera.intrinsics.fx_px / 10, 1e-6);
+  EXPECT_NEAR(beside.pixel.y(), camera.intrinsics.cy_px, 1e-6);
+}
+
 TEST(Gimbal, RollTurnsTheCameraClockwise) {
   // Then the image turns the other way: what lies below the middle moves to the right of it.
   camera::CameraSpec spec;
