@@ -223,22 +223,23 @@ class McapExporter : public Exporter {
 
   /// All readings up to the image if the dataset has them, else the last ones before it.
   void add_sensors(const Image& image, const json& measured, const std::string& name) {
-    const auto [drone, is_new] = drones_.try_emplace(image.camera);
+    const bool is_new = !drones_.contains(image.camera);
+    Drone& drone = drones_[image.camera];
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 0.0);
     const Eigen::Vector3d sd_m = numbers_at<3>(measured.at("gps").at("position_sd_m"));
     const auto publish = [&](const SensorRow& row) {
-      publish_readings(row, name, latitude_deg, sd_m, drone->second.last_fix_s);
+      publish_readings(row, name, latitude_deg, sd_m, drone.last_fix_s);
     };
     if (!info_.has(annotate::GroundTruth::sensors)) {
       publish(reading_of_image(measured));
       return;
     }
     if (is_new) {
-      drone->second.table.emplace(info_.root / "sensors" / image.run / (image.camera + ".csv"));
+      drone.table.emplace(info_.root / "sensors" / image.run / (image.camera + ".csv"));
     }
     const double from_s = is_new ? image.time_s - kLeadS : 0;
-    while (const auto row = drone->second.table->until(image.time_s)) {
+    while (const auto row = drone.table->until(image.time_s)) {
       if (row->time_s >= from_s) publish(*row);
     }
   }
