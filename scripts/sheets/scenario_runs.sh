@@ -26,9 +26,9 @@ for scenario in "${scenarios[@]}"; do
     out="$folder/${scenario}_$variant"
     if [ ! -e "$out/dataset/manifest.json" ]; then
       job "$scenario" "$variant" > "$out.job.json"
-      start=$(date +%s.%N)
+      start=$SECONDS
       "$throng" run "$out.job.json" -o "$out" > "$out.log" 2>&1 || { tail -3 "$out.log"; exit 1; }
-      printf '%.0f' "$(echo "$(date +%s.%N) - $start" | bc)" > "$out.seconds"
+      echo $((SECONDS - start)) > "$out.seconds"
       "$throng" validate "$out/dataset" > "$out.validation"
     fi
     jq -r --arg scenario "$scenario" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \

@@ -4,7 +4,7 @@
 usage: scripts/studies/evacuation_figures.py
 
 THRONG names another program than build/release/cli/throng. The images beside the page need Chromium (Debian: chromium).
-Half a minute on two idle cores; times are those of this machine, so that nothing else should run.
+Eleven seconds on two idle cores; times are those of this machine, so that nothing else should run.
 """
 import json
 import os

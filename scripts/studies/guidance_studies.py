@@ -8,7 +8,6 @@ without and with three drones, for the crowd models orca and ttc), unseen (anoth
 (drones see what their cameras count), compliance (half of the people follow), signage, everyday_square (the four cases of
 city_square). FOLDER has a folder per study; an interrupted one is resumed. THRONG names another program than
 build/release/cli/throng.
-Half an hour on two idle cores.
 """
 import argparse
 import json
