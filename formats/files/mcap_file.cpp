@@ -156,6 +156,7 @@ struct McapFile::State {
   Span chunk_span;
   std::string chunk_indexes;  ///< records
   std::uint32_t chunks = 0;
+  bool is_ended = false;
   std::uint64_t messages = 0;                ///< of written chunks
   std::vector<std::uint64_t> messages_of;    ///< by channel, of written chunks
   Span span;                                 ///< of written chunks
@@ -302,6 +303,7 @@ void McapFile::State::write_chunk() {
 }
 
 void McapFile::State::end() {
+  is_ended = true;
   std::string data_end;
   append(data_end, std::uint32_t{0});  // no checksum of all data
   space.write(record(Opcode::data_end, data_end));
@@ -314,7 +316,12 @@ McapFile::McapFile(std::filesystem::path path, McapOptions options)
   state_->begin();
 }
 
-McapFile::~McapFile() = default;
+McapFile::~McapFile() {
+  try {
+    if (!state_->is_ended) state_->end();
+  } catch (const EnvironmentError&) {  // not even the reserved space
+  }
+}
 
 std::uint16_t McapFile::add_channel(const std::string& topic, const McapSchema& schema) {
   std::string content;

@@ -26,13 +26,15 @@ struct McapOptions {
 };
 
 /// A recording that is written message by message. Memory holds one chunk, and about 200 bytes for
-/// each chunk that was written. Space for what closes the file is reserved before each chunk, so
+/// each one that was written. Space for what closes the file is reserved before each chunk, so
 /// that a full disk leaves a complete recording of the chunks until then.
 class McapFile {
  public:
   /// Creates or replaces the file. Throws EnvironmentError, as all members do, if it cannot be
   /// written; the message then says until which time the recording is complete.
   McapFile(std::filesystem::path path, McapOptions options = {});
+  /// Closes what was not closed, as far as that can be written: without the messages of the last
+  /// chunk.
   ~McapFile();
   McapFile(const McapFile&) = delete;
   McapFile& operator=(const McapFile&) = delete;

@@ -1,4 +1,4 @@
-// MCAP recordings, read byte by byte here, and by @mcap/core in tests/cli/test_external_readers.py.
+// MCAP recordings, read byte by byte here, and by @mcap/core in tests/cli/test_recordings.py.
 #include "formats/files/mcap_file.h"
 
 #include <fmt/format.h>
@@ -19,17 +19,8 @@
 #include "tests/formats/files/mcap_reader.h"
 #include "tests/world/temporary_folder.h"
 
-namespace throng::formats {
+namespace throng::formats::mcap {
 namespace {
-
-using mcap::Bytes;
-using mcap::kMagicBytes;
-using mcap::kText;
-using mcap::Message;
-using mcap::read_chunk;
-using mcap::read_messages;
-using mcap::read_records;
-using mcap::Record;
 
 TEST(McapFile, HoldsWhatWasAdded) {
   const throng::testing::TemporaryFolder folder;
@@ -157,4 +148,4 @@ TEST(RosMessages, SchemasHoldEveryPart) {
 }
 
 }  // namespace
-}  // namespace throng::formats
+}  // namespace throng::formats::mcap

@@ -14,23 +14,15 @@
 #include "tests/formats/files/mcap_reader.h"
 #include "tests/world/temporary_folder.h"
 
-namespace throng::formats {
+namespace throng::formats::mcap {
 namespace {
-
-using mcap::Bytes;
-using mcap::kMagicBytes;
-using mcap::kText;
-using mcap::Message;
-using mcap::read_chunk;
-using mcap::read_records;
-using mcap::Record;
 
 /// Gives the space of a file's middle back, whose bytes are zeros.
 void punch_holes(const std::filesystem::path& path, std::uint64_t from, std::uint64_t to) {
   const int file = ::open(path.c_str(), O_WRONLY);
   ASSERT_GE(file, 0);
-  constexpr int kPunchHole = 0x02 | 0x01;  // FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE
-  ::fallocate(file, kPunchHole, static_cast<off_t>(from), static_cast<off_t>(to - from));
+  ::fallocate(file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(from),
+              static_cast<off_t>(to - from));
   ::close(file);
 }
 
@@ -85,4 +77,4 @@ TEST(McapFile, FiveGigabytesNeedNoMoreMemoryThanAChunk) {
 }
 
 }  // namespace
-}  // namespace throng::formats
+}  // namespace throng::formats::mcap
