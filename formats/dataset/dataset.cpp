@@ -154,6 +154,25 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   image.record = std::move(record);
 }
 
+/// Errors of the sensors of those drones whose airframe is known.
+std::map<std::string, sim::SensorNoise> read_sensor_noise(const json& drones) {
+  std::map<std::string, sim::SensorNoise> noise;
+  for (const json& drone : drones.is_array() ? drones : json::array()) {
+    if (!drone.is_object() || !drone.contains("id") || !drone.at("id").is_string()) continue;
+    const std::string id = drone.at("id");
+    const json airframe = drone.value("airframe", json());
+    std::vector<Problem> problems;
+    if (airframe.is_object()) {
+      noise[id] = sim::read_airframe(id, airframe, "", problems).sensors;
+    } else if (airframe.is_string()) {
+      if (const auto known = sim::find_airframe(airframe.get<std::string>())) {
+        noise[id] = known->sensors;
+      }
+    }
+  }
+  return noise;
+}
+
 }  // namespace
 
 json webdataset_sample(const Image& image, const DatasetInfo& info) {
@@ -274,29 +293,6 @@ ExportOptions export_options(const json& manifest) {
   return options;
 }
 
-namespace {
-
-/// Errors of the sensors of those drones whose airframe is known.
-std::map<std::string, sim::SensorNoise> read_sensor_noise(const json& drones) {
-  std::map<std::string, sim::SensorNoise> noise;
-  for (const json& drone : drones.is_array() ? drones : json::array()) {
-    if (!drone.is_object() || !drone.contains("id") || !drone.at("id").is_string()) continue;
-    const std::string id = drone.at("id");
-    const json airframe = drone.value("airframe", json());
-    std::vector<Problem> problems;
-    if (airframe.is_object()) {
-      noise[id] = sim::read_airframe(id, airframe, "", problems).sensors;
-    } else if (airframe.is_string()) {
-      if (const auto known = sim::find_airframe(airframe.get<std::string>())) {
-        noise[id] = known->sensors;
-      }
-    }
-  }
-  return noise;
-}
-
-}  // namespace
-
 DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
                              const ExportOptions& options) {
   DatasetInfo info;
@@ -334,7 +330,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     throw bad_manifest(root, error);
   }
   const json drones = manifest.at("job").value("drones", json());
-  info.sensors = read_sensor_noise(drones);
+  info.sensor_noise = read_sensor_noise(drones);
   const bool has_images = !drones.is_array() || !drones.empty();
   if (has_images && !info.has(annotate::GroundTruth::coco)) {
     throw InputError({root.string(), "", "no COCO annotations",

@@ -113,7 +113,7 @@ struct DatasetInfo {
   nlohmann::json count_areas = nlohmann::json::object();  ///< the job's outputs.counts
   std::string scenario;                                   ///< its id; "" for several scenarios
   /// Errors of the drones' sensors, by drone; those of datasets that were merged may be unknown.
-  std::map<std::string, sim::SensorNoise> sensors;
+  std::map<std::string, sim::SensorNoise> sensor_noise;
   std::int64_t frames_per_camera = 0;
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "base/error.h"
 
 namespace throng::formats {
@@ -55,6 +57,17 @@ fs::path raster_path(const fs::path& root, const char* kind, const std::string& 
   const std::size_t slash = image_file.find('/');
   const std::string rest = slash == std::string::npos ? image_file : image_file.substr(slash + 1);
   return (root / kind / rest).replace_extension(".png");
+}
+
+std::vector<float> depth_meters(const images::Raster& depth) {
+  constexpr float kMetersPerUnit = 0.01F;
+  std::vector<float> meters;
+  meters.reserve(depth.samples.size());
+  for (const std::uint16_t sample : depth.samples) {
+    meters.push_back(sample == 0 ? std::numeric_limits<float>::infinity()
+                                 : kMetersPerUnit * static_cast<float>(sample));
+  }
+  return meters;
 }
 
 }  // namespace throng::formats

@@ -20,6 +20,9 @@ std::vector<std::uint32_t> read_instances(const std::filesystem::path& path, int
 std::vector<world::SemanticClass> read_classes(const std::filesystem::path& path, int width,
                                                int height);
 
+/// Depth in meters of a raster of depth/; infinity where nothing is.
+std::vector<float> depth_meters(const images::Raster& depth);
+
 /// Path of an image's file of this kind: "images/a/b.jpg" and "depth" give "depth/a/b.png" below
 /// `root`.
 std::filesystem::path raster_path(const std::filesystem::path& root, const char* kind,

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <string>
 
 #include "base/error.h"
 #include "base/text/csv.h"
+#include "formats/files/csv_table.h"
 
 namespace throng::formats {
 
@@ -66,10 +67,9 @@ void SensorTable::step() {
   const std::vector<std::string> cells = csv_cells(line);
   std::vector<double> v;
   for (const std::size_t column : columns_) {
-    char* end = nullptr;
     const std::string cell = column < cells.size() ? cells[column] : "";
-    v.push_back(std::strtod(cell.c_str(), &end));
-    if (cell.empty() || *end != '\0') {
+    v.push_back(parse_number(cell));
+    if (!std::isfinite(v.back())) {
       throw InputError({path_.string(), fmt::format("line {}", line_), cell, "a number"});
     }
   }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@ namespace throng::formats {
 
 namespace {
 
-constexpr float kMetersPerUnit = 0.01F;
 /// Luminance: of single channels, the one that OpenCV reads. It ignores one named Z.
 constexpr const char* kChannel = "Y";
 
@@ -42,12 +40,7 @@ class MemoryStream : public Imf::OStream {
 };
 
 std::string exr_bytes(const images::Raster& depth) {
-  std::vector<float> meters;
-  meters.reserve(depth.samples.size());
-  for (const std::uint16_t sample : depth.samples) {
-    meters.push_back(sample == 0 ? std::numeric_limits<float>::infinity()
-                                 : kMetersPerUnit * static_cast<float>(sample));
-  }
+  std::vector<float> meters = depth_meters(depth);
   Imf::Header header(depth.width, depth.height);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.channels().insert(kChannel, Imf::Channel(Imf::FLOAT));

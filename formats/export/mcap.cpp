@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -291,20 +290,13 @@ class McapExporter : public Exporter {
 
   /// Meters along the optical axis; infinity where nothing is.
   std::vector<float> read_depth(const Image& image) const {
-    constexpr float kMetersPerUnit = 0.01F;
     const fs::path path = raster_path(info_.root, "depth", image.file);
     const images::Raster depth = images::read_raster(path);
     if (depth.width != image.width || depth.height != image.height) {
       throw InputError({path.string(), "", fmt::format("{} x {} pixels", depth.width, depth.height),
                         fmt::format("{} x {}", image.width, image.height)});
     }
-    std::vector<float> depth_m;
-    depth_m.reserve(depth.samples.size());
-    for (const std::uint16_t sample : depth.samples) {
-      depth_m.push_back(sample == 0 ? std::numeric_limits<float>::infinity()
-                                    : kMetersPerUnit * static_cast<float>(sample));
-    }
-    return depth_m;
+    return depth_meters(depth);
   }
 
   void add_people(const Image& image, const std::string& root, const ros::Header& optical) {

@@ -153,7 +153,8 @@ Vector3d magnetic_field(double latitude_rad) {
 }
 
 SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t seed,
-                     std::uint64_t drone, double latitude_rad, const SensorNoise& noise) {
+                     std::uint64_t drone, double latitude_rad, const SensorNoise& noise)
+    : noise_(noise) {
   check(!truth.empty(), "a drone with sensors has flown");
   const Vector3d field = magnetic_field(latitude_rad);
   InertialTriad gyro(noise.gyro, sensor_random(seed, drone, Sensor::gyro));

@@ -45,6 +45,9 @@ class SensorLog {
   SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t seed, std::uint64_t drone,
             double latitude_rad, const SensorNoise& noise = {});
 
+  /// The errors with which the readings were made.
+  const SensorNoise& noise() const { return noise_; }
+
   /// All readings, in order of time.
   const std::vector<SensorReading>& readings() const { return readings_; }
 
@@ -52,6 +55,7 @@ class SensorLog {
   const SensorReading& at(double time_s) const;
 
  private:
+  SensorNoise noise_;
   std::vector<SensorReading> readings_;
 };
 

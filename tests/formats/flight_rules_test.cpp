@@ -133,7 +133,7 @@ Image with_flight() {
 
 DatasetInfo info_with_noise() {
   DatasetInfo info;
-  info.sensors[hand_made::image().camera] = {};
+  info.sensor_noise[hand_made::image().camera] = {};
   return info;
 }
 
@@ -238,7 +238,7 @@ std::vector<std::string> sensor_faults(
   return found_by([&](Findings& findings) {
     SensorTableCheck check;
     DatasetInfo info = hand_made::info(folder.path());
-    info.sensors = info_with_noise().sensors;
+    info.sensor_noise = info_with_noise().sensor_noise;
     info.frames_per_camera = 6;  // to 2.5 s
     check.add(info, image, findings);
   });

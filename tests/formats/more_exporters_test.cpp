@@ -444,7 +444,7 @@ TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
   EXPECT_THAT(lines[1], ::testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
 }
 
-// Their content is read by @mcap/core: tests/cli/test_external_readers.py.
+// Their content is read by @mcap/core: tests/cli/test_recordings.py.
 TEST_F(MoreExports, RecordingsAreTheSameEveryTime) {
   const std::string recording = read_file(exported("mcap") / "train/run001.mcap");
   EXPECT_TRUE(recording.starts_with("\x89MCAP0\r\n"));

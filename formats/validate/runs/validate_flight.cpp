@@ -74,8 +74,8 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 class FlightRecord {
  public:
   FlightRecord(const DatasetInfo& info, const Image& image, Findings& findings, bool may_touch)
-      : noise_(info.sensors.find(image.camera)),
-        is_noise_known_(noise_ != info.sensors.end()),
+      : noise_(info.sensor_noise.find(image.camera)),
+        is_noise_known_(noise_ != info.sensor_noise.end()),
         image_(image),
         flight_(image.record.at("flight")),
         findings_(findings),

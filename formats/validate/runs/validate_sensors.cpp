@@ -315,7 +315,7 @@ void check_sensor_rows(const DatasetInfo& info, const Image& image, const Sensor
   if (!gap.empty()) findings.add("sensors", name, "", gap);
   const std::string figure = rows.empty() ? "" : other_figure(figures, rows);
   if (!figure.empty()) findings.add("sensors", name, "", figure);
-  const auto noise = info.sensors.find(image.camera);
+  const auto noise = info.sensor_noise.find(image.camera);
   bool in_contact = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // From then on it may lie there or slide.
@@ -324,7 +324,7 @@ void check_sensor_rows(const DatasetInfo& info, const Image& image, const Sensor
         in_contact || is_near_ground(rows[i]) || (i > 0 && is_near_ground(rows[i - 1]));
     std::string what = i == 0 ? "" : break_between(rows[i - 1], rows[i], touches);
     constexpr double kGpsAgeS = 0.45;
-    if (what.empty() && noise != info.sensors.end()) {
+    if (what.empty() && noise != info.sensor_noise.end()) {
       SensorSample sample = sample_of_row(rows[i]);
       constexpr double kMaxImpactMps = 25;
       if (in_contact) sample.max_jump_mps = kMaxImpactMps;

@@ -29,17 +29,12 @@ json angles_json(const sim::ViewAngles& angles) {
 
 }  // namespace
 
-sim::SensorNoise sensor_noise(const sim::DroneMission& mission) {
-  const std::optional<sim::Airframe> airframe = sim::find_airframe(mission);
-  check(airframe.has_value(), "airframes are checked when a job is read");
-  return airframe->sensors;
-}
-
 sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
                               const std::vector<world::DroneSample>& truth, std::size_t drone) {
   const double latitude_deg = environment_of_run(job.environment, run_seed).latitude_deg;
-  const sim::SensorNoise noise = sensor_noise(job.drones[drone].mission);
-  return {truth, run_seed, drone, latitude_deg * kDegree, noise};
+  const std::optional<sim::Airframe> airframe = sim::find_airframe(job.drones[drone].mission);
+  check(airframe.has_value(), "airframes are checked when a job is read");
+  return {truth, run_seed, drone, latitude_deg * kDegree, airframe->sensors};
 }
 
 json horizon_rows(const camera::Camera& camera) {

@@ -31,9 +31,6 @@ struct FlightMoment {
 /// down, so that the horizon crosses no column.
 nlohmann::json horizon_rows(const camera::Camera& camera);
 
-/// The noise of the sensors of a mission's airframe.
-sim::SensorNoise sensor_noise(const sim::DroneMission& mission);
-
 /// The object `flight` of an image: "true" and "measured" (docs/formats.md).
 nlohmann::json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise);
 

@@ -101,7 +101,7 @@ std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const
   const sim::ViewAngles view = view_at(drone, frame, sample);
   return flight_record({sample, view, camera_on(sample, cameras_[drone], view),
                         sensors_[drone].at(time_s), gimbals_[drone].reading_at(time_s)},
-                       sensor_noise(job_->drones[drone].mission))
+                       sensors_[drone].noise())
       .dump();
 }
 

@@ -42,7 +42,7 @@ TEST(FlightRecord, ReadingsHaveTheErrorsOfTheAirframe) {
   };
   EXPECT_LT(largest_rate(0), 0.04);
   EXPECT_GT(largest_rate(1), 0.08) << "0.1 rad/s at switching on, 0.04 of noise";
-  EXPECT_EQ(sensor_noise(job.drones[1].mission).gps_hz, 4);
+  EXPECT_EQ(record_sensors(job, 3, truth, 1).noise().gps_hz, 4);
 }
 
 TEST(FlightRecord, HoldsTruthAndReadingsApart) {
