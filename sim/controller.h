@@ -41,8 +41,8 @@ class Controller {
                                 double yaw_rad) const;
 
   Airframe airframe_;
-  Eigen::Matrix4d
-      thrusts_;  ///< of the rotors for thrust and torques, the inverse of rotor_mixing()
+  /// Thrusts of the rotors for thrust and torques: the inverse of rotor_mixing().
+  Eigen::Matrix4d thrusts_;
   Eigen::Vector3d integral_ = Eigen::Vector3d::Zero();  ///< m/s²
   bool tilt_saturated_ = false;
 };

@@ -390,8 +390,8 @@ class Distortion(Part):
 
 @dataclass
 class Camera(Part):
-    """A camera on a gimbal that cancels the drone's roll and pitch. Every number except the image's size may be a
-    distribution, sampled again for every run."""
+    """A camera on a gimbal that cancels the drone's roll and pitch, or fixed to it. Every number except the image's
+    size may be a distribution, sampled again for every run."""
 
     _: KW_ONLY
     preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"] | None = None
@@ -550,8 +550,8 @@ class Drone(Part):
     guidance: Guidance | None = None
     """The policy that flies the drone."""
     camera: Camera | None = None
-    """A camera on a gimbal that cancels the drone's roll and pitch. Every number except the image's size may be a
-    distribution, sampled again for every run."""
+    """A camera on a gimbal that cancels the drone's roll and pitch, or fixed to it. Every number except the image's
+    size may be a distribution, sampled again for every run."""
 
 
 @dataclass

@@ -92,7 +92,7 @@ class Flight {
   std::vector<Jet> jets_;
   std::vector<FallWarning> falls_;
   std::vector<Damage> damages_;       ///< damage of each drone so far
-  std::vector<FlightState> states_;   ///< at the pilots' last update
+  std::vector<FlightState> states_;   ///< when the wind was last updated
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
   std::vector<VehicleInAir> crafts_;  ///< as of the last samples
   PeopleInMotion people_;

@@ -101,7 +101,8 @@ FieldTable<DroneSpec> make_drone_fields() {
           [](DroneSpec& drone, const json& value, const FieldLocation& place) {
             drone.camera = read_camera(value, place.pointer, place.problems);
           },
-          "A camera on a gimbal that cancels the drone's roll and pitch. Every number except the "
+          "A camera on a gimbal that cancels the drone's roll and pitch, or fixed to it. Every "
+          "number except the "
           "image's size may be a distribution, sampled again for every run.")
       .with_default(ordered_json::object());
   return table;

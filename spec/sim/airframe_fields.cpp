@@ -172,13 +172,14 @@ void write(const T& from, const std::array<ListField<T, N>, Count>& fields, json
   }
 }
 
-/// A number for both, or [across z, along z].
-Eigen::Vector2d read_drag(const JsonValue& value, double high) {
+/// A number for both, or two.
+Eigen::Vector2d read_drag(const JsonValue& value, const char* expected) {
+  constexpr double kMaxDrag = 10;
   if (!value.exists()) return Eigen::Vector2d::Zero();
-  if (value.is_number()) return Eigen::Vector2d::Constant(value.number(0, high));
-  const std::vector<JsonValue> numbers = value.tuple(2, "a number, or two: [across z, along z]");
+  if (value.is_number()) return Eigen::Vector2d::Constant(value.number(0, kMaxDrag));
+  const std::vector<JsonValue> numbers = value.tuple(2, expected);
   if (numbers.empty()) return Eigen::Vector2d::Zero();
-  return {numbers[0].number(0, high), numbers[1].number(0, high)};
+  return {numbers[0].number(0, kMaxDrag), numbers[1].number(0, kMaxDrag)};
 }
 
 json drag_json(const Eigen::Vector2d& drag) {
@@ -346,8 +347,9 @@ Airframe read_airframe_fields(const std::string& name, const JsonValue& value) {
   for (std::size_t i = 0; i < inertia.size(); ++i) {
     frame.inertia[static_cast<int>(i)] = inertia[i].number(1e-8, 100);
   }
-  frame.body_drag = read_drag(value["body_drag_n_s2_m2"], 10);
-  frame.turn_drag = read_drag(value["turn_drag_nm_s2"], 10);
+  frame.body_drag = read_drag(value["body_drag_n_s2_m2"], "a number, or two: [across z, along z]");
+  frame.turn_drag =
+      read_drag(value["turn_drag_nm_s2"], "a number, or two: [about x and y, about z]");
   frame.rotors = read_rotors(value["rotors"], frame.arm_m);
   frame.electric_motor = read_electric_motor(value["electric_motor"]);
   frame.autopilot = read_autopilot(value["autopilot"]);
