@@ -57,9 +57,7 @@ class Histogram {
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
       const double radiance = 0.2126 * kRadiances[rgb[i]] + 0.7152 * kRadiances[rgb[i + 1]] +
                               0.0722 * kRadiances[rgb[i + 2]];
-      const double octave = std::log2(std::max(radiance, kDarkest) / kDarkest);
-      ++bins_.at(static_cast<std::size_t>(octave * kPerOctave));
-      ++pixels_;
+      add(kPerOctave * std::log2(std::max(radiance, kDarkest) / kDarkest));
     }
   }
 
@@ -77,6 +75,18 @@ class Histogram {
   bool empty() const { return pixels_ == 0; }
 
  private:
+  /// Shares a pixel between two bins, so that no gain jumps where a pixel's light changes a little:
+  /// between images of a flight, or between devices that round otherwise.
+  void add(double bin) {
+    const double last = kBins - 1;
+    const double at = std::clamp(bin - 0.5, 0.0, last);
+    const auto lower = static_cast<std::size_t>(std::min(std::floor(at), last - 1));
+    const double upper_share = at - static_cast<double>(lower);
+    bins_.at(lower) += 1 - upper_share;
+    bins_.at(lower + 1) += upper_share;
+    ++pixels_;
+  }
+
   static constexpr double kDarkest = 1.0 / 1024;
   static constexpr double kPerOctave = 8;
   static constexpr std::size_t kBins = 96;  // to 4 units of radiance
