@@ -35,6 +35,28 @@ BodyBoxes::BodyBoxes(const skinning::Population& population, std::uint32_t chara
                      std::span<const BodyShape> levels)
     : population_(&population), character_(character), levels_(levels) {}
 
+// All six directions at once, which reach_of() needs one by one for its points.
+std::array<float, 6> BodyBoxes::extent_of(const skinning::Palette& palette) const {
+  std::array<Eigen::Matrix4f, skinning::kBoneCount> bones;
+  for (std::size_t bone = 0; bone < bones.size(); ++bone) {
+    bones[bone].setZero();
+    bones[bone].topRows<3>() = palette[bone];
+  }
+  Eigen::Array4f low = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array4f high = -low;
+  for (const BodyShape& level : levels_) {
+    for (const SkinPoint& point : level.points) {
+      Eigen::Vector4f sum = point.weights[0] * (bones[point.bones[0]] * point.rest);
+      for (std::uint32_t k = 1; k < point.bone_count; ++k) {
+        sum += point.weights[k] * (bones[point.bones[k]] * point.rest);
+      }
+      low = low.min(sum.array());
+      high = high.max(sum.array());
+    }
+  }
+  return {high.x(), high.y(), high.z(), -low.x(), -low.y(), -low.z()};
+}
+
 BodyBoxes::Reach BodyBoxes::reach_of(const skinning::Palette& palette) const {
   Reach reach;
   reach.far_m.fill(-std::numeric_limits<float>::infinity());
@@ -73,7 +95,7 @@ Eigen::AlignedBox3f BodyBoxes::box_of(const skinning::PoseBlend& pose,
     far_m[i] = (1 - pose.blend) * a.far_m[i] + pose.blend * b.far_m[i];
     const float reached_m =
         std::max(along(i, posed(blended, *a.points[i])), along(i, posed(blended, *b.points[i])));
-    if (far_m[i] - reached_m > kTightM) return above_ground(reach_of(blended).far_m);
+    if (far_m[i] - reached_m > kTightM) return above_ground(extent_of(blended));
   }
   return above_ground(far_m);
 }

@@ -36,6 +36,8 @@ class BodyBoxes {
   };
 
   Reach reach_of(const skinning::Palette& palette) const;
+  /// How far a body reaches along x, y, z, -x, -y and -z.
+  std::array<float, 6> extent_of(const skinning::Palette& palette) const;
   const Reach& known_reach(std::uint32_t palette);
 
   const skinning::Population* population_;
