@@ -1,4 +1,5 @@
-// throng airframes: lists the built-in quadcopters, as templates for custom ones.
+// throng airframes: lists the built-in quadcopters, as templates for custom ones, and imports
+// robots as airframes.
 #include "spec/sim/airframe.h"
 
 #include <fmt/core.h>
@@ -11,6 +12,8 @@
 
 #include "base/error.h"
 #include "base/text/suggest.h"
+#include "cli/assets/import_program.h"
+#include "cli/common/import_options.h"
 #include "cli/shell/commands.h"
 #include "sim/vehicle/battery.h"
 
@@ -42,14 +45,25 @@ void print_airframe(const std::vector<sim::Airframe>& frames, const std::string&
   throw InputError(unknown_name("", "", "airframe", name, names));
 }
 
+void add_import(CLI::App& airframes) {
+  auto* command = airframes.add_subcommand(
+      "import", "Import a robot (SDF, URDF) as an airframe for a job's drones");
+  const auto options = std::make_shared<AirframeImportOptions>();
+  add_import_options(*command, *options);
+  command->callback([options, command] { start_import(kImportAirframe, *command); });
+}
+
 }  // namespace
 
 void add_airframes(CLI::App& app) {
-  auto* command = app.add_subcommand("airframes", "List the quadcopters that a job can name");
+  auto* command = app.add_subcommand("airframes",
+                                     "List the quadcopters that a job can name, and import others");
   const auto name = std::make_shared<std::string>();
   command->add_option("name", *name,
                       "Print this one as JSON: a job's drones may have such an object as airframe");
-  command->callback([name] {
+  add_import(*command);
+  command->callback([name, command] {
+    if (!command->get_subcommands().empty()) return;
     const std::vector<sim::Airframe> frames = sim::shipped_airframes();
     if (name->empty()) {
       list_airframes(frames);

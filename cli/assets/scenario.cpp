@@ -16,8 +16,9 @@
 #include "base/graphics/drawing/drawing.h"
 #include "base/json/json_text.h"
 #include "base/text/words.h"
-#include "cli/assets/scenario_import.h"
+#include "cli/assets/import_program.h"
 #include "cli/common/exit_code.h"
+#include "cli/common/import_options.h"
 #include "cli/jobs/job_runner.h"
 #include "cli/shell/commands.h"
 #include "cli/shell/document_kind.h"
@@ -197,6 +198,14 @@ void add_generate(CLI::App& scenario) {
   command->callback([arguments] { generate(*arguments); });
 }
 
+void add_import(CLI::App& scenario) {
+  auto* command = scenario.add_subcommand(
+      "import", "Import a Gazebo world or an OpenStreetMap extract as a scenario");
+  const auto options = std::make_shared<ImportOptions>();
+  add_import_options(*command, *options);
+  command->callback([options, command] { start_import(kImportScenario, *command); });
+}
+
 }  // namespace
 
 void add_scenario(CLI::App& app) {
@@ -207,7 +216,7 @@ void add_scenario(CLI::App& app) {
   add_plan(*command);
   add_make(*command);
   add_generate(*command);
-  add_scenario_import(*command);
+  add_import(*command);
 }
 
 }  // namespace throng::cli

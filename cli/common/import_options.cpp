@@ -21,4 +21,16 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
                      "OSM: latitude,longitude of (0, 0); default: the middle of the extract");
 }
 
+void add_import_options(CLI::App& command, AirframeImportOptions& options) {
+  command.add_option("file", options.file, "ROBOT.sdf or ROBOT.urdf")->required();
+  command.add_option("-o,--output", options.output, "AIRFRAME.json; default: standard output");
+  command.add_option("--base", options.base,
+                     "Shipped airframe with the rotors, drag and autopilot that the file lacks");
+  command.add_option("--camera", options.camera,
+                     "Name of the sensor that becomes the camera; default: the first in color");
+  command.add_option("--models", options.models,
+                     "Folder for model:// and package://, may be repeated; always: the folders of "
+                     "the file and above");
+}
+
 }  // namespace throng::cli

@@ -1,6 +1,6 @@
-// Options of `throng scenario import`, which the program passes on to throng-import (cli/import).
-// That is a separate program, because loading the libraries that read Gazebo's worlds takes as long
-// as loading all others together.
+// Options of `throng scenario import` and `throng airframes import`, which the program passes on to
+// throng-import (cli/import). That is a separate program, because loading the libraries that read
+// Gazebo's files takes as long as loading all others together.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,11 @@ class App;
 
 namespace throng::cli {
 
-/// Values of the options.
+/// Words by which throng-import is told what it imports.
+inline constexpr const char* kImportScenario = "scenario";
+inline constexpr const char* kImportAirframe = "airframe";
+
+/// Values of the options of a scenario's import.
 struct ImportOptions {
   std::string file;    ///< file to import
   std::string folder;  ///< folder of the new scenario
@@ -24,7 +28,17 @@ struct ImportOptions {
   std::string origin;               ///< latitude,longitude in degrees; "": center of the map
 };
 
+/// Values of the options of an airframe's import.
+struct AirframeImportOptions {
+  std::string file;    ///< robot to import
+  std::string output;  ///< file of the airframe; "": standard output
+  std::string base;    ///< airframe that gives what the description does not; "": none
+  std::string camera;  ///< the sensor that becomes the drone's camera; "": the first in color
+  std::vector<std::string> models;  ///< folders in which model:// and package:// are searched
+};
+
 /// Adds the options to a command. `options` must outlive it.
 void add_import_options(CLI::App& command, ImportOptions& options);
+void add_import_options(CLI::App& command, AirframeImportOptions& options);
 
 }  // namespace throng::cli

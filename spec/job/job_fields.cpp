@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "crowd/description/options.h"
+#include "spec/job/airframe_camera.h"
 #include "spec/job/randomize.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/render/quality.h"
@@ -46,7 +47,8 @@ void set_drones(JobSpec& job, const json& value, const FieldLocation& place) {
   job.is_without_drones = value.is_array() && value.empty();
   for (const json& drone : value) {
     const std::string index = std::to_string(job.drones.size());
-    drone_fields().read(drone, job.drones.emplace_back(), place.below(index));
+    const FieldLocation at = place.below(index);
+    drone_fields().read(with_airframe_camera(drone, at), job.drones.emplace_back(), at);
   }
 }
 

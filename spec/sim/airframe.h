@@ -76,8 +76,9 @@ Eigen::Matrix4d rotor_mixing(const Airframe& airframe);
 /// InputError naming `source`, also for a vehicle without enough thrust to hover and steer.
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source);
 
-/// Reads one airframe: an object with the fields of airframes.json, of which "source" is optional.
-/// Adds to `problems`, with JSON pointers that begin with `pointer`.
+/// Reads one airframe: an object with the fields of airframes.json, of which "source" and "camera"
+/// are optional and not part of the value: jobs read the camera (spec/job/drone_fields.cpp). Adds
+/// to `problems`, with JSON pointers that begin with `pointer`.
 Airframe read_airframe(const std::string& name, const nlohmann::json& value,
                        const std::string& pointer, std::vector<Problem>& problems);
 

@@ -336,7 +336,7 @@ Airframe read_airframe_fields(const std::string& name, const JsonValue& value) {
        "torque_per_thrust_m", "max_rotor_rad_s", "rotor_drag_n_s2_m", "body_drag_n_s2_m2"},
       {"source", "motor_up_s", "motor_down_s", "electric_motor", "rotors", "turn_drag_nm_s2",
        "rotor_efficiency", "avionics_w", "battery_wh", "propeller_limit_mps", "structure_limit_mps",
-       "autopilot", "sensors"});
+       "autopilot", "sensors", "camera"});
   Airframe frame;
   frame.name = name;
   for (const auto& field : kRequired) frame.*field.value = field.low;

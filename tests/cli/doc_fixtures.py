@@ -64,6 +64,11 @@ def run_done(folder, throng):
     subprocess.run([throng, "run", "job.json", "-o", "out"], cwd=folder, check=True, capture_output=True)
 
 
+def npm_packages(folder, throng):
+    """The packages that the page has installed by npm: those of the build."""
+    (folder / "node_modules").symlink_to(ROOT / "build/web/node_modules")
+
+
 def traces(folder, throng):
     """run.h5 and plain.h5, paired runs; experiment.txt and place.json, recorded people and where they walked."""
     job(folder, throng)

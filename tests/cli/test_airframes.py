@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 THRONG = sys.argv.pop(1)
+ROBOTS = pathlib.Path(__file__).resolve().parents[1] / "world/imports/data/robots"
 PAPER_CASES = ("nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest")
 
 
@@ -54,6 +55,45 @@ class Airframes(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             for event in ("blown", "tilt", "collision", "fall"):
                 self.assertNotIn(event, done.stderr, case)
+
+    def test_an_imported_robot_flies_with_its_own_camera(self):
+        airframe = self.folder / "quad.json"
+        done = throng("airframes", "import", ROBOTS / "quad.urdf", "-o", airframe)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"skipped: .*quad.urdf:25: plugin sonar")
+        self.assertRegex(done.stderr, r"assumed: rotors: those of the airframe hector")
+        job = {
+            "scenario": "city_square/everyday",
+            "drones": [one_drone(json.loads(airframe.read_text()), policy="hover")],
+            "capture": {"to_s": 1},
+        }
+        self.assertEqual(self.simulate(job).returncode, 0)
+        self.assertEqual(json.loads(airframe.read_text())["camera"]["gimbal"]["model"], "rigid")
+
+    def test_models_that_lie_elsewhere_are_found_in_folders_that_are_named(self):
+        robot = self.folder / "racer.sdf"
+        robot.write_text((ROBOTS / "racer_with_camera" / "model.sdf").read_text())
+        lost = throng("airframes", "import", robot)
+        self.assertEqual(lost.returncode, 2)
+        self.assertRegex(lost.stderr, r"racer.sdf: line \d+: .*model://racer.*--models")
+        found = throng("airframes", "import", robot, "--models", ROBOTS)
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertAlmostEqual(json.loads(found.stdout)["mass_kg"], 1.1)
+        self.assertRegex(found.stderr, "propeller_3.*no <inertia>")
+
+    def test_what_cannot_be_imported_is_named(self):
+        xacro = self.folder / "quad.urdf.xacro"
+        xacro.write_text("<robot xmlns:xacro='http://ros.org/wiki/xacro'>\n<xacro:include filename='x'/></robot>")
+        for arguments, expected in (
+            ([xacro], r"line 2: found <xacro:include>: a xacro file, expected its expansion: xacro .* -o quad.urdf"),
+            ([self.folder / "nowhere.sdf"], "found no file"),
+            ([ROBOTS / "quad.urdf", "--base", "hektor"], 'unknown airframe "hektor"; did you mean "hector"'),
+            ([ROBOTS / "quad.urdf", "--camera", "frnt"], 'unknown camera "frnt"; did you mean "front"'),
+            ([ROBOTS / "quad.urdf", "--models", self.folder / "none"], "which is no folder"),
+        ):
+            done = throng("airframes", "import", *arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertRegex(done.stderr, expected)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from doc_blocks import read_blocks, save_files  # noqa: E402
 from free_ports import free_port  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake"}
+LANGUAGES = {"sh", "text", "json", "xml", "python", "cpp", "cmake", "javascript"}
 
 # Page, how the block begins -> why it does not run here.
 NOT_RUN = {
@@ -66,6 +66,7 @@ NEEDS = {
     ("docs/recipes.md", "throng serve"): ["two_jobs"],
     ("docs/recipes.md", "python3"): ["run_done"],
     ("docs/rendering.md", "THRONG_DEVICE"): ["job"],
+    ("docs/robotics.md", "node height.mjs"): ["npm_packages"],
     ("docs/scenario.md", "throng scenario check"): ["my_place"],
     ("docs/service.md", "THRONG_FAULTS"): ["job"],
     ("docs/validation.md", "throng validate-crowd"): ["recordings"],

@@ -102,20 +102,33 @@ TEST(Sdf, RefusesOtherFilesAndSkipsImpossibleElements) {
   }
 }
 
-TEST(Sdf, AModelThatIncludesItselfEnds) {
+TEST(Sdf, AModelThatIncludesItselfIsRefusedWithItsLine) {
   const TemporaryFolder folder;
   write_file_atomically(folder.path() / "m/model.config",
                         "<model><name>m</name><sdf version='1.7'>model.sdf</sdf></model>");
   write_file_atomically(folder.path() / "m/model.sdf",
-                        "<sdf version='1.7'><model name='m'><include><uri>model://m</uri></include>"
-                        "</model></sdf>");
+                        "<sdf version='1.7'>\n<model name='m'><include><uri>model://m</uri>"
+                        "</include></model></sdf>");
   write_file_atomically(folder.path() / "w.sdf",
                         "<sdf version='1.7'><world name='w'><include><uri>model://m</uri></include>"
                         "</world></sdf>");
   try {
-    EXPECT_TRUE(read_sdf(folder.path() / "w.sdf", {}).buildings.empty());
-  } catch (const InputError&) {  // as good
+    read_sdf(folder.path() / "w.sdf", {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("m/model.sdf: line 2"), std::string::npos)
+        << error.what();
   }
+}
+
+TEST(Sdf, ModelsThatIncludedModelsMergeAreFound) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "w.sdf",
+                        "<sdf version='1.9'><world name='w'><include>"
+                        "<uri>model://racer_with_camera</uri></include></world></sdf>");
+  const ImportedScenario scenario = read_sdf(folder.path() / "w.sdf", {{kWorlds / "robots"}, {}});
+  EXPECT_EQ(skipped_with(scenario, "Unable to find"), nullptr);
+  ASSERT_EQ(scenario.objects.size(), 1U);  // its propeller, two models below
 }
 
 ImportedScenario parse_body(const std::string& body, const std::string& before = "",

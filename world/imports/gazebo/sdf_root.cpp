@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "world/imports/gazebo/include_cycles.h"
+#include "world/imports/gazebo/model_finder.h"
 
 namespace throng::imports {
 
@@ -18,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 32U << 20U;
-constexpr int kMaxIncludes = 2'000;
 constexpr int kMaxTakenOut = 50;  // libsdformat takes up to a quarter of a second for each
 
 bool is_loaded(const sdf::Root& root) { return root.WorldCount() > 0 || root.Model() != nullptr; }
@@ -46,13 +47,8 @@ bool is_noise(const sdf::Error& error) {
 class RootLoader {
  public:
   RootLoader(const fs::path& file, const LocalFiles& files, std::vector<Skipped>& skipped)
-      : file_(file), skipped_(skipped), text_(file.string(), text_of(file)) {
-    config_.SetFindCallback([&files, this](const std::string& uri) -> std::string {
-      // A model may include itself, and would for ever.
-      if (++includes_ > kMaxIncludes) return "";
-      const auto found = files.find(uri, file_);
-      return found ? found->string() : "";
-    });
+      : file_(file), skipped_(skipped), text_(file.string(), text_of(file)), finder_(files, file) {
+    reject_include_cycles(file, files);
   }
 
   SdfText load(sdf::Root& root) {
@@ -79,10 +75,9 @@ class RootLoader {
   }
 
   sdf::Errors load_once(sdf::Root& root) {
-    includes_ = 0;
     root = sdf::Root();
     try {
-      return root.LoadSdfString(text_.text(), config_);
+      return root.LoadSdfString(text_.text(), finder_.config());
     } catch (const std::exception& wrong) {
       throw InputError({file_.string(), "", wrong.what(), "a world of SDF"});
     }
@@ -135,8 +130,7 @@ class RootLoader {
   const fs::path& file_;
   std::vector<Skipped>& skipped_;
   SdfText text_;
-  sdf::ParserConfig config_;
-  int includes_ = 0;
+  ModelFinder finder_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/geometry/rectangle.h"
 #include "world/imports/gazebo/local_files.h"
+#include "world/imports/gazebo/sdf_pose.h"
 #include "world/imports/gazebo/sdf_root.h"
 #include "world/imports/gazebo/sdf_shapes.h"
 #include "world/imports/parts/populate.h"
@@ -129,22 +130,14 @@ std::optional<Isometry3d> SdfReader::resolve(const sdf::SemanticPose& pose,
                                              const Isometry3d& parent,
                                              const sdf::ElementPtr& element,
                                              const std::string& path) {
-  ignition::math::Pose3d found;
-  const sdf::Errors errors = pose.Resolve(found);
-  const Vector3d at(found.Pos().X(), found.Pos().Y(), found.Pos().Z());
-  Eigen::Quaterniond turn(found.Rot().W(), found.Rot().X(), found.Rot().Y(), found.Rot().Z());
-  if (!errors.empty() || !at.allFinite() || !turn.coeffs().allFinite() || turn.norm() < 0.5) {
+  const std::optional<Isometry3d> local = resolved_pose(pose);
+  if (!local) {
     skip(element, path,
-         errors.empty()
-             ? "its pose is no pose"
-             : fmt::format("there is no \"{}\" that its pose is relative to", pose.RelativeTo()));
+         fmt::format("its pose is no pose, or relative to \"{}\", which is unknown",
+                     pose.RelativeTo()));
     return std::nullopt;
   }
-  turn.normalize();
-  Isometry3d local = Isometry3d::Identity();
-  local.linear() = turn.toRotationMatrix();
-  local.translation() = at;
-  const Isometry3d whole = parent * local;
+  const Isometry3d whole = parent * *local;
   if (!(whole.translation().cwiseAbs().maxCoeff() <= kMaxCoordinateM)) {
     skip(element, path, "is more than 5 km away from the origin");
     return std::nullopt;

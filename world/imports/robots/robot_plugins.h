@@ -1,0 +1,17 @@
+// What <plugin> elements of Gazebo, PX4, RotorS and hector say about a robot's rotors, battery and
+// sensors.
+#pragma once
+
+#include <sdf/sdf.hh>
+
+#include "world/imports/robots/robot.h"
+#include "world/imports/robots/robot_source.h"
+
+namespace throng::imports {
+
+/// Reads one plugin into `robot`: a motor (of any plugin with a <motorConstant>) becomes a rotor
+/// without position, which its link has; a battery and noise of sensors become values; all others
+/// are listed. Throws InputError (file, line) if a number is missing or no number.
+void read_plugin(const RobotSource& source, const sdf::ElementPtr& plugin, Robot& robot);
+
+}  // namespace throng::imports
