@@ -53,8 +53,8 @@ export function StartFlight() {
     <div class="screen">
       <h1>Live flight</h1>
       <p class="measure">
-        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is logged: afterwards a job repeats it exactly and makes a
-        dataset of it.
+        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is logged: afterwards a job repeats it exactly and
+        makes a dataset of it.
       </p>
       <ErrorBox error={error && error.status !== 401 ? error : null} />
       <form
