@@ -101,7 +101,7 @@ class McapExporter : public Exporter {
   void finish() override { close(); }
 
  private:
-  /// What is known of a drone in a run.
+  /// A drone in a run.
   struct Drone {
     ros::DroneTopics topics;
     std::optional<SensorTable> table;
@@ -145,7 +145,7 @@ class McapExporter : public Exporter {
   /// Poses of the drone and its camera, and the readings of its sensors. Of a dataset without
   /// flights only the camera is known.
   void add_flight(const Image& image, Drone& drone) {
-    const ros::Pose camera = ros::pose_of({image.R, image.t});
+    const ros::Pose camera = ros::camera_pose({image.R, image.t});
     const auto flight = image.record.find("flight");
     if (flight == image.record.end()) {
       drone.topics.publish_camera(image.time_s, camera);
@@ -159,11 +159,11 @@ class McapExporter : public Exporter {
 
   /// All readings up to the image if the dataset has them, else the last ones before it.
   void add_sensors(const Image& image, const json& measured, Drone& drone) {
-    const ros::GpsPlace place{
+    const ros::GpsTraits gps{
         image.record.value("environment", json::object()).value("latitude_deg", 0.0),
         numbers_at<3>(measured.at("gps").at("position_sd_m"))};
     if (!info_.has(annotate::GroundTruth::sensors)) {
-      drone.topics.publish_readings(reading_of_image(measured), place);
+      drone.topics.publish_readings(reading_of_image(measured), gps);
       return;
     }
     const bool is_new = !drone.table.has_value();
@@ -172,7 +172,7 @@ class McapExporter : public Exporter {
     }
     const double from_s = is_new ? image.time_s - kLeadS : 0;
     while (const auto row = drone.table->until(image.time_s)) {
-      if (row->time_s >= from_s) drone.topics.publish_readings(*row, place);
+      if (row->time_s >= from_s) drone.topics.publish_readings(*row, gps);
     }
   }
 
@@ -226,11 +226,10 @@ class McapExporter : public Exporter {
   std::string run_;
   std::string file_;  ///< of the run's recording, below the format's folder
   std::unique_ptr<ros::Recording> recording_;
-  // Of the run:
-  ros::MessageSink sink_;
+  ros::MessageSink sink_;  ///< to the recording
   std::optional<ros::ClockTopic> clock_;
-  std::optional<ros::RosNames> names_;
-  std::map<std::string, Drone> drones_;  ///< by camera
+  std::optional<ros::RosNames> names_;   ///< of the run's drones
+  std::map<std::string, Drone> drones_;  ///< of the run, by camera
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ Pose relative_pose(const Pose& parent, const Pose& pose) {
 
 }  // namespace
 
-Pose pose_of(const camera::Pose& camera) {
+Pose camera_pose(const camera::Pose& camera) {
   return {-camera.R.transpose() * camera.t,
           Eigen::Quaterniond(Eigen::Matrix3d(camera.R.transpose()))};
 }
@@ -47,7 +47,7 @@ void DroneTopics::publish_odometry(double time_s, const Motion& motion) const {
           odometry({kWorldFrame, time_s}, body_frame_, motion));
 }
 
-void DroneTopics::publish_readings(const SensorRow& row, const GpsPlace& place) {
+void DroneTopics::publish_readings(const SensorRow& row, const GpsTraits& gps) {
   constexpr double kTeslaPerMicrotesla = 1e-6;
   const Header body{body_frame_, row.time_s};
   publish("/imu", Kind::imu, row.time_s, imu(body, row.rates, row.acceleration));
@@ -58,7 +58,7 @@ void DroneTopics::publish_readings(const SensorRow& row, const GpsPlace& place) 
   last_fix_s_ = row.gps_time_s;
   publish("/fix", Kind::fix, row.time_s,
           fix({body_frame_, row.gps_time_s},
-              geodetic_fix(row.gps_position, place.latitude_deg, place.position_sd_m)));
+              geodetic_fix(row.gps_position, gps.latitude_deg, gps.position_sd_m)));
   publish("/fix_velocity", Kind::velocity, row.time_s,
           velocity({kWorldFrame, row.gps_time_s}, row.gps_velocity));
 }

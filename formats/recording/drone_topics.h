@@ -11,14 +11,14 @@
 
 namespace throng::formats::ros {
 
-/// Where a drone's GPS is used, and how well it says so.
-struct GpsPlace {
+/// Latitude and accuracy of a drone's GPS.
+struct GpsTraits {
   double latitude_deg = 0;  ///< of the world's origin
   Eigen::Vector3d position_sd_m = Eigen::Vector3d::Zero();
 };
 
 /// The pose of a camera in the world.
-Pose pose_of(const camera::Pose& camera);
+Pose camera_pose(const camera::Pose& camera);
 
 /// Publishes the messages of a drone. Frames: NAME/base_link (x ahead, y left, z up) and
 /// NAME/camera_optical_frame (x right, y down, z ahead).
@@ -38,7 +38,7 @@ class DroneTopics {
   /// The true motion.
   void publish_odometry(double time_s, const Motion& motion) const;
   /// Readings, and the fix of the GPS where it is a new one. Rows come in the order of time.
-  void publish_readings(const SensorRow& row, const GpsPlace& place);
+  void publish_readings(const SensorRow& row, const GpsTraits& gps);
   /// The lens and an image file in a format such as jpeg.
   void publish_image(double time_s, const camera::Intrinsics& lens, std::string_view format,
                      std::string_view bytes) const;

@@ -1,4 +1,4 @@
-// Where the messages of topics go: a recording, or those who look on.
+// Messages of topics on their way to a recording, or to those who look on.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What a process that is killed loses is at most this long.
+/// A process that is killed loses at most as much.
 constexpr std::uint64_t kChunkNs = 1'000'000'000;
 constexpr double kLookEveryS = 1;
 

@@ -27,7 +27,7 @@ class FlightRecording {
   /// Adds a message, unless the recording has ended.
   void add(const formats::ros::TopicMessage& message);
 
-  /// Ends the recording because of a problem. What was added until then is kept.
+  /// Ends the recording because of a problem. The messages until then are kept.
   void stop(const std::string& problem);
 
   /// Ends the recording; {"complete_until_s": 12.3, "problem": null, "bytes": 123}. All messages

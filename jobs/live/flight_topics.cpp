@@ -25,19 +25,15 @@ namespace {
 constexpr std::size_t kManyAgents = 1000;
 constexpr double kManyPeopleEveryS = 1;
 
-ros::Pose pose_of(const world::DroneSample& sample) {
+ros::Pose body_pose(const world::DroneSample& sample) {
   return {sample.position, sample.orientation};
 }
 
-ros::Pose camera_pose(const world::DroneSample& sample, const camera::CameraSpec& camera) {
-  return ros::pose_of(jobs::camera_on(sample, camera).pose);
+ros::Motion body_motion(const world::DroneSample& sample) {
+  return {body_pose(sample), sample.orientation.conjugate() * sample.velocity, sample.body_rates};
 }
 
-ros::Motion motion_of(const world::DroneSample& sample) {
-  return {pose_of(sample), sample.orientation.conjugate() * sample.velocity, sample.body_rates};
-}
-
-formats::SensorRow row_of(const sim::SensorReading& reading) {
+formats::SensorRow sensor_row(const sim::SensorReading& reading) {
   return {reading.time_s,      reading.gyro,       reading.accelerometer, reading.magnetometer,
           reading.pressure_pa, reading.gps.time_s, reading.gps.position,  reading.gps.velocity};
 }
@@ -81,7 +77,7 @@ FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
   for (std::size_t i = 0; i < flight.drones().size(); ++i) {
     const sim::DroneMission& mission = flight.drones()[i].mission;
     drones_.push_back({ros::DroneTopics(names.name_of(mission.id), sink_),
-                       shown_camera(mission.camera), jobs::sensors_of(run_job, seed, i)});
+                       shown_camera(mission.camera), jobs::make_sensors(run_job, seed, i)});
   }
 }
 
@@ -128,10 +124,10 @@ void FlightTopics::add_sample(Drone& drone, const world::DroneSample& given) {
   const world::DroneSample sample = world::as_recorded(given);
   drone.last_s = sample.time_s;
   clock_.advance(sample.time_s);
-  drone.topics.publish_transforms(sample.time_s, pose_of(sample),
-                                  camera_pose(sample, drone.camera));
-  drone.topics.publish_odometry(sample.time_s, motion_of(sample));
-  drone.topics.publish_readings(row_of(drone.sensors.read(sample)),
+  drone.topics.publish_transforms(sample.time_s, body_pose(sample),
+                                  ros::camera_pose(jobs::camera_on(sample, drone.camera).pose));
+  drone.topics.publish_odometry(sample.time_s, body_motion(sample));
+  drone.topics.publish_readings(sensor_row(drone.sensors.read(sample)),
                                 {latitude_deg_, position_sd_m(drone.sensors.noise())});
 }
 
@@ -156,7 +152,7 @@ void FlightTopics::add_image(const Moment& moment, std::size_t drone, double tim
   const Drone& from = drones_.at(drone);
   const world::DroneSample sample = moment.flown.drone_at(drone, time_s);
   const camera::Camera camera = jobs::camera_on(sample, from.camera);
-  from.topics.publish_transforms(time_s, pose_of(sample), ros::pose_of(camera.pose));
+  from.topics.publish_transforms(time_s, body_pose(sample), ros::camera_pose(camera.pose));
   from.topics.publish_image(time_s, camera.intrinsics, "jpeg", jpeg);
 }
 

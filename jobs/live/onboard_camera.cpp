@@ -20,7 +20,7 @@ render::RenderOptions draft() {
   return options;
 }
 
-jobs::RunEnvironment environment_of(const jobs::JobSpec& job) {
+jobs::RunEnvironment flight_environment(const jobs::JobSpec& job) {
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed);
 }
@@ -32,13 +32,13 @@ OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_j
   const jobs::JobSpec job = jobs::job_of_run(whole_job, 0);
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   world::thin_out(scenario, job.props_density, seed);
-  return {std::move(scenario), environment_of(whole_job).light, clothing(whole_job)};
+  return {std::move(scenario), flight_environment(whole_job).light, clothing(whole_job)};
 }
 
-double smoke_amount(const jobs::JobSpec& job) { return environment_of(job).light.smoke; }
+double smoke_amount(const jobs::JobSpec& job) { return flight_environment(job).light.smoke; }
 
 skinning::Styling clothing(const jobs::JobSpec& job) {
-  return jobs::styling_in(jobs::job_of_run(job, 0), environment_of(job).light.weather);
+  return jobs::styling_in(jobs::job_of_run(job, 0), flight_environment(job).light.weather);
 }
 
 camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {

@@ -24,7 +24,7 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera);
 /// Amount of smoke from the hazards of a job's first run, 0 to 1.
 double smoke_amount(const jobs::JobSpec& job);
 
-/// What people wear in a job's first run.
+/// Clothing of people in a job's first run.
 skinning::Styling clothing(const jobs::JobSpec& job);
 
 /// Owns a GL context: use from the thread that created it.

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kFallS = 0.8;
 
-std::vector<skinning::Appearance> looks_of(const world::TraceHeader& header, std::uint64_t seed,
-                                           const skinning::Population& population,
-                                           const skinning::Styling& styling) {
+std::vector<skinning::Appearance> sample_looks(const world::TraceHeader& header, std::uint64_t seed,
+                                               const skinning::Population& population,
+                                               const skinning::Styling& styling) {
   std::vector<skinning::Appearance> looks;
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
     looks.push_back(
@@ -32,7 +32,7 @@ std::vector<double> statures_m(const world::TraceHeader& header,
                                const skinning::Population& population,
                                const skinning::Styling& styling) {
   std::vector<double> statures;
-  for (const skinning::Appearance& look : looks_of(header, header.seed, population, styling)) {
+  for (const skinning::Appearance& look : sample_looks(header, header.seed, population, styling)) {
     statures.push_back(population.characters[look.character].stature_m);
   }
   return statures;
@@ -44,7 +44,7 @@ PeopleInMotion::PeopleInMotion(const world::TraceHeader& header, std::uint64_t s
     : population_(population),
       clips_(population),
       roles_(header.role),
-      looks_(looks_of(header, seed, population, styling)),
+      looks_(sample_looks(header, seed, population, styling)),
       fell_at_s_(header.agent_count(), -1) {}
 
 skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, double speed_mps,

@@ -14,7 +14,7 @@
 namespace throng::jobs {
 
 /// The sensors of one of the job's drones in a run; `drone` is its index in the job.
-sim::DroneSensors sensors_of(const JobSpec& job, std::uint64_t run_seed, std::size_t drone);
+sim::DroneSensors make_sensors(const JobSpec& job, std::uint64_t run_seed, std::size_t drone);
 
 /// Their readings at the samples of a trace.
 sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,

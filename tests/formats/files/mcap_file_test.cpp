@@ -120,7 +120,7 @@ TEST(McapFile, AKilledWriterLeavesWholeChunks) {
   McapFile file(path, {.chunk_ns = 1000});
   const std::uint16_t a = file.add_channel("/a", kText);
   for (std::uint64_t i = 0; i < 25; ++i) file.add(a, 100 * i, "message");
-  // What the file holds now is what it would hold then.
+  // A kill would leave the file as it is now.
   std::size_t messages = 0;
   for (const Record& record : read_records(read_file(path).substr(kMagicBytes))) {
     if (record.opcode == 6) messages += read_chunk(record.content).size();
