@@ -122,7 +122,9 @@ def measure(client, given):
     )
     if recording:
         minutes = recording["complete_until_s"] / 60
-        print(f"recording: {1e-6 * recording['bytes'] / minutes:.0f} MB per simulated minute, problem {recording['problem']}")
+        print(
+            f"recording: {1e-6 * recording['bytes'] / minutes:.0f} MB per simulated minute, problem {recording['problem']}"
+        )
     if turned:
         print(f"until the drone turns: median {1000 * statistics.median(turned):.0f} ms ({len(turned)} turns)")
 
