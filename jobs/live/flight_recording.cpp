@@ -29,9 +29,8 @@ FlightRecording::FlightRecording(const fs::path& folder, std::uint64_t min_free_
     formats::McapOptions options;
     options.chunk_ns = kChunkNs;
     recording_ = std::make_unique<formats::ros::Recording>(folder / kRecordingFile, options);
-    is_open_ = true;
   } catch (const EnvironmentError& error) {
-    close(error.what());
+    keep(error.what());
   }
 }
 
@@ -40,14 +39,15 @@ FlightRecording::~FlightRecording() = default;
 void FlightRecording::add(const formats::ros::TopicMessage& message) {
   const std::lock_guard lock(mutex_);
   look_at_disk(message.time_s);
-  if (is_open_) {
+  if (recording_) {
     try {
       recording_->add(message);
     } catch (const EnvironmentError& error) {
-      close(error.what());
+      keep(error.what());
+      release();
     }
   }
-  if (!is_open_) lost_s_ = std::min(lost_s_.value_or(message.time_s), message.time_s);
+  if (!recording_) lost_s_ = std::min(lost_s_.value_or(message.time_s), message.time_s);
 }
 
 void FlightRecording::stop(const std::string& problem) {
@@ -58,18 +58,16 @@ void FlightRecording::stop(const std::string& problem) {
 json FlightRecording::finish() {
   const std::lock_guard lock(mutex_);
   close("");
-  double complete_until_s = recording_ ? recording_->complete_until_s() : 0;
-  if (lost_s_) complete_until_s = std::min(complete_until_s, *lost_s_);
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(folder_ / kRecordingFile, error);
-  return {{"complete_until_s", complete_until_s},
+  return {{"complete_until_s", std::min(complete_until_s_, lost_s_.value_or(complete_until_s_))},
           {"problem", problem_.empty() ? json() : json(problem_)},
           {"bytes", error ? 0 : bytes}};
 }
 
 // The flight's trace needs space, too, and so do the service's other tasks.
 void FlightRecording::look_at_disk(double time_s) {
-  if (!is_open_ || time_s < next_look_s_) return;
+  if (!recording_ || time_s < next_look_s_) return;
   next_look_s_ = time_s + kLookEveryS;
   std::error_code error;
   const fs::space_info space = fs::space(folder_, error);
@@ -79,17 +77,24 @@ void FlightRecording::look_at_disk(double time_s) {
 }
 
 void FlightRecording::close(const std::string& problem) {
-  const auto keep = [this](const std::string& text) {
-    if (problem_.empty()) problem_ = without_folders(text, {folder_});
-  };
   keep(problem);
-  if (!is_open_) return;
-  is_open_ = false;
+  if (!recording_) return;
   try {
     recording_->close();
   } catch (const EnvironmentError& error) {
     keep(error.what());
   }
+  release();
+}
+
+// The file is complete afterwards, also after an error.
+void FlightRecording::release() {
+  complete_until_s_ = recording_->complete_until_s();
+  recording_.reset();
+}
+
+void FlightRecording::keep(const std::string& problem) {
+  if (problem_.empty()) problem_ = without_folders(problem, {folder_});
 }
 
 }  // namespace throng::live

@@ -37,13 +37,15 @@ class FlightRecording {
  private:
   void look_at_disk(double time_s);
   void close(const std::string& problem);
+  void release();
+  void keep(const std::string& problem);
 
   std::filesystem::path folder_;
   std::uint64_t min_free_bytes_;
   std::mutex mutex_;                                    ///< of all below
-  std::unique_ptr<formats::ros::Recording> recording_;  ///< null if there is no file
-  bool is_open_ = false;
-  std::optional<double> lost_s_;  ///< the earliest time of a message that is not in the file
+  std::unique_ptr<formats::ros::Recording> recording_;  ///< null if it has ended
+  double complete_until_s_ = 0;                         ///< of one that has ended
+  std::optional<double> lost_s_;  ///< the earliest time of a message that came too late for it
   double next_look_s_ = 0;        ///< at the disk
   std::string problem_;           ///< "": none
 };
