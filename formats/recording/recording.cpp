@@ -15,8 +15,8 @@ void Recording::add(const TopicMessage& message) {
 void Recording::close() { file_.close(); }
 
 double Recording::complete_until_s() const {
-  constexpr double kSPerNs = 1e-9;
-  return kSPerNs * static_cast<double>(file_.complete_until_ns());
+  constexpr double kNsPerS = 1e9;
+  return static_cast<double>(file_.complete_until_ns()) / kNsPerS;
 }
 
 }  // namespace throng::formats::ros
