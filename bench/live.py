@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Images per second of a live flight, and how long a command takes until it is seen.
 
-usage: bench/live.py THRONG [--seconds 30] [--people 260]
+usage: bench/live.py THRONG [--seconds 30] [--people 260] [--record]
 
 A service of its own on loopback. `command to image`: from a command (as a key press sends it) until a image of a time
 at which it is in force has arrived whole. `until the drone turns`: until the heading has changed by half a degree.
@@ -54,6 +54,7 @@ def main():
     options.add_argument("--seconds", type=float, default=30)
     options.add_argument("--people", type=int, default=260)
     options.add_argument("--scenario", default="city_square/nearest_exit")
+    options.add_argument("--record", action="store_true", help="record the flight, and say how large the recording is")
     given = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         server, port = start_service(given.throng, pathlib.Path(folder) / "data")
@@ -71,7 +72,7 @@ def measure(client, given):
         "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"pitch_deg": -45}}],
     }
     begun = time.monotonic()
-    flight = client.live(job)
+    flight = client.live(job, record=given.record)
     pilot = Pilot(flight)
     first = end = None
     images, steps, factors, sizes, shown, turned = 0, 0, [], [], [], []
@@ -107,6 +108,7 @@ def measure(client, given):
     pilot.stopped = True
     pilot.thread.join()
     seconds = time.monotonic() - first
+    recording = flight.stop()["recording"]
     flight.remove()
     ms = [1000 * s for s in sorted(shown)]
     print(f"{given.people} people, {given.scenario}")
@@ -118,6 +120,11 @@ def measure(client, given):
         f"command to image: median {statistics.median(ms):.0f} ms, 95 % {ms[int(0.95 * len(ms))]:.0f} ms ({len(ms)} commands, "
         f"POST median {1000 * statistics.median(pilot.rates):.1f} ms)"
     )
+    if recording:
+        minutes = recording["complete_until_s"] / 60
+        print(
+            f"recording: {1e-6 * recording['bytes'] / minutes:.0f} MB per simulated minute, problem {recording['problem']}"
+        )
     if turned:
         print(f"until the drone turns: median {1000 * statistics.median(turned):.0f} ms ({len(turned)} turns)")
 

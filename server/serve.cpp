@@ -209,7 +209,8 @@ int serve(const ServeOptions& options) {
        .max_active_jobs = options.max_active_jobs,
        .max_task_mib = max_task_mib(options),
        .publish_to = std::move(publish_to),
-       .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s))}},
+       .live = {.unseen = std::chrono::milliseconds(std::lround(1000 * options.live_timeout_s)),
+                .min_free_mib = options.min_free_mib}},
       *executor);
   WebhookSender hooks(service.queue(), database,
                       {.post = {.allow_private = options.webhook_private}});

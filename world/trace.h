@@ -114,6 +114,10 @@ struct BetweenSteps {
   float share = 0;         ///< fraction of the interval between the two steps, in [0, 1)
 };
 
+/// The sample as a trace keeps it: numbers are rounded, so that what follows from a trace can be
+/// computed before it is written.
+DroneSample as_recorded(const DroneSample& sample);
+
 /// A whole trace in memory. Arrays over [step][agent] are row-major: see at().
 struct Trace {
   TraceHeader header;

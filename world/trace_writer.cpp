@@ -126,19 +126,20 @@ struct DroneColumns {
         air_velocity(group, "air_velocity", {3}, kDroneRowsPerChunk, "m/s"),
         energy_j(group, "energy_j", {}, kDroneRowsPerChunk, "J") {}
 
-  void add(const DroneSample& sample) {
-    const auto coarse = [](const Eigen::Vector3d& v) {
-      return Eigen::Vector3f(rounded(v, kCoarse).cast<float>());
+  void add(const DroneSample& given) {
+    const DroneSample sample = as_recorded(given);
+    const auto add_floats = [](Column<float>& column, const Eigen::Vector3d& v) {
+      column.add(Eigen::Vector3f(v.cast<float>()).data(), 3);
     };
     const Eigen::Quaterniond& q = sample.orientation;
     time_s.add(sample.time_s);
-    position.add(rounded(sample.position, kFine).data(), 3);
-    velocity.add(rounded(sample.velocity, kFine).data(), 3);
-    orientation.add(rounded(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), kFinest).data(), 4);
-    body_rates.add(coarse(sample.body_rates).data(), 3);
-    specific_force.add(coarse(sample.specific_force).data(), 3);
-    air_velocity.add(coarse(sample.air_velocity).data(), 3);
-    energy_j.add(rounded(sample.energy_j, kFine));
+    position.add(sample.position.data(), 3);
+    velocity.add(sample.velocity.data(), 3);
+    orientation.add(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()).data(), 4);
+    add_floats(body_rates, sample.body_rates);
+    add_floats(specific_force, sample.specific_force);
+    add_floats(air_velocity, sample.air_velocity);
+    energy_j.add(sample.energy_j);
   }
 
   void flush() {
@@ -331,6 +332,20 @@ auto writing(const fs::path& path, const Work& work) {
 }
 
 }  // namespace
+
+DroneSample as_recorded(const DroneSample& sample) {
+  const auto coarse = [](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(rounded(v, kCoarse).cast<float>().cast<double>());
+  };
+  return {sample.time_s,
+          rounded(sample.position, kFine),
+          rounded(sample.velocity, kFine),
+          Eigen::Quaterniond(rounded(sample.orientation.coeffs(), kFinest)),
+          coarse(sample.body_rates),
+          coarse(sample.specific_force),
+          coarse(sample.air_velocity),
+          rounded(sample.energy_j, kFine)};
+}
 
 // The members go in reverse order: the columns close before the file that holds them, and the
 // temporary file is removed last.

@@ -1,7 +1,9 @@
 // throng live: the process of a live flight, for the service.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cli/shell/commands.h"
@@ -14,7 +16,15 @@ void add_live(CLI::App& app) {
   command->group("");  // not for users
   const auto folder = std::make_shared<std::string>();
   command->add_option("folder", *folder, "Folder with the job")->required();
-  command->callback([folder] { std::exit(live::run_session(*folder)); });
+  const auto min_free_mib = std::make_shared<std::optional<std::uint64_t>>();
+  command->add_option("--record", *min_free_mib,
+                      "Record the flight while the disk has this much free space, MiB");
+  command->callback([folder, min_free_mib] {
+    constexpr int kMibShift = 20;
+    std::optional<live::RecordingOptions> record;
+    if (*min_free_mib) record = {.min_free_bytes = **min_free_mib << kMibShift};
+    std::exit(live::run_session(*folder, record));
+  });
 }
 
 }  // namespace throng::cli

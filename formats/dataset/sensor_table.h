@@ -1,25 +1,14 @@
 // A drone's table of sensor readings, sensors/RUN/CAMERA.csv, row by row.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <vector>
 
-namespace throng::formats {
+#include "formats/recording/sensor_row.h"
 
-/// The readings of one row: m, m/s, rad/s, m/s², µT and Pa; body frame but for the GPS.
-struct SensorRow {
-  double time_s = 0;
-  Eigen::Vector3d rates = Eigen::Vector3d::Zero();
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-  Eigen::Vector3d field_ut = Eigen::Vector3d::Zero();
-  double pressure_pa = 0;
-  double gps_time_s = 0;
-  Eigen::Vector3d gps_position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gps_velocity = Eigen::Vector3d::Zero();
-};
+namespace throng::formats {
 
 /// Reads the rows in order, one in memory at a time. Throws InputError for a missing column and for
 /// a cell that is no number.

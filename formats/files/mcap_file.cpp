@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <zstd.h>
 
@@ -92,10 +93,19 @@ class Space {
 
   std::uint64_t position() const { return position_; }
 
-  /// Makes sure that this many bytes can be written.
+  /// Makes sure that this many bytes can be written. The file's size stays, so that it ends with a
+  /// whole chunk if the process is killed.
   bool reserve(std::uint64_t bytes) const {
-    const int error =
-        ::posix_fallocate(file_, static_cast<off_t>(position_), static_cast<off_t>(bytes));
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && position_ + bytes > limit.rlim_cur) {
+      errno = EFBIG;
+      return false;
+    }
+    const auto from = static_cast<off_t>(position_);
+    const auto size = static_cast<off_t>(bytes);
+    if (::fallocate(file_, FALLOC_FL_KEEP_SIZE, from, size) == 0) return true;
+    if (errno != EOPNOTSUPP) return false;
+    const int error = ::posix_fallocate(file_, from, size);
     if (error == 0) return true;
     errno = error;
     return false;
@@ -145,6 +155,7 @@ struct McapFile::State {
   std::string compress() const;
   void begin();
   void write_chunk();
+  std::uint64_t complete_until_ns() const { return std::min(span.to_ns, chunk_span.from_ns); }
   void end();
 
   Space space;
@@ -284,7 +295,7 @@ void McapFile::State::write_chunk() {
     end();
     throw EnvironmentError(fmt::format(
         "cannot write {}: {}; the recording is complete until {:.3f} s", space.path().string(),
-        std::strerror(error), 1e-9 * static_cast<double>(span.to_ns)));
+        std::strerror(error), 1e-9 * static_cast<double>(complete_until_ns())));
   }
   space.write(head);
   space.write(indexes);
@@ -365,12 +376,19 @@ void McapFile::add(std::uint16_t channel, std::uint64_t time_ns, std::string_vie
   state_->chunk += record(Opcode::message, content);
   state_->chunk_span.include(time_ns);
   ++state_->open_messages[channel];
-  if (state_->chunk.size() >= state_->options.chunk_bytes) state_->write_chunk();
+  const McapOptions& options = state_->options;
+  const std::uint64_t span_ns = state_->chunk_span.to_ns - state_->chunk_span.from_ns;
+  if (state_->chunk.size() >= options.chunk_bytes ||
+      (options.chunk_ns && span_ns >= *options.chunk_ns)) {
+    state_->write_chunk();
+  }
 }
 
 void McapFile::close() {
   state_->write_chunk();
   state_->end();
 }
+
+std::uint64_t McapFile::complete_until_ns() const { return state_->complete_until_ns(); }
 
 }  // namespace throng::formats

@@ -156,9 +156,10 @@ std::string odometry(const Header& header, const std::string& child, const Motio
   return cdr.bytes();
 }
 
-std::string velocity(const Header& header, const Eigen::Vector3d& velocity_mps) {
+std::string velocity(const Header& header, const Eigen::Vector3d& velocity_mps,
+                     const Eigen::Vector3d& rates_rad_s) {
   CdrWriter cdr;
-  add_header(cdr, header).add(velocity_mps).add(Eigen::Vector3d::Zero().eval());
+  add_header(cdr, header).add(velocity_mps).add(rates_rad_s);
   return cdr.bytes();
 }
 

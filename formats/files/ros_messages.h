@@ -112,8 +112,9 @@ std::string fix(const Header& header, const Fix& fix);
 std::string magnetic_field(const Header& header, const Eigen::Vector3d& field_t);
 std::string pressure(const Header& header, double pressure_pa);
 std::string odometry(const Header& header, const std::string& child, const Motion& motion);
-/// Velocity in the header's frame.
-std::string velocity(const Header& header, const Eigen::Vector3d& velocity_mps);
+/// Velocity and angular rates in the header's frame.
+std::string velocity(const Header& header, const Eigen::Vector3d& velocity_mps,
+                     const Eigen::Vector3d& rates_rad_s = Eigen::Vector3d::Zero());
 std::string detections_2d(const Header& header, const std::vector<Box2>& boxes);
 std::string detections_3d(const Header& header, const std::vector<Box3>& boxes);
 /// A marker that deletes the earlier ones, then a cube per box.

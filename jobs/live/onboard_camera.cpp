@@ -20,6 +20,11 @@ render::RenderOptions draft() {
   return options;
 }
 
+jobs::RunEnvironment flight_environment(const jobs::JobSpec& job) {
+  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
+  return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed);
+}
+
 }  // namespace
 
 OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_job,
@@ -27,13 +32,13 @@ OnboardCamera::Surroundings OnboardCamera::place_of(const jobs::JobSpec& whole_j
   const jobs::JobSpec job = jobs::job_of_run(whole_job, 0);
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   world::thin_out(scenario, job.props_density, seed);
-  const jobs::RunEnvironment environment = jobs::environment_of_run(job.environment, seed);
-  return {std::move(scenario), environment.light, jobs::styling_in(job, environment.light.weather)};
+  return {std::move(scenario), flight_environment(whole_job).light, clothing(whole_job)};
 }
 
-double smoke_amount(const jobs::JobSpec& job) {
-  const std::uint64_t seed = jobs::plan_runs(job).front().seed;
-  return jobs::environment_of_run(jobs::job_of_run(job, 0).environment, seed).light.smoke;
+double smoke_amount(const jobs::JobSpec& job) { return flight_environment(job).light.smoke; }
+
+skinning::Styling clothing(const jobs::JobSpec& job) {
+  return jobs::styling_in(jobs::job_of_run(job, 0), flight_environment(job).light.weather);
 }
 
 camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {
@@ -47,16 +52,17 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {
 }
 
 OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
+                             const skinning::Population& population,
                              const world::TraceHeader& header,
                              const std::vector<sim::PlannedDrone>& drones)
-    : OnboardCamera(place_of(job, std::move(scenario)), header, drones) {}
+    : OnboardCamera(place_of(job, std::move(scenario)), population, header, drones) {}
 
-OnboardCamera::OnboardCamera(Surroundings place, const world::TraceHeader& header,
+OnboardCamera::OnboardCamera(Surroundings place, const skinning::Population& population,
+                             const world::TraceHeader& header,
                              const std::vector<sim::PlannedDrone>& drones)
     : scenario_(std::move(place.scenario)),
-      population_(skinning::load_population(skinning::population_folder())),
-      people_(header, header.seed, population_, place.styling),
-      renderer_(scenario_, population_, place.light, {}, draft()) {
+      people_(header, header.seed, population, place.styling),
+      renderer_(scenario_, population, place.light, {}, draft()) {
   for (const sim::PlannedDrone& drone : drones) {
     cameras_.push_back(shown_camera(drone.mission.camera));
     shapes_.push_back(render::airframe_shape(drone.airframe));

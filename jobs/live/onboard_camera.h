@@ -24,12 +24,17 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera);
 /// Amount of smoke from the hazards of a job's first run, 0 to 1.
 double smoke_amount(const jobs::JobSpec& job);
 
+/// Clothing of people in a job's first run.
+skinning::Styling clothing(const jobs::JobSpec& job);
+
 /// Owns a GL context: use from the thread that created it.
 class OnboardCamera {
  public:
-  /// The cameras of the job's first run. Throws EnvironmentError and InputError.
+  /// The cameras of the job's first run. The population must outlive this object. Throws
+  /// EnvironmentError and InputError.
   OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
-                const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones);
+                const skinning::Population& population, const world::TraceHeader& header,
+                const std::vector<sim::PlannedDrone>& drones);
 
   /// Renders the view of a drone's camera at a time within the moment's step, as a JPEG file.
   std::string image(const Moment& moment, std::size_t drone, double time_s);
@@ -42,11 +47,10 @@ class OnboardCamera {
     skinning::Styling styling;
   };
   static Surroundings place_of(const jobs::JobSpec& whole_job, world::Scenario scenario);
-  OnboardCamera(Surroundings place, const world::TraceHeader& header,
-                const std::vector<sim::PlannedDrone>& drones);
+  OnboardCamera(Surroundings place, const skinning::Population& population,
+                const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones);
 
   world::Scenario scenario_;
-  skinning::Population population_;
   PeopleInMotion people_;
   render::Renderer renderer_;
   std::vector<camera::CameraSpec> cameras_;  ///< per drone

@@ -11,11 +11,32 @@ namespace {
 
 constexpr double kFallS = 0.8;
 
+std::vector<skinning::Appearance> sample_looks(const world::TraceHeader& header, std::uint64_t seed,
+                                               const skinning::Population& population,
+                                               const skinning::Styling& styling) {
+  std::vector<skinning::Appearance> looks;
+  for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
+    looks.push_back(
+        skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent), styling));
+  }
+  return looks;
+}
+
+}  // namespace
+
 bool is_rendered(world::AgentRole role) {
   return role == world::AgentRole::person || role == world::AgentRole::attacker;
 }
 
-}  // namespace
+std::vector<double> statures_m(const world::TraceHeader& header,
+                               const skinning::Population& population,
+                               const skinning::Styling& styling) {
+  std::vector<double> statures;
+  for (const skinning::Appearance& look : sample_looks(header, header.seed, population, styling)) {
+    statures.push_back(population.characters[look.character].stature_m);
+  }
+  return statures;
+}
 
 PeopleInMotion::PeopleInMotion(const world::TraceHeader& header, std::uint64_t seed,
                                const skinning::Population& population,
@@ -23,12 +44,8 @@ PeopleInMotion::PeopleInMotion(const world::TraceHeader& header, std::uint64_t s
     : population_(population),
       clips_(population),
       roles_(header.role),
-      fell_at_s_(header.agent_count(), -1) {
-  for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
-    looks_.push_back(
-        skinning::sample_appearance(population, seed, static_cast<std::uint32_t>(agent), styling));
-  }
-}
+      looks_(sample_looks(header, seed, population, styling)),
+      fell_at_s_(header.agent_count(), -1) {}
 
 skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, double speed_mps,
                                             std::uint8_t flags, double time_s) {

@@ -9,8 +9,17 @@
 #include "skinning/animate/motion.h"
 #include "skinning/appearance.h"
 #include "skinning/population.h"
+#include "world/trace.h"
 
 namespace throng::live {
+
+/// Whether agents with this role are people who are shown.
+bool is_rendered(world::AgentRole role);
+
+/// Heights of a run's people with their shoes (m), per agent.
+std::vector<double> statures_m(const world::TraceHeader& header,
+                               const skinning::Population& population,
+                               const skinning::Styling& styling);
 
 /// Computes the poses of a run's people; call it with moments in the order of time.
 class PeopleInMotion {

@@ -28,7 +28,10 @@
 #include "base/json/problem_json.h"
 #include "base/text/redact.h"
 #include "jobs/live/flight.h"
+#include "jobs/live/flight_recording.h"
+#include "jobs/live/flight_topics.h"
 #include "jobs/live/onboard_camera.h"
+#include "jobs/live/people_in_motion.h"
 #include "jobs/live/state_message.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/queue/confine/file_fence.h"
@@ -113,15 +116,18 @@ class Session {
  public:
   /// `give_up` reports the current exception and ends the process.
   Session(const jobs::JobSpec& job, const world::Scenario& scenario, const fs::path& folder,
-          Output& output, std::function<void()> give_up)
+          const std::optional<RecordingOptions>& record, Output& output,
+          std::function<void()> give_up)
       : scenario_(scenario),
         job_(job),
         output_(output),
         give_up_(std::move(give_up)),
+        population_(skinning::load_population(skinning::population_folder())),
         flight_(job, scenario, folder) {
     for (const sim::PlannedDrone& drone : flight_.drones()) ids_.push_back(drone.mission.id);
     wishes_.commands.resize(ids_.size());
     moment_ = flight_.moment(0);
+    if (record) begin_recording(folder, *record);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -137,14 +143,28 @@ class Session {
         fly();
       }
       if (failure_) std::rethrow_exception(failure_);
-      output_.send(MessageType::result, flight_.finish().dump());
+      json result = flight_.finish();
+      result["recording"] = recording_ ? recording_->finish() : json();
+      output_.send(MessageType::result, result.dump());
     } catch (...) {
+      if (recording_) recording_->finish();
       give_up_();
     }
     std::_Exit(jobs::worker_succeeded);
   }
 
  private:
+  void begin_recording(const fs::path& folder, const RecordingOptions& options) {
+    recording_.emplace(folder, options.min_free_bytes);
+    try {
+      topics_.emplace(job_, flight_, statures_m(flight_.header(), population_, clothing(job_)),
+                      [this](const ros::TopicMessage& message) { recording_->add(message); });
+      topics_->add(*moment_, {}, {});
+    } catch (const InputError& error) {
+      recording_->stop(error.what());
+    }
+  }
+
   /// Without somebody at the other end there is no flight.
   void read() {
     std::string line;
@@ -183,9 +203,9 @@ class Session {
       lock.unlock();
 
       std::shared_ptr<const Moment> moment = flight_.step(wishes.commands, wishes.sequence);
-      for (const json& event : flight_.take_events()) {
-        output_.send(MessageType::event, event.dump());
-      }
+      const std::vector<json> events = flight_.take_events();
+      for (const json& event : events) output_.send(MessageType::event, event.dump());
+      if (topics_) topics_->add(*moment, wishes.commands, events);
       const double reached_factor = mean_step_s ? flight_.dt_s() / *mean_step_s : wishes.factor;
       output_.send(MessageType::state, state_bytes(*moment, reached_factor, false));
 
@@ -233,7 +253,7 @@ class Session {
     constexpr std::chrono::milliseconds kMinPause(33);
     constexpr std::chrono::milliseconds kStill(500);  // between images of a world that rests
     try {
-      OnboardCamera camera(job_, scenario_, flight_.header(), flight_.drones());
+      OnboardCamera camera(job_, scenario_, population_, flight_.header(), flight_.drones());
       double shown_s = -1;
       std::size_t shown_view = 0;
       auto last = Clock::now() - kStill;
@@ -253,8 +273,11 @@ class Session {
           continue;
         }
         last = now;
-        output_.send(MessageType::image,
-                     image_bytes(*moment, time_s, view, camera.image(*moment, view, time_s)));
+        const std::string jpeg = camera.image(*moment, view, time_s);
+        output_.send(MessageType::image, image_bytes(*moment, time_s, view, jpeg));
+        if (topics_ && (time_s != shown_s || view != shown_view)) {
+          topics_->add_image(*moment, view, time_s, jpeg);
+        }
         shown_s = time_s;
         shown_view = view;
       }
@@ -269,9 +292,12 @@ class Session {
   const jobs::JobSpec& job_;
   Output& output_;
   std::function<void()> give_up_;
+  skinning::Population population_;
   Flight flight_;  ///< of the thread that flies, but for what never changes
   std::vector<std::string> ids_;
-  std::mutex mutex_;  ///< of all below
+  std::optional<FlightRecording> recording_;
+  std::optional<FlightTopics> topics_;  ///< of the thread that flies, but for images
+  std::mutex mutex_;                    ///< of all below
   std::condition_variable changed_;
   Wishes wishes_;
   Clock::time_point commanded_;
@@ -315,7 +341,7 @@ void confine(const fs::path& folder) {
 
 }  // namespace
 
-int run_session(const fs::path& folder) {
+int run_session(const fs::path& folder, const std::optional<RecordingOptions>& record) {
   die_with_service();
   const fs::path scenarios = world::scenarios_folder();
   confine(folder);
@@ -339,7 +365,7 @@ int run_session(const fs::path& folder) {
     const jobs::ResolvedJob job =
         jobs::read_resolved_job(read_file(folder / "job.json"), (folder / "job.json").string());
     const world::Scenario scenario = jobs::load_job_scenario(job.spec(), scenarios);
-    Session(job.spec(), scenario, folder, output, give_up).run();
+    Session(job.spec(), scenario, folder, record, output, give_up).run();
   } catch (...) {
     give_up();
   }

@@ -10,11 +10,14 @@ import json
 import struct
 import threading
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _download
+from ._bundle import PathLike
 from ._http import BROKEN, Http, part, problem
 from .api_types import LiveFlight as LiveFlightAnswer
 from .errors import ConnectionFailedError, ServiceError
@@ -184,6 +187,11 @@ class LiveFlight:
         if answer["error"]:
             raise ServiceError(200, "The flight failed", answer["error"]["message"])
         return answer["result"]
+
+    def recording(self, path: PathLike) -> Path:
+        """Downloads the recording (MCAP) of a flight that has ended, begun with record=True; returns its path."""
+        _download.fetch(self._http, f"/v1/live/{self._name}/recording", Path(path), None)
+        return Path(path)
 
     def remove(self) -> None:
         """Ends the flight without an outcome; nothing if there is none any more."""

@@ -705,6 +705,8 @@ class LiveFlightLinks(TypedDict):
 
     self: str
     stream: str
+    recording: str | None
+    """Address of the recording once the flight has ended; null for a flight that is not recorded."""
 
 
 class LiveFlight(TypedDict):
@@ -719,6 +721,8 @@ class LiveFlight(TypedDict):
     viewers: int
     """Number of streams that are being read."""
     drones: list[str]
+    recorded: bool
+    """Whether it was begun with "record"."""
     error: LiveFlightError | None
     links: LiveFlightLinks
     result: NotRequired[LiveResult | None]
@@ -733,6 +737,17 @@ class LiveResultDrone(TypedDict):
     """The pilot log (docs/guidance.md)."""
 
 
+class LiveResultRecording(TypedDict):
+    """LiveResultRecording of the service."""
+
+    complete_until_s: float
+    """All messages before this simulated time are in the recording, s."""
+    problem: str | None
+    """Why the recording ended before the flight, such as a full disk; null if it did not."""
+    bytes: int
+    """Size of the file."""
+
+
 class LiveResult(TypedDict):
     """LiveResult of the service."""
 
@@ -744,6 +759,8 @@ class LiveResult(TypedDict):
     job: dict[str, Any]
     """A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log."""
     warnings: list[str]
+    recording: LiveResultRecording | None
+    """How far the recording goes; null for a flight that was not recorded."""
 
 
 class LiveCommandsDrone(TypedDict):
@@ -810,6 +827,7 @@ OPERATIONS = (
     ("GET", "/v1/live/{id}"),
     ("DELETE", "/v1/live/{id}"),
     ("GET", "/v1/live/{id}/stream"),
+    ("GET", "/v1/live/{id}/recording"),
     ("POST", "/v1/live/{id}/commands"),
     ("POST", "/v1/live/{id}/stop"),
     ("POST", "/v1/studies"),

@@ -303,9 +303,9 @@ class Client(CatalogClient):
 
     # Live flights.
 
-    def live(self, job: JobLike) -> LiveFlight:
-        """Begins a live flight of a job's drones: its first run, as the job would simulate it."""
-        answer = self._http.request("POST", "/v1/live", json_body={"job": plain(job)}).json()
+    def live(self, job: JobLike, *, record: bool = False) -> LiveFlight:
+        """Begins a live flight of a job's drones: its first run, as the job would simulate it. record: for recording()."""
+        answer = self._http.request("POST", "/v1/live", json_body={"job": plain(job), "record": record}).json()
         return LiveFlight(self._http, answer)
 
     def live_flights(self) -> list[LiveFlightAnswer]:

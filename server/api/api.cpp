@@ -100,6 +100,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/live", Scope::submit, &list_live},
       Route{Method::get, "/v1/live/{id}", Scope::submit, &send_live},
       Route{Method::get, "/v1/live/{id}/stream", Scope::submit, &stream_live},
+      Route{Method::get, "/v1/live/{id}/recording", Scope::submit, &send_live_recording},
       Route{Method::post, "/v1/live/{id}/commands", Scope::submit, &command_live},
       Route{Method::post, "/v1/live/{id}/stop", Scope::submit, &stop_live},
       Route{Method::remove, "/v1/live/{id}", Scope::submit, &remove_live},

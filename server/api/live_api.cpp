@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,8 +10,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "jobs/queue/dataset/archive.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
+#include "server/http/file_answer.h"
 #include "server/http/http.h"
 #include "server/live/live_flights.h"
 #include "spec/job/scenario_mix.h"
@@ -49,9 +52,13 @@ json flight_json(const LiveFlight& flight) {
                 {"time_s", flight.time_s()},
                 {"viewers", flight.viewers()},
                 {"drones", flight.drones()},
+                {"recorded", flight.is_recorded()},
                 {"result", nullptr},
                 {"error", nullptr},
-                {"links", {{"self", self}, {"stream", self + "/stream"}}}};
+                {"links",
+                 {{"self", self},
+                  {"stream", self + "/stream"},
+                  {"recording", flight.is_recorded() ? json(self + "/recording") : json()}}}};
   if (state == LiveState::ended) value["result"] = flight.outcome();
   if (state == LiveState::failed) {
     const json outcome = flight.outcome();
@@ -87,13 +94,21 @@ jobs::ResolvedJob job_in(const RequestContext& context, const json& body) {
   throw wrong_field("request", "/job/drones", "no drone", "at least one drone to fly");
 }
 
+bool is_to_be_recorded(const json& body) {
+  const auto record = body.find("record");
+  if (record == body.end()) return false;
+  if (record->is_boolean()) return record->get<bool>();
+  throw wrong_field("request", "/record", record->dump().substr(0, 60), "true or false");
+}
+
 }  // namespace
 
 void begin_live(const RequestContext& context, const Request& request, Response& response) {
-  const json body = json_fields(request, "request", {"job"});
+  const json body = json_fields(request, "request", {"job", "record"});
+  const bool is_recorded = is_to_be_recorded(body);
   const jobs::ResolvedJob job = job_in(context, body);
   try {
-    const auto flight = context.live.begin(job, context.caller.key_id);
+    const auto flight = context.live.begin(job, context.caller.key_id, is_recorded);
     response.set_header("Location", "/v1/live/" + flight->id());
     write_json(response, 201, flight_json(*flight));
   } catch (const LiveFlightsFull& full) {
@@ -161,6 +176,25 @@ void stop_live(const RequestContext& context, const Request& request, Response& 
   }
   if (!flight->stop()) throw HttpError{503, "the flight does not answer; try again"};
   write_json(response, 200, flight_json(*flight));
+}
+
+void send_live_recording(const RequestContext& context, const Request& request,
+                         Response& response) {
+  const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
+  if (!flight->is_recorded()) {
+    throw HttpError{404, "the flight was not recorded: it was begun without \"record\": true"};
+  }
+  const LiveState state = flight->state();
+  if (state == LiveState::starting || state == LiveState::flying) {
+    throw HttpError{409, "the flight goes on; its recording is there when it has ended"};
+  }
+  if (!std::filesystem::exists(flight->recording())) {
+    throw HttpError{404, "nothing was recorded; the flight's result says why"};
+  }
+  response.set_header("Content-Disposition",
+                      fmt::format("attachment; filename=\"{}.mcap\"", jobs::slug(flight->name())));
+  answer_with_file(request, response, flight->recording(), "application/octet-stream",
+                   fmt::format("\"{}\"", flight->id()));
 }
 
 void remove_live(const RequestContext& context, const Request& request, Response& response) {

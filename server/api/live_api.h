@@ -9,7 +9,7 @@ namespace throng::server {
 
 // Handlers; they throw HttpError (server/api/requests.h), InputError and EnvironmentError.
 
-/// Starts a flight of {"job": {...}} and responds with 201.
+/// Starts a flight of {"job": {...}, "record": false} and responds with 201.
 void begin_live(const RequestContext& context, const httplib::Request& request,
                 httplib::Response& response);
 void list_live(const RequestContext& context, const httplib::Request& request,
@@ -24,6 +24,9 @@ void command_live(const RequestContext& context, const httplib::Request& request
 /// Ends the flight and sends the outcome: pilot logs, and the job that replays the flight.
 void stop_live(const RequestContext& context, const httplib::Request& request,
                httplib::Response& response);
+/// Sends the recording of a flight that has ended, as MCAP.
+void send_live_recording(const RequestContext& context, const httplib::Request& request,
+                         httplib::Response& response);
 void remove_live(const RequestContext& context, const httplib::Request& request,
                  httplib::Response& response);
 

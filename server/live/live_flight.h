@@ -31,8 +31,10 @@ struct LiveFlightSpec {
   std::vector<std::string> drones;   ///< ids
   std::string job_json;              ///< the resolved job
   std::int64_t memory_mib = 0;       ///< estimated memory; 0: not limited
+  bool is_recorded = false;          ///< whether it is asked to record itself
   std::filesystem::path folder;      ///< folder in which the flight's temporary folder is created
-  std::vector<std::string> command;  ///< the program; the flight's folder is appended
+  std::int64_t min_free_mib = 0;     ///< a recording ends when the disk has less free space
+  std::vector<std::string> command;  ///< the program; the flight's folder and options are appended
   SteadyNow now = &steady_now;       ///< clock of unseen()
 };
 
@@ -51,6 +53,9 @@ class LiveFlight {
   const std::string& name() const { return spec_.name; }
   const std::vector<std::string>& drones() const { return spec_.drones; }
   std::int64_t memory_mib() const { return spec_.memory_mib; }
+  bool is_recorded() const { return spec_.is_recorded; }
+  /// The recording of a flight that is over; it exists as long as this object, if any was begun.
+  std::filesystem::path recording() const { return folder_.path() / live::kRecordingFile; }
 
   LiveState state() const;
   int viewers() const;

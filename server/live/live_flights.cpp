@@ -78,7 +78,7 @@ void LiveFlights::require_room(const std::string& owner, std::int64_t memory_mib
 }
 
 std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
-                                               const std::string& owner) {
+                                               const std::string& owner, bool is_recorded) {
   LiveFlightSpec spec;
   spec.id = "l" + random_text(kFlightIdLength);
   spec.owner = owner;
@@ -86,6 +86,8 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   for (const jobs::DroneSpec& drone : job.spec().drones) spec.drones.push_back(drone.mission.id);
   spec.job_json = dump_text(to_json(job.spec()));
   spec.memory_mib = flight_memory_mib(job);
+  spec.is_recorded = is_recorded;
+  spec.min_free_mib = limits_.min_free_mib;
   spec.folder = folder_;
   spec.command = limits_.command;
   spec.now = limits_.now;

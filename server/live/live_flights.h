@@ -25,6 +25,7 @@ struct LiveLimits {
   std::chrono::milliseconds unseen{30'000};  ///< time without viewers until a flight ends
   std::chrono::milliseconds ended{600'000};  ///< time for which an outcome is kept
   std::int64_t max_task_mib = 0;             ///< max memory of a flight; 0: unlimited
+  std::int64_t min_free_mib = 512;           ///< recordings end when the disk has less free space
   SteadyNow now = &steady_now;               ///< clock of these times
 };
 
@@ -42,8 +43,10 @@ class LiveFlights {
   LiveFlights(const LiveFlights&) = delete;
   LiveFlights& operator=(const LiveFlights&) = delete;
 
-  /// Starts a flight. Throws LiveFlightsFull and EnvironmentError.
-  std::shared_ptr<LiveFlight> begin(const jobs::ResolvedJob& job, const std::string& owner);
+  /// Starts a flight, which records itself if asked to. Throws LiveFlightsFull and
+  /// EnvironmentError.
+  std::shared_ptr<LiveFlight> begin(const jobs::ResolvedJob& job, const std::string& owner,
+                                    bool is_recorded = false);
   /// The flight with this id; null if there is none.
   std::shared_ptr<LiveFlight> find(const std::string& id) const;
   std::vector<std::shared_ptr<LiveFlight>> all() const;

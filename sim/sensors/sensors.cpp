@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/compute/random.h"
 #include "base/error.h"
@@ -152,34 +153,59 @@ Vector3d magnetic_field(double latitude_rad) {
   return kEquatorUt * Vector3d(0, std::cos(latitude_rad), -2 * std::sin(latitude_rad));
 }
 
+struct DroneSensors::State {
+  SensorNoise noise;
+  Vector3d field;  ///< of the earth, µT, world
+  InertialTriad gyro;
+  InertialTriad accelerometer;
+  Random magnetic;
+  Barometer barometer;
+  Gps gps;
+  std::optional<double> last_s = {};  ///< time of the last sample
+};
+
+DroneSensors::DroneSensors(std::uint64_t seed, std::uint64_t drone, double latitude_rad,
+                           const SensorNoise& noise)
+    : state_(new State{
+          noise, magnetic_field(latitude_rad),
+          InertialTriad(noise.gyro, sensor_random(seed, drone, Sensor::gyro)),
+          InertialTriad(noise.accelerometer, sensor_random(seed, drone, Sensor::accelerometer)),
+          sensor_random(seed, drone, Sensor::magnetometer),
+          Barometer(noise, sensor_random(seed, drone, Sensor::barometer)),
+          Gps(noise, sensor_random(seed, drone, Sensor::gps))}) {}
+
+DroneSensors::~DroneSensors() = default;
+DroneSensors::DroneSensors(DroneSensors&&) noexcept = default;
+
+const SensorNoise& DroneSensors::noise() const { return state_->noise; }
+
+SensorReading DroneSensors::read(const world::DroneSample& truth) {
+  constexpr double kUsualStepS = 1.0 / 60;
+  State& state = *state_;
+  const double dt_s = truth.time_s - state.last_s.value_or(truth.time_s - kUsualStepS);
+  state.last_s = truth.time_s;
+  SensorReading reading;
+  reading.time_s = truth.time_s;
+  reading.gyro = state.gyro.read(truth.body_rates, dt_s);
+  reading.accelerometer = state.accelerometer.read(truth.specific_force, dt_s);
+  reading.magnetometer = truth.orientation.conjugate() * state.field +
+                         state.noise.field_share * state.field.norm() * normals(state.magnetic);
+  reading.pressure_pa = state.barometer.read(truth.position.z(), dt_s);
+  reading.height_m = height_at(reading.pressure_pa);
+  reading.gps = state.gps.read(truth);
+  return reading;
+}
+
+SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, DroneSensors sensors)
+    : noise_(sensors.noise()) {
+  check(!truth.empty(), "a drone with sensors has flown");
+  readings_.reserve(truth.size());
+  for (const world::DroneSample& sample : truth) readings_.push_back(sensors.read(sample));
+}
+
 SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t seed,
                      std::uint64_t drone, double latitude_rad, const SensorNoise& noise)
-    : noise_(noise) {
-  check(!truth.empty(), "a drone with sensors has flown");
-  const Vector3d field = magnetic_field(latitude_rad);
-  InertialTriad gyro(noise.gyro, sensor_random(seed, drone, Sensor::gyro));
-  InertialTriad accelerometer(noise.accelerometer,
-                              sensor_random(seed, drone, Sensor::accelerometer));
-  Random magnetic = sensor_random(seed, drone, Sensor::magnetometer);
-  Barometer barometer(noise, sensor_random(seed, drone, Sensor::barometer));
-  Gps gps(noise, sensor_random(seed, drone, Sensor::gps));
-  constexpr double kUsualStepS = 1.0 / 60;
-  double last_s = truth.front().time_s - kUsualStepS;
-  for (const world::DroneSample& sample : truth) {
-    const double dt_s = sample.time_s - last_s;
-    last_s = sample.time_s;
-    SensorReading reading;
-    reading.time_s = sample.time_s;
-    reading.gyro = gyro.read(sample.body_rates, dt_s);
-    reading.accelerometer = accelerometer.read(sample.specific_force, dt_s);
-    reading.magnetometer = sample.orientation.conjugate() * field +
-                           noise.field_share * field.norm() * normals(magnetic);
-    reading.pressure_pa = barometer.read(sample.position.z(), dt_s);
-    reading.height_m = height_at(reading.pressure_pa);
-    reading.gps = gps.read(sample);
-    readings_.push_back(reading);
-  }
-}
+    : SensorLog(truth, DroneSensors(seed, drone, latitude_rad, noise)) {}
 
 const SensorReading& SensorLog::at(double time_s) const {
   const auto after =

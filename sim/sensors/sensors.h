@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "spec/sim/sensor_noise.h"
@@ -37,11 +38,34 @@ struct SensorReading {
   GpsFix gps;
 };
 
+/// The sensors of one drone, read while it flies.
+class DroneSensors {
+ public:
+  /// `drone`, the index of the drone in the run, makes the errors of drones independent.
+  DroneSensors(std::uint64_t seed, std::uint64_t drone, double latitude_rad,
+               const SensorNoise& noise);
+  ~DroneSensors();
+  DroneSensors(DroneSensors&&) noexcept;
+  DroneSensors& operator=(DroneSensors&&) = delete;
+  DroneSensors(const DroneSensors&) = delete;
+  DroneSensors& operator=(const DroneSensors&) = delete;
+
+  /// The errors with which the readings are made.
+  const SensorNoise& noise() const;
+
+  /// The readings at a sample of the trace; call it for each sample in order, from the first on.
+  SensorReading read(const world::DroneSample& truth);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// The readings of one drone in a run, at the times of the trace's samples (about 60 per second).
 class SensorLog {
  public:
-  /// `truth` are the trace's samples of the drone, at least one. `drone`, the index of the drone in
-  /// the run, makes the errors of drones independent.
+  /// Reads `sensors` at the trace's samples of the drone, at least one.
+  SensorLog(const std::vector<world::DroneSample>& truth, DroneSensors sensors);
   SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t seed, std::uint64_t drone,
             double latitude_rad, const SensorNoise& noise = {});
 

@@ -25,6 +25,9 @@ struct Message {
   std::string bytes;
 };
 
+/// Name of a flight's recording in its folder.
+inline constexpr const char* kRecordingFile = "flight.mcap";
+
 /// Serializes a message: one byte of type, four bytes of length (little-endian), the bytes.
 std::string framed(const Message& message);
 

@@ -1,4 +1,6 @@
 """Live flights against the real server: flown by commands, repeated by a job, ended when nobody looks."""
+import base64
+import csv
 import hashlib
 import json
 import os
@@ -10,6 +12,9 @@ import threading
 import time
 import unittest
 
+import numpy
+
+from mcap import matrix_of, read_recording
 from service import start_service, wait_until
 
 THRONG = sys.argv.pop(1)
@@ -44,6 +49,27 @@ JOB = {
     "environment": {"wind": {"speed_mps": 3}},
     "capture": {"rate_hz": 1, "from_s": 1, "to_s": 4},
 }
+
+
+RECORDED = {
+    "/clock": "rosgraph_msgs/msg/Clock",
+    "/tf": "tf2_msgs/msg/TFMessage",
+    "/ground_truth/boxes": "visualization_msgs/msg/MarkerArray",
+    "/ground_truth/detections_3d": "vision_msgs/msg/Detection3DArray",
+}
+for name in ("d1", "d2"):
+    RECORDED |= {
+        f"/{name}/odometry": "nav_msgs/msg/Odometry",
+        f"/{name}/imu": "sensor_msgs/msg/Imu",
+        f"/{name}/magnetic_field": "sensor_msgs/msg/MagneticField",
+        f"/{name}/pressure": "sensor_msgs/msg/FluidPressure",
+        f"/{name}/fix": "sensor_msgs/msg/NavSatFix",
+        f"/{name}/fix_velocity": "geometry_msgs/msg/TwistStamped",
+        f"/{name}/camera/camera_info": "sensor_msgs/msg/CameraInfo",
+        f"/{name}/camera/image_color/compressed": "sensor_msgs/msg/CompressedImage",
+        f"/{name}/command": "geometry_msgs/msg/TwistStamped",
+        f"/{name}/mode": "std_msgs/msg/String",
+    }
 
 
 class WithServer(unittest.TestCase):
@@ -172,6 +198,154 @@ class Live(WithServer):
         with self.assertRaises(throng.NotFoundError):
             flight.state()
 
+    def test_a_recording_holds_the_flight(self):
+        flight = self.client.live(JOB, record=True)
+        self.addCleanup(flight.remove)
+        file = self.base / "flight.mcap"
+        received = self.fly(flight, 5, drones={0, 1})
+        with self.assertRaisesRegex(throng.ConflictError, "goes on"):
+            flight.recording(file)
+        result = flight.stop()
+        self.assertEqual(flight.state()["links"]["recording"], f"/v1/live/{flight.id}/recording")
+        self.assertEqual(flight.recording(file), file)
+        recording = result["recording"]
+        self.assertAlmostEqual(recording["complete_until_s"], result["duration_s"], places=8)
+        self.assertEqual((recording["problem"], recording["bytes"]), (None, file.stat().st_size))
+        head, topics = read_recording(file)
+        self.assertEqual(head["profile"], "ros2")
+        self.assertEqual({topic: messages[0].type for topic, messages in topics.items()}, RECORDED)
+
+        job = {**result["job"], "outputs": {"annotations": ["coco", "sensors"]}}
+        dataset = self.base / "job/dataset"
+        (self.base / "job.json").write_text(json.dumps(job))
+        subprocess.run([THRONG, "run", self.base / "job.json", "-o", self.base / "job"], check=True)
+        trace = throng.Trace(self.base / "job/work/run000/trace.h5")
+        for drone in ("d1", "d2"):
+            self.check_motion(drone, topics, trace.drone(drone))
+            self.check_readings(drone, topics, dataset / f"sensors/run000/{drone}.csv")
+        self.check_people(topics, trace)
+        self.check_images(received["images"], topics)
+        self.check_commands(topics)
+        times = [message.time_ns for message in topics["/clock"]]
+        self.assertEqual(times, sorted(set(times)))
+        self.assertEqual(times[-1], round(1e9 * result["duration_s"]))
+
+    def check_motion(self, drone, topics, truth):
+        """Poses at all of the trace's samples, and at those of images."""
+        poses = {}
+        for message in topics["/tf"]:
+            body, camera = message.message.transforms
+            if body.child_frame_id == f"{drone}/base_link":
+                self.assertEqual((body.header.frame_id, camera.header.frame_id), ("world", f"{drone}/base_link"))
+                self.assertEqual(camera.child_frame_id, f"{drone}/camera_optical_frame")
+                poses[message.time_ns] = (matrix_of(body.transform), matrix_of(camera.transform))
+        self.assertEqual(len(topics[f"/{drone}/odometry"]), len(truth["time_s"]))
+        for i, message in enumerate(topics[f"/{drone}/odometry"]):
+            self.assertEqual(message.time_ns, round(1e9 * truth["time_s"][i]))
+            position, q = message.message.pose.pose.position, message.message.pose.pose.orientation
+            self.assertEqual([position.x, position.y, position.z], list(truth["position"][i]))
+            self.assertEqual([q.w, q.x, q.y, q.z], list(truth["orientation_wxyz"][i]))
+            body, camera = poses[message.time_ns]
+            numpy.testing.assert_allclose(body[:3, 3], truth["position"][i], atol=1e-12)
+            velocity = message.message.twist.twist.linear
+            numpy.testing.assert_allclose(
+                body[:3, :3] @ [velocity.x, velocity.y, velocity.z], truth["velocity"][i], atol=1e-6
+            )
+            if drone == "d1":
+                self.assertAlmostEqual((body @ camera)[2, 2], -numpy.sin(numpy.radians(60)))
+
+    def check_readings(self, drone, topics, table):
+        """Those of the dataset that repeats the flight."""
+        with open(table) as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        for topic in ("imu", "magnetic_field", "pressure"):
+            self.assertEqual(len(topics[f"/{drone}/{topic}"]), len(rows), topic)
+        near = {"rtol": 1e-8, "atol": 1e-8}  # tables have nine digits
+        for i, row in enumerate(rows):
+            imu = topics[f"/{drone}/imu"][i].message
+            for field, column in (
+                (imu.angular_velocity, "gyro_{}_rad_s"),
+                (imu.linear_acceleration, "accelerometer_{}_mps2"),
+            ):
+                expected = [row[column.format(axis)] for axis in "xyz"]
+                numpy.testing.assert_allclose([field.x, field.y, field.z], expected, **near)
+            pressure = topics[f"/{drone}/pressure"][i].message.fluid_pressure
+            numpy.testing.assert_allclose(pressure, row["pressure_pa"], **near)
+        fixes = {row["gps_time_s"]: row for row in rows}
+        self.assertEqual(len(topics[f"/{drone}/fix"]), len(fixes))
+        for message, row in zip(topics[f"/{drone}/fix_velocity"], fixes.values()):
+            field = message.message.twist.linear
+            numpy.testing.assert_allclose(
+                [field.x, field.y, field.z], [row[f"gps_v{axis}_mps"] for axis in "xyz"], **near
+            )
+
+    def check_people(self, topics, trace):
+        """Everybody who takes part, at each step."""
+        boxes = topics["/ground_truth/boxes"]
+        self.assertEqual(len(boxes), len(trace.time_s))
+        people = [i for i, role in enumerate(trace.roles) if role in ("person", "attacker")]
+        for step, message in enumerate(boxes):
+            self.assertEqual(message.time_ns, round(1e9 * trace.time_s[step]))
+            cubes = [marker for marker in message.message.markers if marker.action == 0]
+            present = [i for i in people if trace.present[step, i]]
+            self.assertEqual([cube.id for cube in cubes], [i + 1 for i in present])
+            solid = topics["/ground_truth/detections_3d"][step].message.detections
+            self.assertEqual([int(each.id) for each in solid], [cube.id for cube in cubes])
+            places = [[cube.pose.position.x, cube.pose.position.y] for cube in cubes]
+            numpy.testing.assert_allclose(places, trace.positions[step, present], atol=1e-5)
+            self.assertTrue(all(0.9 < cube.scale.z < 2.3 for cube in cubes))
+
+    def check_images(self, shown, topics):
+        """All that a viewer got, and their transforms."""
+        moved = {(m.time_ns, m.message.transforms[0].child_frame_id) for m in topics["/tf"]}
+        for drone, name in enumerate(("d1", "d2")):
+            pictures = {
+                message.time_ns: base64.b64decode(message.message.data)
+                for message in topics[f"/{name}/camera/image_color/compressed"]
+            }
+            for image in shown:
+                if image.drone == drone:
+                    self.assertEqual(pictures[round(1e9 * image.time_s)], image.jpeg)
+            self.assertLessEqual({(time_ns, f"{name}/base_link") for time_ns in pictures}, moved)
+            lenses = topics[f"/{name}/camera/camera_info"]
+            self.assertEqual([lens.time_ns for lens in lenses], list(pictures))
+            self.assertEqual((lenses[0].message.width, lenses[0].message.height), (640, 360))
+
+    def check_commands(self, topics):
+        given = [message.message.twist for message in topics["/d1/command"]]
+        self.assertIn(
+            (5, 1.3, -0.7, numpy.radians(11.1)),
+            [(twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z) for twist in given],
+        )
+        modes = [json.loads(message.message.data) for message in topics["/d1/mode"]]
+        self.assertEqual([mode["beacon"] for mode in modes], [False, True])
+
+    def test_a_flight_that_was_not_recorded_says_so(self):
+        flight = self.live()
+        with self.assertRaisesRegex(throng.NotFoundError, "without"):
+            flight.recording(self.base / "flight.mcap")
+        self.fly(flight, 0.5)
+        self.assertIsNone(flight.stop()["recording"])
+        with self.assertRaisesRegex(throng.NotFoundError, "without"):
+            flight.recording(self.base / "flight.mcap")
+
+    def test_a_recording_of_a_killed_flight_holds_whole_chunks(self):
+        flight = self.client.live(JOB, record=True)
+        self.addCleanup(flight.remove)
+        self.fly(flight, 3)
+        os.kill(self.process_of_flight(), 9)
+        wait_until(lambda: flight.state()["state"] == "failed")
+        file = flight.recording(self.base / "flight.mcap")
+        records = []
+        with open(file, "rb") as recording:
+            self.assertEqual(recording.read(8), b"\x89MCAP0\r\n")
+            while head := recording.read(9):
+                length = int.from_bytes(head[1:], "little")
+                records.append(head[0])
+                self.assertEqual(len(recording.read(length)), length)
+        self.assertGreater(records.count(6), 1, "chunks")
+        self.assertNotIn(15, records, "it has no end")
+
     def test_time_stands_still_while_nobody_looks(self):
         flight = self.live()
         with self.assertRaisesRegex(throng.ConflictError, "has not begun"):
@@ -290,28 +464,26 @@ class Live(WithServer):
         # Both count.
         self.assertEqual(len(alice.live_flights()), 2)
 
+    def process_of_flight(self):
+        """Number of the only flight's process."""
+        children = subprocess.run(["pgrep", "-P", str(self.server.pid), "-f", "live"], capture_output=True, text=True)
+        (process,) = map(int, children.stdout.split())
+        return process
+
     def test_a_flight_ends_with_the_server_and_does_not_outlive_a_crash(self):
         flight = self.live()
         self.fly(flight, 0.5)
-        children = subprocess.run(["pgrep", "-P", str(self.server.pid), "-f", "live"], capture_output=True, text=True)
-        pids = [int(p) for p in children.stdout.split()]
-        self.assertEqual(len(pids), 1)
-        os.kill(pids[0], 9)
+        os.kill(self.process_of_flight(), 9)
         wait_until(lambda: flight.state()["state"] == "failed")
         self.assertIn("signal 9", flight.state()["error"]["message"])
         with self.assertRaisesRegex(ServiceError, "signal 9"):
             flight.stop()
         other = self.live()
         self.fly(other, 0.5)
-        pids = [
-            int(p)
-            for p in subprocess.run(
-                ["pgrep", "-P", str(self.server.pid), "-f", "live"], capture_output=True, text=True
-            ).stdout.split()
-        ]
+        process = self.process_of_flight()
         self.server.kill()
         self.server.wait(300)
-        wait_until(lambda: not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids))
+        wait_until(lambda: not pathlib.Path(f"/proc/{process}").exists())
 
 
 class Unseen(WithServer):

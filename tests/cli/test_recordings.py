@@ -8,11 +8,12 @@ import signal
 import subprocess
 import sys
 import tempfile
-import types
 import unittest
 
 import numpy
 from PIL import Image
+
+from mcap import matrix_of, read_recording
 
 THRONG = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -83,22 +84,10 @@ class Recordings(unittest.TestCase):
     def people(self, image):
         return [person for person in self.coco["annotations"] if person["image_id"] == image["id"]]
 
-    def read_recording(self, path):
-        """The first line of tests/cli/read_mcap.mjs, and the messages by topic, as objects."""
-        command = ["node", ROOT / "tests/cli/read_mcap.mjs", ROOT / "build/web/node_modules", path]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        first, *lines = done.stdout.splitlines()
-        topics = {}
-        for line in lines:
-            message = json.loads(line, object_hook=lambda fields: types.SimpleNamespace(**fields))
-            topics.setdefault(message.topic, []).append(message)
-        return json.loads(first), topics
-
     def test_mcap_core_replays_the_runs(self):
         for run, split in (("run000", "train"), ("run001", "val")):
             images = [image for image in self.coco["images"] if image["run"] == run]
-            head, topics = self.read_recording(self.out / f"mcap/{split}/{run}.mcap")
+            head, topics = read_recording(self.out / f"mcap/{split}/{run}.mcap")
             self.assertEqual(head["profile"], "ros2")
             self.assertEqual(head["messages"], sum(map(len, topics.values())))
             self.assertEqual({topic: messages[0].type for topic, messages in topics.items()}, RECORDED)
@@ -190,16 +179,7 @@ class Recordings(unittest.TestCase):
             transforms, (("world", "d1/base_link"), ("d1/base_link", "d1/camera_optical_frame"))
         ):
             self.assertEqual((transform.header.frame_id, transform.child_frame_id), frames)
-            q, step = transform.transform.rotation, numpy.eye(4)
-            w, x, y, z = q.w, q.x, q.y, q.z
-            step[:3, :3] = [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-            ]
-            shift = transform.transform.translation
-            step[:3, 3] = [shift.x, shift.y, shift.z]
-            pose = pose @ step
+            pose = pose @ matrix_of(transform.transform)
         numpy.testing.assert_allclose(pose[:3, :3].T, image["camera"]["R"], atol=1e-9)
         numpy.testing.assert_allclose(pose[:3, 3], image["camera"]["centre"], atol=1e-9)
         true, place = image["flight"]["true"], odometry.pose.pose.position
@@ -228,7 +208,7 @@ class Recordings(unittest.TestCase):
         self.assertIn("the recording is complete until", done.stderr)
         self.assertIn("full.partial", done.stderr)
         self.assertFalse(out.exists())
-        head, topics = self.read_recording(self.base / "full.partial/train/run000.mcap")
+        head, topics = read_recording(self.base / "full.partial/train/run000.mcap")
         self.assertGreater(head["chunks"], 1)
         self.assertEqual(head["messages"], sum(map(len, topics.values())))
 

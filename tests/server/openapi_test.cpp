@@ -187,7 +187,8 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("get", "/v1/live", get("/v1/live"));
   expect_described("post", "/v1/live", posted("/v1/live", "{}"));
   expect_described("post", "/v1/live", posted("/v1/live", R"({"job": {"runs": 0}})"));
-  for (const char* path : {"/stream", ""}) {
+  expect_described("post", "/v1/live", posted("/v1/live", R"({"job": {}, "record": 1})"));
+  for (const char* path : {"/stream", "/recording", ""}) {
     expect_described("get", std::string("/v1/live/{id}") + path,
                      get(std::string("/v1/live/l0") + path));
   }

@@ -2,6 +2,7 @@
 // usage: node fly_test.mjs PROGRAM PACKAGES
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import { after, before, test as nodeTest } from "node:test";
 import { eventually, openPage, screenChecker, stepsOf } from "./page.mjs";
 import { attacked, launch, TestService } from "./service.mjs";
@@ -79,6 +80,7 @@ async function start() {
   await page.getByText("2 images").waitFor();
   await page.getByRole("link", { name: "Fly", exact: true }).click();
   await page.getByRole("heading", { name: "Live flight" }).waitFor();
+  await page.getByLabel("Record as MCAP (ROS 2, Foxglove)").check();
   await page.getByRole("button", { name: "Fly", exact: true }).click();
   await page.getByText("recording").waitFor({ timeout: kStartMs });
   await until(async () => (await number("Images")) > 2, "images come");
@@ -181,6 +183,11 @@ test("the flight becomes a job that repeats it", async () => {
   await page.getByRole("button", { name: "Stop" }).click();
   await page.getByRole("heading", { name: "Flight recorded" }).waitFor();
   await check(page, "a recorded flight");
+  const recording = page.waitForEvent("download");
+  await page.getByRole("link", { name: /^Recording \(MCAP, [0-9.]+ [kM]?B\)$/ }).click();
+  const bytes = readFileSync(await (await recording).path());
+  const magic = Buffer.from("\x89MCAP0\r\n", "latin1");
+  assert.deepEqual([bytes.subarray(0, 8), bytes.subarray(-8)], [magic, magic]);
   const hash = await page.locator("code").innerText();
   const log = decodeURIComponent(
     (await page.getByRole("link", { name: "Pilot log of d2" }).getAttribute("href")).split(",").slice(1).join(","),

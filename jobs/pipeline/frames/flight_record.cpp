@@ -29,12 +29,16 @@ json angles_json(const sim::ViewAngles& angles) {
 
 }  // namespace
 
-sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
-                              const std::vector<world::DroneSample>& truth, std::size_t drone) {
+sim::DroneSensors make_sensors(const JobSpec& job, std::uint64_t run_seed, std::size_t drone) {
   const double latitude_deg = environment_of_run(job.environment, run_seed).latitude_deg;
   const std::optional<sim::Airframe> airframe = sim::find_airframe(job.drones[drone].mission);
   check(airframe.has_value(), "airframes are checked when a job is read");
-  return {truth, run_seed, drone, latitude_deg * kDegree, airframe->sensors};
+  return {run_seed, drone, latitude_deg * kDegree, airframe->sensors};
+}
+
+sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
+                              const std::vector<world::DroneSample>& truth, std::size_t drone) {
+  return {truth, make_sensors(job, run_seed, drone)};
 }
 
 json horizon_rows(const camera::Camera& camera) {

@@ -13,7 +13,10 @@
 
 namespace throng::jobs {
 
-/// Simulates the sensors of one of the job's drones in a run; `drone` is its index in the job.
+/// The sensors of one of the job's drones in a run; `drone` is its index in the job.
+sim::DroneSensors make_sensors(const JobSpec& job, std::uint64_t run_seed, std::size_t drone);
+
+/// Their readings at the samples of a trace.
 sim::SensorLog record_sensors(const JobSpec& job, std::uint64_t run_seed,
                               const std::vector<world::DroneSample>& truth, std::size_t drone);
 

@@ -114,6 +114,34 @@ TEST(McapFile, FullDiskLeavesACompleteRecording) {
   EXPECT_THAT(what, ::testing::HasSubstr(path.string()));
 }
 
+TEST(McapFile, AKilledWriterLeavesWholeChunks) {
+  const throng::testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.mcap";
+  McapFile file(path, {.chunk_ns = 1000});
+  const std::uint16_t a = file.add_channel("/a", kText);
+  for (std::uint64_t i = 0; i < 25; ++i) file.add(a, 100 * i, "message");
+  // A kill would leave the file as it is now.
+  std::size_t messages = 0;
+  for (const Record& record : read_records(read_file(path).substr(kMagicBytes))) {
+    if (record.opcode == 6) messages += read_chunk(record.content).size();
+    EXPECT_NE(record.opcode, 15) << "the end of the data";
+  }
+  EXPECT_EQ(messages, 22U) << "two chunks of which each spans 1000 ns";
+}
+
+TEST(McapFile, KnowsUntilWhenItIsComplete) {
+  const throng::testing::TemporaryFolder folder;
+  McapFile file(folder.path() / "a.mcap", {.chunk_ns = 1000});
+  const std::uint16_t a = file.add_channel("/a", kText);
+  EXPECT_EQ(file.complete_until_ns(), 0U);
+  for (const std::uint64_t time_ns : {100, 1500}) file.add(a, time_ns, "message");
+  EXPECT_EQ(file.complete_until_ns(), 1500U);
+  file.add(a, 1200, "late, and not in the file yet");
+  EXPECT_EQ(file.complete_until_ns(), 1200U);
+  file.close();
+  EXPECT_EQ(file.complete_until_ns(), 1500U);
+}
+
 TEST(McapFile, FolderThatDoesNotExistIsNamed) {
   try {
     McapFile file("/nowhere/a.mcap");

@@ -64,6 +64,29 @@ TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   EXPECT_NE(sent.find(R"("sequence":3)"), std::string::npos) << sent;
 }
 
+TEST(LiveFlights, OneThatIsRecordedIsAskedTo) {
+  const jobs::TemporaryFolder folder;
+  LiveLimits limits =
+      limits_with(folder, R"(echo "$2 $3" > "$1/flight.mcap")" + std::string(kUntilStop));
+  limits.min_free_mib = 77;
+  LiveFlights flights(folder.path(), limits);
+  std::filesystem::path file;
+  {
+    const auto flight = flights.begin(resolved(), "alice", true);
+    EXPECT_TRUE(flight->is_recorded());
+    EXPECT_TRUE(flight->stop());
+    file = flight->recording();
+    EXPECT_EQ(read_file(file), "--record 77\n");
+    flights.remove(flight->id());
+    EXPECT_TRUE(std::filesystem::exists(file)) << "while somebody has the flight";
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const auto other = flights.begin(resolved(), "alice");
+  EXPECT_FALSE(other->is_recorded());
+  EXPECT_TRUE(other->stop());
+  EXPECT_EQ(read_file(other->recording()), " \n");
+}
+
 TEST(LiveFlights, AProcessThatDiesFailsItsFlight) {
   const jobs::TemporaryFolder folder;
   for (const auto& [work, message] :

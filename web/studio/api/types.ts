@@ -531,6 +531,8 @@ export interface LiveFlight {
   /** Number of streams that are being read. */
   viewers: number;
   drones: string[];
+  /** Whether it was begun with "record". */
+  recorded: boolean;
   /** Result of a flight that has ended; lists leave it out. */
   result?: LiveResult | null;
   error: {
@@ -540,6 +542,8 @@ export interface LiveFlight {
   links: {
     self: string;
     stream: string;
+    /** Address of the recording once the flight has ended; null for a flight that is not recorded. */
+    recording: string | null;
   };
 }
 
@@ -556,6 +560,15 @@ export interface LiveResult {
   /** A job for POST /v1/jobs that flies the logs again, as set-points of the policy pilot_log. */
   job: Record<string, unknown>;
   warnings: string[];
+  /** How far the recording goes; null for a flight that was not recorded. */
+  recording: {
+    /** All messages before this simulated time are in the recording, s. */
+    complete_until_s: number;
+    /** Why the recording ended before the flight, such as a full disk; null if it did not. */
+    problem: string | null;
+    /** Size of the file. */
+    bytes: number;
+  } | null;
 }
 
 export interface LiveCommands {

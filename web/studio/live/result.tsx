@@ -6,6 +6,7 @@ import type { JsonObject } from "../form/json";
 import { textOf } from "../form/json";
 import { type Schema, withoutDefaults } from "../form/schema";
 import { ErrorBox, Figures } from "../parts/elements";
+import { bytesText } from "../parts/format";
 import { navigate } from "../parts/router";
 
 const csvAddress = (text: string) => `data:text/csv;charset=utf-8,${encodeURIComponent(text)}`;
@@ -41,10 +42,22 @@ export function FlightResult({ result, id }: { result: LiveResult; id: string })
             Pilot log of {drone.id}
           </a>
         ))}
+        {result.recording && result.recording.bytes > 0 && (
+          <a class="button" href={`/v1/live/${id}/recording`} download>
+            Recording (MCAP, {bytesText(result.recording.bytes)})
+          </a>
+        )}
         <a class="button" href="/fly">
           Fly again
         </a>
       </div>
+      {result.recording?.problem && (
+        <div class="notice warn">
+          <p>
+            The recording ends at {result.recording.complete_until_s.toFixed(1)} s: {result.recording.problem}.
+          </p>
+        </div>
+      )}
       <p class="quiet-text measure">
         The job repeats the flight exactly: its trace has the SHA-256 <code class="wrap-anywhere">{result.trace_sha256}</code>. Flight {id}{" "}
         stays known for ten minutes.

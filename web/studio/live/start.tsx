@@ -34,6 +34,7 @@ export function StartFlight() {
   const [source, setSource] = useState(() => sourceIn(query));
   const [error, setError] = useState<ApiError | null>(null);
   const [isBusy, setBusy] = useState(false);
+  const [isRecorded, setRecorded] = useState(false);
   const jobs = useJson<JobList>("/v1/jobs?limit=20");
   const live = useJson<{ flights: LiveFlight[] }>("/v1/live");
   const flights = (live.value?.flights ?? []).filter((flight) => flight.state === "flying" || flight.state === "starting");
@@ -41,7 +42,7 @@ export function StartFlight() {
     setBusy(true);
     setError(null);
     try {
-      const flight = await sendJson<LiveFlight>("POST", "/v1/live", JSON.stringify({ job: await jobOf(source) }));
+      const flight = await sendJson<LiveFlight>("POST", "/v1/live", JSON.stringify({ job: await jobOf(source), record: isRecorded }));
       navigate(`/fly?flight=${flight.id}`);
     } catch (reason) {
       setError(asApiError(reason));
@@ -52,7 +53,7 @@ export function StartFlight() {
     <div class="screen">
       <h1>Live flight</h1>
       <p class="measure">
-        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is recorded: afterwards a job repeats it exactly and
+        Fly a job's drones through its crowd by keyboard, gamepad or touch. The flight is logged: afterwards a job repeats it exactly and
         makes a dataset of it.
       </p>
       <ErrorBox error={error && error.status !== 401 ? error : null} />
@@ -85,6 +86,10 @@ export function StartFlight() {
               )}
             </optgroup>
           </select>
+        </label>
+        <label class="row">
+          <input type="checkbox" checked={isRecorded} onChange={(event) => setRecorded(event.currentTarget.checked)} />
+          Record as MCAP (ROS 2, Foxglove)
         </label>
         <button type="submit" class="button primary" disabled={isBusy}>
           {isBusy ? "Starting …" : "Fly"}
