@@ -85,10 +85,28 @@ imports::ImportedScenario read_source(const ImportOptions& options) {
   throw InputError({options.file, "", "suffix \"" + suffix + "\"", ".sdf, .world or .osm"});
 }
 
+/// Gives the drones of robots their airframes; robots that are no quadcopters are listed.
+void add_airframes(const ImportOptions& options, imports::ImportedScenario& scenario) {
+  for (imports::ImportedDrone& drone : scenario.drones) {
+    if (drone.robot_file.empty()) continue;
+    const std::string file = drone.robot_file.string();
+    try {
+      const imports::Robot robot =
+          imports::read_robot(file, {options.models.begin(), options.models.end()});
+      std::vector<std::string> assumptions;
+      drone.airframe = imports::airframe_json(robot, file, {}, assumptions);
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      scenario.skipped.push_back({file, 0, "airframe of " + drone.id, problem.text()});
+    }
+  }
+}
+
 }  // namespace
 
 void import_scenario(const ImportOptions& options) {
   imports::ImportedScenario scenario = read_source(options);
+  add_airframes(options, scenario);
   const imports::Population population =
       imports::populate(scenario, {options.people, options.seed});
   const fs::path written = imports::write_imported_scenario(scenario, population, options.folder);

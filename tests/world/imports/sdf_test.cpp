@@ -5,12 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/geometry/angle.h"
 #include "base/geometry/polygon.h"
+#include "spec/job/environment.h"
 #include "tests/world/temporary_folder.h"
 #include "world/imports/parts/populate.h"
+#include "world/imports/parts/scenario_writer.h"
 
 namespace throng::imports {
 namespace {
@@ -68,7 +73,7 @@ TEST(Sdf, PeopleWalkAroundLowObjectsAndBelowHighOnes) {
 
 TEST(Sdf, SkippedElementsAreListedWithTheirLine) {
   const ImportedScenario scenario = yard();
-  for (const char* words : {"<plugin>", "<physics>", "<sensor>", "world/sun", "nowhere"}) {
+  for (const char* words : {"<plugin>", "<physics>", "<sensor>", "nowhere"}) {
     const Skipped* skipped = skipped_with(scenario, words);
     ASSERT_NE(skipped, nullptr) << words;
     if (std::string(words) == "<plugin>") {
@@ -128,7 +133,93 @@ TEST(Sdf, ModelsThatIncludedModelsMergeAreFound) {
                         "<uri>model://racer_with_camera</uri></include></world></sdf>");
   const ImportedScenario scenario = read_sdf(folder.path() / "w.sdf", {{kWorlds / "robots"}, {}});
   EXPECT_EQ(skipped_with(scenario, "Unable to find"), nullptr);
-  ASSERT_EQ(scenario.objects.size(), 1U);  // its propeller, two models below
+  // Its motors lie one model below, its links two.
+  ASSERT_EQ(scenario.drones.size(), 1U);
+  EXPECT_EQ(scenario.drones[0].robot_file.filename(), "model.sdf");
+}
+
+TEST(Sdf, RobotsBecomeDronesWhereTheyStand) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "w.sdf",
+                        "<sdf version='1.9'><world name='w'><include><name>scout 1</name>"
+                        "<uri>model://racer</uri><pose>4 -3 0.2 0 0 1.2</pose></include><include>"
+                        "<name>scout 2</name><uri>model://racer</uri><pose>1 2 7 0 0 0</pose>"
+                        "</include></world></sdf>");
+  const ImportedScenario scenario = read_sdf(folder.path() / "w.sdf", {{kWorlds / "robots"}, {}});
+  ASSERT_EQ(scenario.drones.size(), 2U);
+  EXPECT_TRUE(scenario.objects.empty());  // robots fly, and are no scenery
+  EXPECT_EQ(scenario.drones[0].id, "scout_1");
+  EXPECT_EQ(scenario.drones[0].position.head<2>(), Eigen::Vector2d(4, -3));
+  EXPECT_NEAR(scenario.drones[0].yaw_rad, 1.2, 1e-9);
+  EXPECT_EQ(scenario.drones[0].position.z(), overview_height_m(scenario));  // it stood
+  EXPECT_NE(skipped_with(scenario, "robot scout_1: stands at 0.20 m"), nullptr);
+  EXPECT_NEAR(scenario.drones[1].position.z(), 7, 1e-9);
+}
+
+TEST(Sdf, CamerasOfTheWorldHoverWhereTheyAre) {
+  const auto camera = [](const std::string& pose, const std::string& width) {
+    return "<model name='post'><static>1</static><pose>" + pose +
+           "</pose><link name='l'><sensor name='view' type='camera'><pose>0 0 0 0 0.5 0</pose>"
+           "<camera><horizontal_fov>1.2</horizontal_fov><image><width>" +
+           width +
+           "</width><height>480</height></image></camera></sensor>"
+           "<sensor name='beam' type='gpu_lidar'/></link></model>";
+  };
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& models) {
+    write_file_atomically(folder.path() / "w.sdf",
+                          "<sdf version='1.9'><world name='w'>" + models + "</world></sdf>");
+    return read_sdf(folder.path() / "w.sdf", {});
+  };
+  const ImportedScenario scenario = read(camera("3 4 6 0 0 0.7", "640"));
+  ASSERT_EQ(scenario.drones.size(), 1U);
+  const ImportedDrone& drone = scenario.drones[0];
+  EXPECT_EQ(drone.id, "view");
+  EXPECT_NEAR((drone.position - Eigen::Vector3d(3, 4, 6)).norm(), 0, 1e-9);
+  EXPECT_NEAR(drone.yaw_rad, 0.7, 1e-9);
+  EXPECT_NEAR(drone.camera["pitch_deg"].get<double>(), -28.65, 1e-9);
+  EXPECT_EQ(drone.camera["width"], 640);
+  EXPECT_NE(skipped_with(scenario, "beam <sensor>"), nullptr);
+  EXPECT_TRUE(read(camera("3 4 6 0 0 0.7", "16")).drones.empty());   // too few pixels
+  EXPECT_TRUE(read(camera("3 4 0.2 0 0 0", "640")).drones.empty());  // on the ground
+  const std::string tower =
+      "<model name='tower'><static>1</static><pose>3 5.5 5 0 0 0</pose><link name='l'><visual "
+      "name='v'><geometry><box><size>2 2 10</size></box></geometry></visual></link></model>";
+  const ImportedScenario walled = read(tower + camera("3 4 6 0 0 0.7", "640"));
+  EXPECT_TRUE(walled.drones.empty());
+  EXPECT_NE(skipped_with(walled, "camera view: less than 1 m from a building"), nullptr);
+}
+
+TEST(Sdf, TheFirstDirectionalLightIsTheSun) {
+  const auto environment = [](const std::string& light, const std::string& more = "") {
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "w.sdf",
+                          "<sdf version='1.9'><world name='w'>" + more +
+                              "<light name='sun' type='directional'><direction>" + light +
+                              "</direction></light></world></sdf>");
+    return read_sdf(folder.path() / "w.sdf", {}).environment;
+  };
+  const auto angle_deg = [](const nlohmann::ordered_json& found, const Eigen::Vector3d& shines) {
+    const std::string time = found.at("time_of_day");
+    const jobs::Sun sun =
+        jobs::sun_at(std::stod(time.substr(0, 2)) + std::stod(time.substr(3)) / 60,
+                     found.at("latitude_deg"), found.at("day_of_year"));
+    const Eigen::Vector3d towards(std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad),
+                                  std::cos(sun.elevation_rad) * std::sin(sun.azimuth_rad),
+                                  std::sin(sun.elevation_rad));
+    return std::acos(towards.dot(-shines.normalized())) / kDegree;
+  };
+  const std::string zurich =
+      "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model>"
+      "<latitude_deg>47.4</latitude_deg><longitude_deg>8.5</longitude_deg><elevation>0</elevation>"
+      "</spherical_coordinates>";
+  const auto noon = environment("0.001 0.625 -0.78", zurich);  // that of PX4's worlds
+  EXPECT_EQ(noon.at("latitude_deg"), 47.4);
+  EXPECT_LT(angle_deg(noon, {0.001, 0.625, -0.78}), 1);
+  const auto morning = environment("-1 0.2 -0.6");
+  EXPECT_LT(angle_deg(morning, {-1, 0.2, -0.6}), 1);
+  EXPECT_LT(morning.at("time_of_day").get<std::string>(), "12:00");
+  EXPECT_TRUE(environment("0 0 1").is_null());  // from below
 }
 
 ImportedScenario parse_body(const std::string& body, const std::string& before = "",

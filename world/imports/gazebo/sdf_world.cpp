@@ -13,11 +13,16 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/geometry/angle.h"
 #include "base/geometry/rectangle.h"
+#include "world/imports/gazebo/camera_sensor.h"
 #include "world/imports/gazebo/local_files.h"
 #include "world/imports/gazebo/sdf_pose.h"
 #include "world/imports/gazebo/sdf_root.h"
 #include "world/imports/gazebo/sdf_shapes.h"
+#include "world/imports/gazebo/world_fixtures.h"
+#include "world/imports/gazebo/world_ground.h"
+#include "world/imports/gazebo/world_sun.h"
 #include "world/imports/parts/populate.h"
 #include "world/imports/parts/scenario_writer.h"
 
@@ -34,7 +39,6 @@ constexpr double kTallM = 2;
 constexpr double kOnGroundM = 0.5;
 constexpr double kMinBuildingM2 = 0.3;
 constexpr double kMaxCoordinateM = 5'000;
-constexpr double kMaxSizeM = 3'000;
 constexpr std::size_t kMaxBodies = 20'000;
 constexpr std::size_t kMaxTriangles = 2'000'000;
 
@@ -42,22 +46,16 @@ using Words = std::set<std::string>;
 
 // Elements that mean nothing to a scenario, or that are read.
 const Words& known_in(const std::string& parent) {
-  static const Words kWorld = {"model", "light", "frame", "gravity", "magnetic_field", "include"};
+  static const Words kWorld = {
+      "model", "light", "frame", "gravity", "magnetic_field", "include", "spherical_coordinates"};
   static const Words kModel = {
       "pose",        "static", "link", "model", "frame", "self_collide", "allow_auto_disable",
       "enable_wind", "include"};
-  static const Words kLink = {"pose",    "visual",         "collision",        "inertial",
-                              "gravity", "kinematic",      "enable_wind",      "self_collide",
-                              "light",   "velocity_decay", "must_be_base_link"};
+  static const Words kLink = {"pose",    "visual",         "collision",         "inertial",
+                              "gravity", "kinematic",      "enable_wind",       "self_collide",
+                              "light",   "velocity_decay", "must_be_base_link", "sensor"};
   return parent == "world" ? kWorld : parent == "model" ? kModel : kLink;
 }
-
-/// A cut-out of ground, with the height that decides which lies on top.
-struct FlatArea {
-  double z;
-  Corners corners;
-  std::string material;
-};
 
 class SdfReader {
  public:
@@ -84,6 +82,8 @@ class SdfReader {
   void add_link(const sdf::Link& link, const Isometry3d& model, const std::string& path,
                 Object& object);
   void add_light(const sdf::Light& light, const Isometry3d& parent, const std::string& path);
+  void add_sun(const sdf::Light& light, const Isometry3d& parent, const std::string& name);
+  void add_sensor(const sdf::Sensor& sensor, const Isometry3d& link, const std::string& path);
   template <typename Owner>
   std::optional<Body> body(const Owner& owner, const Isometry3d& link, const std::string& path);
   void add_seen(Body body, const Vector3d* rgb, Object& object);
@@ -101,6 +101,7 @@ class SdfReader {
   std::vector<FlatArea> flat_;
   Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d high_ = -low_;
+  double latitude_deg_ = 45;  // as jobs have it without any
   std::size_t bodies_ = 0;
   std::size_t triangles_ = 0;
 };
@@ -240,12 +241,46 @@ void SdfReader::add_in_the_way(const Body& body) {
   }
 }
 
+/// The first directional light becomes the sun of the draft job.
+void SdfReader::add_sun(const sdf::Light& light, const Isometry3d& parent,
+                        const std::string& name) {
+  if (!place_.environment.is_null()) {
+    return skip(light.Element(), name, "another directional light than the first, the sun");
+  }
+  const auto pose = resolve(light.SemanticPose(), Isometry3d::Identity(), light.Element(), name);
+  if (!pose) return;
+  const ignition::math::Vector3d shines = light.Direction();
+  const Vector3d towards_light =
+      parent.linear() * pose->linear() * Vector3d(-shines.X(), -shines.Y(), -shines.Z());
+  const auto sun = sun_like(towards_light, latitude_deg_);
+  if (!sun) return skip(light.Element(), name, "shines from below 3 degrees, as no sun by day");
+  const auto minutes = static_cast<int>(std::lround(60 * sun->time_of_day_h));
+  place_.environment = {{"latitude_deg", sun->latitude_deg},
+                        {"day_of_year", sun->day_of_year},
+                        {"time_of_day", fmt::format("{:02}:{:02}", minutes / 60, minutes % 60)}};
+  constexpr double kNear = 2 * kDegree;
+  if (sun->error_rad <= kNear) return;
+  skip(light.Element(), name,
+       fmt::format("the sun of the job stands {:.0f} degrees beside it, as near as at a latitude "
+                   "of {:g} degrees",
+                   sun->error_rad / kDegree, sun->latitude_deg));
+}
+
+void SdfReader::add_sensor(const sdf::Sensor& sensor, const Isometry3d& link,
+                           const std::string& path) {
+  const std::string name = fmt::format("{}/{} <sensor>", path, sensor.Name());
+  if (!is_camera(sensor)) {
+    return skip(sensor.Element(), name,
+                fmt::format("a scenario has no sensor of the type {}", sensor.TypeStr()));
+  }
+  if (const auto why = add_camera(sensor, link, place_)) return skip(sensor.Element(), name, *why);
+  reach({place_.drones.back().position.head<2>()});
+}
+
 void SdfReader::add_light(const sdf::Light& light, const Isometry3d& parent,
                           const std::string& path) {
   const std::string name = path + "/" + light.Name();
-  if (light.Type() == sdf::LightType::DIRECTIONAL) {
-    return skip(light.Element(), name, "the sun is the job's (environment.time_of_day)");
-  }
+  if (light.Type() == sdf::LightType::DIRECTIONAL) return add_sun(light, parent, name);
   const auto pose = resolve(light.SemanticPose(), parent, light.Element(), name);
   if (!pose) return;
   constexpr double kLampM = 4.6;  // of a prop of scale 1
@@ -289,6 +324,9 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
   for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
     add_light(*link.LightByIndex(i), *pose, name);
   }
+  for (std::uint64_t i = 0; i < link.SensorCount(); ++i) {
+    add_sensor(*link.SensorByIndex(i), *pose, name);
+  }
 }
 
 void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
@@ -296,6 +334,10 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
   const std::string name = path.empty() ? model.Name() : path + "/" + model.Name();
   const auto pose = resolve(model.SemanticPose(), parent, model.Element(), name);
   if (!pose) return;
+  if (is_robot(model)) {
+    add_robot(model, *pose, place_);
+    return reach({pose->translation().head<2>()});
+  }
   skip_unknown(model.Element(), name);
   if (model.LinkCount() + model.ModelCount() == 0) skip(model.Element(), name, "has no links");
   Object object{name, {}};
@@ -308,41 +350,13 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
   }
 }
 
-// The scenario reaches as far as what stands in it; where that fills it, farther.
 void SdfReader::finish() {
-  constexpr double kMinGroundM = 8;
-  constexpr double kAroundM = 8;
-  constexpr double kMinFreeShare = 0.3;
   if (!low_.allFinite()) low_ = high_ = Vector2d::Zero();
   for (const Gate& gate : gates_) reach({gate.from, gate.to});
-  world::Rectangle reached{low_, high_};
-  const Vector2d size = high_ - low_;
-  if (!(size.maxCoeff() <= kMaxSizeM)) {
-    throw InputError({file_.string(), "", fmt::format("{:.0f} m x {:.0f} m", size.x(), size.y()),
-                      "at most 3 km, in meters"});
-  }
-  bool crowded = size.minCoeff() < kMinGroundM;
-  place_.inside = reached;
   place_.gates = gates_;
   place_.gates_asked = !gates_.empty();
-  if (!crowded && open_ground_m2(place_) < kMinFreeShare * size.prod()) {
-    skip(nullptr, "edge", "most of the ground is walled up or built on: 8 m more around it");
-    crowded = true;
-  }
-  if (crowded) {
-    reached.min -= Vector2d::Constant(kAroundM);
-    reached.max += Vector2d::Constant(kAroundM);
-  }
-  place_.inside = reached;
-  std::stable_sort(flat_.begin(), flat_.end(),
-                   [](const FlatArea& a, const FlatArea& b) { return a.z < b.z; });
-  for (const FlatArea& area : flat_) {
-    for (const Area& part : clipped({area.corners, {}}, ground_rectangle(place_))) {
-      for (Corners& corners : simple_parts(part)) {
-        place_.areas.push_back({std::move(corners), area.material, false});
-      }
-    }
-  }
+  lay_ground(file_.string(), {low_, high_}, std::move(flat_), place_);
+  place_drones(file_.string(), place_);
 }
 
 ImportedScenario SdfReader::read() {
@@ -357,6 +371,9 @@ ImportedScenario SdfReader::read() {
     if (root.WorldCount() > 1)
       skip(world.Element(), "all worlds but the first", "one scenario each");
     skip_unknown(world.Element(), "world " + world.Name());
+    if (const auto* coordinates = world.SphericalCoordinates()) {
+      latitude_deg_ = coordinates->LatitudeReference().Degree();
+    }
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       add_model(*world.ModelByIndex(i), Isometry3d::Identity(), "");
     }

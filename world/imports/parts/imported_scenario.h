@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,16 @@ struct Gate {
   double share = 0;  ///< relative number of people who enter here
 };
 
+/// A drone of the draft job: a robot of a world, or one of its cameras, which hovers.
+struct ImportedDrone {
+  std::string id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double yaw_rad = 0;
+  std::filesystem::path robot_file;  ///< "": a camera
+  nlohmann::ordered_json airframe;   ///< null: the default
+  nlohmann::ordered_json camera;     ///< fields of the drone's camera; null: none
+};
+
 /// The content of an imported file.
 struct ImportedScenario {
   std::string name;
@@ -57,6 +68,8 @@ struct ImportedScenario {
   std::vector<Gate> gates;
   bool gates_asked = false;  ///< the user specified the gates
   bool people_come = false;  ///< people enter through the gates, as many as leave
+  std::vector<ImportedDrone> drones;
+  nlohmann::ordered_json environment;  ///< of the draft job; null: the default
   std::vector<Skipped> skipped;
 };
 

@@ -95,21 +95,26 @@ json exits_json(const ImportedScenario& scenario, const std::vector<Gate>& gates
   return exits;
 }
 
-// South of the middle and above all roofs, so that the camera sees the middle.
+// South of the middle, so that the camera sees the middle.
 json drone_json(const ImportedScenario& scenario) {
-  const Vector2d size = scenario.inside.max - scenario.inside.min;
   const Vector2d middle = 0.5 * (scenario.inside.min + scenario.inside.max);
-  constexpr double kAboveRoofsM = 6;
-  constexpr double kMinHeightM = 18;
-  constexpr double kMaxHeightM = 60;
-  double height = std::clamp(0.45 * size.maxCoeff(), kMinHeightM, kMaxHeightM);
-  for (const world::Building& building : scenario.buildings) {
-    height = std::max(height, building.height_m + kAboveRoofsM);
-  }
+  const double height = overview_height_m(scenario);
   const Vector2d start = middle - Vector2d(0, 0.8 * height);
   return {{"id", "d1"},
           {"start", {rounded(start.x()), rounded(start.y()), rounded(height)}},
           {"yaw_deg", 90}};
+}
+
+json drones_json(const ImportedScenario& scenario) {
+  json drones = {drone_json(scenario)};
+  for (const ImportedDrone& each : scenario.drones) {
+    drones.push_back(
+        {{"id", each.id},
+         {"start",
+          {rounded(each.position.x()), rounded(each.position.y()), rounded(each.position.z())}},
+         {"yaw_deg", rounded(each.yaw_rad / kDegree)}});
+  }
+  return drones;
 }
 
 json scenario_json(const ImportedScenario& scenario, const Population& population) {
@@ -126,17 +131,27 @@ json scenario_json(const ImportedScenario& scenario, const Population& populatio
       {"inside", {{"min", point(scenario.inside.min)}, {"max", point(scenario.inside.max)}}},
       {"exits", exits_json(scenario, population.gates)},
       {"buildings", buildings_json(scenario)},
-      {"drones", {drone_json(scenario)}},
+      {"drones", drones_json(scenario)},
       {"props", props_json(scenario)},
       {"meshes", meshes}};
 }
 
 json job_json(const ImportedScenario& scenario) {
-  return {{"name", scenario.name},
-          {"scenario", scenario.name},
-          {"quality", "draft"},
-          {"drones", {{{"id", "d1"}, {"camera", {{"pitch_deg", -50}}}}}},
-          {"capture", {{"rate_hz", 0.5}, {"from_s", 4}, {"to_s", 30}}}};
+  json drones = json::array();
+  for (const ImportedDrone& each : scenario.drones) {
+    json drone = {{"id", each.id}};
+    if (!each.airframe.is_null()) drone["airframe"] = each.airframe;
+    if (!each.camera.is_null()) drone["camera"] = each.camera;
+    drones.push_back(std::move(drone));
+  }
+  if (drones.empty()) drones.push_back({{"id", "d1"}, {"camera", {{"pitch_deg", -50}}}});
+  json job = {{"name", scenario.name},
+              {"scenario", scenario.name},
+              {"quality", "draft"},
+              {"drones", drones},
+              {"capture", {{"rate_hz", 0.5}, {"from_s", 4}, {"to_s", 30}}}};
+  if (!scenario.environment.is_null()) job["environment"] = scenario.environment;
+  return job;
 }
 
 // As many come in as a scenario of this size with so many people loses, when everybody walks across
@@ -221,6 +236,18 @@ std::string Skipped::text() const {
   std::string where = file;
   if (line > 0) where += fmt::format(":{}", line);
   return fmt::format("{}{}{}: {}", where, where.empty() ? "" : ": ", element, reason);
+}
+
+double overview_height_m(const ImportedScenario& scenario) {
+  constexpr double kAboveRoofsM = 6;
+  constexpr double kMinHeightM = 18;
+  constexpr double kMaxHeightM = 60;
+  const Vector2d size = scenario.inside.max - scenario.inside.min;
+  double height = std::clamp(0.45 * size.maxCoeff(), kMinHeightM, kMaxHeightM);
+  for (const world::Building& building : scenario.buildings) {
+    height = std::max(height, building.height_m + kAboveRoofsM);
+  }
+  return height;
 }
 
 std::string scenario_name_from(const fs::path& file) {

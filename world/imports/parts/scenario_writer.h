@@ -20,4 +20,7 @@ std::filesystem::path write_imported_scenario(const ImportedScenario& scenario,
 /// A valid name made from a file's stem: "My World.sdf" becomes "my_world".
 std::string scenario_name_from(const std::filesystem::path& file);
 
+/// Height (m) from which a drone sees the scenario, above all roofs.
+double overview_height_m(const ImportedScenario& scenario);
+
 }  // namespace throng::imports

@@ -14,7 +14,7 @@
 #include "base/geometry/angle.h"
 #include "base/text/suggest.h"
 #include "spec/job/spec.h"
-#include "world/imports/robots/camera_json.h"
+#include "world/imports/gazebo/camera_json.h"
 
 namespace throng::imports {
 
@@ -220,9 +220,9 @@ class AirframeMaker {
   }
 
   void add_camera() {
-    const RobotCamera* chosen = nullptr;
+    const CameraSensor* chosen = nullptr;
     std::vector<std::string_view> names;
-    for (const RobotCamera& camera : robot_.cameras) {
+    for (const CameraSensor& camera : robot_.cameras) {
       names.emplace_back(camera.name);
       const bool fits = choices_.camera.empty() ? camera.is_color : camera.name == choices_.camera;
       if (fits && chosen == nullptr) chosen = &camera;
@@ -232,7 +232,7 @@ class AirframeMaker {
     }
     if (chosen == nullptr && !robot_.cameras.empty()) chosen = &robot_.cameras.front();
     if (chosen == nullptr) return;
-    for (const RobotCamera& other : robot_.cameras) {
+    for (const CameraSensor& other : robot_.cameras) {
       if (&other == chosen) continue;
       assumptions_.push_back(
           fmt::format("camera: {}; {} is another one (--camera)", chosen->name, other.name));

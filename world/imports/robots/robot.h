@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "world/imports/gazebo/camera_sensor.h"
 #include "world/imports/parts/imported_scenario.h"
 
 namespace throng::imports {
@@ -25,30 +26,6 @@ struct RobotRotor {
   double down_s = 0;
   double drag_n_s2_m = 0;
   std::optional<double> radius_m;  ///< of the propeller, from its shape
-};
-
-/// Brown-Conrady coefficients, named as in OpenCV.
-struct RobotDistortion {
-  double k1 = 0;
-  double k2 = 0;
-  double k3 = 0;
-  double p1 = 0;
-  double p2 = 0;
-  bool is_zero() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
-};
-
-/// A camera. Its frame has x along the optical axis and z up, as Gazebo's.
-struct RobotCamera {
-  std::string name;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  bool is_movable = false;  ///< on joints that turn: a gimbal
-  bool is_color = true;     ///< false: depth or thermal only
-  int width = 0;
-  int height = 0;
-  double hfov_rad = 0;
-  /// Focal lengths and principal point in pixels, if the lens states them.
-  std::optional<Eigen::Vector4d> intrinsics_px;
-  RobotDistortion distortion;
 };
 
 /// Errors of a gyroscope or accelerometer, as spec/sim/sensor_noise.h has them.
@@ -78,7 +55,7 @@ struct Robot {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();   ///< of mass
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the center of mass, kg m²
   std::vector<RobotRotor> rotors;                     ///< by their numbers
-  std::vector<RobotCamera> cameras;                   ///< in the order of the file
+  std::vector<CameraSensor> cameras;                  ///< in the order of the file
   RobotSensors sensors;
   std::optional<double> battery_wh;
   std::optional<double> height_m;  ///< of the collision shapes

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "world/imports/gazebo/sdf_pose.h"
+#include "world/imports/gazebo/camera_sensor.h"
 
 namespace throng::imports {
 
@@ -90,47 +91,25 @@ void read_navsat(const sdf::Sensor& sensor, Robot& robot) {
 
 void read_camera(const RobotSource& source, const sdf::Sensor& sensor,
                  const Eigen::Isometry3d& link, bool is_movable, Robot& robot) {
-  const sdf::Camera* lens = sensor.CameraSensor();
-  const auto pose = resolved_pose(sensor.SemanticPose());
-  if (lens == nullptr || !pose) {
+  auto camera = read_camera_sensor(sensor, link);
+  if (!camera) {
     throw InputError(source.problem(sensor.Element(), "camera " + sensor.Name(),
                                     "a <camera>, and a pose relative to a frame that exists"));
   }
-  RobotCamera camera;
-  camera.name = sensor.Name();
-  camera.pose = link * *pose;
-  camera.is_movable = is_movable;
-  camera.is_color = sensor.Type() != sdf::SensorType::DEPTH_CAMERA &&
-                    sensor.Type() != sdf::SensorType::THERMAL_CAMERA;
-  camera.width = static_cast<int>(lens->ImageWidth());
-  camera.height = static_cast<int>(lens->ImageHeight());
-  camera.hfov_rad = lens->HorizontalFov().Radian();
-  if (lens->HasLensIntrinsics()) {
-    camera.intrinsics_px = Eigen::Vector4d(lens->LensIntrinsicsFx(), lens->LensIntrinsicsFy(),
-                                           lens->LensIntrinsicsCx(), lens->LensIntrinsicsCy());
-  }
-  camera.distortion = {lens->DistortionK1(), lens->DistortionK2(), lens->DistortionK3(),
-                       lens->DistortionP1(), lens->DistortionP2()};
-  if (lens->ImageNoise().Type() != sdf::NoiseType::NONE) {
-    robot.skipped.push_back(source.skipped(sensor.Element(), "camera " + camera.name + " <noise>",
+  camera->is_movable = is_movable;
+  if (camera->has_noise) {
+    robot.skipped.push_back(source.skipped(sensor.Element(), "camera " + camera->name + " <noise>",
                                            "a job's camera.sensor has the noise of images"));
   }
-  robot.cameras.push_back(std::move(camera));
+  robot.cameras.push_back(std::move(*camera));
 }
 
 }  // namespace
 
 void read_sensor(const RobotSource& source, const sdf::Sensor& sensor,
                  const Eigen::Isometry3d& link, bool is_movable, Robot& robot) {
+  if (is_camera(sensor)) return read_camera(source, sensor, link, is_movable, robot);
   switch (sensor.Type()) {
-    case sdf::SensorType::CAMERA:
-    case sdf::SensorType::WIDE_ANGLE_CAMERA:
-    case sdf::SensorType::RGBD_CAMERA:
-    case sdf::SensorType::DEPTH_CAMERA:
-    case sdf::SensorType::THERMAL_CAMERA:
-    case sdf::SensorType::SEGMENTATION_CAMERA:
-    case sdf::SensorType::BOUNDINGBOX_CAMERA:
-      return read_camera(source, sensor, link, is_movable, robot);
     case sdf::SensorType::IMU:
       return read_imu(source, sensor, is_movable, robot);
     case sdf::SensorType::MAGNETOMETER:

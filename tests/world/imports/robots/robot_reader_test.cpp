@@ -73,7 +73,7 @@ TEST(RobotReader, RotorsLieWhereTheirLinksAre) {
 TEST(RobotReader, CamerasHaveThePoseOfLinkAndSensor) {
   const Robot robot = racer_with_camera();
   ASSERT_EQ(robot.cameras.size(), 1U);
-  const RobotCamera& camera = robot.cameras[0];
+  const CameraSensor& camera = robot.cameras[0];
   EXPECT_FALSE(camera.is_movable);
   EXPECT_EQ(camera.width, 800);
   const Eigen::Vector3d expected(0.1 + 0.02 * std::cos(0.3), 0.02 * std::sin(0.3), 0.28);

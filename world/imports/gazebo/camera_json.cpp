@@ -1,4 +1,4 @@
-#include "world/imports/robots/camera_json.h"
+#include "world/imports/gazebo/camera_json.h"
 
 #include <fmt/core.h>
 
@@ -27,7 +27,7 @@ double meters(double length_m) {
   return rounded == 0 ? 0 : rounded;
 }
 
-void add_direction(const RobotCamera& camera, ordered_json& fields,
+void add_direction(const CameraSensor& camera, ordered_json& fields,
                    std::vector<std::string>& assumptions) {
   const Vector3d ahead = camera.pose.linear().col(0);
   const Vector3d up = camera.pose.linear().col(2);
@@ -49,7 +49,7 @@ void add_direction(const RobotCamera& camera, ordered_json& fields,
   }
 }
 
-void add_lens(const RobotCamera& camera, ordered_json& fields) {
+void add_lens(const CameraSensor& camera, ordered_json& fields) {
   if (camera.intrinsics_px) {
     const Eigen::Vector4d& k = *camera.intrinsics_px;
     constexpr double kHalfPixel = 0.5;  // pixels' centers: Gazebo's corners begin at 0
@@ -60,7 +60,7 @@ void add_lens(const RobotCamera& camera, ordered_json& fields) {
   } else {
     fields["hfov_deg"] = degrees(camera.hfov_rad);
   }
-  const RobotDistortion& d = camera.distortion;
+  const CameraDistortion& d = camera.distortion;
   if (d.is_zero()) return;
   fields["model"] = "brown_conrady";
   fields["distortion"] = {{"k1", d.k1}, {"k2", d.k2}, {"k3", d.k3}, {"p1", d.p1}, {"p2", d.p2}};
@@ -68,7 +68,7 @@ void add_lens(const RobotCamera& camera, ordered_json& fields) {
 
 }  // namespace
 
-ordered_json camera_json(const RobotCamera& camera, const Vector3d& center,
+ordered_json camera_json(const CameraSensor& camera, const Vector3d& center,
                          std::vector<std::string>& assumptions) {
   ordered_json fields = {{"width", camera.width}, {"height", camera.height}};
   add_lens(camera, fields);

@@ -1,4 +1,4 @@
-// A robot's camera as the camera of a drone.
+// A camera of Gazebo as the camera of a drone.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "world/imports/robots/robot.h"
+#include "world/imports/gazebo/camera_sensor.h"
 
 namespace throng::imports {
 
 /// The fields of a job's drones[].camera: size, lens, direction, mount relative to `center` (the
-/// robot's center of mass) and gimbal. Appends to `assumptions` what these fields cannot say.
-nlohmann::ordered_json camera_json(const RobotCamera& camera, const Eigen::Vector3d& center,
+/// drone's center) and gimbal. Appends to `assumptions` what these fields cannot say.
+nlohmann::ordered_json camera_json(const CameraSensor& camera, const Eigen::Vector3d& center,
                                    std::vector<std::string>& assumptions);
 
 }  // namespace throng::imports
