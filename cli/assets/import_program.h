@@ -10,8 +10,8 @@ class App;
 
 namespace throng::cli {
 
-/// Becomes throng-import, told to import `kind` (cli/common/import_options.h) with the options that
-/// `command` was given. Returns only by throwing EnvironmentError.
+/// Becomes throng-import, which imports a `kind` (cli/common/import_options.h) with the options
+/// that `command` was given. Returns only by throwing EnvironmentError.
 [[noreturn]] void start_import(const std::string& kind, const CLI::App& command);
 
 }  // namespace throng::cli

@@ -13,7 +13,7 @@ class App;
 
 namespace throng::cli {
 
-/// Words by which throng-import is told what it imports.
+/// Names of what throng-import imports, its subcommands.
 inline constexpr const char* kImportScenario = "scenario";
 inline constexpr const char* kImportAirframe = "airframe";
 

@@ -32,7 +32,7 @@ void add_direction(const CameraSensor& camera, ordered_json& fields,
   const Vector3d ahead = camera.pose.linear().col(0);
   const Vector3d up = camera.pose.linear().col(2);
   const double pitch_rad = std::asin(std::clamp(ahead.z(), -1.0, 1.0));
-  // Of a camera that looks down, the upper side of the image says where it turns.
+  // The upper side of the image says where a camera turns that looks straight down.
   const bool is_steep = ahead.head<2>().norm() < 1e-3;
   const Vector3d heading = is_steep ? Vector3d(-std::copysign(1.0, ahead.z()) * up) : ahead;
   const double yaw_rad = std::atan2(heading.y(), heading.x());

@@ -1,4 +1,4 @@
-// What of a world is no scenery: its robots and cameras, which become drones of the draft job.
+// Robots and cameras of a world, which become drones of the draft job.
 #pragma once
 
 #include <Eigen/Geometry>

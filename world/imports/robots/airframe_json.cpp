@@ -34,7 +34,7 @@ double significant(double value) {
   return std::round(value * unit) / unit;
 }
 
-ordered_json list_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
+ordered_json number_list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   ordered_json list = ordered_json::array();
   for (const double value : values) list.push_back(significant(value));
   return list;
@@ -54,7 +54,7 @@ class AirframeMaker {
     frame_["mass_kg"] = significant(robot_.mass_kg);
     add_rotors();
     require_plausible_inertia();
-    frame_["inertia_kg_m2"] = list_of(robot_.inertia.diagonal());
+    frame_["inertia_kg_m2"] = number_list(robot_.inertia.diagonal());
     add_height();
     add_drag();
     if (robot_.battery_wh) frame_["battery_wh"] = significant(*robot_.battery_wh);
@@ -90,8 +90,8 @@ class AirframeMaker {
     for (const RobotRotor& each : robot_.rotors) {
       const Vector2d at = (each.position - robot_.center).head<2>();
       arm_m = std::max(arm_m, at.norm());
-      rotors.push_back(
-          {{"at_m", list_of(at)}, {"turns", each.sense < 0 ? "clockwise" : "counterclockwise"}});
+      rotors.push_back({{"at_m", number_list(at)},
+                        {"turns", each.sense < 0 ? "clockwise" : "counterclockwise"}});
     }
     frame_["arm_m"] = significant(arm_m);
     frame_["rotors"] = std::move(rotors);
@@ -132,9 +132,9 @@ class AirframeMaker {
   }
 
   void require_upright_rotors() const {
-    const double most_tilted = std::cos(5 * kDegree);
+    const double min_upright_cosine = std::cos(5 * kDegree);
     for (const RobotRotor& rotor : robot_.rotors) {
-      if (rotor.axis.z() < most_tilted) {
+      if (rotor.axis.z() < min_upright_cosine) {
         refuse(fmt::format("{}, which is tilted by {:.0f} degrees", rotor.name,
                            std::acos(std::clamp(rotor.axis.z(), -1.0, 1.0)) / kDegree),
                "rotors whose axes point up, within 5 degrees");
@@ -199,8 +199,9 @@ class AirframeMaker {
         base_.contains("sensors") ? ordered_json(base_["sensors"]) : ordered_json::object();
     const auto inertial = [&](const char* name, const std::optional<RobotInertialNoise>& noise) {
       if (!noise) return;
-      errors[name] = {
-          {"density", list_of(noise->density)}, {"walk", noise->walk}, {"turn_on", noise->turn_on}};
+      errors[name] = {{"density", number_list(noise->density)},
+                      {"walk", noise->walk},
+                      {"turn_on", noise->turn_on}};
       if (noise->walk_s) errors[name]["walk_s"] = *noise->walk_s;
     };
     const auto number = [&](const char* name, const std::optional<double>& value) {
@@ -210,8 +211,9 @@ class AirframeMaker {
     inertial("accelerometer", sensors.accelerometer);
     number("gps_hz", sensors.gps_hz);
     number("gps_white_m", sensors.gps_white_m);
-    if (sensors.gps_wander_m) errors["gps_wander_m"] = list_of(*sensors.gps_wander_m);
-    if (sensors.gps_velocity_mps) errors["gps_velocity_mps"] = list_of(*sensors.gps_velocity_mps);
+    if (sensors.gps_wander_m) errors["gps_wander_m"] = number_list(*sensors.gps_wander_m);
+    if (sensors.gps_velocity_mps)
+      errors["gps_velocity_mps"] = number_list(*sensors.gps_velocity_mps);
     number("pressure_pa", sensors.pressure_pa);
     number("pressure_offset_pa", sensors.pressure_offset_pa);
     if (sensors.pressure_pa) errors["weather_share"] = 0;

@@ -12,7 +12,7 @@ namespace throng::imports {
 namespace {
 
 /// The numbers of a text; none if there is anything else in it.
-std::vector<double> numbers_of(const std::string& text) {
+std::vector<double> parse_numbers(const std::string& text) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());
   std::vector<double> numbers;
@@ -26,7 +26,7 @@ std::vector<double> numbers_of(const std::string& text) {
 
 }  // namespace
 
-std::string attribute_of(const sdf::ElementPtr& element, const std::string& name) {
+std::string read_attribute(const sdf::ElementPtr& element, const std::string& name) {
   return element->HasAttribute(name) ? element->Get<std::string>(name) : "";
 }
 
@@ -39,7 +39,7 @@ std::optional<double> number_in(const RobotSource& source, const sdf::ElementPtr
                                 const std::string& name) {
   if (!element->HasElement(name)) return std::nullopt;
   const std::string text = text_in(element, name);
-  const std::vector<double> numbers = numbers_of(text);
+  const std::vector<double> numbers = parse_numbers(text);
   if (numbers.size() != 1) {
     throw InputError(source.problem(element->GetElement(name),
                                     fmt::format("<{}>{}</{}>", name, text, name), "a number"));
@@ -51,7 +51,7 @@ std::optional<Eigen::Vector3d> axes_in(const RobotSource& source, const sdf::Ele
                                        const std::string& name) {
   if (!element->HasElement(name)) return std::nullopt;
   const std::string text = text_in(element, name);
-  const std::vector<double> numbers = numbers_of(text);
+  const std::vector<double> numbers = parse_numbers(text);
   if (numbers.size() == 1) return Eigen::Vector3d::Constant(numbers.front());
   if (numbers.size() == 3) return Eigen::Vector3d(numbers.data());
   throw InputError(source.problem(element->GetElement(name),

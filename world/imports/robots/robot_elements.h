@@ -23,6 +23,6 @@ std::optional<Eigen::Vector3d> axes_in(const RobotSource& source, const sdf::Ele
 std::string text_in(const sdf::ElementPtr& element, const std::string& name);
 
 /// The attribute `name`, "" without it.
-std::string attribute_of(const sdf::ElementPtr& element, const std::string& name);
+std::string read_attribute(const sdf::ElementPtr& element, const std::string& name);
 
 }  // namespace throng::imports

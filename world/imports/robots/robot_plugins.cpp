@@ -144,7 +144,7 @@ constexpr std::array<KnownPlugin, 6> kKnown = {{
     {"gazebo_imu_plugin", read_density_imu},
 }};
 
-/// Plugins whose task throng does without being told.
+/// Plugins whose task throng does anyway.
 constexpr std::array<std::string_view, 10> kNeedless = {"ros_camera",
                                                         "ros_p3d",
                                                         "ros_control",
@@ -164,7 +164,7 @@ bool has(const std::string& text, std::string_view word) {
 
 void read_plugin(const RobotSource& source, const sdf::ElementPtr& plugin, Robot& robot) {
   if (plugin->HasElement("motorConstant")) return read_motor(source, plugin, robot);
-  std::string library = attribute_of(plugin, "filename");
+  std::string library = read_attribute(plugin, "filename");
   std::transform(library.begin(), library.end(), library.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (has(library, "hector_gazebo_quadrotor_propulsion") ||
@@ -178,10 +178,10 @@ void read_plugin(const RobotSource& source, const sdf::ElementPtr& plugin, Robot
   const bool is_needless = std::any_of(kNeedless.begin(), kNeedless.end(),
                                        [&](std::string_view word) { return has(library, word); });
   if (is_needless) return;
-  const std::string name = attribute_of(plugin, "name");
-  robot.skipped.push_back(
-      source.skipped(plugin, fmt::format("plugin {} ({})", name, attribute_of(plugin, "filename")),
-                     "has no counterpart"));
+  const std::string name = read_attribute(plugin, "name");
+  robot.skipped.push_back(source.skipped(
+      plugin, fmt::format("plugin {} ({})", name, read_attribute(plugin, "filename")),
+      "has no counterpart"));
 }
 
 }  // namespace throng::imports

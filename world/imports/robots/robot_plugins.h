@@ -1,5 +1,4 @@
-// What <plugin> elements of Gazebo, PX4, RotorS and hector say about a robot's rotors, battery and
-// sensors.
+// Rotors, battery and sensors of a robot in the <plugin>s of Gazebo, PX4, RotorS and hector.
 #pragma once
 
 #include <sdf/sdf.hh>

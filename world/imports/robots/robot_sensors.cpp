@@ -21,7 +21,7 @@ double deviation(const sdf::Noise& noise) {
   return noise.Type() == sdf::NoiseType::NONE ? 0 : noise.StdDev();
 }
 
-double rate_of(const sdf::Sensor& sensor) {
+double sensor_rate_hz(const sdf::Sensor& sensor) {
   return sensor.UpdateRate() > 0 ? sensor.UpdateRate() : kUsualRateHz;
 }
 
@@ -44,7 +44,7 @@ void read_imu(const RobotSource& source, const sdf::Sensor& sensor, bool is_mova
         imu == nullptr ? "an IMU that states no noise" : "another IMU than the body's first"));
     return;
   }
-  const double rate_hz = rate_of(sensor);
+  const double rate_hz = sensor_rate_hz(sensor);
   robot.sensors.gyroscope =
       inertial_noise(imu->AngularVelocityXNoise(), imu->AngularVelocityYNoise(),
                      imu->AngularVelocityZNoise(), rate_hz);

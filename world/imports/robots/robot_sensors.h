@@ -1,4 +1,4 @@
-// What <sensor> elements say about a robot's cameras and the errors of its other sensors.
+// A robot's cameras and the errors of its other sensors in <sensor>s.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -43,7 +43,7 @@ std::string root_element(const std::string& text) {
   return "";
 }
 
-/// What the masses, poses and constants of a robot do not depend on.
+/// Whether masses, poses and constants of a robot are right in spite of this error.
 bool is_about_looks(const sdf::Error& error) {
   switch (error.Code()) {
     case sdf::ErrorCode::DUPLICATE_NAME:
@@ -66,12 +66,13 @@ bool is_about_looks(const sdf::Error& error) {
   }
 }
 
-double mass_of(const sdf::Model& model) {
+double total_mass_kg(const sdf::Model& model) {
   double mass_kg = 0;
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     mass_kg += model.LinkByIndex(i)->Inertial().MassMatrix().Mass();
   }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) mass_kg += mass_of(*model.ModelByIndex(i));
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i)
+    mass_kg += total_mass_kg(*model.ModelByIndex(i));
   return mass_kg;
 }
 
@@ -106,7 +107,7 @@ void RobotSource::load_urdf(const std::string& text, const sdf::ParserConfig& co
   urdf_lines_ = std::move(facts.lines);
   take_errors(root_.LoadSdfString(text, config));
   if (root_.Model() == nullptr) return;
-  const double mass_kg = mass_of(*root_.Model());
+  const double mass_kg = total_mass_kg(*root_.Model());
   constexpr double kTolerance = 1e-6;
   if (std::abs(mass_kg - facts.mass_kg) > kTolerance * facts.mass_kg) {
     throw InputError({file_.string(), "",
@@ -148,7 +149,7 @@ std::pair<std::string, int> RobotSource::place_of(const sdf::ElementPtr& element
     }
     return {file_.string(), 0};
   }
-  // What plugins contain has no lines of its own.
+  // The elements in plugins have no lines of their own.
   for (sdf::ElementPtr at = element; at; at = at->GetParent()) {
     if (!at->LineNumber()) continue;
     if (!is_given_text(at->FilePath())) return {at->FilePath(), *at->LineNumber()};

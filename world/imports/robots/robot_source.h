@@ -25,7 +25,7 @@ class RobotSource {
 
   const sdf::Model& model() const { return *root_.Model(); }
 
-  /// What is left out, with the element's file and line.
+  /// Names an element that is left out, with its file and line.
   Skipped skipped(const sdf::ElementPtr& element, const std::string& name,
                   const std::string& why) const;
   /// A problem at an element.

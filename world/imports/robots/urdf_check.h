@@ -7,7 +7,7 @@
 
 namespace throng::imports {
 
-/// What the converted model must agree with.
+/// Figures with which the converted model must agree.
 struct UrdfFacts {
   double mass_kg = 0;                ///< of all links
   std::map<std::string, int> lines;  ///< of links, joints, sensors and plugins, by their names

@@ -20,14 +20,14 @@ Robot racer() {
   return read_robot(robots_folder() / "racer_with_camera/model.sdf", {robots_folder()});
 }
 
-json airframe_of(const Robot& robot, const AirframeChoices& choices = {}) {
+json make_airframe(const Robot& robot, const AirframeChoices& choices = {}) {
   std::vector<std::string> assumptions;
   return airframe_json(robot, "robot.sdf", choices, assumptions);
 }
 
-std::string refusal_of(const Robot& robot, const AirframeChoices& choices = {}) {
+std::string find_refusal(const Robot& robot, const AirframeChoices& choices = {}) {
   try {
-    airframe_of(robot, choices);
+    make_airframe(robot, choices);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -36,7 +36,7 @@ std::string refusal_of(const Robot& robot, const AirframeChoices& choices = {}) 
 
 TEST(AirframeJson, RotorsAreRelativeToTheCenterOfMass) {
   const Robot robot = racer();
-  const json airframe = airframe_of(robot);
+  const json airframe = make_airframe(robot);
   EXPECT_NEAR(airframe["rotors"][0]["at_m"][0].get<double>(), 0.15 - robot.center.x(), 1e-6);
   EXPECT_NEAR(airframe["rotors"][0]["at_m"][1].get<double>(), -0.1, 1e-6);
   EXPECT_EQ(airframe["rotors"][0]["turns"], "counterclockwise");
@@ -45,7 +45,7 @@ TEST(AirframeJson, RotorsAreRelativeToTheCenterOfMass) {
 }
 
 TEST(AirframeJson, TheCameraOfTheAirframeIsThatOfItsDrone) {
-  const json airframe = airframe_of(racer());
+  const json airframe = make_airframe(racer());
   json job = {{"scenario", "city_square/everyday"},
               {"drones", {{{"id", "d1"}, {"airframe", airframe}}}}};
   const jobs::JobSpec spec = jobs::parse_job(job.dump(), "job");
@@ -66,7 +66,7 @@ TEST(AirframeJson, TheCameraOfTheAirframeIsThatOfItsDrone) {
 }
 
 TEST(AirframeJson, ACameraOfAnAirframeIsCheckedAtItsPointer) {
-  json airframe = airframe_of(racer());
+  json airframe = make_airframe(racer());
   airframe["camera"]["pitch_deg"] = 80;
   airframe["camera"]["zoom"] = 2;
   const json job = {{"scenario", "city_square/everyday"},
@@ -84,8 +84,8 @@ TEST(AirframeJson, ACameraOfAnAirframeIsCheckedAtItsPointer) {
 TEST(AirframeJson, ABaseGivesWhatTheDescriptionDoesNot) {
   Robot robot = racer();
   robot.rotors.clear();
-  EXPECT_NE(refusal_of(robot).find("--base"), std::string::npos);
-  const json airframe = airframe_of(robot, {sim::find_airframe("hector"), ""});
+  EXPECT_NE(find_refusal(robot).find("--base"), std::string::npos);
+  const json airframe = make_airframe(robot, {sim::find_airframe("hector"), ""});
   EXPECT_NEAR(airframe["mass_kg"].get<double>(), 1.1, 1e-6);
   EXPECT_EQ(airframe["arm_m"], 0.275);
   EXPECT_TRUE(airframe.contains("electric_motor"));
@@ -96,7 +96,7 @@ TEST(AirframeJson, ABaseGivesWhatTheDescriptionDoesNot) {
 }
 
 TEST(AirframeJson, HectorsPropulsionIsThatOfTheAirframeHector) {
-  const json airframe = airframe_of(read_robot(robots_folder() / "quad.urdf", {}));
+  const json airframe = make_airframe(read_robot(robots_folder() / "quad.urdf", {}));
   EXPECT_NEAR(airframe["mass_kg"].get<double>(), 1.25, 1e-6);
   EXPECT_TRUE(airframe.contains("electric_motor"));
   EXPECT_EQ(airframe["height_m"], 0.15);  // hector's, since a mesh collides
@@ -105,23 +105,23 @@ TEST(AirframeJson, HectorsPropulsionIsThatOfTheAirframeHector) {
 TEST(AirframeJson, RobotsThatAreNoQuadcoptersAreRefused) {
   Robot robot = racer();
   robot.rotors.pop_back();
-  EXPECT_NE(refusal_of(robot).find("3 rotors"), std::string::npos);
+  EXPECT_NE(find_refusal(robot).find("3 rotors"), std::string::npos);
   robot = racer();
   robot.rotors[2].thrust_n_s2 *= 1.5;
-  EXPECT_NE(refusal_of(robot).find("four equal rotors"), std::string::npos);
+  EXPECT_NE(find_refusal(robot).find("four equal rotors"), std::string::npos);
   robot = racer();
   robot.rotors[1].axis = Eigen::Vector3d(1, 0, 1).normalized();
-  EXPECT_NE(refusal_of(robot).find("tilted by 45 degrees"), std::string::npos);
+  EXPECT_NE(find_refusal(robot).find("tilted by 45 degrees"), std::string::npos);
   robot = racer();
   robot.inertia *= 1e3;  // in g m²
-  EXPECT_NE(refusal_of(robot).find("as if all mass lay"), std::string::npos);
+  EXPECT_NE(find_refusal(robot).find("as if all mass lay"), std::string::npos);
   robot = racer();
   robot.mass_kg = 3;
-  EXPECT_NE(refusal_of(robot).find("for a weight of"), std::string::npos) << refusal_of(robot);
+  EXPECT_NE(find_refusal(robot).find("for a weight of"), std::string::npos) << find_refusal(robot);
 }
 
 TEST(AirframeJson, AnUnknownCameraIsAnsweredWithTheNearestName) {
-  EXPECT_NE(refusal_of(racer(), {std::nullopt, "veiw"}).find("did you mean \"view\""),
+  EXPECT_NE(find_refusal(racer(), {std::nullopt, "veiw"}).find("did you mean \"view\""),
             std::string::npos);
 }
 

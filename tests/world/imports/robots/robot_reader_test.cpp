@@ -28,7 +28,7 @@ bool is_skipped(const Robot& robot, const std::string& words) {
 }
 
 /// The problems of a robot with this text, one in each line.
-std::string refusal_of(const std::string& name, const std::string& text) {
+std::string find_refusal(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   write_file_atomically(folder.path() / name, text);
   try {
@@ -117,7 +117,7 @@ TEST(RobotReader, UrdfIsReadWithItsGazeboExtensions) {
 }
 
 TEST(RobotReader, AMissingIncludeIsAnErrorSinceItsMassIsMissing) {
-  const std::string text = refusal_of(
+  const std::string text = find_refusal(
       "r.sdf",
       "<sdf version='1.9'><model name='m'>\n<include merge='true'><uri>model://nowhere</uri>"
       "</include>\n<link name='l'/></model></sdf>");
@@ -146,7 +146,7 @@ TEST(RobotReader, AModelThatIncludesItselfIsRefused) {
 
 TEST(RobotReader, ProblemsOfUrdfAreNamedWithTheirLines) {
   const auto robot = [](const std::string& body) {
-    return refusal_of("r.urdf", "<robot name='r'>\n" + body + "\n</robot>");
+    return find_refusal("r.urdf", "<robot name='r'>\n" + body + "\n</robot>");
   };
   const std::string good =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
@@ -187,34 +187,34 @@ TEST(RobotReader, LinksThatTheConversionDropsAreMissed) {
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
       "</inertial>";
   const std::string text =
-      refusal_of("r.urdf", "<robot name='r'><link name='a'>" + inertial +
-                               "</link><link name='bare'/><link name='c'>" + inertial +
-                               "</link><joint name='j' type='continuous'><parent link='a'/>"
-                               "<child link='bare'/></joint><joint name='k' type='continuous'>"
-                               "<parent link='bare'/><child link='c'/></joint></robot>");
+      find_refusal("r.urdf", "<robot name='r'><link name='a'>" + inertial +
+                                 "</link><link name='bare'/><link name='c'>" + inertial +
+                                 "</link><joint name='j' type='continuous'><parent link='a'/>"
+                                 "<child link='bare'/></joint><joint name='k' type='continuous'>"
+                                 "<parent link='bare'/><child link='c'/></joint></robot>");
   EXPECT_NE(text.find("1 kg of 2 kg"), std::string::npos) << text;
 }
 
 TEST(RobotReader, AXacroFileIsRefusedWithTheCommandThatExpandsIt) {
   const std::string text =
-      refusal_of("quad.urdf.xacro",
-                 "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n<xacro:include "
-                 "filename='base.xacro'/></robot>");
+      find_refusal("quad.urdf.xacro",
+                   "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n<xacro:include "
+                   "filename='base.xacro'/></robot>");
   EXPECT_NE(text.find("xacro "), std::string::npos) << text;
   EXPECT_NE(text.find("-o quad.urdf"), std::string::npos) << text;
 }
 
 TEST(RobotReader, OtherFilesAreRefused) {
-  EXPECT_NE(refusal_of("r.sdf", "no xml"), "");
-  EXPECT_NE(refusal_of("r.sdf", "<robot"), "");
-  EXPECT_NE(refusal_of("r.sdf", ""), "");
-  EXPECT_NE(refusal_of("w.sdf", "<sdf version='1.9'><world name='w'/></sdf>").find("a world"),
+  EXPECT_NE(find_refusal("r.sdf", "no xml"), "");
+  EXPECT_NE(find_refusal("r.sdf", "<robot"), "");
+  EXPECT_NE(find_refusal("r.sdf", ""), "");
+  EXPECT_NE(find_refusal("w.sdf", "<sdf version='1.9'><world name='w'/></sdf>").find("a world"),
             std::string::npos);
   EXPECT_THROW(read_robot("/nowhere/robot.sdf", {}), InputError);
 }
 
 TEST(RobotReader, APluginsNumberThatIsNoneIsNamed) {
-  const std::string text = refusal_of(
+  const std::string text = find_refusal(
       "r.sdf",
       "<sdf version='1.9'><model name='m'><link name='rotor'><inertial><mass>1</mass></inertial>"
       "</link>\n<plugin name='p' filename='motor.so'><linkName>rotor</linkName>"
