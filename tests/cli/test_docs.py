@@ -9,10 +9,11 @@ import tempfile
 import unittest
 
 THRONG = str(pathlib.Path(sys.argv.pop(1)).resolve())
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
-import doc_fixtures  # noqa: E402
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(pathlib.Path(__file__).parent), str(ROOT / "scripts")]
+import doc_fixtures  # noqa: E402
+from doc_blocks import read_blocks  # noqa: E402
+
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "python").glob("*.md")])
 CODE = re.compile(r"^(```|~~~).*?^\1\s*$", re.M | re.S)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
@@ -34,8 +35,9 @@ def anchors_of(page):
 
 
 def shell_lines(page):
-    for block in re.findall(r"^```(?:sh|bash)?\n(.*?)^```", page.read_text(), re.M | re.S):
-        yield from block.replace("\\\n", " ").splitlines()
+    for _, language, block in read_blocks(page.read_text()):
+        if language == "sh":
+            yield from block.replace("\\\n", " ").splitlines()
 
 
 class Docs(unittest.TestCase):
