@@ -28,6 +28,7 @@ imports::AirframeChoices read_choices(const AirframeImportOptions& options) {
   if (choices.base) return choices;
   const std::vector<sim::Airframe> shipped = sim::shipped_airframes();
   std::vector<std::string_view> names;
+  names.reserve(shipped.size());
   for (const sim::Airframe& airframe : shipped) names.emplace_back(airframe.name);
   throw InputError(unknown_name("--base", "", "airframe", options.base, names));
 }

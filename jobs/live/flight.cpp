@@ -10,41 +10,13 @@
 
 #include "base/files/hash.h"
 #include "base/json/problem_json.h"
+#include "jobs/live/replay_job.h"
 #include "jobs/pipeline/pipeline.h"
 #include "sim/recording/pilot_log.h"
 
 namespace throng::live {
 
 using nlohmann::json;
-
-namespace {
-
-/// The job that flies the logs: one run, which ends when the flight did.
-jobs::JobSpec replay_flight(const jobs::JobSpec& flown, const sim::RemotePilots& pilots,
-                            double duration_s) {
-  jobs::JobSpec job = flown;
-  job.runs = 1;
-  job.name = (flown.name.empty() ? "live flight" : flown.name + ", flown").substr(0, 200);
-  for (std::size_t i = 0; i < job.drones.size(); ++i) {
-    sim::DroneMission& mission = job.drones[i].mission;
-    mission.policy = "pilot_log";
-    mission.waypoints.clear();
-    mission.guidance = {};
-    mission.guidance.setpoints = pilots.log(i);
-    job.drones[i].pilot_log.clear();
-    // Values sampled for the former policy.
-    std::erase_if(job.randomize, [&](const jobs::RandomField& field) {
-      return field.path.starts_with(fmt::format("drones.{}.guidance.", i));
-    });
-  }
-  std::erase_if(job.randomize,
-                [](const jobs::RandomField& field) { return field.path.starts_with("capture."); });
-  job.capture.to_s = duration_s;
-  if (job.capture.from_s >= duration_s) job.capture.from_s = 0;
-  return job;
-}
-
-}  // namespace
 
 /// Writes the trace and keeps the newest step.
 class Flight::Recorder : public sim::RunObserver {
@@ -167,7 +139,7 @@ json Flight::finish() {
           {"steps", std::lround(time_s() / dt_s())},
           {"trace_sha256", sha256_hex_of_file(trace_file_)},
           {"drones", std::move(logs)},
-          {"job", jobs::to_json(replay_flight(job_, *pilots_, time_s()))},
+          {"job", jobs::to_json(replay_job(job_, *pilots_, time_s()))},
           {"warnings", std::move(texts)}};
 }
 

@@ -41,10 +41,13 @@ skinning::Styling clothing(const jobs::JobSpec& job) {
   return jobs::styling_in(jobs::job_of_run(job, 0), flight_environment(job).light.weather);
 }
 
-camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {
+camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSize& size) {
   camera::CameraSpec shown;
-  shown.width = kImageWidth;
-  shown.height = kImageHeight;
+  shown.width = size.width;
+  shown.height = size.height;
+  shown.mount_m = camera.mount_m;
+  const bool is_rigid = camera.gimbal.model == camera::GimbalModel::rigid;
+  shown.gimbal.model = is_rigid ? camera::GimbalModel::rigid : camera::GimbalModel::ideal;
   shown.hfov_deg = camera.pinhole_hfov_rad() / kDegree;
   shown.pitch_deg = camera.pitch_deg;
   shown.yaw_deg = camera.yaw_deg;
@@ -54,22 +57,23 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera) {
 OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                              const skinning::Population& population,
                              const world::TraceHeader& header,
-                             const std::vector<sim::PlannedDrone>& drones)
-    : OnboardCamera(place_of(job, std::move(scenario)), population, header, drones) {}
+                             const std::vector<sim::PlannedDrone>& drones, const ImageSize& size)
+    : OnboardCamera(place_of(job, std::move(scenario)), population, header, drones, size) {}
 
 OnboardCamera::OnboardCamera(Surroundings place, const skinning::Population& population,
                              const world::TraceHeader& header,
-                             const std::vector<sim::PlannedDrone>& drones)
+                             const std::vector<sim::PlannedDrone>& drones, const ImageSize& size)
     : scenario_(std::move(place.scenario)),
       people_(header, header.seed, population, place.styling),
       renderer_(scenario_, population, place.light, {}, draft()) {
   for (const sim::PlannedDrone& drone : drones) {
-    cameras_.push_back(shown_camera(drone.mission.camera));
+    cameras_.push_back(shown_camera(drone.mission.camera, size));
     shapes_.push_back(render::airframe_shape(drone.airframe));
   }
 }
 
-std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double time_s) {
+const std::vector<std::uint8_t>& OnboardCamera::draw(const Moment& moment, std::size_t drone,
+                                                     double time_s) {
   render::Scene scene = people_.scene_at(moment, time_s);
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const world::DroneSample sample = moment.flown.drone_at(i, time_s);
@@ -78,11 +82,15 @@ std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double
   }
   const camera::Camera view =
       jobs::camera_on(moment.flown.drone_at(drone, time_s), cameras_.at(drone));
-  render::Frame frame = renderer_.draw(
-      scene, view, nullptr, {.truth = false, .exposure_gain = renderer_.metered_gain(scene, view)});
-  std::string jpeg = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), kJpegQuality);
-  renderer_.recycle(std::move(frame));
-  return jpeg;
+  renderer_.recycle(std::move(frame_));
+  frame_ = renderer_.draw(scene, view, nullptr,
+                          {.truth = false, .exposure_gain = renderer_.metered_gain(scene, view)});
+  return frame_.rgb;
+}
+
+std::string OnboardCamera::image(const Moment& moment, std::size_t drone, double time_s) {
+  const std::vector<std::uint8_t>& rgb = draw(moment, drone, time_s);
+  return annotate::jpeg_bytes(rgb, frame_.width(), frame_.height(), kJpegQuality);
 }
 
 }  // namespace throng::live

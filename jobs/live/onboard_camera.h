@@ -1,7 +1,8 @@
 // The drones' cameras during a live flight: the renderer of jobs at draft quality, through a
-// pinhole camera with 640 x 360 pixels, without effects of sensor and shutter.
+// pinhole camera, without effects of sensor and shutter.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,15 @@
 
 namespace throng::live {
 
-inline constexpr int kImageWidth = 640;
-inline constexpr int kImageHeight = 360;
+/// Size of images in pixels.
+struct ImageSize {
+  int width = 640;
+  int height = 360;
+};
 
-/// The camera that replaces a job's camera during a flight: the same direction and field of view.
-camera::CameraSpec shown_camera(const camera::CameraSpec& camera);
+/// The camera that replaces a job's camera during a flight: the same direction, mount and
+/// horizontal field of view.
+camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSize& size = {});
 
 /// Amount of smoke from the hazards of a job's first run, 0 to 1.
 double smoke_amount(const jobs::JobSpec& job);
@@ -34,9 +39,12 @@ class OnboardCamera {
   /// EnvironmentError and InputError.
   OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                 const skinning::Population& population, const world::TraceHeader& header,
-                const std::vector<sim::PlannedDrone>& drones);
+                const std::vector<sim::PlannedDrone>& drones, const ImageSize& size = {});
 
-  /// Renders the view of a drone's camera at a time within the moment's step, as a JPEG file.
+  /// Renders the view of a drone's camera at a time within the moment's step: RGB, rows from the
+  /// top. Valid until the next image.
+  const std::vector<std::uint8_t>& draw(const Moment& moment, std::size_t drone, double time_s);
+  /// The same as a JPEG file.
   std::string image(const Moment& moment, std::size_t drone, double time_s);
 
  private:
@@ -48,13 +56,15 @@ class OnboardCamera {
   };
   static Surroundings place_of(const jobs::JobSpec& whole_job, world::Scenario scenario);
   OnboardCamera(Surroundings place, const skinning::Population& population,
-                const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones);
+                const world::TraceHeader& header, const std::vector<sim::PlannedDrone>& drones,
+                const ImageSize& size);
 
   world::Scenario scenario_;
   PeopleInMotion people_;
   render::Renderer renderer_;
   std::vector<camera::CameraSpec> cameras_;  ///< per drone
   std::vector<render::AirframeShape> shapes_;
+  render::Frame frame_;
 };
 
 }  // namespace throng::live

@@ -89,7 +89,7 @@ json make_hello(const Flight& flight, const world::Scenario& scenario, double sm
           {"exits", exits_json(scenario)},
           {"smoke", smoke},
           {"dangers", dangers_json(scenario)},
-          {"image", {{"width", kImageWidth}, {"height", kImageHeight}}},
+          {"image", {{"width", ImageSize().width}, {"height", ImageSize().height}}},
           {"max_speed_mps", sim::kMaxRemoteSpeedMps},
           {"max_climb_mps", sim::kMaxRemoteClimbMps},
           {"max_yaw_deg_s", sim::kMaxRemoteYawDegS}};
