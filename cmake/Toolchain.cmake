@@ -14,7 +14,16 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER /usr/bin/env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${CCACHE_PROGRAM}")
 endif()
 
+# The engine is also a module of Python (python/engine), a shared library. Without interposition its functions call each
+# other as directly as in a program.
+if(NOT THRONG_SANITIZE)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+endif()
+
 add_library(throng_flags INTERFACE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(throng_flags INTERFACE -fno-semantic-interposition)
+endif()
 # No contraction into fused multiply-adds: the same source gives the same bits at any -march.
 target_compile_options(throng_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wsuggest-override -Werror -ffp-contract=off)

@@ -7,7 +7,7 @@ usage: scripts/module_rules.py check ROOT [MODULE...]      MODULE: those of this
 
 A file of a module may include any header of its module, and public headers of the modules that it declares. Tests of a
 module (tests/MODULE/) and its benchmark (bench/MODULE.cpp) may include any header of it and of modules in its folder; other
-tests, benchmarks, examples and scripts public ones only, unless throng_allow_private names file and header. A module declares no
+tests, benchmarks, examples, scripts and Python's module public ones only, unless throng_allow_private names file and header. A module declares no
 module that it does not include, and none after it in THRONG_ALL_MODULES. A public header exists and is included from
 outside of the module, unless the module is in THRONG_LIBRARY_MODULES. A module is not linked with what it REFUSES, be it
 through others.
@@ -97,8 +97,10 @@ class Structure:
 
     @functools.cached_property
     def files(self):
-        """All C++ files of modules, tests, benchmarks, examples and scripts."""
-        tops = dict.fromkeys([name.split("/")[0] for name in self.order] + ["tests", "bench", "examples", "scripts"])
+        """All C++ files of modules, tests, benchmarks, examples, scripts and the module of Python."""
+        tops = dict.fromkeys(
+            [name.split("/")[0] for name in self.order] + ["tests", "bench", "examples", "scripts", "python"]
+        )
         found = []
         for top in tops:
             for folder, inner, names in os.walk(self.root / top):

@@ -9,7 +9,10 @@
 
 from __future__ import annotations
 
-from . import job, scores
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from . import engine, job, scores
 from ._version import __version__
 from .annotations import Annotations
 from .camera import Camera
@@ -44,6 +47,9 @@ from .tables import Table
 from .trace import Trace
 from .training import CountingDataset, DetectionDataset, KeypointDataset, SegmentationDataset, TrackingDataset, collate
 
+if TYPE_CHECKING:
+    from .env import Env, VectorEnv
+
 __all__ = [
     "__version__",
     "AccessError",
@@ -56,6 +62,7 @@ __all__ = [
     "Dataset",
     "DatasetError",
     "DetectionDataset",
+    "Env",
     "Frame",
     "InvalidRequestError",
     "JobFailedError",
@@ -81,8 +88,10 @@ __all__ = [
     "TraceError",
     "TrackingDataset",
     "UnavailableError",
+    "VectorEnv",
     "animate",
     "collate",
+    "engine",
     "find_program",
     "job",
     "merge",
@@ -96,3 +105,10 @@ __all__ = [
     "study",
     "validate_crowd",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Env and VectorEnv are imported when they are used: gymnasium, where it is installed, takes its time."""
+    if name in ("Env", "VectorEnv"):
+        return getattr(import_module(".env", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
