@@ -21,14 +21,10 @@ using nlohmann::json;
 using throng::testing::TemporaryFolder;
 
 json small_job() {
-  return {{"scenario", "city_square/nearest_exit"},
-          {"seed", 3},
-          {"crowd", {{"agents", 30}}},
-          {"drones",
-           {{{"id", "d1"},
-             {"start", {0, -10, 20}},
-             {"guidance", {{"policy", "waypoints"}, {"waypoints", {{0, -10, 20}, {5, -5, 20}}}}}}}},
-          {"capture", {{"to_s", 4}}}};
+  return json::parse(R"({"scenario": "city_square/nearest_exit", "seed": 3, "crowd": {"agents": 30},
+    "drones": [{"id": "d1", "start": [0, -10, 20],
+                "guidance": {"policy": "waypoints", "waypoints": [[0, -10, 20], [5, -5, 20]]}}],
+    "capture": {"to_s": 4}})");
 }
 
 /// The hash of the trace that `throng simulate` writes for a job.

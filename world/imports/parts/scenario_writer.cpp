@@ -106,7 +106,7 @@ json drone_json(const ImportedScenario& scenario) {
 }
 
 json drones_json(const ImportedScenario& scenario) {
-  json drones = {drone_json(scenario)};
+  json drones = json::array({drone_json(scenario)});
   for (const ImportedDrone& each : scenario.drones) {
     drones.push_back(
         {{"id", each.id},

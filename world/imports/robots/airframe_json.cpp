@@ -246,7 +246,7 @@ class AirframeMaker {
   void reject_what_cannot_fly() const {
     constexpr std::string_view kPointer = "/drones/0/airframe";
     const json job = {{"scenario", "city_square/everyday"},
-                      {"drones", {{{"id", "d1"}, {"airframe", frame_}}}}};
+                      {"drones", json::array({{{"id", "d1"}, {"airframe", frame_}}})}};
     try {
       jobs::parse_job(job.dump(), file_);
     } catch (const InputError& error) {

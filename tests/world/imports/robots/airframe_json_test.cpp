@@ -47,7 +47,7 @@ TEST(AirframeJson, RotorsAreRelativeToTheCenterOfMass) {
 TEST(AirframeJson, TheCameraOfTheAirframeIsThatOfItsDrone) {
   const json airframe = make_airframe(racer());
   json job = {{"scenario", "city_square/everyday"},
-              {"drones", {{{"id", "d1"}, {"airframe", airframe}}}}};
+              {"drones", json::array({{{"id", "d1"}, {"airframe", airframe}}})}};
   const jobs::JobSpec spec = jobs::parse_job(job.dump(), "job");
   const jobs::CameraSpec& camera = spec.drones.at(0).camera;
   EXPECT_EQ(camera.width, 800);
@@ -70,7 +70,7 @@ TEST(AirframeJson, ACameraOfAnAirframeIsCheckedAtItsPointer) {
   airframe["camera"]["pitch_deg"] = 80;
   airframe["camera"]["zoom"] = 2;
   const json job = {{"scenario", "city_square/everyday"},
-                    {"drones", {{{"id", "d1"}, {"airframe", airframe}}}}};
+                    {"drones", json::array({{{"id", "d1"}, {"airframe", airframe}}})}};
   try {
     jobs::parse_job(job.dump(), "job");
     FAIL() << "accepted";
