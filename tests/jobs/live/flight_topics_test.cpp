@@ -113,7 +113,7 @@ TEST_F(FlightTopicsTest, CommandsHoldFromTheBeginningOfTheirStep) {
                                           {0, 0, 0.5 * EIGEN_PI}));
   const auto modes = of_topic("/drone_2/mode");
   ASSERT_EQ(modes.size(), 2U);
-  EXPECT_EQ(modes[1].bytes, ros::text(R"({"beacon":true,"return_home":false})"));
+  EXPECT_EQ(modes[1].bytes, ros::text(R"({"beacon":true,"return_home":false,"route":false})"));
   const auto events = of_topic("/events");
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].time_s, 0.15);
