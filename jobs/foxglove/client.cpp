@@ -256,6 +256,7 @@ std::vector<Parameter> Client::named_parameters(const std::vector<std::string>& 
   std::vector<Parameter> all = shared_.hooks.parameters();
   if (names.empty()) return all;
   std::vector<std::string_view> known;
+  known.reserve(all.size());
   for (const Parameter& parameter : all) known.push_back(parameter.name);
   std::vector<Parameter> chosen;
   for (const std::string& name : names) {
