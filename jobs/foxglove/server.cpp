@@ -66,6 +66,7 @@ struct Server::State {
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
   asio::steady_timer farewell{context};
+  asio::steady_timer pause{context};
   std::uint16_t port = 0;
   bool is_ending = false;
   std::thread thread;
@@ -90,13 +91,22 @@ struct Server::State {
   void accept() {
     acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      // More are not served, nor is a client whose connection has failed already.
-      if (!error && shared.clients.size() < kMaxClients) {
+      if (error) return accept_later();  // such as no more file descriptors
+      // More are not served.
+      if (shared.clients.size() < kMaxClients) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         std::make_shared<Client>(std::move(socket), shared)->start();
       }
       accept();
+    });
+  }
+
+  void accept_later() {
+    constexpr std::chrono::milliseconds kPause(100);
+    pause.expires_after(kPause);
+    pause.async_wait([this](boost::system::error_code error) {
+      if (!error && !is_ending) accept();
     });
   }
 
@@ -152,11 +162,15 @@ Server::Server(const ServerOptions& options, std::vector<Channel> channels,
   };
   state.shared.on_leave = [&state] { state.stop_if_empty(); };
   state.listen(options);
-  state.accept();
-  state.thread = std::thread([&state] { state.context.run(); });
+}
+
+void Server::start() {
+  state_->accept();
+  state_->thread = std::thread([state = state_.get()] { state->context.run(); });
 }
 
 Server::~Server() {
+  if (!state_->thread.joinable()) return;
   asio::post(state_->context, [state = state_.get()] { state->say_goodbye(); });
   state_->thread.join();
 }

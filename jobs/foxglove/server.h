@@ -67,13 +67,17 @@ bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& 
 /// Safe to use from many threads. No member waits for clients.
 class Server {
  public:
-  /// Listens. Throws InputError for a wrong host and EnvironmentError if the port is taken.
+  /// Listens, but answers nobody before start(). Throws InputError for a wrong host and
+  /// EnvironmentError if the port is taken.
   Server(const ServerOptions& options, std::vector<Channel> channels, std::vector<Service> services,
          Hooks hooks);
   /// Ends all connections: clients get what they wait for unless that takes longer than a second.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
+
+  /// Calls the hooks from now on. Once.
+  void start();
 
   std::uint16_t port() const;
   /// Whether a client has subscribed to the channel with this index.

@@ -3,6 +3,7 @@ import hashlib
 import http.client
 import json
 import math
+import os
 import pathlib
 import queue
 import re
@@ -79,7 +80,8 @@ class Client:
 
     def read(self):
         for line in self.process.stdout:
-            self.arrived.put(json.loads(line))
+            if line.endswith("\n"):  # else it was killed meanwhile
+                self.arrived.put(json.loads(line))
         self.arrived.put(None)
 
     def next(self):
@@ -136,12 +138,18 @@ class Outside(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.base = pathlib.Path(folder.name)
         (self.base / "job.json").write_text(json.dumps(JOB))
+        self.temporary = self.base / "temporary"
+        self.temporary.mkdir()
 
     def begin(self, *options):
         """Starts a flight that waits; returns its port."""
         command = [THRONG, "live", self.base / "job.json", "--port", "0", "--paused", *options]
         self.flight = subprocess.Popen(
-            list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            list(map(str, command)),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "TMPDIR": str(self.temporary)},
         )
         self.addCleanup(self.end)
         line = self.flight.stderr.readline()
@@ -169,6 +177,7 @@ class Outside(unittest.TestCase):
         self.assertEqual(self.flight.wait(PATIENCE_S), 0, self.errors)
         self.reader.join()
         self.assertNotIn("Sanitizer", "".join(self.errors))
+        self.assertEqual(list(self.temporary.iterdir()), [])  # no trace is left
         return self.flight.stdout.read().split()
 
     def digest(self, file):

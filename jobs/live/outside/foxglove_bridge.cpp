@@ -75,6 +75,7 @@ FoxgloveBridge::FoxgloveBridge(const foxglove::ServerOptions& options, std::vect
                       const foxglove::ServiceAnswer& answer) { call(service, request, answer); };
   server_ = std::make_unique<foxglove::Server>(options, std::move(channels), flight_services(),
                                                std::move(hooks));
+  server_->start();
 }
 
 bool FoxgloveBridge::wants_images(std::size_t drone) const {
