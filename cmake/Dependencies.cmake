@@ -2,7 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED)  # headers only: Geometry, Math
+find_package(Boost 1.74 REQUIRED)  # headers only: Asio, Beast, Geometry, Math
 find_package(TBB REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -20,6 +20,7 @@ void add_serve(CLI::App& app);
 void add_worker(CLI::App& app);
 void add_confined(CLI::App& app);
 void add_live(CLI::App& app);
+void add_live_process(CLI::App& app);
 void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
 void add_remote_jobs(CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch

@@ -90,12 +90,12 @@ class Flight::Recorder : public sim::RunObserver {
 };
 
 Flight::Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
-               const std::filesystem::path& folder)
+               const std::filesystem::path& folder, double max_s)
     : job_(job),
-      trace_file_(folder / "trace.h5"),
+      trace_file_(folder / kTraceFile),
       spec_(jobs::run_spec(job, 0)),
       recorder_(std::make_unique<Recorder>(trace_file_)) {
-  spec_.duration_s = kMaxFlightS;
+  spec_.duration_s = max_s;
   sim::fly_remotely(spec_, scenario);
   run_ = std::make_unique<sim::SteppedRun>(scenario, spec_, *recorder_);
   pilots_ = std::make_unique<sim::RemotePilots>(scenario, *run_, spec_);

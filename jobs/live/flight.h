@@ -23,6 +23,8 @@ namespace throng::live {
 /// stays small enough to be submitted.
 inline constexpr double kMaxFlightS = 600;
 
+inline constexpr const char* kTraceFile = "trace.h5";
+
 /// Status of a drone besides its pose.
 struct DroneStatus {
   bool beacon = false;     ///< whether the beacon is on
@@ -46,10 +48,10 @@ struct Moment {
 /// Use from one thread at a time.
 class Flight {
  public:
-  /// Starts the run and writes its trace into the folder. The scenario must outlive this object.
-  /// Throws InputError and EnvironmentError.
+  /// Starts the run and writes its trace, kTraceFile, into the folder. The scenario must outlive
+  /// this object, and the flight must end before `max_s`. Throws InputError and EnvironmentError.
   Flight(const jobs::JobSpec& job, const world::Scenario& scenario,
-         const std::filesystem::path& folder);
+         const std::filesystem::path& folder, double max_s = kMaxFlightS);
   ~Flight();
   Flight(const Flight&) = delete;
   Flight& operator=(const Flight&) = delete;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text/redact.h"
-#include "spec/live/messages.h"
 
 namespace throng::live {
 
@@ -23,12 +23,12 @@ constexpr double kLookEveryS = 1;
 
 }  // namespace
 
-FlightRecording::FlightRecording(const fs::path& folder, std::uint64_t min_free_bytes)
-    : folder_(folder), min_free_bytes_(min_free_bytes) {
+FlightRecording::FlightRecording(fs::path file, std::uint64_t min_free_bytes)
+    : file_(std::move(file)), min_free_bytes_(min_free_bytes) {
   try {
     formats::McapOptions options;
     options.chunk_ns = kChunkNs;
-    recording_ = std::make_unique<formats::ros::Recording>(folder / kRecordingFile, options);
+    recording_ = std::make_unique<formats::ros::Recording>(file_, options);
   } catch (const EnvironmentError& error) {
     keep(error.what());
   }
@@ -59,7 +59,7 @@ json FlightRecording::finish() {
   const std::lock_guard lock(mutex_);
   close("");
   std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(folder_ / kRecordingFile, error);
+  const std::uintmax_t bytes = fs::file_size(file_, error);
   return {{"complete_until_s", std::min(complete_until_s_, lost_s_.value_or(complete_until_s_))},
           {"problem", problem_.empty() ? json() : json(problem_)},
           {"bytes", error ? 0 : bytes}};
@@ -70,7 +70,7 @@ void FlightRecording::look_at_disk(double time_s) {
   if (!recording_ || time_s < next_look_s_) return;
   next_look_s_ = time_s + kLookEveryS;
   std::error_code error;
-  const fs::space_info space = fs::space(folder_, error);
+  const fs::space_info space = fs::space(fs::absolute(file_).parent_path(), error);
   if (error || space.available >= min_free_bytes_) return;
   constexpr int kMibShift = 20;
   close(fmt::format("the disk has less than {} MiB of free space", min_free_bytes_ >> kMibShift));
@@ -94,7 +94,7 @@ void FlightRecording::release() {
 }
 
 void FlightRecording::keep(const std::string& problem) {
-  if (problem_.empty()) problem_ = without_folders(problem, {folder_});
+  if (problem_.empty()) problem_ = without_folders(problem, {file_.parent_path()});
 }
 
 }  // namespace throng::live

@@ -18,8 +18,8 @@ namespace throng::live {
 /// Safe to use from many threads.
 class FlightRecording {
  public:
-  /// Begins kRecordingFile in the folder. It ends when the disk has less free space than this.
-  FlightRecording(const std::filesystem::path& folder, std::uint64_t min_free_bytes);
+  /// Begins the file. It ends when the disk has less free space than this.
+  FlightRecording(std::filesystem::path file, std::uint64_t min_free_bytes);
   ~FlightRecording();
   FlightRecording(const FlightRecording&) = delete;
   FlightRecording& operator=(const FlightRecording&) = delete;
@@ -40,7 +40,7 @@ class FlightRecording {
   void release();
   void keep(const std::string& problem);
 
-  std::filesystem::path folder_;
+  std::filesystem::path file_;
   std::uint64_t min_free_bytes_;
   std::mutex mutex_;                                    ///< of all below
   std::unique_ptr<formats::ros::Recording> recording_;  ///< null if it has ended

@@ -63,6 +63,38 @@ ros::Box3 person_box(const Eigen::Vector2f& position, float yaw_rad, double radi
 
 }  // namespace
 
+std::vector<std::string> ros_names(const Flight& flight) {
+  ros::RosNames names("the job");
+  std::vector<std::string> list;
+  for (const sim::PlannedDrone& drone : flight.drones()) {
+    list.push_back(names.name_of(drone.mission.id));
+  }
+  return list;
+}
+
+std::vector<FlightTopic> flight_topics(const std::vector<std::string>& drones) {
+  using ros::Kind;
+  std::vector<FlightTopic> topics = {{"/clock", Kind::clock},
+                                     {"/tf", Kind::transforms},
+                                     {"/ground_truth/boxes", Kind::markers},
+                                     {"/ground_truth/detections_3d", Kind::detections_3d},
+                                     {"/events", Kind::text}};
+  for (std::size_t i = 0; i < drones.size(); ++i) {
+    const std::string root = "/" + drones[i];
+    topics.push_back({root + "/odometry", Kind::odometry});
+    topics.push_back({root + "/imu", Kind::imu});
+    topics.push_back({root + "/magnetic_field", Kind::magnetic_field});
+    topics.push_back({root + "/pressure", Kind::pressure});
+    topics.push_back({root + "/fix", Kind::fix});
+    topics.push_back({root + "/fix_velocity", Kind::velocity});
+    topics.push_back({root + "/command", Kind::velocity});
+    topics.push_back({.name = root + "/mode", .kind = Kind::text, .is_state = true});
+    topics.push_back({root + "/camera/camera_info", Kind::camera_info, i});
+    topics.push_back({root + "/camera/image_color/compressed", Kind::compressed_image, i});
+  }
+  return topics;
+}
+
 FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
                            std::vector<double> statures_m, ros::MessageSink sink)
     : sink_(std::move(sink)),
@@ -73,11 +105,11 @@ FlightTopics::FlightTopics(const jobs::JobSpec& job, const Flight& flight,
   const jobs::JobSpec run_job = jobs::job_of_run(job, 0);
   const std::uint64_t seed = jobs::plan_runs(job).front().seed;
   latitude_deg_ = jobs::environment_of_run(run_job.environment, seed).latitude_deg;
-  ros::RosNames names("the job");
-  for (std::size_t i = 0; i < flight.drones().size(); ++i) {
-    const sim::DroneMission& mission = flight.drones()[i].mission;
-    drones_.push_back({ros::DroneTopics(names.name_of(mission.id), sink_),
-                       shown_camera(mission.camera), jobs::make_sensors(run_job, seed, i)});
+  const std::vector<std::string> names = ros_names(flight);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    drones_.push_back({ros::DroneTopics(names[i], sink_),
+                       shown_camera(flight.drones()[i].mission.camera),
+                       jobs::make_sensors(run_job, seed, i)});
   }
 }
 
@@ -112,7 +144,9 @@ void FlightTopics::add_command(Drone& drone, const sim::RemoteCommand& command, 
   sink_({root + "/command", ros::Kind::velocity, time_s,
          ros::velocity({drone.topics.body_frame(), time_s}, command.velocity_mps,
                        {0, 0, command.yaw_rate_deg_s * kDegree})});
-  const json mode = {{"beacon", command.beacon}, {"return_home", command.goes_home}};
+  const json mode = {{"beacon", command.beacon},
+                     {"return_home", command.goes_home},
+                     {"route", command.route != nullptr}};
   if (std::string text = mode.dump(); text != drone.pilot_mode) {
     drone.pilot_mode = std::move(text);
     sink_({root + "/mode", ros::Kind::text, time_s, ros::text(drone.pilot_mode)});

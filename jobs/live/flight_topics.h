@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,20 @@
 namespace throng::live {
 
 namespace ros = formats::ros;
+
+/// A topic of a flight, and how its messages are sent to those who look on.
+struct FlightTopic {
+  std::string name;
+  ros::Kind kind = ros::Kind::clock;
+  std::optional<std::size_t> camera = {};  ///< index of the drone whose images it needs
+  bool is_state = false;                   ///< published when it changes: the last message holds
+};
+
+/// All topics of a flight with these drones (their names in ROS).
+std::vector<FlightTopic> flight_topics(const std::vector<std::string>& drones);
+
+/// The names of the flight's drones in ROS. Throws InputError for drones that have the same one.
+std::vector<std::string> ros_names(const Flight& flight);
 
 /// Hands the messages of each moment to a sink. All but add_image() come from one thread;
 /// add_image() may come from another one, and needs a sink that may be called from both.

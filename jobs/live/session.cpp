@@ -33,6 +33,7 @@
 #include "jobs/live/onboard_camera.h"
 #include "jobs/live/people_in_motion.h"
 #include "jobs/live/state_message.h"
+#include "jobs/live/wishes.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/queue/confine/file_fence.h"
 #include "jobs/queue/workers/worker_interface.h"
@@ -77,41 +78,6 @@ class Output {
   std::mutex mutex_;
 };
 
-/// Everything that is asked for from outside.
-struct Wishes {
-  std::vector<sim::RemoteCommand> commands;  ///< per drone
-  std::uint32_t sequence = 0;
-  double factor = 1;
-  bool paused = false;
-  std::size_t view = 0;  ///< the drone whose camera is shown
-  int viewers = 0;
-  bool stop = false;
-
-  bool runs() const { return viewers > 0 && !paused && !stop; }
-};
-
-void merge(const Commands& given, const std::vector<std::string>& ids, Wishes& wishes) {
-  const auto number = [&](const std::string& id) {
-    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
-  };
-  if (given.sequence) wishes.sequence = static_cast<std::uint32_t>(*given.sequence);
-  if (given.paused) wishes.paused = *given.paused;
-  if (given.factor) wishes.factor = *given.factor;
-  if (given.view) wishes.view = number(*given.view);
-  for (const DroneCommand& drone : given.drones) {
-    sim::RemoteCommand& command = wishes.commands.at(number(drone.id));
-    if (drone.velocity_mps) {
-      const auto& [ahead, left, up] = *drone.velocity_mps;
-      command.velocity_mps = {ahead, left, up};
-      // The pilot steers again.
-      if (!command.velocity_mps.isZero()) command.goes_home = false;
-    }
-    if (drone.yaw_rate_deg_s) command.yaw_rate_deg_s = *drone.yaw_rate_deg_s;
-    if (drone.beacon) command.beacon = *drone.beacon;
-    if (drone.return_home) command.goes_home = *drone.return_home;
-  }
-}
-
 class Session {
  public:
   /// `give_up` reports the current exception and ends the process.
@@ -155,7 +121,7 @@ class Session {
 
  private:
   void begin_recording(const fs::path& folder, const RecordingOptions& options) {
-    recording_.emplace(folder, options.min_free_bytes);
+    recording_.emplace(folder / kRecordingFile, options.min_free_bytes);
     try {
       topics_.emplace(job_, flight_, statures_m(flight_.header(), population_, clothing(job_)),
                       [this](const ros::TopicMessage& message) { recording_->add(message); });
@@ -175,8 +141,8 @@ class Session {
         merge(commands_from_json(*given, ids_), ids_, wishes_);
         commanded_ = Clock::now();
       }
-      wishes_.viewers = message.value("viewers", wishes_.viewers);
-      wishes_.stop |= message.value("stop", false);
+      viewers_ = message.value("viewers", viewers_);
+      should_stop_ |= message.value("stop", false);
       changed_.notify_all();
     }
     std::_Exit(jobs::worker_environment_error);
@@ -189,16 +155,16 @@ class Session {
     std::optional<Clock::time_point> last;
     while (flight_.time_s() + flight_.dt_s() <= kMaxFlightS) {
       std::unique_lock lock(mutex_);
-      if (!wishes_.runs() && !wishes_.stop) {
+      if (!runs() && !should_stop_) {
         output_.send(MessageType::state, state_bytes(*moment_, 0, true));
-        changed_.wait(lock, [this] { return wishes_.runs() || wishes_.stop || failure_; });
+        changed_.wait(lock, [this] { return runs() || should_stop_ || failure_; });
         next = Clock::now();
         last.reset();
         mean_step_s.reset();
       }
-      if (wishes_.stop || failure_) return;
-      changed_.wait_until(lock, next, [this] { return !wishes_.runs() || failure_; });
-      if (!wishes_.runs() || failure_) continue;
+      if (should_stop_ || failure_) return;
+      changed_.wait_until(lock, next, [this] { return !runs() || failure_; });
+      if (!runs() || failure_) continue;
       const Wishes wishes = in_force();
       lock.unlock();
 
@@ -229,15 +195,15 @@ class Session {
     }
   }
 
+  /// Whether time goes on. With the mutex held.
+  bool runs() const { return viewers_ > 0 && !wishes_.paused && !should_stop_; }
+
   /// Drones whose pilot is gone stop.
   Wishes in_force() const {
     constexpr std::chrono::milliseconds kSilence(1000);
     Wishes wishes = wishes_;
     if (Clock::now() - commanded_ > kSilence) {
-      for (sim::RemoteCommand& command : wishes.commands) {
-        command.velocity_mps.setZero();
-        command.yaw_rate_deg_s = 0;
-      }
+      for (sim::RemoteCommand& command : wishes.commands) stop_moving(command);
     }
     return wishes;
   }
@@ -264,7 +230,7 @@ class Session {
         const std::shared_ptr<const Moment> moment = moment_;
         const double time_s = shown_time(*moment);
         const std::size_t view = wishes_.view;
-        const bool is_seen = wishes_.viewers > 0;
+        const bool is_seen = viewers_ > 0;
         lock.unlock();
         const auto now = Clock::now();
         const bool is_new = time_s != shown_s || view != shown_view || now - last >= kStill;
@@ -300,6 +266,8 @@ class Session {
   std::mutex mutex_;                    ///< of all below
   std::condition_variable changed_;
   Wishes wishes_;
+  int viewers_ = 0;
+  bool should_stop_ = false;
   Clock::time_point commanded_;
   std::shared_ptr<const Moment> moment_;
   Clock::time_point stepped_;

@@ -140,15 +140,25 @@ class LiveFlight:
         yaw_rate_deg_s: float | None = None,
         beacon: bool | None = None,
         return_home: bool | None = None,
+        position_m: Sequence[float] | None = None,
+        waypoints_m: Sequence[Sequence[float]] | None = None,
+        yaw_deg: float | None = None,
+        speed_mps: float | None = None,
         sequence: int | None = None,
     ) -> None:
-        """Commands a drone: velocity ahead, to the left and up. To be repeated at least once a second."""
+        """Commands a drone: velocity ahead, to the left and up, to be repeated at least once a second; or points
+        of the world to fly to, and the heading there.
+        """
         one = {
             "id": drone,
             "velocity_mps": None if velocity_mps is None else list(velocity_mps),
             "yaw_rate_deg_s": yaw_rate_deg_s,
             "beacon": beacon,
             "return_home": return_home,
+            "position_m": None if position_m is None else list(position_m),
+            "waypoints_m": None if waypoints_m is None else [list(point) for point in waypoints_m],
+            "yaw_deg": yaw_deg,
+            "speed_mps": speed_mps,
         }
         body: dict[str, Any] = {"drones": [{key: value for key, value in one.items() if value is not None}]}
         if sequence is not None:

@@ -771,6 +771,14 @@ class LiveCommandsDrone(TypedDict):
     """Velocity [ahead, to the left, up]. Drones fly at most 10 m/s over the ground and 3 m/s up or down."""
     yaw_rate_deg_s: NotRequired[float]
     """Rate of yaw, counter-clockwise; drones turn at most at 120."""
+    position_m: NotRequired[list[float]]
+    """Point [x, y, z] in the world to fly to, after the waypoints if both are given. The drone stays there."""
+    waypoints_m: NotRequired[list[list[float]]]
+    """Points [x, y, z] in the world to fly to one after another; an empty list ends a flight to points."""
+    yaw_deg: NotRequired[float]
+    """Heading to turn to, counter-clockwise from +x. Without points, the drone turns where it is."""
+    speed_mps: NotRequired[float]
+    """Speed on the way to points given with it; default: 5."""
     beacon: NotRequired[bool]
     """Whether people may follow the drone."""
     return_home: NotRequired[bool]

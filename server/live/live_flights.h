@@ -19,7 +19,7 @@ namespace throng::server {
 
 /// Limits on live flights.
 struct LiveLimits {
-  std::vector<std::string> command = {"/proc/self/exe", "live"};  ///< program of a flight
+  std::vector<std::string> command = {"/proc/self/exe", "live-process"};  ///< a flight's
   std::size_t max_per_owner = 2;
   std::size_t max_all = 4;
   std::chrono::milliseconds unseen{30'000};  ///< time without viewers until a flight ends

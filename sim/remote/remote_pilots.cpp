@@ -20,6 +20,7 @@ constexpr double kMaxHeightM = 500;
 constexpr double kMaxAwayM = 2000;        // from the start
 constexpr double kMaxSetpointAheadM = 4;  // of the drone
 constexpr double kHomeSpeedMps = 5;
+constexpr double kReachedM = 0.5;  // of a point of a route, before the next one
 // Between two drones; more than either flies in a step, so that none gets past another unseen.
 constexpr double kMinGapM = 2;
 
@@ -60,26 +61,61 @@ void fly_remotely(RunSpec& spec, const world::Scenario& scenario) {
 }
 
 RemotePilots::RemotePilots(const world::Scenario& scenario, SteppedRun& run, const RunSpec& spec)
-    : scenario_(scenario), run_(run), velocities_(spec.drones.size(), Vector3d::Zero()) {
+    : scenario_(scenario),
+      run_(run),
+      velocities_(spec.drones.size(), Vector3d::Zero()),
+      progress_(spec.drones.size()) {
   for (const DroneMission& mission : spec.drones) logs_.push_back(mission.guidance.setpoints);
 }
 
-Vector3d RemotePilots::wanted_velocity(std::size_t drone, const RemoteCommand& command) const {
+Vector3d RemotePilots::wanted_velocity(std::size_t drone, const RemoteCommand& command) {
   const PilotSample& last = logs_[drone].back();
+  Progress& progress = progress_[drone];
+  if (progress.route != command.route) progress = {command.route, 0};
   if (command.goes_home) {
-    const Vector3d way = logs_[drone].front().position - last.position;
-    const double brake_mps = std::sqrt(2 * 0.5 * kMaxAccelerationMps2 * way.norm());
-    const double speed_mps = std::min({kHomeSpeedMps, brake_mps, way.norm() / run_.dt_s()});
-    return way.norm() > 0 ? limited(way.normalized() * speed_mps) : Vector3d::Zero();
+    return velocity_to(drone, logs_[drone].front().position, kHomeSpeedMps);
   }
+  if (command.route) return kept_near(drone, velocity_along(drone, *command.route));
   const double c = std::cos(last.yaw_rad);
   const double s = std::sin(last.yaw_rad);
   const Vector3d& v = command.velocity_mps;
-  const Vector3d wanted = limited({c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()});
-  // A drone that the wind or its strength keeps back is not left behind.
-  const Vector3d ahead = last.position - run_.drone_state(drone).position;
-  const bool leaves = ahead.norm() > kMaxSetpointAheadM && ahead.dot(wanted) > 0;
-  return leaves ? Vector3d::Zero() : wanted;
+  return kept_near(drone, limited({c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()}));
+}
+
+/// Slows down so that the drone stops at the point.
+Vector3d RemotePilots::velocity_to(std::size_t drone, const Vector3d& point,
+                                   double speed_mps) const {
+  const Vector3d way = point - logs_[drone].back().position;
+  const double brake_mps = std::sqrt(2 * 0.5 * kMaxAccelerationMps2 * way.norm());
+  const double speed = std::min({speed_mps, brake_mps, way.norm() / run_.dt_s()});
+  return way.norm() > 0 ? limited(way.normalized() * speed) : Vector3d::Zero();
+}
+
+Vector3d RemotePilots::velocity_along(std::size_t drone, const RemoteRoute& route) {
+  if (route.points.empty()) return Vector3d::Zero();
+  std::size_t& next = progress_[drone].next;
+  while (next + 1 < route.points.size() &&
+         (route.points[next] - logs_[drone].back().position).norm() < kReachedM) {
+    ++next;
+  }
+  return velocity_to(drone, route.points[next], route.speed_mps);
+}
+
+/// No velocity for a set-point that leaves behind a drone that the wind or its strength keeps back.
+Vector3d RemotePilots::kept_near(std::size_t drone, const Vector3d& velocity) const {
+  const Vector3d ahead = logs_[drone].back().position - run_.drone_state(drone).position;
+  const bool leaves = ahead.norm() > kMaxSetpointAheadM && ahead.dot(velocity) > 0;
+  return leaves ? Vector3d::Zero() : velocity;
+}
+
+double RemotePilots::wanted_yaw_rate(std::size_t drone, const RemoteCommand& command) const {
+  double rate_deg_s = command.yaw_rate_deg_s;
+  if (!command.goes_home && command.route && command.route->yaw_rad) {
+    const double turn_rad =
+        std::remainder(*command.route->yaw_rad - logs_[drone].back().yaw_rad, 2 * EIGEN_PI);
+    rate_deg_s = turn_rad / kDegree / run_.dt_s();
+  }
+  return std::clamp(rate_deg_s, -kMaxRemoteYawDegS, kMaxRemoteYawDegS);
 }
 
 double RemotePilots::room_m(std::size_t one, const Vector3d& place, std::size_t other) const {
@@ -122,9 +158,7 @@ void RemotePilots::advance(const std::vector<RemoteCommand>& commands) {
     // Along a wall, over a roof, or else not at all.
     const std::array<Vector3d, 5> moves = {v, Vector3d(v.x(), v.y(), 0), Vector3d(v.x(), 0, v.z()),
                                            Vector3d(0, v.y(), v.z()), Vector3d(0, 0, v.z())};
-    const double yaw_rate =
-        std::clamp(command.yaw_rate_deg_s, -kMaxRemoteYawDegS, kMaxRemoteYawDegS);
-    const double yaw_deg = last.yaw_rad / kDegree + yaw_rate * dt_s;
+    const double yaw_deg = last.yaw_rad / kDegree + wanted_yaw_rate(i, command) * dt_s;
     const double time_s = run_.time_s() + dt_s;
     PilotSample next = sample_at(time_s, last.position, yaw_deg, command.beacon);
     velocities_[i].setZero();

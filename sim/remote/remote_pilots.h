@@ -7,6 +7,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/stepped_run.h"
@@ -20,13 +22,23 @@ inline constexpr double kMaxRemoteSpeedMps = 10;  ///< horizontal
 inline constexpr double kMaxRemoteClimbMps = 3;
 inline constexpr double kMaxRemoteYawDegS = 120;
 
+/// Points to be flown to one after another; the drone stays at the last one.
+struct RemoteRoute {
+  std::vector<Eigen::Vector3d> points;  ///< m, in the world; none: the drone only turns
+  double speed_mps = 5;                 ///< between the points
+  std::optional<double> yaw_rad;        ///< heading to turn to; none: as it is
+};
+
 /// A command of the user who flies a drone, valid until the next one.
 struct RemoteCommand {
   /// Velocity forward, left and up in the heading frame of the drone's set-point, m/s.
   Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
   double yaw_rate_deg_s = 0;  ///< counter-clockwise
   bool beacon = false;
-  bool goes_home = false;  ///< fly to the start; `velocity_mps` is ignored
+  bool goes_home = false;  ///< fly to the start; `velocity_mps` and `route` are ignored
+  /// If set, `velocity_mps` is ignored, and so is the yaw rate where the route has a heading.
+  /// Another object, be it equal, begins at its first point.
+  std::shared_ptr<const RemoteRoute> route = nullptr;
 };
 
 /// Changes all drones of `spec` to the policy "pilot_log" with their starts as first set-points.
@@ -49,7 +61,18 @@ class RemotePilots {
   const std::vector<PilotSample>& log(std::size_t drone) const { return logs_[drone]; }
 
  private:
-  Eigen::Vector3d wanted_velocity(std::size_t drone, const RemoteCommand& command) const;
+  /// A drone's progress along its route.
+  struct Progress {
+    std::shared_ptr<const RemoteRoute> route;
+    std::size_t next = 0;  ///< index of the point to which it flies
+  };
+
+  Eigen::Vector3d wanted_velocity(std::size_t drone, const RemoteCommand& command);
+  Eigen::Vector3d velocity_along(std::size_t drone, const RemoteRoute& route);
+  Eigen::Vector3d velocity_to(std::size_t drone, const Eigen::Vector3d& point,
+                              double speed_mps) const;
+  Eigen::Vector3d kept_near(std::size_t drone, const Eigen::Vector3d& velocity) const;
+  double wanted_yaw_rate(std::size_t drone, const RemoteCommand& command) const;
   bool is_free(std::size_t drone, const Eigen::Vector3d& to) const;
   double room_m(std::size_t one, const Eigen::Vector3d& place, std::size_t other) const;
 
@@ -57,6 +80,7 @@ class RemotePilots {
   SteppedRun& run_;
   std::vector<std::vector<PilotSample>> logs_;  ///< per drone
   std::vector<Eigen::Vector3d> velocities_;     ///< of the set-points, m/s
+  std::vector<Progress> progress_;              ///< per drone
 };
 
 }  // namespace throng::sim

@@ -27,20 +27,48 @@ constexpr std::int64_t kMaxSequence = 4'294'967'295;
 constexpr int kMaxDrones = 100;
 constexpr int kMaxName = 200;
 
+constexpr double kMaxAwayM = 10'000;  // of coordinates
+constexpr double kMaxTurnDeg = 360;
+constexpr double kMinSpeedMps = 0.1;
+constexpr std::size_t kMaxWaypoints = 50;
+
 json velocity_json(const DroneCommand& command) { return fields::value_json(command.velocity_mps); }
+json position_json(const DroneCommand& command) { return fields::value_json(command.position_m); }
+json waypoints_json(const DroneCommand& command) { return fields::value_json(command.waypoints_m); }
+
+bool is_vector(const json& value, double limit) {
+  const auto is_within = [&](const json& number) {
+    return number.is_number() && std::abs(number.get<double>()) <= limit;
+  };
+  return value.is_array() && value.size() == 3 &&
+         std::all_of(value.begin(), value.end(), is_within);
+}
+
+void refuse_vector(const json& value, double limit, const FieldLocation& place) {
+  constexpr std::size_t kShown = 60;
+  place.problems.push_back({"", place.pointer, value.dump().substr(0, kShown),
+                            fmt::format("3 numbers from {:g} to {:g}", -limit, limit)});
+}
 
 void set_velocity(DroneCommand& command, const json& value, const FieldLocation& place) {
-  const auto is_speed = [](const json& speed) {
-    return speed.is_number() && std::abs(speed.get<double>()) <= kMaxSpeedMps;
-  };
-  if (value.size() == 3 && std::all_of(value.begin(), value.end(), is_speed)) {
-    fields::set_value(value, command.velocity_mps);
-    return;
+  if (!is_vector(value, kMaxSpeedMps)) return refuse_vector(value, kMaxSpeedMps, place);
+  fields::set_value(value, command.velocity_mps);
+}
+
+void set_position(DroneCommand& command, const json& value, const FieldLocation& place) {
+  if (!is_vector(value, kMaxAwayM)) return refuse_vector(value, kMaxAwayM, place);
+  fields::set_value(value, command.position_m);
+}
+
+void set_waypoints(DroneCommand& command, const json& value, const FieldLocation& place) {
+  auto& points = command.waypoints_m.emplace();
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (is_vector(value[i], kMaxAwayM)) {
+      fields::set_value(value[i], points.emplace_back());
+    } else {
+      refuse_vector(value[i], kMaxAwayM, place.below(std::to_string(i)));
+    }
   }
-  constexpr std::size_t kShown = 60;
-  place.problems.push_back(
-      {"", place.pointer, value.dump().substr(0, kShown),
-       fmt::format("3 numbers from {:g} to {:g}", -kMaxSpeedMps, kMaxSpeedMps)});
 }
 
 const FieldTable<DroneCommand>& drone_fields() {
@@ -51,6 +79,14 @@ const FieldTable<DroneCommand>& drone_fields() {
               set_velocity, "");
     table.add("yaw_rate_deg_s", "", "degrees/s", fields::numbers(-kMaxYawDegS, kMaxYawDegS),
               at(&DroneCommand::yaw_rate_deg_s), "");
+    table.add("position_m", "", "m", fields::raw({{"type", "array"}}), position_json, set_position,
+              "");
+    table.add("waypoints_m", "", "m", fields::raw({{"type", "array"}, {"maxItems", kMaxWaypoints}}),
+              waypoints_json, set_waypoints, "");
+    table.add("yaw_deg", "", "degrees", fields::numbers(-kMaxTurnDeg, kMaxTurnDeg),
+              at(&DroneCommand::yaw_deg), "");
+    table.add("speed_mps", "", "m/s", fields::numbers(kMinSpeedMps, kMaxSpeedMps),
+              at(&DroneCommand::speed_mps), "");
     table.add("beacon", "", "", fields::booleans(), at(&DroneCommand::beacon), "");
     table.add("return_home", "", "", fields::booleans(), at(&DroneCommand::return_home), "");
     return table;

@@ -18,6 +18,12 @@ struct DroneCommand {
   /// Forward, left, up in the drone's heading frame.
   std::optional<std::array<double, 3>> velocity_mps;
   std::optional<double> yaw_rate_deg_s;  ///< counter-clockwise
+  /// Point to fly to in the world, after the waypoints if both are given.
+  std::optional<std::array<double, 3>> position_m;
+  /// Points to fly to one after another; none: the drone stops.
+  std::optional<std::vector<std::array<double, 3>>> waypoints_m;
+  std::optional<double> yaw_deg;    ///< heading to turn to, counter-clockwise from +x
+  std::optional<double> speed_mps;  ///< on the way to these points
   std::optional<bool> beacon;
   std::optional<bool> return_home;
 };

@@ -3,6 +3,7 @@ import base64
 import csv
 import hashlib
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -197,6 +198,25 @@ class Live(WithServer):
         flight.remove()
         with self.assertRaises(throng.NotFoundError):
             flight.state()
+
+    def test_drones_fly_to_points(self):
+        flight = self.live()
+        flight.command({"factor": 10})
+        goals = [(-24.3, 2, 18), (9, 9, 14)]
+        flight.fly("d1", position_m=goals[0], yaw_deg=0, speed_mps=4)
+        flight.fly("d2", waypoints_m=[(5, 8, 15), goals[1]])
+        for message in flight.messages():
+            if not isinstance(message, throng.LiveState):
+                continue
+            # No more commands: points are flown to without them.
+            off = [math.dist(drone["position"], goal) for drone, goal in zip(message.drones, goals)]
+            if max(off) < 0.7:
+                break
+            self.assertLess(message.time_s, 300, off)
+        with self.assertRaises(throng.InvalidRequestError) as refused:
+            flight.fly("d1", waypoints_m=[(1, 2, 3), (1, 2)])
+        self.assertEqual([mistake.pointer for mistake in refused.exception.errors], ["/drones/0/waypoints_m/1"])
+        flight.stop()
 
     def test_a_recording_holds_the_flight(self):
         flight = self.client.live(JOB, record=True)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "base/files/files.h"
 #include "sim/recording/pilot_log.h"
@@ -49,9 +50,12 @@ RemoteCommand command_at(int step, int drone) {
   return command;
 }
 
+/// Gives a drone's command in a step.
+using Steer = std::function<RemoteCommand(int step, int drone)>;
+
 /// Flies, writes the trace, and returns the drones' logs.
 std::vector<std::vector<PilotSample>> fly(const world::Scenario& scenario, const RunSpec& asked,
-                                          const fs::path& trace) {
+                                          const fs::path& trace, const Steer& steer = command_at) {
   RunSpec spec = asked;
   fly_remotely(spec, scenario);
   TraceRecorder recorder(trace, {});
@@ -60,7 +64,7 @@ std::vector<std::vector<PilotSample>> fly(const world::Scenario& scenario, const
   for (int step = 0; step < kSteps; ++step) {
     std::vector<RemoteCommand> commands;
     for (std::size_t i = 0; i < spec.drones.size(); ++i) {
-      commands.push_back(command_at(step, static_cast<int>(i)));
+      commands.push_back(steer(step, static_cast<int>(i)));
     }
     pilots.advance(commands);
     run.step();
@@ -93,6 +97,35 @@ TEST(RemotePilots, TheLogRepeatsTheFlightByteForByte) {
   const world::Trace trace = world::read_trace(folder.path() / "flown.h5");
   EXPECT_GT((trace.drone_at(0, 6).position - trace.drone_at(0, 0).position).norm(), 3)
       << "the drone has flown somewhere";
+}
+
+TEST(RemotePilots, FlyRoutesPointByPointAndTurn) {
+  const ::throng::testing::TemporaryFolder folder;
+  const world::Scenario scenario = square();
+  const RunSpec spec = run_with_drones(2);
+  const std::vector<Eigen::Vector3d> corners = {{6, 2, 14}, {6, 9, 14}, {0, 9, 11}};
+  const auto around = std::make_shared<const RemoteRoute>(RemoteRoute{corners, 4, EIGEN_PI / 2});
+  const auto aside = std::make_shared<const RemoteRoute>(RemoteRoute{{{14, 6, 12}}, 6, {}});
+  const auto steer = [&](int step, int drone) {
+    RemoteCommand command;
+    command.velocity_mps = {-9, -9, 0};  // the route counts
+    command.route = drone == 0 ? around : step < 20 ? nullptr : aside;
+    return command;
+  };
+  const auto logs = fly(scenario, spec, folder.path() / "flown.h5", steer);
+  constexpr double kNearM = 0.6;
+  std::size_t seen = 0;
+  for (const PilotSample& sample : logs[0]) {
+    if (seen < corners.size() && (sample.position - corners[seen]).norm() < kNearM) ++seen;
+  }
+  EXPECT_EQ(seen, corners.size());
+  EXPECT_LT((logs[0].back().position - corners.back()).norm(), 0.01);
+  EXPECT_NEAR(logs[0].back().yaw_rad, EIGEN_PI / 2, 1e-4);
+  EXPECT_LT(logs[1][20].position.y(), 0) << "by its velocity until the route comes";
+  EXPECT_LT((logs[1].back().position - aside->points[0]).norm(), 0.01);
+  EXPECT_EQ(logs[1].back().yaw_rad, logs[1].front().yaw_rad);
+  simulate(scenario, replay_flight(spec, logs), folder.path() / "replayed.h5");
+  EXPECT_EQ(read_file(folder.path() / "flown.h5"), read_file(folder.path() / "replayed.h5"));
 }
 
 TEST(RemotePilots, KeepOutOfBuildingsAndOffTheGround) {

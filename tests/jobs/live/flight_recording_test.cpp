@@ -33,7 +33,7 @@ std::vector<formats::mcap::Message> read_messages(const jobs::TemporaryFolder& f
 
 TEST(FlightRecording, HoldsAllMessages) {
   const jobs::TemporaryFolder folder;
-  FlightRecording recording(folder.path(), 0);
+  FlightRecording recording(folder.path() / kRecordingFile, 0);
   for (const double time_s : {0.0, 0.5, 2.0, 1.9}) recording.add(text_at(time_s));
   const json result = recording.finish();
   EXPECT_EQ(result.at("complete_until_s"), 2.0);
@@ -45,7 +45,7 @@ TEST(FlightRecording, HoldsAllMessages) {
 /// As a disk that is full does, within a limit of this process for files.
 TEST(FlightRecording, FullDiskEndsItAndKeepsWhatIsThere) {
   const jobs::TemporaryFolder folder;
-  FlightRecording recording(folder.path(), 0);
+  FlightRecording recording(folder.path() / kRecordingFile, 0);
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -76,7 +76,7 @@ TEST(FlightRecording, FullDiskEndsItAndKeepsWhatIsThere) {
 
 TEST(FlightRecording, EndsBeforeTheDiskIsFull) {
   const jobs::TemporaryFolder folder;
-  FlightRecording recording(folder.path(), std::uint64_t{1} << 60);
+  FlightRecording recording(folder.path() / kRecordingFile, std::uint64_t{1} << 60);
   recording.add(text_at(0));
   recording.add(text_at(1));
   const json result = recording.finish();
@@ -86,7 +86,7 @@ TEST(FlightRecording, EndsBeforeTheDiskIsFull) {
 }
 
 TEST(FlightRecording, WithoutAFolderThereIsNoFile) {
-  FlightRecording recording("/nowhere", 0);
+  FlightRecording recording("/nowhere/flight.mcap", 0);
   recording.add(text_at(3));
   const json result = recording.finish();
   EXPECT_THAT(result.at("problem").get<std::string>(), HasSubstr("cannot write flight.mcap"));
@@ -96,7 +96,7 @@ TEST(FlightRecording, WithoutAFolderThereIsNoFile) {
 
 TEST(FlightRecording, NamesTheFirstProblem) {
   const jobs::TemporaryFolder folder;
-  FlightRecording recording(folder.path(), 0);
+  FlightRecording recording(folder.path() / kRecordingFile, 0);
   recording.add(text_at(0));
   recording.add(text_at(2));
   recording.stop("names of drones");

@@ -72,6 +72,21 @@ class FlightTopicsTest : public ::testing::Test {
   std::unique_ptr<FlightTopics> topics_;
 };
 
+TEST_F(FlightTopicsTest, AreAllNamedBefore) {
+  jobs::write_yard(folder_.path());
+  begin();
+  for (int i = 0; i < 5; ++i) step(std::vector<sim::RemoteCommand>(2));
+  topics_->add_image(*flight_->moment(0), 0, flight_->time_s(), "jpeg");
+  std::map<std::string, ros::Kind> named;
+  for (const FlightTopic& topic : flight_topics(ros_names(*flight_))) {
+    named[topic.name] = topic.kind;
+  }
+  for (const ros::TopicMessage& message : messages_) {
+    ASSERT_TRUE(named.count(message.topic)) << message.topic;
+    EXPECT_EQ(named[message.topic], message.kind) << message.topic;
+  }
+}
+
 TEST_F(FlightTopicsTest, ComeInTheOrderOfTime) {
   jobs::write_yard(folder_.path());
   begin();
@@ -113,7 +128,7 @@ TEST_F(FlightTopicsTest, CommandsHoldFromTheBeginningOfTheirStep) {
                                           {0, 0, 0.5 * EIGEN_PI}));
   const auto modes = of_topic("/drone_2/mode");
   ASSERT_EQ(modes.size(), 2U);
-  EXPECT_EQ(modes[1].bytes, ros::text(R"({"beacon":true,"return_home":false})"));
+  EXPECT_EQ(modes[1].bytes, ros::text(R"({"beacon":true,"return_home":false,"route":false})"));
   const auto events = of_topic("/events");
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].time_s, 0.15);

@@ -52,6 +52,24 @@ TEST(Commands, PrintedOnesAreReadAgain) {
   EXPECT_EQ(commands_from_json(to_json(Commands{}), kDrones).drones.size(), 0U);
 }
 
+TEST(Commands, PlacesToFlyToAreReadAndPrinted) {
+  const json text = json::parse(
+      R"({"drones": [{"id": "left", "position_m": [1, 2.5, 10], "yaw_deg": -90, "speed_mps": 3},
+                     {"id": "right", "waypoints_m": [[0, 0, 9], [4, 0, 9]]}]})");
+  const Commands commands = commands_from_json(text, kDrones);
+  EXPECT_EQ(commands.drones[0].position_m, (std::array<double, 3>{1, 2.5, 10}));
+  EXPECT_EQ(commands.drones[0].yaw_deg, -90);
+  EXPECT_FALSE(commands.drones[0].waypoints_m);
+  ASSERT_EQ(commands.drones[1].waypoints_m.value().size(), 2U);
+  EXPECT_EQ(to_json(commands), text);
+  const auto found = mistakes(
+      R"({"drones": [{"id": "left", "position_m": [1, 2], "speed_mps": 0},
+                     {"id": "right", "waypoints_m": [[0, 0, 1e9], 4], "yaw_deg": "north"}]})");
+  EXPECT_EQ(found.size(), 5U);
+  EXPECT_EQ(found[0], "/drones/0/position_m: [1,2]");
+  EXPECT_EQ(found[2].substr(0, 25), "/drones/1/waypoints_m/0: ");
+}
+
 TEST(Commands, EveryMistakeIsNamed) {
   const auto found = mistakes(
       R"({"faktor": 1, "factor": 11, "view": "middle", "paused": 1, "sequence": -1,

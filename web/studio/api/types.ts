@@ -585,6 +585,14 @@ export interface LiveCommands {
     velocity_mps?: number[];
     /** Rate of yaw, counter-clockwise; drones turn at most at 120. */
     yaw_rate_deg_s?: number;
+    /** Point [x, y, z] in the world to fly to, after the waypoints if both are given. The drone stays there. */
+    position_m?: number[];
+    /** Points [x, y, z] in the world to fly to one after another; an empty list ends a flight to points. */
+    waypoints_m?: number[][];
+    /** Heading to turn to, counter-clockwise from +x. Without points, the drone turns where it is. */
+    yaw_deg?: number;
+    /** Speed on the way to points given with it; default: 5. */
+    speed_mps?: number;
     /** Whether people may follow the drone. */
     beacon?: boolean;
     /** Whether the drone returns to its start, until it is steered again. */

@@ -1,0 +1,186 @@
+#include "jobs/live/outside/control.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "world/trace.h"
+
+namespace throng::live {
+
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Control::Control(std::vector<std::string> drones, const Pace& pace, std::stop_token stop)
+    : drones_(std::move(drones)),
+      max_s_(pace.max_s),
+      stop_(std::move(stop)),
+      commanded_s_(drones_.size(), kNever) {
+  wishes_.commands.resize(drones_.size());
+  wishes_.factor = pace.factor;
+  wishes_.paused = pace.paused;
+}
+
+void Control::command(const Commands& commands) {
+  const std::lock_guard lock(mutex_);
+  merge(commands, drones_, wishes_);
+  for (const DroneCommand& drone : commands.drones) {
+    if (!drone.velocity_mps && !drone.yaw_rate_deg_s) continue;
+    const auto found = std::find(drones_.begin(), drones_.end(), drone.id);
+    commanded_s_.at(static_cast<std::size_t>(found - drones_.begin())) = moment_->time_s;
+  }
+  changed_.notify_all();
+}
+
+void Control::step(std::int64_t steps, Answer answer) {
+  const std::lock_guard lock(mutex_);
+  if (!wishes_.paused) {
+    throw InputError({"/throng/step", "", "a flight that is not paused",
+                      "one that is (/throng/pause, or the parameter paused)"});
+  }
+  goal_ = std::max(goal_, steps_) + static_cast<std::uint64_t>(steps);
+  waiting_.push_back({goal_, std::move(answer)});
+  changed_.notify_all();
+}
+
+void Control::reset(std::optional<std::uint64_t> seed, Answer answer) {
+  const std::lock_guard lock(mutex_);
+  if (reset_) throw InputError({"/throng/reset", "", "a reset that is under way", "one at a time"});
+  reset_ = Reset{seed, std::move(answer)};
+  changed_.notify_all();
+}
+
+void Control::end() {
+  const std::lock_guard lock(mutex_);
+  ends_ = true;
+  changed_.notify_all();
+}
+
+Wishes Control::wishes() const {
+  const std::lock_guard lock(mutex_);
+  return wishes_;
+}
+
+double Control::time_s() const {
+  const std::lock_guard lock(mutex_);
+  return moment_->time_s;
+}
+
+double Control::reached_factor() const {
+  const std::lock_guard lock(mutex_);
+  return mean_step_s_ ? moment_->dt_s / *mean_step_s_ : 0;
+}
+
+void Control::begin(std::shared_ptr<const Moment> moment) {
+  const std::lock_guard lock(mutex_);
+  wishes_.commands.assign(drones_.size(), {});
+  commanded_s_.assign(drones_.size(), kNever);
+  moment_ = std::move(moment);
+  next_ = stepped_ = Clock::now();
+  last_.reset();
+  mean_step_s_.reset();
+}
+
+Turn Control::wait_for_turn() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (should_end()) return Turn::end;
+    if (reset_) return Turn::reset;
+    if (moment_->time_s + moment_->dt_s > max_s_ + world::kTimeSlackS) return Turn::end;
+    const bool is_asked = steps_ < goal_;
+    if (is_asked || (!wishes_.paused && wishes_.factor == 0)) return Turn::step;
+    if (wishes_.paused) {
+      changed_.wait(lock, stop_,
+                    [this] { return !wishes_.paused || steps_ < goal_ || reset_ || ends_; });
+      next_ = Clock::now();
+      last_.reset();
+      mean_step_s_.reset();
+      continue;
+    }
+    if (Clock::now() >= next_) return Turn::step;
+    changed_.wait_until(lock, stop_, next_, [this] {
+      return wishes_.paused || wishes_.factor == 0 || reset_ || ends_;
+    });
+  }
+}
+
+Wishes Control::in_force() const {
+  const std::lock_guard lock(mutex_);
+  Wishes wishes = wishes_;
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    const double silence_s = moment_->time_s - commanded_s_[i];
+    if (silence_s > kSilenceS - world::kTimeSlackS) stop_moving(wishes.commands[i]);
+  }
+  return wishes;
+}
+
+void Control::done(std::shared_ptr<const Moment> moment) {
+  std::vector<Waiting> ready;
+  double time_s = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    moment_ = std::move(moment);
+    time_s = moment_->time_s;
+    ++steps_;
+    plan_next(Clock::now());
+    const auto first =
+        std::stable_partition(waiting_.begin(), waiting_.end(),
+                              [this](const Waiting& each) { return each.step > steps_; });
+    ready.assign(std::make_move_iterator(first), std::make_move_iterator(waiting_.end()));
+    waiting_.erase(first, waiting_.end());
+  }
+  for (const Waiting& each : ready) each.answer("", time_s);
+}
+
+void Control::plan_next(Clock::time_point now) {
+  constexpr double kNew = 0.1;  // share of the newest in the mean
+  constexpr std::chrono::milliseconds kMaxLate(50);
+  stepped_ = now;
+  if (last_ && now > *last_) {
+    const double step_s = std::chrono::duration<double>(now - *last_).count();
+    mean_step_s_ = mean_step_s_ ? *mean_step_s_ + kNew * (step_s - *mean_step_s_) : step_s;
+  }
+  last_ = now;
+  if (wishes_.factor > 0) {
+    next_ += std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(moment_->dt_s / wishes_.factor));
+  }
+  // A machine that is too slow flies slower, and does not catch up.
+  next_ = std::max(next_, now - kMaxLate);
+}
+
+Control::Reset Control::take_reset() {
+  const std::lock_guard lock(mutex_);
+  check(reset_.has_value(), "a reset was asked for");
+  goal_ = steps_;
+  return *std::exchange(reset_, std::nullopt);
+}
+
+void Control::refuse_all(const std::string& problem) {
+  std::vector<Waiting> waiting;
+  std::optional<Reset> reset;
+  double time_s = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting.swap(waiting_);
+    reset.swap(reset_);
+    time_s = moment_->time_s;
+  }
+  for (const Waiting& each : waiting) each.answer(problem, time_s);
+  if (reset) reset->answer(problem, time_s);
+}
+
+Control::Shown Control::shown() const {
+  const std::lock_guard lock(mutex_);
+  const bool rests = wishes_.paused || wishes_.factor == 0;
+  if (rests) return {moment_, moment_->time_s};
+  const double since_s = std::chrono::duration<double>(Clock::now() - stepped_).count();
+  const double time_s = moment_->time_s - moment_->dt_s + since_s * wishes_.factor;
+  return {moment_, std::min(moment_->time_s, time_s)};
+}
+
+}  // namespace throng::live

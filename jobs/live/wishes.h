@@ -1,0 +1,30 @@
+// Everything that is asked of a flight from outside, until it is asked for something else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/remote/remote_pilots.h"
+#include "spec/live/commands.h"
+
+namespace throng::live {
+
+/// Commands in force and the pace of the flight.
+struct Wishes {
+  std::vector<sim::RemoteCommand> commands;  ///< per drone
+  std::uint32_t sequence = 0;                ///< number of the newest commands
+  double factor = 1;                         ///< simulated seconds per second
+  bool paused = false;
+  std::size_t view = 0;  ///< index of the drone whose camera is shown
+};
+
+/// Adds commands to the wishes. `ids` are the drones', in the order of Wishes::commands; commands
+/// name no other ones.
+void merge(const Commands& given, const std::vector<std::string>& ids, Wishes& wishes);
+
+/// Stops a drone whose pilot is gone. It still flies its route, or home.
+void stop_moving(sim::RemoteCommand& command);
+
+}  // namespace throng::live
