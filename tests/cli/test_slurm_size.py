@@ -120,9 +120,10 @@ class SlurmSize(unittest.TestCase):
         self.assertLessEqual(tasks, len(attempts))
         self.assertLessEqual(len(attempts), tasks + lost + 2)
         self.assertLessEqual(max(attempts), 3)
-        # Of tasks that begin before a look shows that they wait, and of an array whose number got lost.
+        # Of tasks that begin before a look shows that they wait, and of an array whose number got lost. They cost no attempt.
+        # A machine that is busy looks late, and then refuses more.
         self.assertLessEqual(
-            cluster.refused_starts, cluster.hasty_restarts + self.runs * cluster.faults["lost_answer"] + 2
+            cluster.refused_starts, cluster.hasty_restarts + self.runs * cluster.faults["lost_answer"] + tasks // 4
         )
         print(f"attempts: {len(attempts)} of {tasks} tasks, {lost} were lost", file=sys.stderr)
         return len(attempts)
