@@ -95,7 +95,7 @@ def main():
     sources = [
         Source(path)
         for path in listed.split()
-        if not path.startswith(("tests/", "bench/", "examples/", "scripts/"))
+        if not path.startswith(("tests/", "bench/", "examples/", "scripts/", "python/"))
         and (ROOT / path).exists()
         and str(ROOT / path) not in apart
     ]
