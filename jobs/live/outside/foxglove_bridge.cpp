@@ -17,8 +17,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kMinFactor = 0.01;
-constexpr double kMaxFactor = 1000;
+constexpr double kMinOutsideFactor = 0.01;
+constexpr double kMaxOutsideFactor = 1000;
 constexpr const char* kClock = "/clock";
 
 [[noreturn]] void refuse(const Parameter& parameter, const std::string& expected) {
@@ -30,7 +30,7 @@ constexpr const char* kClock = "/clock";
 double read_factor(const Parameter& parameter) {
   if (parameter.value.is_number()) {
     const auto factor = parameter.value.get<double>();
-    if (factor == 0 || (factor >= kMinFactor && factor <= kMaxFactor)) return factor;
+    if (factor == 0 || (factor >= kMinOutsideFactor && factor <= kMaxOutsideFactor)) return factor;
   }
   refuse(parameter, "a number from 0.01 to 1000, or 0: as fast as it can");
 }
