@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "jobs/live/run_recorder.h"
 #include "sim/remote/remote_pilots.h"
-#include "sim/run_observer.h"
 #include "sim/stepped_run.h"
 #include "spec/job/spec.h"
 #include "spec/live/messages.h"
@@ -24,26 +24,6 @@ namespace throng::live {
 inline constexpr double kMaxFlightS = 600;
 
 inline constexpr const char* kTraceFile = "trace.h5";
-
-/// Status of a drone besides its pose.
-struct DroneStatus {
-  bool beacon = false;     ///< whether the beacon is on
-  bool on_mission = true;  ///< false: it lands, falls or is on the ground
-  bool running = true;     ///< whether the rotors turn
-};
-
-/// The newest step and the one before it, with all values that clients are shown.
-struct Moment {
-  double time_s = 0;
-  double dt_s = 0;
-  std::shared_ptr<const world::CrowdStep> before;
-  std::shared_ptr<const world::CrowdStep> now;
-  std::vector<float> strides_before;  ///< per agent: strides walked so far, at `before`
-  std::vector<float> strides_now;     ///< per agent: strides walked so far, at `now`
-  world::Trace flown;                 ///< the drones only, from `before` on
-  std::vector<DroneStatus> drones;
-  std::uint32_t sequence = 0;  ///< number of the newest command applied in the step
-};
 
 /// Use from one thread at a time.
 class Flight {
@@ -76,12 +56,10 @@ class Flight {
   nlohmann::json finish();
 
  private:
-  class Recorder;
-
   jobs::JobSpec job_;
   std::filesystem::path trace_file_;
   sim::RunSpec spec_;
-  std::unique_ptr<Recorder> recorder_;
+  RunRecorder recorder_;
   std::unique_ptr<sim::SteppedRun> run_;
   std::unique_ptr<sim::RemotePilots> pilots_;
 };

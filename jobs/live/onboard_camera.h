@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/live/flight.h"
+#include "jobs/live/moment.h"
 #include "jobs/live/people_in_motion.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
