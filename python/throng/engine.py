@@ -116,7 +116,8 @@ class Simulation:
         self.drones: NDArray[np.float64] = self._run.drones
         #: The area that people leave (m): [[x, y] of its south-west corner, of its north-east corner].
         self.area: NDArray[np.float64] = np.array(self._run.area).reshape(2, 2)
-        self._is_person: NDArray[np.bool_] = np.isin(self._run.roles, (0, 3))
+        #: Whether each agent is a person, and not a danger (n,).
+        self.is_person: NDArray[np.bool_] = np.isin(self._run.roles, (0, 3))
 
     @property
     def dt_s(self) -> float:
@@ -148,7 +149,7 @@ class Simulation:
     @property
     def present(self) -> NDArray[np.bool_]:
         """Whether each agent is a person who has arrived and not left (n,)."""
-        return ((self.flags & PRESENT) != 0) & self._is_person
+        return ((self.flags & PRESENT) != 0) & self.is_person
 
     @property
     def inside(self) -> NDArray[np.bool_]:

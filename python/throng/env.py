@@ -93,7 +93,7 @@ class Env(BaseEnv):  # type: ignore[misc]
         #: Seconds of a step: the whole number of the engine's steps nearest to those asked for.
         self.decision_s = self._steps * simulation.dt_s
         #: People at the start and those who arrive: agents that are people.
-        self.people = int(simulation._is_person.sum())
+        self.people = int(simulation.is_person.sum())
         self._low, self._high = simulation.area
 
     def reset(

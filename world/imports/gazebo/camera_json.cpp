@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/geometry/angle.h"
+#include "spec/job/spec.h"
 
 namespace throng::imports {
 
@@ -78,6 +80,21 @@ ordered_json camera_json(const CameraSensor& camera, const Vector3d& center,
       {"x_m", meters(mount.x())}, {"y_m", meters(mount.y())}, {"z_m", meters(mount.z())}};
   fields["gimbal"] = {{"model", camera.is_movable ? "ideal" : "rigid"}};
   return fields;
+}
+
+std::optional<std::string> camera_refusal(const ordered_json& camera) {
+  const ordered_json drone = {{"id", "d1"}, {"camera", camera}};
+  const ordered_json job = {{"scenario", "city_square/everyday"},
+                            {"drones", ordered_json::array({drone})}};
+  try {
+    jobs::parse_job(job.dump(), "");
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    const std::string field = problem.where.substr(problem.where.rfind('/') + 1);
+    return fmt::format("its {} is {}; a job's camera has {}", field, problem.found,
+                       problem.expected);
+  }
+  return std::nullopt;
 }
 
 }  // namespace throng::imports

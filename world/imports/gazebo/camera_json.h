@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,8 @@ namespace throng::imports {
 /// drone's center) and gimbal. Appends to `assumptions` what these fields cannot say.
 nlohmann::ordered_json camera_json(const CameraSensor& camera, const Eigen::Vector3d& center,
                                    std::vector<std::string>& assumptions);
+
+/// Why jobs refuse such a camera; nothing if they take it.
+std::optional<std::string> camera_refusal(const nlohmann::ordered_json& camera);
 
 }  // namespace throng::imports

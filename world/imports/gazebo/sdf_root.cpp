@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/files/files.h"
+#include "world/imports/gazebo/description_file.h"
 #include "world/imports/gazebo/include_cycles.h"
 #include "world/imports/gazebo/model_finder.h"
 
@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = 32U << 20U;
 constexpr int kMaxTakenOut = 50;  // libsdformat takes up to a quarter of a second for each
 
 bool is_loaded(const sdf::Root& root) { return root.WorldCount() > 0 || root.Model() != nullptr; }
@@ -47,7 +46,10 @@ bool is_noise(const sdf::Error& error) {
 class RootLoader {
  public:
   RootLoader(const fs::path& file, const LocalFiles& files, std::vector<Skipped>& skipped)
-      : file_(file), skipped_(skipped), text_(file.string(), text_of(file)), finder_(files, file) {
+      : file_(file),
+        skipped_(skipped),
+        text_(file.string(), read_description(file, "a world of SDF")),
+        finder_(files, file) {
     reject_include_cycles(file, files);
   }
 
@@ -64,16 +66,6 @@ class RootLoader {
   }
 
  private:
-  static std::string text_of(const fs::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
-    if (size > kMaxFileBytes) {
-      throw InputError({file.string(), "", "a file of more than 32 MB", "a smaller world"});
-    }
-    return read_file(file);
-  }
-
   sdf::Errors load_once(sdf::Root& root) {
     root = sdf::Root();
     try {

@@ -13,6 +13,7 @@
 #include "base/geometry/polygon.h"
 #include "world/imports/gazebo/camera_json.h"
 #include "world/imports/gazebo/camera_sensor.h"
+#include "world/imports/gazebo/motor_plugin.h"
 #include "world/imports/gazebo/sdf_root.h"
 #include "world/imports/parts/scenario_writer.h"
 
@@ -45,31 +46,11 @@ double heading_rad(const Eigen::Isometry3d& pose) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-/// Limits of jobs' cameras (spec/job/camera_fields.cpp).
-std::optional<std::string> unfit(const CameraSensor& camera) {
-  if (camera.width < 64 || camera.width > 7680 || camera.height < 64 || camera.height > 4320) {
-    return fmt::format("{} x {} pixels; a job's camera has 64 x 64 to 7680 x 4320", camera.width,
-                       camera.height);
-  }
-  const double hfov_deg = camera.hfov_rad / kDegree;
-  if (hfov_deg < 5 || hfov_deg > 150) {
-    return fmt::format("a field of view of {:.0f} degrees; a job's camera has 5 to 150", hfov_deg);
-  }
-  constexpr double kSteepestUp = 0.5;  // sine of 30 degrees
-  if (camera.pose.linear()(2, 0) > kSteepestUp) {
-    return "looks up by more than 30 degrees, which a job's camera does not";
-  }
-  return std::nullopt;
-}
-
 bool has_motor(const sdf::ElementPtr& element) {
   if (!element || !element->HasElement("plugin")) return false;
   for (auto plugin = element->GetElement("plugin"); plugin;
        plugin = plugin->GetNextElement("plugin")) {
-    if (plugin->HasElement("motorConstant")) return true;
-    const std::string library =
-        plugin->HasAttribute("filename") ? plugin->Get<std::string>("filename") : "";
-    if (library.find("hector_gazebo_quadrotor_propulsion") != std::string::npos) return true;
+    if (is_motor(plugin) || is_hector_propulsion(plugin)) return true;
   }
   return false;
 }
@@ -106,7 +87,6 @@ std::optional<std::string> add_camera(const sdf::Sensor& sensor, const Eigen::Is
                                       ImportedScenario& place) {
   auto camera = read_camera_sensor(sensor, link);
   if (!camera) return "it has no <camera>, or a pose relative to a frame that does not exist";
-  if (auto why = unfit(*camera)) return why;
   ImportedDrone drone;
   drone.id = drone_id(sensor.Name(), place);
   drone.position = camera->pose.translation();
@@ -116,6 +96,7 @@ std::optional<std::string> add_camera(const sdf::Sensor& sensor, const Eigen::Is
   drone.camera = camera_json(*camera, drone.position, unsaid);
   drone.camera["yaw_deg"] = 0;
   drone.camera.erase("mount");
+  if (auto why = camera_refusal(drone.camera)) return why;
   place.drones.push_back(std::move(drone));
   return std::nullopt;
 }

@@ -15,7 +15,8 @@ struct ImportedSun {
 };
 
 /// The day and time at which the sun at this latitude is nearest to `towards_light` (+y is north).
-/// Of days that fit equally well the first counts. Nothing for a light from below 3 degrees.
+/// The first of several days that fit equally well counts. Nothing for a light from below 3
+/// degrees.
 std::optional<ImportedSun> sun_like(const Eigen::Vector3d& towards_light, double latitude_deg);
 
 }  // namespace throng::imports

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "world/imports/gazebo/motor_plugin.h"
 #include "world/imports/robots/robot_elements.h"
 
 namespace throng::imports {
@@ -163,15 +164,14 @@ bool has(const std::string& text, std::string_view word) {
 }  // namespace
 
 void read_plugin(const RobotSource& source, const sdf::ElementPtr& plugin, Robot& robot) {
-  if (plugin->HasElement("motorConstant")) return read_motor(source, plugin, robot);
-  std::string library = read_attribute(plugin, "filename");
-  std::transform(library.begin(), library.end(), library.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (has(library, "hector_gazebo_quadrotor_propulsion") ||
-      has(library, "hector_gazebo_quadrotor_aerodynamics")) {
+  if (is_motor(plugin)) return read_motor(source, plugin, robot);
+  if (is_hector_propulsion(plugin)) {
     robot.has_hector_propulsion = true;
     return;
   }
+  std::string library = read_attribute(plugin, "filename");
+  std::transform(library.begin(), library.end(), library.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const KnownPlugin& known : kKnown) {
     if (has(library, known.in_name)) return known.read(source, plugin, robot);
   }

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/files/files.h"
+#include "world/imports/gazebo/description_file.h"
 #include "world/imports/gazebo/include_cycles.h"
 #include "world/imports/gazebo/model_finder.h"
 #include "world/imports/gazebo/sdf_root.h"
@@ -18,20 +18,6 @@ namespace throng::imports {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uintmax_t kMaxFileBytes = 32U << 20U;
-
-std::string read_description(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(file, error);
-  if (error) {
-    throw InputError({file.string(), "", "no file", "a robot (.sdf, .urdf)"});
-  }
-  if (bytes > kMaxFileBytes) {
-    throw InputError({file.string(), "", "a file of more than 32 MB", "a robot (.sdf, .urdf)"});
-  }
-  return read_file(file);
-}
 
 /// The name of the root element, as far as one can be found.
 std::string root_element(const std::string& text) {
@@ -80,7 +66,7 @@ double total_mass_kg(const sdf::Model& model) {
 
 RobotSource::RobotSource(fs::path file, const LocalFiles& files) : file_(std::move(file)) {
   sdf::Console::Instance()->SetQuiet(true);
-  const std::string text = read_description(file_);
+  const std::string text = read_description(file_, "a robot (.sdf, .urdf)");
   const std::string root = root_element(text);
   const ModelFinder finder(files, file_);
   if (root == "robot") {
