@@ -33,6 +33,7 @@
 #include "jobs/live/onboard_camera.h"
 #include "jobs/live/people_in_motion.h"
 #include "jobs/live/state_message.h"
+#include "jobs/live/step_clock.h"
 #include "jobs/live/wishes.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/queue/confine/file_fence.h"
@@ -150,48 +151,35 @@ class Session {
 
   /// A step whenever its time has come.
   void fly() {
-    auto next = Clock::now();
-    std::optional<double> mean_step_s;  // lately; none after a rest
-    std::optional<Clock::time_point> last;
+    {
+      const std::lock_guard lock(mutex_);
+      clock_.rest();
+    }
     while (flight_.time_s() + flight_.dt_s() <= kMaxFlightS) {
       std::unique_lock lock(mutex_);
       if (!runs() && !should_stop_) {
         output_.send(MessageType::state, state_bytes(*moment_, 0, true));
         changed_.wait(lock, [this] { return runs() || should_stop_ || failure_; });
-        next = Clock::now();
-        last.reset();
-        mean_step_s.reset();
+        clock_.rest();
       }
       if (should_stop_ || failure_) return;
-      changed_.wait_until(lock, next, [this] { return !runs() || failure_; });
+      changed_.wait_until(lock, clock_.next(), [this] { return !runs() || failure_; });
       if (!runs() || failure_) continue;
       const Wishes wishes = in_force();
+      const double reached_factor = clock_.reached_factor(flight_.dt_s()).value_or(wishes.factor);
       lock.unlock();
 
       std::shared_ptr<const Moment> moment = flight_.step(wishes.commands, wishes.sequence);
       const std::vector<json> events = flight_.take_events();
       for (const json& event : events) output_.send(MessageType::event, event.dump());
       if (topics_) topics_->add(*moment, wishes.commands, events);
-      const double reached_factor = mean_step_s ? flight_.dt_s() / *mean_step_s : wishes.factor;
       output_.send(MessageType::state, state_bytes(*moment, reached_factor, false));
 
-      const auto now = Clock::now();
       lock.lock();
       moment_ = std::move(moment);
-      stepped_ = now;
-      factor_ = wishes.factor;
+      clock_.done(flight_.dt_s(), wishes.factor);
       lock.unlock();
       changed_.notify_all();
-      constexpr double kNew = 0.1;  // share of the newest in the mean
-      if (last && now > *last) {
-        const double step_s = std::chrono::duration<double>(now - *last).count();
-        mean_step_s = mean_step_s ? *mean_step_s + kNew * (step_s - *mean_step_s) : step_s;
-      }
-      last = now;
-      next += std::chrono::duration_cast<Clock::duration>(
-          std::chrono::duration<double>(flight_.dt_s() / wishes.factor));
-      // A machine that is too slow flies slower, and does not catch up.
-      next = std::max(next, now - std::chrono::milliseconds(50));
     }
   }
 
@@ -208,12 +196,6 @@ class Session {
     return wishes;
   }
 
-  /// The time to be shown now, in the newest step.
-  double shown_time(const Moment& moment) const {
-    const double since_s = std::chrono::duration<double>(Clock::now() - stepped_).count();
-    return std::min(moment.time_s, moment.time_s - moment.dt_s + since_s * factor_);
-  }
-
   /// Images, as fast as they can be made.
   void show(const std::stop_token& stop) {
     constexpr std::chrono::milliseconds kMinPause(33);
@@ -228,7 +210,7 @@ class Session {
         changed_.wait_until(lock, last + kMinPause, [&] { return stop.stop_requested(); });
         if (stop.stop_requested()) return;
         const std::shared_ptr<const Moment> moment = moment_;
-        const double time_s = shown_time(*moment);
+        const double time_s = clock_.shown_time_s(moment->time_s, moment->dt_s);
         const std::size_t view = wishes_.view;
         const bool is_seen = viewers_ > 0;
         lock.unlock();
@@ -270,8 +252,7 @@ class Session {
   bool should_stop_ = false;
   Clock::time_point commanded_;
   std::shared_ptr<const Moment> moment_;
-  Clock::time_point stepped_;
-  double factor_ = 1;
+  StepClock clock_;
   std::exception_ptr failure_;
 };
 

@@ -72,7 +72,7 @@ double Control::time_s() const {
 
 double Control::reached_factor() const {
   const std::lock_guard lock(mutex_);
-  return mean_step_s_ ? moment_->dt_s / *mean_step_s_ : 0;
+  return clock_.reached_factor(moment_->dt_s).value_or(0);
 }
 
 void Control::begin(std::shared_ptr<const Moment> moment) {
@@ -80,9 +80,8 @@ void Control::begin(std::shared_ptr<const Moment> moment) {
   wishes_.commands.assign(drones_.size(), {});
   commanded_s_.assign(drones_.size(), kNever);
   moment_ = std::move(moment);
-  next_ = stepped_ = Clock::now();
-  last_.reset();
-  mean_step_s_.reset();
+  clock_ = StepClock();
+  clock_.rest();
 }
 
 Turn Control::wait_for_turn() {
@@ -96,13 +95,11 @@ Turn Control::wait_for_turn() {
     if (wishes_.paused) {
       changed_.wait(lock, stop_,
                     [this] { return !wishes_.paused || steps_ < goal_ || reset_ || ends_; });
-      next_ = Clock::now();
-      last_.reset();
-      mean_step_s_.reset();
+      clock_.rest();
       continue;
     }
-    if (Clock::now() >= next_) return Turn::step;
-    changed_.wait_until(lock, stop_, next_, [this] {
+    if (StepClock::Clock::now() >= clock_.next()) return Turn::step;
+    changed_.wait_until(lock, stop_, clock_.next(), [this] {
       return wishes_.paused || wishes_.factor == 0 || reset_ || ends_;
     });
   }
@@ -126,7 +123,7 @@ void Control::done(std::shared_ptr<const Moment> moment) {
     moment_ = std::move(moment);
     time_s = moment_->time_s;
     ++steps_;
-    plan_next(Clock::now());
+    clock_.done(moment_->dt_s, wishes_.factor);
     const auto first =
         std::stable_partition(waiting_.begin(), waiting_.end(),
                               [this](const Waiting& each) { return each.step > steps_; });
@@ -134,23 +131,6 @@ void Control::done(std::shared_ptr<const Moment> moment) {
     waiting_.erase(first, waiting_.end());
   }
   for (const Waiting& each : ready) each.answer("", time_s);
-}
-
-void Control::plan_next(Clock::time_point now) {
-  constexpr double kNew = 0.1;  // share of the newest in the mean
-  constexpr std::chrono::milliseconds kMaxLate(50);
-  stepped_ = now;
-  if (last_ && now > *last_) {
-    const double step_s = std::chrono::duration<double>(now - *last_).count();
-    mean_step_s_ = mean_step_s_ ? *mean_step_s_ + kNew * (step_s - *mean_step_s_) : step_s;
-  }
-  last_ = now;
-  if (wishes_.factor > 0) {
-    next_ += std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double>(moment_->dt_s / wishes_.factor));
-  }
-  // A machine that is too slow flies slower, and does not catch up.
-  next_ = std::max(next_, now - kMaxLate);
 }
 
 Control::Reset Control::take_reset() {
@@ -178,9 +158,7 @@ Control::Shown Control::shown() const {
   const std::lock_guard lock(mutex_);
   const bool rests = wishes_.paused || wishes_.factor == 0;
   if (rests) return {moment_, moment_->time_s};
-  const double since_s = std::chrono::duration<double>(Clock::now() - stepped_).count();
-  const double time_s = moment_->time_s - moment_->dt_s + since_s * wishes_.factor;
-  return {moment_, std::min(moment_->time_s, time_s)};
+  return {moment_, clock_.shown_time_s(moment_->time_s, moment_->dt_s)};
 }
 
 }  // namespace throng::live

@@ -1,7 +1,6 @@
 // Requests to a flight that is flown from outside, and the time of its next step.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "jobs/live/flight.h"
+#include "jobs/live/step_clock.h"
 #include "jobs/live/wishes.h"
 #include "spec/live/commands.h"
 
@@ -85,14 +85,12 @@ class Control {
   Shown shown() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Waiting {
     std::uint64_t step = 0;  ///< number of the step for which it waits
     Answer answer;
   };
 
   bool should_end() const { return ends_ || stop_.stop_requested(); }
-  void plan_next(Clock::time_point now);
 
   const std::vector<std::string> drones_;
   const double max_s_;
@@ -107,10 +105,7 @@ class Control {
   std::vector<Waiting> waiting_;
   std::optional<Reset> reset_;
   bool ends_ = false;
-  Clock::time_point next_;                 ///< when the next step is due
-  Clock::time_point stepped_;              ///< time of the last step
-  std::optional<Clock::time_point> last_;  ///< the same; none after a rest
-  std::optional<double> mean_step_s_;      ///< lately; none after a rest
+  StepClock clock_;
 };
 
 }  // namespace throng::live
