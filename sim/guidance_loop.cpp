@@ -1,5 +1,7 @@
 #include "sim/guidance_loop.h"
 
+#include "sim/recording/gimbal_setpoints.h"
+
 namespace throng::sim {
 
 namespace {
@@ -31,6 +33,7 @@ GuidanceLoop::GuidanceLoop(const world::Scenario& scenario,
                            double step_s)
     : drones_(drones), goals_(list_goals(drones)), observer_(scenario, roles, goals_, step_s) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
+    has_gimbal_.push_back(has_gimbal_setpoints(drones[i].mission.guidance.setpoints));
     const auto& perception = drones[i].mission.guidance.perception;
     cameras_.emplace_back();
     if (perception && perception->kind == PerceptionKind::camera) {
@@ -62,8 +65,13 @@ void GuidanceLoop::look(const CrowdSource& crowd, const CrowdRecorder& recorder,
 void GuidanceLoop::report(const Flight& flight, RunObserver& observer) const {
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const Setpoint& setpoint = flight.pilot(i).setpoint();
-    observer.pilot(
-        i, {observer_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight, i)});
+    const double time_s = observer_.view().time_s;
+    PilotSample sample{time_s, setpoint.position, setpoint.yaw_rad, leads(flight, i)};
+    const DroneMission& mission = drones_[i].mission;
+    if (has_gimbal_[i]) {
+      sample.gimbal = gimbal_at(mission.guidance.setpoints, mission.camera.gimbal_angles(), time_s);
+    }
+    observer.pilot(i, sample);
   }
 }
 

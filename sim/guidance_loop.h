@@ -37,6 +37,7 @@ class GuidanceLoop {
   const std::vector<PlannedDrone>& drones_;
   std::vector<std::optional<world::GoalRef>> goals_;  // per drone
   CrowdObserver observer_;
+  std::vector<bool> has_gimbal_;  // per drone: its set-points turn the camera
   std::vector<std::optional<CameraPerception>> cameras_;  // per drone; nothing: sees the truth
 };
 

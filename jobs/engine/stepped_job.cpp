@@ -12,6 +12,7 @@
 #include "jobs/pipeline/checks/resolve.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
+#include "sim/recording/gimbal_setpoints.h"
 #include "skinning/population.h"
 #include "spec/job/scenario_mix.h"
 #include "world/scenario.h"
@@ -111,7 +112,13 @@ const std::vector<std::uint8_t>& SteppedJob::image(std::size_t drone) {
                          state.run->drones(),
                          live::ImageSize{state.choices.image_width, state.choices.image_height});
   }
-  return state.camera->draw(state.newest.moment(dt_s()), drone, time_s());
+  live::Moment moment = state.newest.moment(dt_s());
+  for (std::size_t i = 0; i < state.run->drones().size(); ++i) {
+    const std::vector<sim::PilotSample>& setpoints =
+        state.pilots ? state.pilots->log(i) : state.spec.drones[i].guidance.setpoints;
+    moment.setpoints.push_back(sim::setpoints_around(setpoints, time_s() - dt_s(), time_s()));
+  }
+  return state.camera->draw(moment, drone, time_s());
 }
 
 std::vector<std::string> SteppedJob::finish() {

@@ -12,6 +12,7 @@
 #include "base/json/problem_json.h"
 #include "jobs/live/replay_job.h"
 #include "jobs/pipeline/pipeline.h"
+#include "sim/recording/gimbal_setpoints.h"
 #include "sim/recording/pilot_log.h"
 
 namespace throng::live {
@@ -34,13 +35,25 @@ Flight::~Flight() = default;
 
 const world::TraceHeader& Flight::header() const { return recorder_.header(); }
 
+std::vector<FlownDrone> Flight::flown_drones() const {
+  std::vector<FlownDrone> list;
+  for (const sim::PlannedDrone& drone : drones()) {
+    const bool is_rigid = drone.mission.camera.gimbal.model == camera::GimbalModel::rigid;
+    list.push_back({drone.mission.id, !is_rigid});
+  }
+  return list;
+}
+
 std::shared_ptr<const Moment> Flight::moment(std::uint32_t sequence) const {
   auto moment = std::make_shared<Moment>(recorder_.moment(dt_s()));
   moment->sequence = sequence;
   for (std::size_t i = 0; i < drones().size(); ++i) {
     const sim::Pilot& pilot = run_->pilot(i);
-    moment->drones.push_back({pilot.is_on_mission() && pilots_->log(i).back().beacon,
-                              pilot.is_on_mission(), pilot.is_running()});
+    const std::vector<sim::PilotSample>& log = pilots_->log(i);
+    const camera::GimbalAngles own = drones()[i].mission.camera.gimbal_angles();
+    moment->drones.push_back({pilot.is_on_mission() && log.back().beacon, pilot.is_on_mission(),
+                              pilot.is_running(), sim::gimbal_at(log, own, time_s())});
+    moment->setpoints.push_back(sim::setpoints_around(log, time_s() - dt_s(), time_s()));
   }
   return moment;
 }

@@ -13,6 +13,7 @@
 #include "sim/remote/remote_pilots.h"
 #include "sim/stepped_run.h"
 #include "spec/job/spec.h"
+#include "spec/live/commands.h"
 #include "spec/live/messages.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -38,6 +39,8 @@ class Flight {
 
   const world::TraceHeader& header() const;
   const std::vector<sim::PlannedDrone>& drones() const { return run_->drones(); }
+  /// The drones as commands address them.
+  std::vector<FlownDrone> flown_drones() const;
   double dt_s() const { return run_->dt_s(); }
   double time_s() const { return run_->time_s(); }
 

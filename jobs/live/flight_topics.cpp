@@ -11,7 +11,6 @@
 #include "jobs/live/onboard_camera.h"
 #include "jobs/live/people_in_motion.h"
 #include "jobs/pipeline/frames/flight_record.h"
-#include "jobs/pipeline/frames/gimbal.h"
 #include "spec/job/environment.h"
 #include "spec/job/plan.h"
 
@@ -120,17 +119,17 @@ void FlightTopics::add(const Moment& moment, const std::vector<sim::RemoteComman
   }
   struct New {
     const world::DroneSample* sample;
-    Drone* drone;
+    std::size_t drone;
   };
   std::vector<New> samples;
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     for (const world::DroneSample& sample : moment.flown.drones.at(i)) {
-      if (sample.time_s > drones_[i].last_s) samples.push_back({&sample, &drones_[i]});
+      if (sample.time_s > drones_[i].last_s) samples.push_back({&sample, i});
     }
   }
   std::stable_sort(samples.begin(), samples.end(),
                    [](const New& a, const New& b) { return a.sample->time_s < b.sample->time_s; });
-  for (const New& each : samples) add_sample(*each.drone, *each.sample);
+  for (const New& each : samples) add_sample(moment, each.drone, *each.sample);
   for (const json& event : events) {
     const double time_s = event.at("time_s");
     sink_({"/events", ros::Kind::text, time_s, ros::text(event.dump())});
@@ -153,13 +152,15 @@ void FlightTopics::add_command(Drone& drone, const sim::RemoteCommand& command, 
   }
 }
 
-void FlightTopics::add_sample(Drone& drone, const world::DroneSample& given) {
+void FlightTopics::add_sample(const Moment& moment, std::size_t index,
+                              const world::DroneSample& given) {
+  Drone& drone = drones_[index];
   // The flight's trace and its readings have the same numbers.
   const world::DroneSample sample = world::as_recorded(given);
   drone.last_s = sample.time_s;
   clock_.advance(sample.time_s);
-  drone.topics.publish_transforms(sample.time_s, body_pose(sample),
-                                  ros::camera_pose(jobs::camera_on(sample, drone.camera).pose));
+  const camera::Camera camera = flown_camera(moment, index, drone.camera, sample);
+  drone.topics.publish_transforms(sample.time_s, body_pose(sample), ros::camera_pose(camera.pose));
   drone.topics.publish_odometry(sample.time_s, body_motion(sample));
   drone.topics.publish_readings(sensor_row(drone.sensors.read(sample)),
                                 {latitude_deg_, position_sd_m(drone.sensors.noise())});
@@ -185,7 +186,7 @@ void FlightTopics::add_image(const Moment& moment, std::size_t drone, double tim
                              const std::string& jpeg) const {
   const Drone& from = drones_.at(drone);
   const world::DroneSample sample = moment.flown.drone_at(drone, time_s);
-  const camera::Camera camera = jobs::camera_on(sample, from.camera);
+  const camera::Camera camera = flown_camera(moment, drone, from.camera, sample);
   from.topics.publish_transforms(time_s, body_pose(sample), ros::camera_pose(camera.pose));
   from.topics.publish_image(time_s, camera.intrinsics, "jpeg", jpeg);
 }

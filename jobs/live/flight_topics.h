@@ -63,7 +63,7 @@ class FlightTopics {
   };
 
   void add_command(Drone& drone, const sim::RemoteCommand& command, double time_s);
-  void add_sample(Drone& drone, const world::DroneSample& sample);
+  void add_sample(const Moment& moment, std::size_t drone, const world::DroneSample& sample);
   void add_people(const world::CrowdStep& people);
 
   ros::MessageSink sink_;

@@ -5,15 +5,17 @@
 #include <memory>
 #include <vector>
 
+#include "spec/sim/run_spec.h"
 #include "world/trace.h"
 
 namespace throng::live {
 
 /// Status of a drone besides its pose.
 struct DroneStatus {
-  bool beacon = false;     ///< whether the beacon is on
-  bool on_mission = true;  ///< false: it lands, falls or is on the ground
-  bool running = true;     ///< whether the rotors turn
+  bool beacon = false;               ///< whether the beacon is on
+  bool on_mission = true;            ///< false: it lands, falls or is on the ground
+  bool running = true;               ///< whether the rotors turn
+  camera::GimbalAngles gimbal = {};  ///< direction of its camera
 };
 
 /// The newest step and the one before it, with all values that clients are shown.
@@ -26,6 +28,7 @@ struct Moment {
   std::vector<float> strides_now;     ///< per agent: strides walked so far, at `now`
   world::Trace flown;                 ///< the drones only, from `before` on
   std::vector<DroneStatus> drones;
+  std::vector<std::vector<sim::PilotSample>> setpoints;  ///< per drone: those around the step
   std::uint32_t sequence = 0;  ///< number of the newest command applied in the step
 };
 

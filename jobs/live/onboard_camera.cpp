@@ -6,6 +6,8 @@
 #include "base/geometry/angle.h"
 #include "jobs/pipeline/frames/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
+#include "sim/recording/gimbal_setpoints.h"
+#include "sim/sensors/gimbal.h"
 #include "spec/job/environment.h"
 
 namespace throng::live {
@@ -54,6 +56,19 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSiz
   return shown;
 }
 
+camera::GimbalAngles gimbal_angles(const Moment& moment, std::size_t drone,
+                                   const camera::CameraSpec& shown, double time_s) {
+  if (drone >= moment.setpoints.size()) return shown.gimbal_angles();
+  return sim::gimbal_at(moment.setpoints[drone], shown.gimbal_angles(), time_s);
+}
+
+camera::Camera flown_camera(const Moment& moment, std::size_t drone,
+                            const camera::CameraSpec& shown, const world::DroneSample& sample) {
+  const camera::GimbalAngles angles = gimbal_angles(moment, drone, shown, sample.time_s);
+  return jobs::camera_on(sample, shown,
+                         sim::ideal_view(sample.orientation, shown.gimbal.model, angles));
+}
+
 OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,
                              const skinning::Population& population,
                              const world::TraceHeader& header,
@@ -81,7 +96,7 @@ const std::vector<std::uint8_t>& OnboardCamera::draw(const Moment& moment, std::
                             sample.orientation, shapes_[i]});
   }
   const camera::Camera view =
-      jobs::camera_on(moment.flown.drone_at(drone, time_s), cameras_.at(drone));
+      flown_camera(moment, drone, cameras_.at(drone), moment.flown.drone_at(drone, time_s));
   renderer_.recycle(std::move(frame_));
   frame_ = renderer_.draw(scene, view, nullptr,
                           {.truth = false, .exposure_gain = renderer_.metered_gain(scene, view)});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/camera.h"
 #include "jobs/live/moment.h"
 #include "jobs/live/people_in_motion.h"
 #include "render/renderer.h"
@@ -25,6 +26,14 @@ struct ImageSize {
 /// The camera that replaces a job's camera during a flight: the same direction, mount and
 /// horizontal field of view.
 camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSize& size = {});
+
+/// Direction of a drone's camera on its gimbal at a time within the moment's step.
+camera::GimbalAngles gimbal_angles(const Moment& moment, std::size_t drone,
+                                   const camera::CameraSpec& shown, double time_s);
+
+/// A drone's camera (shown_camera()) at one of the drone's samples within the moment's step.
+camera::Camera flown_camera(const Moment& moment, std::size_t drone,
+                            const camera::CameraSpec& shown, const world::DroneSample& sample);
 
 /// Amount of smoke from the hazards of a job's first run, 0 to 1.
 double smoke_amount(const jobs::JobSpec& job);

@@ -90,8 +90,9 @@ class Session {
         output_(output),
         give_up_(std::move(give_up)),
         population_(skinning::load_population(skinning::population_folder())),
-        flight_(job, scenario, folder) {
-    for (const sim::PlannedDrone& drone : flight_.drones()) ids_.push_back(drone.mission.id);
+        flight_(job, scenario, folder),
+        flown_(flight_.flown_drones()) {
+    for (const FlownDrone& drone : flown_) ids_.push_back(drone.id);
     wishes_.commands.resize(ids_.size());
     moment_ = flight_.moment(0);
     if (record) begin_recording(folder, *record);
@@ -139,7 +140,7 @@ class Session {
       const json message = parse_own_json(line, "the service's message");
       const std::lock_guard lock(mutex_);
       if (const auto given = message.find("commands"); given != message.end()) {
-        merge(commands_from_json(*given, ids_), ids_, wishes_);
+        merge(commands_from_json(*given, flown_), ids_, wishes_);
         commanded_ = Clock::now();
       }
       viewers_ = message.value("viewers", viewers_);
@@ -242,6 +243,7 @@ class Session {
   std::function<void()> give_up_;
   skinning::Population population_;
   Flight flight_;  ///< of the thread that flies, but for what never changes
+  std::vector<FlownDrone> flown_;
   std::vector<std::string> ids_;
   std::optional<FlightRecording> recording_;
   std::optional<FlightTopics> topics_;  ///< of the thread that flies, but for images

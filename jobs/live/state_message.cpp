@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 
 json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
@@ -64,7 +64,8 @@ json drones_json(const Flight& flight) {
                     {"camera",
                      {{"hfov_deg", camera.hfov_deg},
                       {"pitch_deg", camera.pitch_deg},
-                      {"yaw_deg", camera.yaw_deg}}}});
+                      {"yaw_deg", camera.yaw_deg},
+                      {"is_rigid", camera.gimbal.model == camera::GimbalModel::rigid}}}});
   }
   return list;
 }
@@ -92,7 +93,10 @@ json make_hello(const Flight& flight, const world::Scenario& scenario, double sm
           {"image", {{"width", ImageSize().width}, {"height", ImageSize().height}}},
           {"max_speed_mps", sim::kMaxRemoteSpeedMps},
           {"max_climb_mps", sim::kMaxRemoteClimbMps},
-          {"max_yaw_deg_s", sim::kMaxRemoteYawDegS}};
+          {"max_yaw_deg_s", sim::kMaxRemoteYawDegS},
+          {"max_gimbal_deg_s", sim::kMaxRemoteGimbalDegS},
+          {"min_pitch_deg", camera::kMinGimbalPitchDeg},
+          {"max_pitch_deg", camera::kMaxGimbalPitchDeg}};
 }
 
 std::string state_bytes(const Moment& moment, double reached_factor, bool paused) {
@@ -117,6 +121,8 @@ std::string state_bytes(const Moment& moment, double reached_factor, bool paused
     append_number(bytes,
                   static_cast<std::uint32_t>((status.beacon ? 1 : 0) | (status.on_mission ? 2 : 0) |
                                              (status.running ? 4 : 0)));
+    append_number(bytes, static_cast<float>(status.gimbal.pitch_deg));
+    append_number(bytes, static_cast<float>(status.gimbal.yaw_deg));
   }
   constexpr float kYawParts = 10'000;
   for (std::size_t i = 0; i < people.position.size(); ++i) {

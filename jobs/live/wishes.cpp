@@ -41,6 +41,7 @@ void merge_drone(const DroneCommand& given, sim::RemoteCommand& command) {
     }
   }
   if (given.yaw_rate_deg_s) command.yaw_rate_deg_s = *given.yaw_rate_deg_s;
+  if (given.gimbal_deg) command.gimbal = {(*given.gimbal_deg)[0], (*given.gimbal_deg)[1]};
   if (given.beacon) command.beacon = *given.beacon;
   if (given.return_home) {
     command.goes_home = *given.return_home;

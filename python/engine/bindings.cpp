@@ -37,18 +37,21 @@ py::array numbers(const std::vector<Number>& values, const py::object& owner) {
   return view(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
 }
 
-/// Rows: velocity ahead, left, up (m/s), yaw rate (rad/s), beacon (above 0: on).
+/// Rows: velocity ahead, left, up (m/s), yaw rate (rad/s), beacon (above 0: on) and, in rows of 7,
+/// pitch and yaw of the gimbal (rad).
 std::vector<sim::RemoteCommand> read_commands(
     const py::array_t<double, py::array::c_style | py::array::forcecast>& rows) {
   constexpr double kDegreesPerRadian = 57.295779513082323;
   constexpr py::ssize_t kColumns = 5;
-  if (rows.ndim() != 2 || rows.shape(1) != kColumns) {
-    throw InputError({"", "commands", "another shape", "one row of 5 numbers per drone"});
+  constexpr py::ssize_t kGimbalColumns = 7;
+  if (rows.ndim() != 2 || (rows.shape(1) != kColumns && rows.shape(1) != kGimbalColumns)) {
+    throw InputError({"", "commands", "another shape",
+                      "one row of 5 numbers per drone, or of 7 with the gimbal's pitch and yaw"});
   }
   std::vector<sim::RemoteCommand> commands(static_cast<std::size_t>(rows.shape(0)));
   for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
     sim::RemoteCommand& command = commands[static_cast<std::size_t>(i)];
-    for (py::ssize_t j = 0; j < kColumns; ++j) {
+    for (py::ssize_t j = 0; j < rows.shape(1); ++j) {
       if (!std::isfinite(rows.at(i, j))) {
         throw InputError({"", "commands", "a number that is not finite", "finite numbers"});
       }
@@ -56,6 +59,9 @@ std::vector<sim::RemoteCommand> read_commands(
     command.velocity_mps = {rows.at(i, 0), rows.at(i, 1), rows.at(i, 2)};
     command.yaw_rate_deg_s = kDegreesPerRadian * rows.at(i, 3);
     command.beacon = rows.at(i, 4) > 0;
+    if (rows.shape(1) == kGimbalColumns) {
+      command.gimbal = {kDegreesPerRadian * rows.at(i, 5), kDegreesPerRadian * rows.at(i, 6)};
+    }
   }
   return commands;
 }
@@ -63,9 +69,16 @@ std::vector<sim::RemoteCommand> read_commands(
 py::list event_list(const std::vector<world::TraceEvent>& events) {
   py::list list;
   for (const world::TraceEvent& event : events) {
+    const world::EventRow row = world::to_row(event);
     py::dict entry;
-    entry["time_s"] = event.time_s;
-    entry["type"] = std::string(world::to_string(event.kind));
+    entry["time_s"] = row.time_s;
+    entry["type"] = row.type;
+    entry["agent"] = row.agent;
+    entry["drone"] = row.drone;
+    entry["value"] = row.value;
+    entry["partner"] = row.partner;
+    entry["other"] = row.other;
+    entry["extra"] = row.extra;
     list.append(std::move(entry));
   }
   return list;

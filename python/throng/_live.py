@@ -26,7 +26,9 @@ _HEAD = struct.Struct("<cI")
 _STATE = struct.Struct("<BBHIdfI")
 _IMAGE = struct.Struct("<dII")
 _MAX_BYTES = 64 << 20
-_DRONE = np.dtype([("position", "<f4", 3), ("quaternion", "<f4", 4), ("speed_mps", "<f4"), ("flags", "<u4")])
+_DRONE = np.dtype(
+    [("position", "<f4", 3), ("quaternion", "<f4", 4), ("speed_mps", "<f4"), ("flags", "<u4"), ("gimbal_deg", "<f4", 2)]
+)
 _PERSON = np.dtype([("position", "<f4", 2), ("yaw", "<i2"), ("state", "u1"), ("flags", "u1")])
 
 
@@ -40,7 +42,8 @@ class LiveState:
     paused: bool
     #: Simulated seconds per second that are reached.
     factor: float
-    #: Fields position (m), quaternion (w, x, y, z; body to world), speed_mps, flags (1 beacon, 2 on its mission, 4 rotors turn).
+    #: Fields position (m), quaternion (w, x, y, z; body to world), speed_mps, flags (1 beacon, 2 on its mission, 4 rotors turn),
+    #: gimbal_deg (pitch above the horizon, yaw to the left of the heading).
     drones: NDArray[Any]
     #: Fields position (m), yaw (1e-4 rad), state, flags (1 present, 2 in panic, 4 fallen, 8 follows a drone).
     people: NDArray[Any]
@@ -138,6 +141,7 @@ class LiveFlight:
         *,
         velocity_mps: Sequence[float] | None = None,
         yaw_rate_deg_s: float | None = None,
+        gimbal_deg: Sequence[float] | None = None,
         beacon: bool | None = None,
         return_home: bool | None = None,
         position_m: Sequence[float] | None = None,
@@ -147,12 +151,14 @@ class LiveFlight:
         sequence: int | None = None,
     ) -> None:
         """Commands a drone: velocity ahead, to the left and up, to be repeated at least once a second; or points
-        of the world to fly to, and the heading there.
+        of the world to fly to, and the heading there; gimbal_deg turns the camera (pitch above the horizon, yaw to the
+        left of the heading).
         """
         one = {
             "id": drone,
             "velocity_mps": None if velocity_mps is None else list(velocity_mps),
             "yaw_rate_deg_s": yaw_rate_deg_s,
+            "gimbal_deg": None if gimbal_deg is None else list(gimbal_deg),
             "beacon": beacon,
             "return_home": return_home,
             "position_m": None if position_m is None else list(position_m),

@@ -779,6 +779,9 @@ class LiveCommandsDrone(TypedDict):
     """Heading to turn to, counter-clockwise from +x. Without points, the drone turns where it is."""
     speed_mps: NotRequired[float]
     """Speed on the way to points given with it; default: 5."""
+    gimbal_deg: NotRequired[list[float]]
+    """Direction to turn the camera to: [pitch from -90 to 30 above the horizon, yaw from -180 to 180 to the left of
+    the heading]. Gimbals turn at most at 60 degrees/s; a rigid camera has none."""
     beacon: NotRequired[bool]
     """Whether people may follow the drone."""
     return_home: NotRequired[bool]

@@ -161,7 +161,8 @@ class Simulation:
         """Simulates steps, with one row of commands per drone if `remote`, which hold for all of them.
 
         A row is: velocity ahead, to the left and up in the drone's heading (m/s), yaw rate (rad/s, counter-clockwise),
-        and whether its beacon is on (above 0).
+        and whether its beacon is on (above 0); rows of 7 also turn the camera: its pitch above the horizon and its yaw to
+        the left of the heading (rad), which a gimbal follows at 60 degrees/s.
         """
         try:
             if self._remote:
@@ -175,7 +176,7 @@ class Simulation:
             raise EngineError(str(error)) from None
 
     def events(self) -> list[dict[str, Any]]:
-        """The events since the last call, with time_s and type (docs/trace.md)."""
+        """The events since the last call, as the rows of a trace (docs/trace.md): time_s, type, agent, drone, value, ..."""
         return self._run.take_events()
 
     def image(self, drone: int | str = 0) -> NDArray[np.uint8]:

@@ -17,6 +17,8 @@ from .engine import JobLike, Simulation
 
 #: An action of 1 along each axis: m/s ahead and to the left, m/s up, rad/s of yaw.
 SPEED_MPS, CLIMB_MPS, YAW_RATE_RAD_S = 5.0, 2.0, 1.5
+#: Pitch of a camera at an action of -1 and of 1, and its yaw at 1 (rad).
+PITCH_RAD, PAN_RAD = np.radians((-90.0, 30.0)), np.pi
 
 #: Reward of a step: its arguments are the environment and the information about the step.
 Reward = Callable[["Env", Mapping[str, Any]], float]
@@ -31,7 +33,8 @@ class Env(BaseEnv):  # type: ignore[misc]
     """A job's run that a policy flies: `reset(seed)`, `step(action)`, `render()`, as gymnasium has them.
 
     An action is 5 numbers from -1 to 1 per drone: velocity ahead, to the left and up in its heading, yaw rate (SPEED_MPS,
-    CLIMB_MPS, YAW_RATE_RAD_S), and its beacon (above 0: on). Observations, by `observe`:
+    CLIMB_MPS, YAW_RATE_RAD_S), and its beacon (above 0: on); with `gimbal`, two more: the direction of its camera, pitch
+    from straight down to 30 degrees above the horizon (PITCH_RAD) and yaw (PAN_RAD). Observations, by `observe`:
 
     - `state`: per drone position (m, 3), velocity (3), sine and cosine of the heading (8 numbers)
     - `grid`: people per square meter on a grid of `cells` over the area that people leave (rows from the south)
@@ -52,6 +55,7 @@ class Env(BaseEnv):  # type: ignore[misc]
         decision_s: float = 0.5,
         cells: tuple[int, int] = (16, 16),
         image_size: tuple[int, int] = (320, 180),
+        gimbal: bool = False,
         trace: str | os.PathLike[str] | None = None,
         render_mode: str | None = None,
     ) -> None:
@@ -70,12 +74,13 @@ class Env(BaseEnv):  # type: ignore[misc]
         self.wanted_decision_s = float(decision_s)
         self.cells = cells
         self.image_size = image_size
+        self._columns = 7 if gimbal else 5
         self.trace = trace
         self.render_mode = render_mode
         self._random_seeds = np.random.default_rng(self.job.get("seed", 1))
         self._begin(self.job.get("seed"))
         drones = len(self.simulation.drones)
-        shape = (5,) if drones == 1 else (drones, 5)
+        shape = (self._columns,) if drones == 1 else (drones, self._columns)
         self.action_space = Box(-1.0, 1.0, shape=shape, dtype=np.float32)
         spaces: dict[str, Any] = {}
         if "state" in observe:
@@ -109,10 +114,12 @@ class Env(BaseEnv):  # type: ignore[misc]
 
     def step(self, action: ArrayLike) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         rows = np.atleast_2d(np.asarray(action, dtype=np.float64)).clip(-1, 1)
-        if rows.shape != (len(self.simulation.drones), 5):
+        if rows.shape != (len(self.simulation.drones), self._columns):
             raise ValueError(f"action: found the shape {rows.shape}, expected {self.action_space.shape}")
-        scale = np.array([SPEED_MPS, SPEED_MPS, CLIMB_MPS, YAW_RATE_RAD_S, 1])
-        self.simulation.step(rows * scale, self._steps)
+        commands = rows * np.array([SPEED_MPS, SPEED_MPS, CLIMB_MPS, YAW_RATE_RAD_S, 1, 1, PAN_RAD])[: self._columns]
+        if self._columns == 7:
+            commands[:, 5] = np.interp(rows[:, 5], (-1, 1), PITCH_RAD)
+        self.simulation.step(commands, self._steps)
         info = self._info(self.simulation.events())
         terminated = info["inside"] == 0
         return self._observation(), float(self.reward(self, info)), terminated, self.simulation.is_over, info

@@ -46,12 +46,14 @@ std::shared_ptr<LiveFlight> find_flight(const RequestContext& context, const Req
 json flight_json(const LiveFlight& flight) {
   const LiveState state = flight.state();
   const std::string self = "/v1/live/" + flight.id();
+  json drones = json::array();
+  for (const live::FlownDrone& drone : flight.drones()) drones.push_back(drone.id);
   json value = {{"id", flight.id()},
                 {"name", flight.name()},
                 {"state", to_string(state)},
                 {"time_s", flight.time_s()},
                 {"viewers", flight.viewers()},
-                {"drones", flight.drones()},
+                {"drones", std::move(drones)},
                 {"recorded", flight.is_recorded()},
                 {"result", nullptr},
                 {"error", nullptr},

@@ -26,9 +26,9 @@ const char* to_string(LiveState state);
 /// Parameters of a flight.
 struct LiveFlightSpec {
   std::string id;
-  std::string owner;                 ///< id of the key
-  std::string name;                  ///< name of the job
-  std::vector<std::string> drones;   ///< ids
+  std::string owner;  ///< id of the key
+  std::string name;   ///< name of the job
+  std::vector<live::FlownDrone> drones;
   std::string job_json;              ///< the resolved job
   std::int64_t memory_mib = 0;       ///< estimated memory; 0: not limited
   bool is_recorded = false;          ///< whether it is asked to record itself
@@ -51,7 +51,7 @@ class LiveFlight {
   const std::string& id() const { return spec_.id; }
   const std::string& owner() const { return spec_.owner; }
   const std::string& name() const { return spec_.name; }
-  const std::vector<std::string>& drones() const { return spec_.drones; }
+  const std::vector<live::FlownDrone>& drones() const { return spec_.drones; }
   std::int64_t memory_mib() const { return spec_.memory_mib; }
   bool is_recorded() const { return spec_.is_recorded; }
   /// The recording of a flight that is over; it exists as long as this object, if any was begun.

@@ -83,7 +83,10 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   spec.id = "l" + random_text(kFlightIdLength);
   spec.owner = owner;
   spec.name = job.spec().name;
-  for (const jobs::DroneSpec& drone : job.spec().drones) spec.drones.push_back(drone.mission.id);
+  for (const jobs::DroneSpec& drone : job.spec().drones) {
+    const bool is_rigid = drone.camera.gimbal.model == camera::GimbalModel::rigid;
+    spec.drones.push_back({drone.mission.id, !is_rigid});
+  }
   spec.job_json = dump_text(to_json(job.spec()));
   spec.memory_mib = flight_memory_mib(job);
   spec.is_recorded = is_recorded;

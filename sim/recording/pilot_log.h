@@ -12,6 +12,9 @@ namespace throng::sim {
 /// The header of every log: seconds, meters, degrees counter-clockwise from +x, and 1 while people
 /// can follow the drone.
 inline constexpr std::string_view kPilotLogHeader = "time_s,x_m,y_m,z_m,yaw_deg,beacon";
+/// Further columns of logs that turn the camera: degrees above the horizon and to the left of the
+/// heading; both empty where the camera points as the job says.
+inline constexpr std::string_view kGimbalLogHeader = ",gimbal_pitch_deg,gimbal_yaw_deg";
 
 std::string pilot_log_csv(const std::vector<PilotSample>& samples);
 

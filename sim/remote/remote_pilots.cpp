@@ -27,13 +27,14 @@ constexpr double kMinGapM = 2;
 // Values that a log's text holds exactly.
 double rounded(double value, double parts) { return std::round(value * parts) / parts; }
 
+constexpr double kAngleParts = 1e3;
+
 PilotSample sample_at(double time_s, const Vector3d& position, double yaw_deg, bool beacon) {
   constexpr double kTimeParts = 1e4;
   constexpr double kPlaceParts = 1e4;
-  constexpr double kYawParts = 1e3;
   const Vector3d place = position.unaryExpr([](double v) { return rounded(v, kPlaceParts); });
   constexpr double kTurnDeg = 360;
-  const double yaw = rounded(std::remainder(yaw_deg, kTurnDeg), kYawParts);
+  const double yaw = rounded(std::remainder(yaw_deg, kTurnDeg), kAngleParts);
   return {rounded(time_s + kLogAheadS, kTimeParts), place, yaw * kDegree, beacon};
 }
 
@@ -118,6 +119,23 @@ double RemotePilots::wanted_yaw_rate(std::size_t drone, const RemoteCommand& com
   return std::clamp(rate_deg_s, -kMaxRemoteYawDegS, kMaxRemoteYawDegS);
 }
 
+std::optional<camera::GimbalAngles> RemotePilots::next_gimbal(std::size_t drone,
+                                                              const RemoteCommand& command) const {
+  const std::optional<camera::GimbalAngles>& last = logs_[drone].back().gimbal;
+  const camera::CameraSpec& camera = run_.drones()[drone].mission.camera;
+  if (!command.gimbal || camera.gimbal.model == camera::GimbalModel::rigid) return last;
+  const camera::GimbalAngles from = last.value_or(camera.gimbal_angles());
+  const double max_deg = kMaxRemoteGimbalDegS * run_.dt_s();
+  const auto turned = [&](double angle, double wanted, double min, double max) {
+    const double target = std::clamp(wanted, min, max);
+    return rounded(angle + std::clamp(target - angle, -max_deg, max_deg), kAngleParts);
+  };
+  return camera::GimbalAngles{turned(from.pitch_deg, command.gimbal->pitch_deg,
+                                     camera::kMinGimbalPitchDeg, camera::kMaxGimbalPitchDeg),
+                              turned(from.yaw_deg, command.gimbal->yaw_deg,
+                                     -camera::kMaxGimbalYawDeg, camera::kMaxGimbalYawDeg)};
+}
+
 double RemotePilots::room_m(std::size_t one, const Vector3d& place, std::size_t other) const {
   const Airframe& a = run_.drones()[one].airframe;
   const Airframe& b = run_.drones()[other].airframe;
@@ -170,6 +188,7 @@ void RemotePilots::advance(const std::vector<RemoteCommand>& commands) {
       velocities_[i] = move;
       break;
     }
+    next.gimbal = next_gimbal(i, command);
     logs_[i].push_back(next);
     run_.fly_on(i, next);
   }

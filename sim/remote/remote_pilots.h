@@ -21,6 +21,7 @@ namespace throng::sim {
 inline constexpr double kMaxRemoteSpeedMps = 10;  ///< horizontal
 inline constexpr double kMaxRemoteClimbMps = 3;
 inline constexpr double kMaxRemoteYawDegS = 120;
+inline constexpr double kMaxRemoteGimbalDegS = 60;  ///< of each axis
 
 /// Points to be flown to one after another; the drone stays at the last one.
 struct RemoteRoute {
@@ -39,6 +40,8 @@ struct RemoteCommand {
   /// If set, `velocity_mps` is ignored, and so is the yaw rate where the route has a heading.
   /// Another object, be it equal, begins at its first point.
   std::shared_ptr<const RemoteRoute> route = nullptr;
+  /// Direction to which the camera turns; none: as it is. A rigid mount has none.
+  std::optional<camera::GimbalAngles> gimbal = {};
 };
 
 /// Changes all drones of `spec` to the policy "pilot_log" with their starts as first set-points.
@@ -73,6 +76,8 @@ class RemotePilots {
                               double speed_mps) const;
   Eigen::Vector3d kept_near(std::size_t drone, const Eigen::Vector3d& velocity) const;
   double wanted_yaw_rate(std::size_t drone, const RemoteCommand& command) const;
+  std::optional<camera::GimbalAngles> next_gimbal(std::size_t drone,
+                                                  const RemoteCommand& command) const;
   bool is_free(std::size_t drone, const Eigen::Vector3d& to) const;
   double room_m(std::size_t one, const Eigen::Vector3d& place, std::size_t other) const;
 

@@ -7,6 +7,7 @@
 #include "base/compute/random.h"
 #include "base/error.h"
 #include "base/geometry/angle.h"
+#include "sim/recording/gimbal_setpoints.h"
 
 namespace throng::sim {
 
@@ -55,9 +56,9 @@ class SecondOrder {
 };
 
 /// Angles of a camera that is fixed to the body, at its yaw and pitch there.
-ViewAngles rigid_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
-  const double yaw_rad = camera.yaw_deg * kDegree;
-  const double pitch_rad = camera.pitch_deg * kDegree;
+ViewAngles rigid_view(const Eigen::Quaterniond& orientation, const camera::GimbalAngles& angles) {
+  const double yaw_rad = angles.yaw_deg * kDegree;
+  const double pitch_rad = angles.pitch_deg * kDegree;
   const Vector3d ahead =
       orientation * Vector3d(std::cos(pitch_rad) * std::cos(yaw_rad),
                              std::cos(pitch_rad) * std::sin(yaw_rad), std::sin(pitch_rad));
@@ -78,33 +79,39 @@ double heading_from_orientation(const Eigen::Quaterniond& orientation) {
 }
 
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
-  if (camera.gimbal.model == camera::GimbalModel::rigid) return rigid_view(orientation, camera);
-  return {heading_from_orientation(orientation) + camera.yaw_deg * kDegree,
-          camera.pitch_deg * kDegree, 0};
+  return ideal_view(orientation, camera.gimbal.model, camera.gimbal_angles());
+}
+
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, camera::GimbalModel model,
+                      const camera::GimbalAngles& angles) {
+  if (model == camera::GimbalModel::rigid) return rigid_view(orientation, angles);
+  return {heading_from_orientation(orientation) + angles.yaw_deg * kDegree,
+          angles.pitch_deg * kDegree, 0};
 }
 
 GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
-                     std::uint64_t seed, std::uint64_t index) {
+                     std::uint64_t seed, std::uint64_t index,
+                     const std::vector<PilotSample>& setpoints) {
   const camera::GimbalSpec& spec = camera.gimbal;
-  const double yaw_rad = camera.yaw_deg * kDegree;
-  const double pitch_rad = camera.pitch_deg * kDegree;
   check(!truth.empty(), "a drone with a camera has flown");
   Random random(seed, Stream::sensors, kFirstGimbal + index);
   Vector3d bias;
   for (double& value : bias) value = random.uniform(-spec.bias_rad, spec.bias_rad);
   Vector3d jitter = normal3(random);
   double heading = heading_from_orientation(truth.front().orientation);
-  Vector3d target(heading + yaw_rad, pitch_rad, 0);
-  SecondOrder response(spec, target);
   double last_s = truth.front().time_s;
+  camera::GimbalAngles angles = gimbal_at(setpoints, camera.gimbal_angles(), last_s);
+  Vector3d target(heading + angles.yaw_deg * kDegree, angles.pitch_deg * kDegree, 0);
+  SecondOrder response(spec, target);
   for (const world::DroneSample& sample : truth) {
     const double dt_s = sample.time_s - last_s;
     last_s = sample.time_s;
     // Heading without jumps at half a turn.
     heading += std::remainder(heading_from_orientation(sample.orientation) - heading, 2 * EIGEN_PI);
-    const Vector3d next(heading + yaw_rad, pitch_rad, 0);
+    angles = gimbal_at(setpoints, camera.gimbal_angles(), sample.time_s);
+    const Vector3d next(heading + angles.yaw_deg * kDegree, angles.pitch_deg * kDegree, 0);
     if (spec.model != camera::GimbalModel::second_order) {
-      const ViewAngles view = ideal_view(sample.orientation, camera);
+      const ViewAngles view = ideal_view(sample.orientation, spec.model, angles);
       points_.push_back({sample.time_s, view, view});
       continue;
     }

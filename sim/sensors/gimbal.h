@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spec/camera/camera_spec.h"
+#include "spec/sim/run_spec.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -25,14 +26,18 @@ double heading_from_orientation(const Eigen::Quaterniond& orientation);
 /// Viewing direction with an ideal gimbal, the drone's heading plus the camera's yaw, the camera's
 /// pitch, no roll; or of a rigid mount, which tilts with the drone.
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera);
+/// The same in another direction than the camera's own.
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, camera::GimbalModel model,
+                      const camera::GimbalAngles& angles);
 
 /// The viewing direction of a camera over a run, computed from a trace, as SensorLog.
 class GimbalLog {
  public:
   /// `truth` are the trace's samples of the drone, at least one. `index`, the index of the camera
-  /// in the run, makes the errors of cameras independent.
+  /// in the run, makes the errors of cameras independent. `setpoints` are the drone's.
   GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
-            std::uint64_t seed, std::uint64_t index);
+            std::uint64_t seed, std::uint64_t index,
+            const std::vector<PilotSample>& setpoints = {});
 
   /// The true viewing direction at a time.
   ViewAngles view_at(double time_s) const;

@@ -60,6 +60,7 @@ struct CameraSpec {
   GimbalSpec gimbal;
   FrameOffsets per_frame;  ///< standard deviations of a frame's offsets
 
+  GimbalAngles gimbal_angles() const { return {pitch_deg, yaw_deg}; }
   /// Returns nothing if the lens model is not valid up to the requested field of view.
   std::optional<Intrinsics> intrinsics() const;
   /// Horizontal field of view of a pinhole camera with this focal length, as flight planning uses

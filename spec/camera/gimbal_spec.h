@@ -14,6 +14,19 @@ enum class GimbalModel : std::uint8_t {
   rigid,         ///< none: the camera tilts with the drone
 };
 
+/// Direction of a camera on its gimbal, in the level frame of the drone's heading.
+struct GimbalAngles {
+  double pitch_deg = 0;  ///< above the horizon; negative looks down
+  double yaw_deg = 0;    ///< to the left of the heading
+
+  bool operator==(const GimbalAngles&) const = default;
+};
+
+/// Limits of these angles, in jobs, pilot logs and commands. Yaw does not go round.
+inline constexpr double kMinGimbalPitchDeg = -90;
+inline constexpr double kMaxGimbalPitchDeg = 30;
+inline constexpr double kMaxGimbalYawDeg = 180;
+
 /// A gimbal; its errors count for GimbalModel::second_order only.
 struct GimbalSpec {
   GimbalModel model = GimbalModel::ideal;

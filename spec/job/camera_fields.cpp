@@ -196,9 +196,11 @@ void add_distortion_fields(FieldTable<CameraSpec>& table) {
 }
 
 void add_view_fields(FieldTable<CameraSpec>& table) {
-  add_number(table, "pitch_deg", "Pitch", "degrees", -90, 30, at(&CameraSpec::pitch_deg),
+  add_number(table, "pitch_deg", "Pitch", "degrees", camera::kMinGimbalPitchDeg,
+             camera::kMaxGimbalPitchDeg, at(&CameraSpec::pitch_deg),
              "Angle above the horizon; -90 looks straight down.");
-  add_number(table, "yaw_deg", "Yaw", "degrees", -180, 180, at(&CameraSpec::yaw_deg),
+  add_number(table, "yaw_deg", "Yaw", "degrees", -camera::kMaxGimbalYawDeg,
+             camera::kMaxGimbalYawDeg, at(&CameraSpec::yaw_deg),
              "Angle to the left of the drone's heading.");
   table.group("mount", "Mount", "Position of the camera's center on the drone.");
   const std::array<std::pair<const char*, const char*>, 3> axes{

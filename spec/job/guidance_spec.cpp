@@ -1,5 +1,7 @@
 #include "spec/job/guidance_spec.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -121,11 +123,18 @@ void set_log(DroneSpec& drone, const json& value, const FieldLocation& place) {
   drone.pilot_log = std::filesystem::path(place.source).parent_path() / name;
 }
 
+constexpr std::size_t kSetpointNumbers = 6;
+constexpr std::size_t kGimbalSetpointNumbers = 8;
+
 ordered_json setpoint_rules() {
   ordered_json rules = {
       {"title", "Set-point"},
-      {"description", "[time in s, x, y, z, yaw in degrees from +x, 1 while people can follow]."}};
-  rules.update(coordinates(6).rules);
+      {"description",
+       "[time in s, x, y, z, yaw in degrees from +x, 1 while people can follow], and, where the "
+       "gimbal turns the camera, its pitch and yaw in degrees instead of camera.pitch_deg and "
+       "yaw_deg."}};
+  rules.update(coordinates(kSetpointNumbers).rules);
+  rules["maxItems"] = kGimbalSetpointNumbers;
   return rules;
 }
 
@@ -141,20 +150,50 @@ double to_degrees(double angle_rad) {
 json setpoints_json(const DroneSpec& drone) {
   json list;
   for (const sim::PilotSample& sample : drone.mission.guidance.setpoints) {
-    list.push_back({sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
-                    to_degrees(sample.yaw_rad), sample.beacon ? 1 : 0});
+    json& row = list.emplace_back(json{sample.time_s, sample.position.x(), sample.position.y(),
+                                       sample.position.z(), to_degrees(sample.yaw_rad),
+                                       sample.beacon ? 1 : 0});
+    if (!sample.gimbal) continue;
+    row.push_back(sample.gimbal->pitch_deg);
+    row.push_back(sample.gimbal->yaw_deg);
   }
   return list;
 }
 
-void set_setpoints(DroneSpec& drone, const json& value, const FieldLocation& /*place*/) {
+/// The direction of the gimbal in a set-point. Adds a problem for one that no gimbal has.
+camera::GimbalAngles read_gimbal(const json& row, const FieldLocation& place) {
+  const auto angle = [&](std::size_t index, double min, double max) {
+    const auto value = row[index].get<double>();
+    if (value < min || value > max) {
+      place.problems.push_back({"", place.below(std::to_string(index)).pointer,
+                                fmt::format("{:g} degrees", value),
+                                fmt::format("{:g} to {:g} degrees", min, max)});
+    }
+    return value;
+  };
+  return {angle(kSetpointNumbers, camera::kMinGimbalPitchDeg, camera::kMaxGimbalPitchDeg),
+          angle(kSetpointNumbers + 1, -camera::kMaxGimbalYawDeg, camera::kMaxGimbalYawDeg)};
+}
+
+void set_setpoints(DroneSpec& drone, const json& value, const FieldLocation& place) {
   std::vector<sim::PilotSample>& setpoints = drone.mission.guidance.setpoints;
   setpoints.clear();
-  for (const json& row : value) {
-    setpoints.push_back({row[0].get<double>(),
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const json& row = value[i];
+    sim::PilotSample& sample = setpoints.emplace_back(
+        sim::PilotSample{row[0].get<double>(),
                          {row[1].get<double>(), row[2].get<double>(), row[3].get<double>()},
                          row[4].get<double>() * kDegree,
                          row[5].get<double>() != 0});
+    if (row.size() == kSetpointNumbers) continue;
+    const FieldLocation own = place.below(std::to_string(i));
+    if (row.size() == kGimbalSetpointNumbers) {
+      sample.gimbal = read_gimbal(row, own);
+    } else {
+      place.problems.push_back({"", own.pointer, fmt::format("{} numbers", row.size()),
+                                fmt::format("{}, or {} with the gimbal's pitch and yaw",
+                                            kSetpointNumbers, kGimbalSetpointNumbers)});
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/json/field_table.h"
 #include "base/text/suggest.h"
+#include "spec/camera/camera_spec.h"
 
 namespace throng::live {
 
@@ -34,6 +35,7 @@ constexpr std::size_t kMaxWaypoints = 50;
 
 json velocity_json(const DroneCommand& command) { return fields::value_json(command.velocity_mps); }
 json position_json(const DroneCommand& command) { return fields::value_json(command.position_m); }
+json gimbal_json(const DroneCommand& command) { return fields::value_json(command.gimbal_deg); }
 json waypoints_json(const DroneCommand& command) { return fields::value_json(command.waypoints_m); }
 
 bool is_vector(const json& value, double limit) {
@@ -71,6 +73,24 @@ void set_waypoints(DroneCommand& command, const json& value, const FieldLocation
   }
 }
 
+void set_gimbal(DroneCommand& command, const json& value, const FieldLocation& place) {
+  const auto is_angle = [](const json& number, double min, double max) {
+    return number.is_number() && number.get<double>() >= min && number.get<double>() <= max;
+  };
+  using camera::kMaxGimbalPitchDeg;
+  using camera::kMaxGimbalYawDeg;
+  using camera::kMinGimbalPitchDeg;
+  if (value.size() == 2 && is_angle(value[0], kMinGimbalPitchDeg, kMaxGimbalPitchDeg) &&
+      is_angle(value[1], -kMaxGimbalYawDeg, kMaxGimbalYawDeg)) {
+    return fields::set_value(value, command.gimbal_deg);
+  }
+  constexpr std::size_t kShown = 60;
+  place.problems.push_back(
+      {"", place.pointer, value.dump().substr(0, kShown),
+       fmt::format("[pitch from {:g} to {:g}, yaw from {:g} to {:g}]", kMinGimbalPitchDeg,
+                   kMaxGimbalPitchDeg, -kMaxGimbalYawDeg, kMaxGimbalYawDeg)});
+}
+
 const FieldTable<DroneCommand>& drone_fields() {
   static const FieldTable<DroneCommand> fields = [] {
     FieldTable<DroneCommand> table;
@@ -87,6 +107,8 @@ const FieldTable<DroneCommand>& drone_fields() {
               at(&DroneCommand::yaw_deg), "");
     table.add("speed_mps", "", "m/s", fields::numbers(kMinSpeedMps, kMaxSpeedMps),
               at(&DroneCommand::speed_mps), "");
+    table.add("gimbal_deg", "", "degrees", fields::raw({{"type", "array"}}), gimbal_json,
+              set_gimbal, "");
     table.add("beacon", "", "", fields::booleans(), at(&DroneCommand::beacon), "");
     table.add("return_home", "", "", fields::booleans(), at(&DroneCommand::return_home), "");
     return table;
@@ -121,18 +143,21 @@ const FieldTable<Commands>& command_fields() {
   return fields;
 }
 
-void require_drone(const std::string& id, const std::vector<std::string>& drones,
-                   const std::string& pointer, std::vector<Problem>& problems) {
-  for (const std::string& drone : drones) {
-    if (drone == id) return;
+/// The drone with an id; null, with a problem, if there is none.
+const FlownDrone* require_drone(const std::string& id, const std::vector<FlownDrone>& drones,
+                                const std::string& pointer, std::vector<Problem>& problems) {
+  std::vector<std::string_view> names;
+  for (const FlownDrone& drone : drones) {
+    if (drone.id == id) return &drone;
+    names.push_back(drone.id);
   }
-  const std::vector<std::string_view> names(drones.begin(), drones.end());
   problems.push_back(unknown_name("", pointer, "drone", id, names));
+  return nullptr;
 }
 
 }  // namespace
 
-Commands commands_from_json(const json& value, const std::vector<std::string>& drones) {
+Commands commands_from_json(const json& value, const std::vector<FlownDrone>& drones) {
   Commands commands;
   std::vector<Problem> problems;
   const std::string no_source;
@@ -140,7 +165,13 @@ Commands commands_from_json(const json& value, const std::vector<std::string>& d
   if (commands.view) require_drone(*commands.view, drones, "/view", problems);
   for (std::size_t i = 0; i < commands.drones.size(); ++i) {
     if (commands.drones[i].id.empty()) continue;  // reported already
-    require_drone(commands.drones[i].id, drones, "/drones/" + std::to_string(i) + "/id", problems);
+    const std::string pointer = "/drones/" + std::to_string(i);
+    const FlownDrone* drone =
+        require_drone(commands.drones[i].id, drones, pointer + "/id", problems);
+    if (drone != nullptr && !drone->has_gimbal && commands.drones[i].gimbal_deg) {
+      problems.push_back({"", pointer + "/gimbal_deg", "a direction for a rigid camera",
+                          "none: the job's camera has gimbal.model rigid"});
+    }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   return commands;

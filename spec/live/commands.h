@@ -12,6 +12,12 @@
 
 namespace throng::live {
 
+/// A drone that can be commanded.
+struct FlownDrone {
+  std::string id;
+  bool has_gimbal = true;  ///< its camera is not rigid
+};
+
 /// Commands for one drone; absent members change nothing.
 struct DroneCommand {
   std::string id;
@@ -24,6 +30,8 @@ struct DroneCommand {
   std::optional<std::vector<std::array<double, 3>>> waypoints_m;
   std::optional<double> yaw_deg;    ///< heading to turn to, counter-clockwise from +x
   std::optional<double> speed_mps;  ///< on the way to these points
+  /// Direction of the camera: pitch above the horizon, yaw to the left of the heading, degrees.
+  std::optional<std::array<double, 2>> gimbal_deg;
   std::optional<bool> beacon;
   std::optional<bool> return_home;
 };
@@ -37,9 +45,9 @@ struct Commands {
   std::vector<DroneCommand> drones;
 };
 
-/// Reads commands; `drones` are the ids of the flight's drones. Throws InputError with every
-/// mistake and its JSON pointer: unknown fields and drones, values out of range.
-Commands commands_from_json(const nlohmann::json& value, const std::vector<std::string>& drones);
+/// Reads commands for a flight with these drones. Throws InputError with every mistake and its JSON
+/// pointer: unknown fields and drones, values out of range, a gimbal that a drone does not have.
+Commands commands_from_json(const nlohmann::json& value, const std::vector<FlownDrone>& drones);
 
 /// The inverse of commands_from_json().
 nlohmann::json to_json(const Commands& commands);

@@ -24,6 +24,8 @@ struct PilotSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   double yaw_rad = 0;
   bool beacon = true;  ///< whether people can follow it
+  /// Direction of the camera, instead of the mission's camera.pitch_deg and yaw_deg.
+  std::optional<camera::GimbalAngles> gimbal = {};
 };
 
 /// The source of a policy's knowledge of people: their true positions, or estimates from a camera

@@ -218,6 +218,24 @@ class Live(WithServer):
         self.assertEqual([mistake.pointer for mistake in refused.exception.errors], ["/drones/0/waypoints_m/1"])
         flight.stop()
 
+    def test_gimbals_are_turned(self):
+        flight = self.live()
+        flight.command({"factor": 10})
+        flight.fly("d1", gimbal_deg=(-80, 30))
+        for message in flight.messages():
+            if not isinstance(message, throng.LiveState):
+                continue
+            off = [abs(float(found) - wanted) for found, wanted in zip(message.drones["gimbal_deg"][0], (-80, 30))]
+            if max(off) < 1e-4:
+                break
+            self.assertLess(message.time_s, 300, off)
+        with self.assertRaises(throng.InvalidRequestError) as refused:
+            flight.fly("d1", gimbal_deg=(60, 0))
+        self.assertEqual([mistake.pointer for mistake in refused.exception.errors], ["/drones/0/gimbal_deg"])
+        job = flight.stop()["job"]
+        self.assertEqual(job["drones"][0]["guidance"]["setpoints"][-1][6:], [-80, 30])
+        self.assertEqual(len(job["drones"][1]["guidance"]["setpoints"][-1]), 6)
+
     def test_a_recording_holds_the_flight(self):
         flight = self.client.live(JOB, record=True)
         self.addCleanup(flight.remove)

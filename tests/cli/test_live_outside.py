@@ -132,6 +132,14 @@ class Client:
         self.process.stdout.close()
 
 
+def rotated(turn, vector):
+    """A vector turned by a quaternion of ROS."""
+    x, y, z, w = (turn[axis] for axis in "xyzw")
+    (a, b, c) = vector
+    tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return (a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx)
+
+
 class Outside(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -245,6 +253,65 @@ class Outside(unittest.TestCase):
             [THRONG, "simulate", kept / "job.json", "-o", self.base / "again.h5"], check=True, capture_output=True
         )
         self.assertEqual(self.digest(self.base / "again.h5"), self.digest(kept / "trace.h5"))
+
+    def test_the_gimbal_turns_and_a_dataset_of_the_flight_shows_it(self):
+        job = {
+            **JOB,
+            "crowd": {"agents": 5},
+            "drones": [
+                {**JOB["drones"][0], "camera": {"width": 320, "height": 180, "pitch_deg": -20}},
+                {**JOB["drones"][1], "camera": {"width": 320, "height": 180, "gimbal": {"model": "rigid"}}},
+            ],
+            "outputs": {"annotations": ["coco"]},
+            "quality": "draft",
+        }
+        (self.base / "job.json").write_text(json.dumps(job))
+        client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
+        client.do("subscribe", topics=["/tf"])
+
+        def camera(messages):
+            """Newest pitch and yaw of d1's camera from its body, which hovers level, in degrees."""
+            turns = {
+                each["child_frame_id"]: each["transform"]["rotation"]
+                for message in messages
+                for each in message["transforms"]
+            }
+            ahead = rotated(turns["d1/camera_optical_frame"], (0, 0, 1))
+            return math.degrees(math.asin(ahead[2])), math.degrees(math.atan2(ahead[1], ahead[0]))
+
+        self.assertAlmostEqual(camera(client.step(1)["/tf"])[0], -20, delta=0.05)
+        client.do("publish", topic="/d1/gimbal", message={"pitch_deg": -80, "yaw_deg": 30})
+        pitch, yaw = camera(client.step(5)["/tf"])
+        self.assertAlmostEqual(pitch, -50, delta=2)  # 60 degrees/s
+        self.assertAlmostEqual(yaw, 30, delta=0.5)
+        pitch, yaw = camera(client.step(24)["/tf"])
+        self.assertAlmostEqual(pitch, -80, delta=0.05)
+        self.assertAlmostEqual(yaw, 30, delta=0.5)
+        client.do("publish", topic="/d_2/gimbal", message={"pitch_deg": -80})
+        self.assertIn("rigid", client.wait("status")["message"])
+        client.call("/throng/stop")
+        self.finish()
+
+        kept = self.base / "out/flight000"
+        self.assertIn("gimbal_pitch_deg", (kept / "d1.csv").read_text().splitlines()[0])
+        self.assertNotIn("gimbal_pitch_deg", (kept / "d-2.csv").read_text())
+        subprocess.run(
+            [THRONG, "run", kept / "job.json", "-o", self.base / "data"],
+            check=True,
+            capture_output=True,
+            timeout=PATIENCE_S,
+        )
+        images = json.loads((self.base / "data/dataset/annotations/instances.json").read_text())["images"]
+        shown = {
+            round(image["flight"]["true"]["time_s"]): image["flight"]["true"]["gimbal"]
+            for image in images
+            if image["file_name"].find("d1") >= 0
+        }
+        # The first step flies without a command; from then on 60 degrees/s from -20, and a set-point 3 ms later.
+        self.assertAlmostEqual(shown[1]["pitch_deg"], -20 - 60 * 0.897, delta=0.01)
+        self.assertAlmostEqual(shown[2]["pitch_deg"], -80, delta=1e-6)
+        checked = subprocess.run([THRONG, "validate", self.base / "data/dataset"], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
 
     def test_time_parameters_and_services(self):
         port = self.begin("--no-camera", "-o", self.base / "out", "--factor", 0)

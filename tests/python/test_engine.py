@@ -79,6 +79,32 @@ class Engine(unittest.TestCase):
         simulation.finish()
         self.assertEqual(sha256(self.folder / "flown.h5"), self.simulated(job))
 
+    def test_a_camera_turns_and_the_flown_job_says_so(self):
+        simulation = Simulation(JOB, remote=True, image_size=(128, 72))
+        ahead = simulation.image()
+        simulation.step([[0, 0, 0, 0, 0, -np.pi / 2, 0.5]], steps=15)
+        self.assertGreater(float(np.abs(simulation.image().astype(float) - ahead).mean()), 10)
+        setpoints = simulation.flown_job()["drones"][0]["guidance"]["setpoints"]
+        self.assertEqual(setpoints[-1][6], -90)
+        self.assertAlmostEqual(setpoints[-1][7], np.degrees(0.5), delta=1e-3)
+        self.assertEqual(len(setpoints[0]), 6)  # as the job has it until then
+
+    def test_events_are_the_rows_of_a_trace(self):
+        # Starts beside a wall: near misses, which have a partner and a distance.
+        job = {**JOB, "drones": [{"id": "d1", "start": [0, -10, 2.2]}]}
+        simulation = Simulation(job, remote=True)
+        events = []
+        for _ in range(60):
+            simulation.step([[3, 0, 0, 0.6, 0]])
+            events += simulation.events()
+        simulation.finish()
+        events += simulation.events()
+        self.assertTrue(events)
+        for event in events:
+            self.assertEqual(
+                set(event), {"time_s", "type", "agent", "drone", "value", "partner", "other", "extra"}, event
+            )
+
     def test_images_have_the_size_that_was_asked_for(self):
         simulation = Simulation(JOB, image_size=(128, 72))
         first = simulation.image("d1")
@@ -134,6 +160,16 @@ class Environment(unittest.TestCase):
         np.testing.assert_array_equal(states, again)
         np.testing.assert_array_equal(people, people_again)
         self.assertTrue((people != people_other).any())
+
+    def test_the_gimbal_is_a_part_of_the_action_if_it_is_asked_for(self):
+        env = throng.Env(JOB, gimbal=True)
+        env.reset(seed=1)
+        self.assertEqual(env.action_space.shape, (7,))
+        for _ in range(5):
+            env.step([0, 0, 0, 0, 0, 1, -0.25])
+        setpoint = env.flown_job()["drones"][0]["guidance"]["setpoints"][-1]
+        self.assertAlmostEqual(setpoint[6], 30, places=2)
+        self.assertAlmostEqual(setpoint[7], -45, places=2)
 
     def test_a_reward_of_the_user_s_own_and_wrong_arguments(self):
         env = throng.Env(JOB, reward=lambda env, info: env.simulation.drones[0, 2])

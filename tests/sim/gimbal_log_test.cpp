@@ -101,6 +101,22 @@ TEST(GimbalLog, ShakesAndIsMisalignedAsMuchAsItSays) {
   EXPECT_NEAR(std::sqrt(biases / kCameras), spec.bias_rad / std::sqrt(3), 0.25 * spec.bias_rad);
 }
 
+TEST(GimbalLog, FollowsTheSetPointsOfAPilot) {
+  // From the camera's own 0 degrees down to -40 between 1 and 2 s, then held.
+  const std::vector<PilotSample> setpoints = {
+      {0, {}, 0, true}, {1, {}, 0, true}, {2, {}, 0, true, {{-40, 20}}}};
+  const auto truth = turning(4, [](double) { return 0.0; });
+  const GimbalLog ideal(truth, camera_at(0, 0, {}), 1, 0, setpoints);
+  EXPECT_NEAR(ideal.view_at(0.5).pitch, 0, 1e-12);
+  EXPECT_NEAR(ideal.view_at(1.5).pitch, -20 * kDegree, 1e-9);
+  EXPECT_NEAR(ideal.view_at(1.5).yaw, 10 * kDegree, 1e-9);
+  EXPECT_NEAR(ideal.view_at(3).pitch, -40 * kDegree, 1e-9);
+  const GimbalLog real(truth, camera_at(0, 0, still()), 1, 0, setpoints);
+  // A ramp is followed 2 z / w behind.
+  EXPECT_NEAR(real.view_at(1.8).pitch, -40 * kDegree * (0.8 - 2 * 0.7 / 25), 1e-2);
+  EXPECT_NEAR(real.view_at(4).pitch, -40 * kDegree, 1e-6);
+}
+
 TEST(GimbalLog, AnIdealOneLooksWhereItIsTold) {
   const GimbalLog log(turning(2, [](double t) { return 0.2 * t; }), camera_at(0.1, -0.4, {}), 3, 0);
   EXPECT_NEAR(log.view_at(1.234).yaw, 0.2 * 1.234 + 0.1, 1e-9);

@@ -25,6 +25,17 @@ TEST(PilotLog, IsReadAsItWasWritten) {
   }
 }
 
+TEST(PilotLog, DirectionsOfTheGimbalAreOptional) {
+  const std::vector<PilotSample> written{{0, {1, 2, 3}, 0, true},
+                                         {1, {1, 2, 3}, 0, true, {{-45.5, 20.25}}}};
+  const std::string csv = pilot_log_csv(written);
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "time_s,x_m,y_m,z_m,yaw_deg,beacon,gimbal_pitch_deg,gimbal_yaw_deg");
+  const auto read = parse_pilot_log(csv, "log.csv");
+  EXPECT_FALSE(read.at(0).gimbal);
+  EXPECT_EQ(read.at(1).gimbal, written[1].gimbal);
+}
+
 std::string message_for(const std::string& csv) {
   try {
     parse_pilot_log(csv, "log.csv");
@@ -46,6 +57,13 @@ TEST(PilotLog, MistakesAreNamedByLine) {
   EXPECT_THAT(message_for(kHead + "0,0,nan,9,0,1\n"), HasSubstr("a number"));
   EXPECT_THAT(message_for(kHead + "0,0,0,9,0,0.5\n"), HasSubstr("0 or 1"));
   EXPECT_EQ(message_for(kHead + "0,0,0,9,0,1\r\n\n"), "accepted");
+  const std::string head =
+      "time_s,x_m,y_m,z_m,yaw_deg,beacon,gimbal_pitch_deg,gimbal_yaw_deg\n0,0,0,9,0,1,";
+  EXPECT_EQ(message_for(head + "-90,180\n1,0,0,9,0,1,,\n"), "accepted");
+  EXPECT_THAT(message_for(head + "-91,0\n"), HasSubstr("found -91 degrees, expected -90 to 30"));
+  EXPECT_THAT(message_for(head + "0,181\n"), HasSubstr("expected -180 to 180 degrees"));
+  EXPECT_THAT(message_for(head + "-45,\n"), HasSubstr("a number"));
+  EXPECT_THAT(message_for(head + "-45\n"), HasSubstr("found 7 values, expected 8 values"));
 }
 
 }  // namespace

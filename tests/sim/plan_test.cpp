@@ -95,6 +95,14 @@ INSTANTIATE_TEST_SUITE_P(
                   m[1].guidance.setpoints = {{2, {0, 0, 9}, 0, true}, {1, {0, 0, 9}, 0, true}};
                 },
                 "/drones/1/guidance/setpoints/1/0", "a later time"},
+        BadCase{"turned_rigid_camera",
+                [](Missions& m) {
+                  m[1].policy = "pilot_log";
+                  m[1].camera.gimbal.model = camera::GimbalModel::rigid;
+                  m[1].guidance.setpoints = {{1, {0, 0, 9}, 0, true},
+                                             {2, {0, 0, 9}, 0, true, {{-45, 0}}}};
+                },
+                "/drones/1/guidance/setpoints/1/6", "gimbal.model is rigid"},
         BadCase{"setpoint_in_building",
                 [](Missions& m) {
                   m[1].policy = "pilot_log";

@@ -128,6 +128,31 @@ TEST(RemotePilots, FlyRoutesPointByPointAndTurn) {
   EXPECT_EQ(read_file(folder.path() / "flown.h5"), read_file(folder.path() / "replayed.h5"));
 }
 
+TEST(RemotePilots, TurnTheGimbalAsFastAsItTurns) {
+  const ::throng::testing::TemporaryFolder folder;
+  const world::Scenario scenario = square();
+  RunSpec spec = run_with_drones(2);
+  spec.drones[0].camera.pitch_deg = -30;
+  spec.drones[1].camera.gimbal.model = camera::GimbalModel::rigid;
+  const auto steer = [](int step, int /*drone*/) {
+    RemoteCommand command;
+    if (step >= 10) command.gimbal = {-75, 90};
+    return command;
+  };
+  const auto logs = fly(scenario, spec, folder.path() / "flown.h5", steer);
+  EXPECT_FALSE(logs[0][10].gimbal) << "as the job has it, until somebody turns it";
+  ASSERT_TRUE(logs[0][11].gimbal);
+  // 60 degrees a second, in steps of 0.1 s.
+  EXPECT_NEAR(logs[0][11].gimbal->pitch_deg, -36, 1e-9);
+  EXPECT_NEAR(logs[0][11].gimbal->yaw_deg, 6, 1e-9);
+  EXPECT_NEAR(logs[0][15].gimbal->pitch_deg, -60, 1e-9);
+  EXPECT_EQ(logs[0].back().gimbal, (camera::GimbalAngles{-75, 90}));
+  EXPECT_FALSE(logs[1].back().gimbal) << "a rigid mount";
+  // The log repeats it, as text, too.
+  const auto read = parse_pilot_log(pilot_log_csv(logs[0]), "log.csv");
+  for (std::size_t i = 0; i < read.size(); ++i) EXPECT_EQ(read[i].gimbal, logs[0][i].gimbal) << i;
+}
+
 TEST(RemotePilots, KeepOutOfBuildingsAndOffTheGround) {
   const ::throng::testing::TemporaryFolder folder;
   world::Scenario scenario = square();

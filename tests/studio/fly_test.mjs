@@ -111,6 +111,10 @@ test("a drone is flown by keyboard", async () => {
   await page.keyboard.up("ArrowDown");
   await until(async () => (await number("Speed")) < 1, "the drone hovers");
   assert.ok((await number("Latency")) > 0);
+  const pitch = await number("Camera");
+  await page.keyboard.down("KeyF");
+  await until(async () => (await number("Camera")) < pitch - 5, "the camera tilts down");
+  await page.keyboard.up("KeyF");
   await page.keyboard.press("KeyB");
   await page.locator('button[aria-pressed="true"]', { hasText: "Beacon" }).waitFor();
   await page.keyboard.press("KeyP");

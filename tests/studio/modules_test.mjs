@@ -517,8 +517,8 @@ test("messages of a live flight are read however they arrive", async () => {
     head.writeUInt32LE(body.length, 1);
     return Buffer.concat([head, body]);
   };
-  const state = Buffer.alloc(24 + 36 + 2 * 12);
-  state.writeUInt8(1, 0);
+  const state = Buffer.alloc(24 + 44 + 2 * 12);
+  state.writeUInt8(2, 0);
   state.writeUInt8(1, 1);
   state.writeUInt16LE(1, 2);
   state.writeUInt32LE(2, 4);
@@ -527,11 +527,13 @@ test("messages of a live flight are read however they arrive", async () => {
   state.writeUInt32LE(9, 20);
   [1, 2, 30, Math.SQRT1_2, 0, 0, Math.SQRT1_2, 4].forEach((value, index) => state.writeFloatLE(value, 24 + 4 * index));
   state.writeUInt32LE(1 | 4, 24 + 32);
+  state.writeFloatLE(-45, 24 + 36);
+  state.writeFloatLE(20, 24 + 40);
   [
     [3, -4, 15708, 2, 1],
     [5, 6, -1, 0, 5],
   ].forEach(([x, y, yaw, kind, flags], index) => {
-    const at = 60 + 12 * index;
+    const at = 68 + 12 * index;
     state.writeFloatLE(x, at);
     state.writeFloatLE(y, at + 4);
     state.writeInt16LE(yaw, at + 8);
@@ -568,6 +570,7 @@ test("messages of a live flight are read however they arrive", async () => {
     assert.deepEqual(value.drones[0].position, [1, 2, 30]);
     assert.ok(Math.abs(value.drones[0].yaw - Math.PI / 2) < 1e-6);
     assert.deepEqual([value.drones[0].hasBeacon, value.drones[0].isOnMission, value.drones[0].isRunning], [true, false, true]);
+    assert.deepEqual(value.drones[0].gimbalDeg, [-45, 20]);
     assert.deepEqual([...value.people.y], [-4, 6]);
     assert.ok(Math.abs(value.people.yaw[0] - 1.5708) < 1e-6);
     assert.deepEqual([...value.people.flags], [1, 5]);

@@ -15,6 +15,12 @@ using nlohmann::json;
 
 namespace {
 
+bool is_setpoint(const json& row) {
+  constexpr std::size_t kMinNumbers = 6;
+  return row.is_array() && row.size() >= kMinNumbers &&
+         std::all_of(row.begin(), row.end(), [](const json& value) { return value.is_number(); });
+}
+
 /// The fields of the job as they hold for one image: those that were sampled are in its record.
 class JobOfImage {
  public:
@@ -37,6 +43,26 @@ class JobOfImage {
     std::string pointer_text = "/" + path;
     std::replace(pointer_text.begin(), pointer_text.end(), '.', '/');
     return job_.contains(json::json_pointer(pointer_text));
+  }
+  /// The pitch of a drone's camera at a time: its set-points' where these turn the gimbal.
+  json pitch_deg(std::size_t drone, double time_s) const {
+    const json otherwise = at(fmt::format("drones.{}.camera.pitch_deg", drone));
+    const json::json_pointer pointer(fmt::format("/drones/{}/guidance/setpoints", drone));
+    if (!job_.contains(pointer) || !otherwise.is_number()) return otherwise;
+    constexpr std::size_t kPitch = 6;
+    const auto pitch_in = [&](const json& row) {
+      return row.size() > kPitch ? row[kPitch].get<double>() : otherwise.get<double>();
+    };
+    const json& rows = job_.at(pointer);
+    if (rows.empty() || !std::all_of(rows.begin(), rows.end(), is_setpoint)) return otherwise;
+    const auto after = std::find_if(rows.begin(), rows.end(),
+                                    [&](const json& row) { return row[0].get<double>() > time_s; });
+    if (after == rows.begin()) return pitch_in(*after);
+    const json& before = *(after - 1);
+    if (after == rows.end()) return pitch_in(before);
+    const double begin_s = before[0];
+    const double share = (time_s - begin_s) / ((*after)[0].get<double>() - begin_s);
+    return pitch_in(before) + share * (pitch_in(*after) - pitch_in(before));
   }
   /// A number that was sampled for the frame alone; 0 without.
   double of_frame(const char* name) const {
@@ -93,7 +119,7 @@ class JobCheck {
     const json gimbal = image_.record.value("flight", json::object())
                             .value("true", json::object())
                             .value("gimbal", json::object());
-    const json pitch = job_.at(path + "pitch_deg");
+    const json pitch = job_.pitch_deg(drone, image_.time_s);
     if (job_.at(path + "gimbal.model") != "ideal" || !pitch.is_number()) return;
     const double expected = pitch.get<double>() + job_.of_frame("pitch_deg");
     constexpr double kRightAngle = 90;

@@ -3,11 +3,12 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -78,21 +79,32 @@ json velocity_fields(const Message& given) {
           {"waypoints_m", json::array()}};
 }
 
-double heading_deg(const Message& message) {
+/// The member "orientation"; nothing if it is missing or all zeros, which ROS sends where nobody
+/// has set it.
+std::optional<Eigen::Quaterniond> orientation(const Message& message) {
+  if (!message.value.contains("orientation")) return std::nullopt;
   const json& given = message.value.at("orientation");
-  std::array<double, 4> q{};
-  constexpr std::array kNames = {"w", "x", "y", "z"};
+  Eigen::Vector4d q;
+  constexpr std::array kNames = {"x", "y", "z", "w"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     const std::string pointer = std::string("/orientation/") + kNames[i];
-    q[i] =
+    q[static_cast<Eigen::Index>(i)] =
         message.number(given.is_object() ? given.value(kNames[i], json(0)) : given, pointer, 1.1);
   }
-  const auto [w, x, y, z] = q;
+  if (q.isZero(0)) return std::nullopt;
   constexpr double kTolerance = 0.01;
-  if (std::abs(w * w + x * x + y * y + z * z - 1) > kTolerance) {
+  if (std::abs(q.squaredNorm() - 1) > kTolerance) {
     message.refuse("/orientation", shown(given), "a quaternion of length 1");
   }
-  return std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) / kDegree;
+  return Eigen::Quaterniond(q).normalized();
+}
+
+/// Adds "yaw_deg" where there is an orientation.
+void add_heading(const Message& message, json& fields) {
+  if (const auto turn = orientation(message)) {
+    const Eigen::Vector3d ahead = *turn * Eigen::Vector3d::UnitX();
+    fields["yaw_deg"] = std::atan2(ahead.y(), ahead.x()) / kDegree;
+  }
 }
 
 json pose_fields(const Message& given) {
@@ -100,7 +112,7 @@ json pose_fields(const Message& given) {
   message.allow({"position", "orientation", "yaw_deg", "speed_mps"});
   if (!message.value.contains("position")) message.refuse("/position", "nothing", "x, y and z");
   json fields = {{"position_m", message.vector("position")}};
-  if (message.value.contains("orientation")) fields["yaw_deg"] = heading_deg(message);
+  add_heading(message, fields);
   for (const char* name : {"yaw_deg", "speed_mps"}) {
     if (message.value.contains(name)) fields[name] = message.value.at(name);
   }
@@ -108,12 +120,35 @@ json pose_fields(const Message& given) {
 }
 
 json waypoint_fields(const Message& message) {
-  message.allow({"waypoints", "yaw_deg", "speed_mps"});
+  message.allow({"waypoints", "orientation", "yaw_deg", "speed_mps"});
   if (!message.value.contains("waypoints")) message.refuse("/waypoints", "nothing", "a list");
   json fields = message.value;
   fields["waypoints_m"] = fields.at("waypoints");
   fields.erase("waypoints");
+  fields.erase("orientation");
+  add_heading(message, fields);
   return fields;
+}
+
+json gimbal_fields(const Message& given) {
+  const Message message = content(given, "quaternion");
+  message.allow({"pitch_deg", "yaw_deg", "orientation"});
+  const auto turn = orientation(message);
+  if (!turn) {
+    if (!message.value.contains("pitch_deg")) {
+      message.refuse("/pitch_deg", "nothing", "degrees above the horizon, or an orientation");
+    }
+    return {{"gimbal_deg", json::array({message.value.at("pitch_deg"),
+                                        message.value.value("yaw_deg", json(0))})}};
+  }
+  constexpr double kMaxRoll = 0.02;
+  if (std::abs((*turn * Eigen::Vector3d::UnitY()).z()) > kMaxRoll) {
+    message.refuse("/orientation", shown(message.value.at("orientation")),
+                   "an orientation without roll");
+  }
+  const Eigen::Vector3d ahead = *turn * Eigen::Vector3d::UnitX();
+  return {{"gimbal_deg", json::array({std::asin(std::clamp(ahead.z(), -1.0, 1.0)) / kDegree,
+                                      std::atan2(ahead.y(), ahead.x()) / kDegree})}};
 }
 
 json beacon_fields(const Message& message) {
@@ -139,12 +174,34 @@ json read_twist(CdrReader& reader) {
   return {{"linear", std::move(linear)}, {"angular", read_vector(reader)}};
 }
 
+json read_quaternion(CdrReader& reader) {
+  json turn = read_vector(reader);
+  turn["w"] = reader.number<double>();
+  return {{"orientation", std::move(turn)}};
+}
+
 json read_pose(CdrReader& reader) {
   json position = read_vector(reader);
-  json orientation = read_vector(reader);
-  orientation["w"] = reader.number<double>();
-  return {{"position", std::move(position)}, {"orientation", std::move(orientation)}};
+  json pose = read_quaternion(reader);
+  pose["position"] = std::move(position);
+  return pose;
 }
+
+/// Poses as waypoints, with the orientation of the last one.
+json read_poses(CdrReader& reader, bool are_stamped) {
+  json message = {{"waypoints", json::array()}};
+  for (auto left = reader.number<std::uint32_t>(); left > 0; --left) {
+    if (are_stamped) skip_header(reader);
+    json pose = read_pose(reader);
+    const json& place = pose.at("position");
+    message["waypoints"].push_back({place.at("x"), place.at("y"), place.at("z")});
+    message["orientation"] = std::move(pose["orientation"]);
+  }
+  return message;
+}
+
+json read_path(CdrReader& reader) { return read_poses(reader, true); }
+json read_pose_array(CdrReader& reader) { return read_poses(reader, false); }
 
 json read_bool(CdrReader& reader) { return {{"data", reader.number<std::uint8_t>() != 0}}; }
 
@@ -166,7 +223,12 @@ const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kinds = {
       {"cmd_vel", velocity_fields, {{"Twist", read_twist}, {"TwistStamped", read_twist, true}}},
       {"cmd_pose", pose_fields, {{"Pose", read_pose}, {"PoseStamped", read_pose, true}}},
-      {"cmd_waypoints", waypoint_fields, {}},
+      {"cmd_waypoints",
+       waypoint_fields,
+       {{"Path", read_path, true}, {"PoseArray", read_pose_array, true}}},
+      {"gimbal",
+       gimbal_fields,
+       {{"Quaternion", read_quaternion}, {"QuaternionStamped", read_quaternion, true}}},
       {"beacon", beacon_fields, {{"Bool", read_bool}}}};
   return kinds;
 }
@@ -187,11 +249,12 @@ const Schema& find_schema(const Kind& kind, const PublishedCommand& channel) {
 
 /// Names the fields as the message has them.
 Problem renamed(Problem problem, const std::string& topic) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kNames = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames = {
       {{"velocity_mps", "linear"},
        {"waypoints_m", "waypoints"},
        {"position_m", "position"},
        {"beacon", "data"},
+       {"gimbal_deg", "pitch_deg and yaw_deg"},
        {"yaw_rate_deg_s", "angular/z"}}};
   constexpr std::string_view kPrefix = "/drones/0";
   if (problem.where.starts_with(kPrefix)) problem.where.erase(0, kPrefix.size());
@@ -207,8 +270,8 @@ Problem renamed(Problem problem, const std::string& topic) {
 
 }  // namespace
 
-CommandTopics::CommandTopics(std::vector<std::string> ids, std::vector<std::string> names)
-    : ids_(std::move(ids)), names_(std::move(names)) {}
+CommandTopics::CommandTopics(std::vector<FlownDrone> drones, std::vector<std::string> names)
+    : drones_(std::move(drones)), names_(std::move(names)) {}
 
 CommandTopics::Target CommandTopics::find(const std::string& topic) const {
   std::vector<std::string> topics;
@@ -244,9 +307,9 @@ Commands CommandTopics::read(const PublishedCommand& message) const {
     value = parse_json(message.bytes, message.topic, kLimits);
   }
   json fields = kind.fields({message.topic, std::move(value)});
-  fields["id"] = ids_[target.drone];
+  fields["id"] = drones_[target.drone].id;
   try {
-    return commands_from_json({{"drones", json::array({std::move(fields)})}}, ids_);
+    return commands_from_json({{"drones", json::array({std::move(fields)})}}, drones_);
   } catch (const InputError& error) {
     std::vector<Problem> problems;
     for (const Problem& each : error.problems()) problems.push_back(renamed(each, message.topic));

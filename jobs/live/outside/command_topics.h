@@ -20,8 +20,8 @@ struct PublishedCommand {
 /// The topics of a flight's drones. Values only: safe to use from many threads.
 class CommandTopics {
  public:
-  /// Ids of the drones, and their names in ROS in the same order.
-  CommandTopics(std::vector<std::string> ids, std::vector<std::string> names);
+  /// The drones, and their names in ROS in the same order.
+  CommandTopics(std::vector<FlownDrone> drones, std::vector<std::string> names);
 
   /// Throws InputError for a topic, encoding or schema that commands do not have.
   void check(const PublishedCommand& channel) const;
@@ -36,7 +36,7 @@ class CommandTopics {
   };
   Target find(const std::string& topic) const;
 
-  std::vector<std::string> ids_;
+  std::vector<FlownDrone> drones_;
   std::vector<std::string> names_;
 };
 

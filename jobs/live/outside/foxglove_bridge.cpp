@@ -49,10 +49,12 @@ PublishedCommand published(const foxglove::ClientChannel& channel, std::string_v
 
 }  // namespace
 
-FoxgloveBridge::FoxgloveBridge(const foxglove::ServerOptions& options, std::vector<std::string> ids,
+FoxgloveBridge::FoxgloveBridge(const foxglove::ServerOptions& options,
+                               const std::vector<FlownDrone>& drones,
                                const std::vector<std::string>& names, bool has_camera,
                                Control& control)
-    : ids_(std::move(ids)), commands_(ids_, names), control_(control) {
+    : commands_(drones, names), control_(control) {
+  for (const FlownDrone& drone : drones) ids_.push_back(drone.id);
   std::vector<foxglove::Channel> channels;
   for (const FlightTopic& topic : flight_topics(names)) {
     if (topic.camera && !has_camera) continue;

@@ -23,7 +23,7 @@ class FoxgloveBridge {
  public:
   /// Ids of the drones and their names in ROS. `control` must outlive this object. Throws as
   /// foxglove::Server.
-  FoxgloveBridge(const foxglove::ServerOptions& options, std::vector<std::string> ids,
+  FoxgloveBridge(const foxglove::ServerOptions& options, const std::vector<FlownDrone>& drones,
                  const std::vector<std::string>& names, bool has_camera, Control& control);
 
   std::uint16_t port() const { return server_->port(); }

@@ -15,6 +15,7 @@
 #include "render/lens/metering.h"
 #include "render/lens/sensor.h"
 #include "render/truth/flow_targets.h"
+#include "sim/recording/gimbal_setpoints.h"
 #include "spec/sim/airframe.h"
 
 namespace throng::jobs {
@@ -52,7 +53,7 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
     shapes_.push_back(airframe_shape(job.drones[i].mission));
     const std::vector<world::DroneSample>& samples = trace.drones[drones_[i]];
-    gimbals_.emplace_back(samples, cameras_[i], run_seed, i);
+    gimbals_.emplace_back(samples, cameras_[i], run_seed, i, setpoints(i));
     sensors_.push_back(record_sensors(job, run_seed, samples, i));
   }
 }
@@ -86,13 +87,27 @@ std::vector<render::DroneInstance> FrameCapture::drones_at(double time_s) const 
 sim::ViewAngles FrameCapture::view_at(std::size_t drone, std::int64_t frame,
                                       const world::DroneSample& sample) const {
   const camera::CameraSpec& camera = cameras_[drone];
-  sim::ViewAngles view = camera.gimbal.model == camera::GimbalModel::second_order
-                             ? gimbals_[drone].view_at(sample.time_s)
-                             : sim::ideal_view(sample.orientation, camera);
-  const camera::FrameOffsets draw = draw_of_frame(camera, run_seed_, drone, frame);
+  sim::ViewAngles view = gimbals_[drone].view_at(sample.time_s);
+  if (camera.gimbal.model != camera::GimbalModel::second_order) {
+    view = sim::ideal_view(sample.orientation, camera.gimbal.model,
+                           sim::gimbal_at(setpoints(drone), camera.gimbal_angles(), sample.time_s));
+  }
+  const camera::FrameOffsets draw = offsets_at(drone, frame);
   view.yaw += draw.yaw_deg * kDegree;
   view.pitch += draw.pitch_deg * kDegree;
   return view;
+}
+
+const std::vector<sim::PilotSample>& FrameCapture::setpoints(std::size_t drone) const {
+  return job_->drones[drone].mission.guidance.setpoints;
+}
+
+camera::FrameOffsets FrameCapture::offsets_at(std::size_t drone, std::int64_t frame) const {
+  camera::CameraSpec camera = cameras_.at(drone);
+  const camera::GimbalAngles angles =
+      sim::gimbal_at(setpoints(drone), camera.gimbal_angles(), job_->frame_time_s(frame));
+  camera.pitch_deg = angles.pitch_deg;
+  return draw_of_frame(camera, run_seed_, drone, frame);
 }
 
 std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const {
@@ -122,7 +137,7 @@ CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
 
 CapturedFrame FrameCapture::capture(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
-  const camera::FrameOffsets draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
+  const camera::FrameOffsets draw = offsets_at(drone, frame);
   camera::CameraSpec camera = camera_of_frame(cameras_[drone], draw);
   const double time_s = job_->frame_time_s(frame);
   const render::NeighborTimes neighbors = neighbors_of(frame);

@@ -55,6 +55,9 @@ class FrameCapture {
   /// All drones of the run.
   std::vector<render::DroneInstance> drones_at(double time_s) const;
   std::string flight_at(std::size_t drone, std::int64_t frame) const;
+  const std::vector<sim::PilotSample>& setpoints(std::size_t drone) const;
+  /// Offsets of a frame's camera, whose pitch depends on where the gimbal points.
+  camera::FrameOffsets offsets_at(std::size_t drone, std::int64_t frame) const;
 
   const JobSpec* job_;
   std::uint64_t run_seed_;

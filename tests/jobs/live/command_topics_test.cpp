@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 const CommandTopics& topics() {
-  static const CommandTopics topics({"d1", "d-2"}, {"d1", "d_2"});
+  static const CommandTopics topics({{"d1"}, {"d-2", false}}, {"d1", "d_2"});
   return topics;
 }
 
@@ -89,6 +89,62 @@ TEST(CommandTopics, CdrIsReadWithItsAlignment) {
   EXPECT_EQ(read_cdr("/d_2/beacon", "Bool", flag).at("beacon"), true);
 }
 
+TEST(CommandTopics, PathsAreReadWithTheHeadingOfTheirEnd) {
+  // nav_msgs/Path: a header, then poses with headers of their own.
+  std::string bytes("\0\1\0\0", 4);
+  const auto append = [&](auto number) {
+    while ((bytes.size() - 4) % sizeof(number) != 0) bytes += '\0';
+    append_number(bytes, number);
+  };
+  const auto append_header = [&](const std::string& frame) {
+    append(std::int32_t{1});
+    append(std::uint32_t{2});
+    append(static_cast<std::uint32_t>(frame.size() + 1));
+    bytes += frame + '\0';
+  };
+  append_header("world");
+  append(std::uint32_t{2});
+  for (const double x : {1.0, 2.0}) {
+    append_header("map");
+    for (const double number : {x, 3.0, 12.0, 0.0, 0.0, x == 2 ? 0.6 : 0.0, x == 2 ? 0.8 : 0.0}) {
+      append(number);
+    }
+  }
+  const json fields = read_cdr("/d1/cmd_waypoints", "nav_msgs/msg/Path", bytes);
+  EXPECT_EQ(fields.at("waypoints_m"), json::parse("[[1.0, 3.0, 12.0], [2.0, 3.0, 12.0]]"));
+  EXPECT_NEAR(fields.at("yaw_deg").get<double>(), 73.739795, 1e-5);
+  EXPECT_NE(problem([&] {
+              read_cdr("/d1/cmd_waypoints", "nav_msgs/msg/Path", bytes.substr(0, bytes.size() - 1));
+            }),
+            "");
+}
+
+TEST(CommandTopics, AnOrientationThatNobodyHasSetLeavesTheHeading) {
+  const json fields = read_cdr("/d1/cmd_pose", "geometry_msgs/Pose", cdr({4, 5, 6, 0, 0, 0, 0}));
+  EXPECT_FALSE(fields.contains("yaw_deg"));
+}
+
+TEST(CommandTopics, GimbalsTakeAnglesOrAnOrientation) {
+  EXPECT_EQ(read("/d1/gimbal", R"({"pitch_deg": -60, "yaw_deg": 10})").at("gimbal_deg"),
+            json({-60, 10}));
+  // 30 degrees down: positive about y, as REP 103 has it; and 90 to the left.
+  const double s = std::sin(EIGEN_PI / 12);
+  const double c = std::cos(EIGEN_PI / 12);
+  const json down =
+      read_cdr("/d1/gimbal", "geometry_msgs/msg/Quaternion", cdr({0, s, 0, c})).at("gimbal_deg");
+  EXPECT_NEAR(down[0].get<double>(), -30, 1e-9);
+  EXPECT_NEAR(down[1].get<double>(), 0, 1e-9);
+  const json left = read("/d1/gimbal", R"({"orientation": {"z": 0.70710678, "w": 0.70710678}})");
+  EXPECT_NEAR(left.at("gimbal_deg")[1].get<double>(), 90, 1e-6);
+  EXPECT_NE(refused("/d1/gimbal", R"({"orientation": {"x": 0.6, "w": 0.8}})"), "") << "roll";
+  EXPECT_EQ(refused("/d1/gimbal", "{}"),
+            "/d1/gimbal: /pitch_deg: found nothing, expected degrees above the horizon, or an "
+            "orientation");
+  EXPECT_EQ(refused("/d_2/gimbal", R"({"pitch_deg": 0})"),
+            "/d_2/gimbal: /pitch_deg and yaw_deg: found a direction for a rigid camera, expected "
+            "none: the job's camera has gimbal.model rigid");
+}
+
 TEST(CommandTopics, CutOrStrangeCdrIsRefused) {
   const std::string whole = stamped_twist();
   for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -113,7 +169,7 @@ TEST(CommandTopics, MistakesNameTopicAndField) {
       refused("/d1/cmd_pose", R"({"position": {"x": 1e5}})"),
       "/d1/cmd_pose: /position: found [100000.0,0,0], expected 3 numbers from -10000 to 10000");
   EXPECT_EQ(refused("/d1/cmd_pose", R"({"position": {}, "orientation": 3})"),
-            "/d1/cmd_pose: /orientation/w: found 3, expected a number from -1.1 to 1.1");
+            "/d1/cmd_pose: /orientation/x: found 3, expected a number from -1.1 to 1.1");
   EXPECT_TRUE(refused("/d1/cmd_pose", R"({"position": {}, "yaw_deg": "north"})")
                   .starts_with("/d1/cmd_pose: /yaw_deg: found \"north\""));
   EXPECT_TRUE(refused("/d1/cmd_waypoints", R"({"waypoints": 3})")
@@ -127,10 +183,12 @@ TEST(CommandTopics, MistakesNameTopicAndField) {
 TEST(CommandTopics, ChannelsAreChecked) {
   EXPECT_NO_THROW(topics().check({"/d1/cmd_vel", "cdr", "geometry_msgs/msg/Twist", ""}));
   EXPECT_NO_THROW(topics().check({"/d_2/cmd_waypoints", "json", "", ""}));
-  EXPECT_EQ(problem([] {
-              topics().check({"/d1/cmd_waypoints", "cdr", "nav_msgs/Path", ""});
-            }),
-            "/d1/cmd_waypoints: schema: found cdr with \"nav_msgs/Path\", expected json");
+  EXPECT_EQ(
+      problem([] {
+        topics().check({"/d1/cmd_waypoints", "cdr", "nav_msgs/Odometry", ""});
+      }),
+      "/d1/cmd_waypoints: schema: found cdr with \"nav_msgs/Odometry\", expected json, or cdr "
+      "with Path or PoseArray");
   EXPECT_EQ(problem([] {
               topics().check({"/d1/beacon", "protobuf", "", ""});
             }),

@@ -25,7 +25,7 @@ std::shared_ptr<const Moment> moment(int step) {
 }
 
 Commands read(const char* text) {
-  return commands_from_json(nlohmann::json::parse(text), {"d1", "d2"});
+  return commands_from_json(nlohmann::json::parse(text), {{"d1"}, {"d2"}});
 }
 
 /// A paused flight of two drones that ends after two seconds.

@@ -41,7 +41,8 @@ TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   LiveFlights flights(folder.path(), limits_with(folder, kUntilStop));
   const auto flight = flights.begin(resolved(), "alice");
   EXPECT_EQ(flight->name(), "flown");
-  EXPECT_EQ(flight->drones(), std::vector<std::string>{"d1"});
+  ASSERT_EQ(flight->drones().size(), 1U);
+  EXPECT_EQ(flight->drones()[0].id, "d1");
   ASSERT_TRUE(wait_until([&] { return flight->state() == LiveState::flying; }));
   LiveFlight::Viewer viewer(flight);
   EXPECT_EQ(flight->viewers(), 1);

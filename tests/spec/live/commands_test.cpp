@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> kDrones = {"left", "right"};
+const std::vector<FlownDrone> kDrones = {{"left"}, {"right"}, {"rigid", false}};
 
 /// "pointer: found" of every mistake.
 std::vector<std::string> mistakes(const char* text) {
@@ -68,6 +68,22 @@ TEST(Commands, PlacesToFlyToAreReadAndPrinted) {
   EXPECT_EQ(found.size(), 5U);
   EXPECT_EQ(found[0], "/drones/0/position_m: [1,2]");
   EXPECT_EQ(found[2].substr(0, 25), "/drones/1/waypoints_m/0: ");
+}
+
+TEST(Commands, GimbalsAreTurnedWhereThereAreSome) {
+  const json text = json::parse(R"({"drones": [{"id": "left", "gimbal_deg": [-60, 20.5]}]})");
+  EXPECT_EQ(commands_from_json(text, kDrones).drones[0].gimbal_deg,
+            (std::array<double, 2>{-60, 20.5}));
+  EXPECT_EQ(to_json(commands_from_json(text, kDrones)), text);
+  EXPECT_EQ(
+      mistakes(R"({"drones": [{"id": "left", "gimbal_deg": [31, 0]},
+                                    {"id": "left", "gimbal_deg": [0, -181]},
+                                    {"id": "left", "gimbal_deg": [0]},
+                                    {"id": "left", "gimbal_deg": ["down", 0]},
+                                    {"id": "rigid", "gimbal_deg": [0, 0]}]})"),
+      (std::vector<std::string>{"/drones/0/gimbal_deg: [31,0]", "/drones/1/gimbal_deg: [0,-181]",
+                                "/drones/2/gimbal_deg: [0]", "/drones/3/gimbal_deg: [\"down\",0]",
+                                "/drones/4/gimbal_deg: a direction for a rigid camera"}));
 }
 
 TEST(Commands, EveryMistakeIsNamed) {

@@ -593,6 +593,8 @@ export interface LiveCommands {
     yaw_deg?: number;
     /** Speed on the way to points given with it; default: 5. */
     speed_mps?: number;
+    /** Direction to turn the camera to: [pitch from -90 to 30 above the horizon, yaw from -180 to 180 to the left of the heading]. Gimbals turn at most at 60 degrees/s; a rigid camera has none. */
+    gimbal_deg?: number[];
     /** Whether people may follow the drone. */
     beacon?: boolean;
     /** Whether the drone returns to its start, until it is steered again. */

@@ -6,9 +6,11 @@ export interface Sticks {
   left: number;
   up: number;
   turn: number; ///< to the left
+  tilt: number; ///< of the camera, up
+  pan: number; ///< of the camera, to the left
 }
 
-export const kRest: Sticks = { ahead: 0, left: 0, up: 0, turn: 0 };
+export const kRest: Sticks = { ahead: 0, left: 0, up: 0, turn: 0, tilt: 0, pan: 0 };
 
 type Axis = keyof Sticks;
 const kKeys: Record<string, [Axis, number]> = {
@@ -22,10 +24,21 @@ const kKeys: Record<string, [Axis, number]> = {
   ArrowRight: ["turn", -1],
   KeyQ: ["turn", 1],
   KeyE: ["turn", -1],
+  KeyR: ["tilt", 1],
+  KeyF: ["tilt", -1],
+  KeyZ: ["pan", 1],
+  KeyX: ["pan", -1],
 };
 
 export type Action = "beacon" | "home" | "pause" | "swap" | "next";
 const kActions: Record<string, Action> = { KeyB: "beacon", KeyH: "home", KeyP: "pause", KeyV: "swap", KeyN: "next" };
+/** The directional pad of the standard gamepad: up, down, left, right. */
+const kPadButtons: [number, Axis, number][] = [
+  [12, "tilt", 1],
+  [13, "tilt", -1],
+  [14, "pan", 1],
+  [15, "pan", -1],
+];
 /** Buttons of the standard gamepad: A, B, X, Y and Start. */
 const kButtons: [number, Action][] = [
   [0, "beacon"],
@@ -94,6 +107,9 @@ export class Controls {
       sticks.up -= deflection(pad.axes[1]);
       sticks.left -= deflection(pad.axes[2]);
       sticks.ahead -= deflection(pad.axes[3]);
+      for (const [button, axis, sign] of kPadButtons) {
+        if (pad.buttons[button]?.pressed) sticks[axis] += sign;
+      }
       for (const [button, action] of kButtons) {
         const isDown = pad.buttons[button]?.pressed ?? false;
         const isNew = isDown && !this.pressed.has(button);
@@ -103,6 +119,7 @@ export class Controls {
         if (isNew) this.onAction(action);
       }
     }
-    return { ahead: clamped(sticks.ahead), left: clamped(sticks.left), up: clamped(sticks.up), turn: clamped(sticks.turn) };
+    for (const axis of Object.keys(sticks) as Axis[]) sticks[axis] = clamped(sticks[axis]);
+    return sticks;
   }
 }

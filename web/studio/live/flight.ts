@@ -21,7 +21,10 @@ export interface Listener {
 }
 
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)] ?? null;
-const isEqual = (a: Sticks, b: Sticks) => a.ahead === b.ahead && a.left === b.left && a.up === b.up && a.turn === b.turn;
+const isEqual = (a: Sticks, b: Sticks) => (Object.keys(a) as (keyof Sticks)[]).every((axis) => a[axis] === b[axis]);
+const clamp = (value: number, min: number, max: number) => Math.max(min, Math.min(max, value));
+const kMaxPanDeg = 180;
+const kTurnDegS = 30; ///< of a camera whose key is held
 
 export class Connection {
   private readonly controller = new AbortController();
@@ -34,6 +37,9 @@ export class Connection {
   private lastSent = 0;
   private timer = 0;
   private queued: LiveCommands = {};
+  private world: World | null = null;
+  private readonly aims = new Map<number, [number, number]>(); ///< commanded directions of cameras, by drone
+  private lastLooked = 0;
   hello: Hello | null = null;
   drone = 0; ///< that is flown
 
@@ -99,6 +105,7 @@ export class Connection {
         this.listener.hello(message.value);
         return false;
       case "world":
+        this.world = message.value;
         this.listener.world(message.value);
         return false;
       case "event":
@@ -126,6 +133,21 @@ export class Connection {
     }
   }
 
+  /** Where the camera of the drone that is flown is to look, if a key that turns it is held. */
+  private turnCamera(hello: Hello, sticks: Sticks, now: number): [number, number] | null {
+    const seconds = Math.min(0.2, (now - this.lastLooked) / 1000);
+    this.lastLooked = now;
+    const { is_rigid: isRigid, pitch_deg: pitchDeg, yaw_deg: yawDeg } = hello.drones[this.drone]!.camera;
+    if (isRigid || (sticks.tilt === 0 && sticks.pan === 0)) return null;
+    const [pitch, yaw] = this.aims.get(this.drone) ?? this.world?.drones[this.drone]?.gimbalDeg ?? [pitchDeg, yawDeg];
+    const aim: [number, number] = [
+      clamp(pitch + kTurnDegS * seconds * sticks.tilt, hello.min_pitch_deg, hello.max_pitch_deg),
+      clamp(yaw + kTurnDegS * seconds * sticks.pan, -kMaxPanDeg, kMaxPanDeg),
+    ];
+    this.aims.set(this.drone, aim);
+    return aim;
+  }
+
   /** One request at a time: what is newest counts. */
   private fly(): void {
     const hello = this.hello;
@@ -133,7 +155,8 @@ export class Connection {
     if (!hello || !id) return;
     const sticks = this.controls.read();
     const now = performance.now();
-    const isNew = !isEqual(sticks, this.last) || Object.keys(this.queued).length > 0;
+    const aim = this.turnCamera(hello, sticks, now);
+    const isNew = aim !== null || !isEqual(sticks, this.last) || Object.keys(this.queued).length > 0;
     const isDue = now - this.lastSent > kRepeatMs && !isEqual(sticks, kRest);
     if (this.isSending || (!isNew && !isDue)) return;
     const sequence = ++this.sequence;
@@ -148,6 +171,7 @@ export class Connection {
       id,
       velocity_mps: [speed * sticks.ahead, speed * sticks.left, hello.max_climb_mps * sticks.up],
       yaw_rate_deg_s: hello.max_yaw_deg_s * sticks.turn,
+      ...(aim ? { gimbal_deg: aim } : {}),
     };
     const body: LiveCommands = { ...others, sequence, drones: [...drones, wish] };
     void sendJson<void>("POST", `/v1/live/${this.id}/commands`, JSON.stringify(body), this.controller.signal)

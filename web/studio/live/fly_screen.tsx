@@ -263,6 +263,7 @@ function Flight({ id }: { id: string }) {
               ["Time", `${(shown.world?.timeS ?? 0).toFixed(1)} of ${hello.max_s} s`],
               ["Height", state ? `${state.position[2].toFixed(1)} m` : "–"],
               ["Speed", state ? `${state.speed.toFixed(1)} m/s` : "–"],
+              ["Camera", state ? `${state.gimbalDeg[0].toFixed(0)}°` : "–"],
               ["Latency", shown.delayMs === null ? "–" : `${Math.round(shown.delayMs)} ms`],
               ["Images", `${shown.imagesPerS.toFixed(0)} per s`],
               ["Real time", shown.world ? `${shown.world.factor.toFixed(2)} ×` : "–"],
@@ -275,11 +276,13 @@ function Flight({ id }: { id: string }) {
           </p>
           <Pads
             onLeft={(right, up) => controls.current && Object.assign(controls.current.touch, { turn: -right, up })}
+            onCamera={(right, up) => controls.current && Object.assign(controls.current.touch, { pan: -right, tilt: up })}
             onRight={(right, up) => controls.current && Object.assign(controls.current.touch, { left: -right, ahead: up })}
           />
           <p class="quiet-text">
-            Keys: W S ahead and back, A D aside, ↑ ↓ up and down, ← → (or Q E) turn, B beacon, H home, P pause, V swap views, N next drone.
-            Gamepad: left stick up and turn, right stick ahead and aside, A beacon, B home, X swap, Y next drone, Start pause.
+            Keys: W S ahead and back, A D aside, ↑ ↓ up and down, ← → (or Q E) turn, R F tilt the camera, Z X turn it, B beacon, H home, P
+            pause, V swap views, N next drone. Gamepad: left stick up and turn, right stick ahead and aside, directional pad camera, A
+            beacon, B home, X swap, Y next drone, Start pause.
           </p>
           <ul class="legend fly-legend" aria-label="Colors of people">
             {Object.entries(kColors).map(([name, color]) => (

@@ -22,7 +22,7 @@ export interface Hello {
     start: [number, number, number];
     yaw_deg: number;
     leads: boolean;
-    camera: { hfov_deg: number; pitch_deg: number; yaw_deg: number };
+    camera: { hfov_deg: number; pitch_deg: number; yaw_deg: number; is_rigid: boolean };
   }[];
   ground: { min: [number, number]; max: [number, number] };
   inside: { min: [number, number]; max: [number, number] };
@@ -34,6 +34,9 @@ export interface Hello {
   max_speed_mps: number;
   max_climb_mps: number;
   max_yaw_deg_s: number;
+  max_gimbal_deg_s: number;
+  min_pitch_deg: number;
+  max_pitch_deg: number;
 }
 
 export interface DroneState {
@@ -44,6 +47,7 @@ export interface DroneState {
   hasBeacon: boolean;
   isOnMission: boolean;
   isRunning: boolean;
+  gimbalDeg: [number, number]; ///< pitch above the horizon, yaw to the left of the heading
 }
 
 export interface World {
@@ -82,7 +86,7 @@ export type Message =
 
 const kHeadBytes = 5;
 const kStateHeadBytes = 24;
-const kDroneBytes = 36;
+const kDroneBytes = 44;
 const kPersonBytes = 12;
 const kImageHeadBytes = 16;
 
@@ -103,6 +107,7 @@ function worldOf(bytes: Uint8Array): World {
       hasBeacon: (flags & 1) !== 0,
       isOnMission: (flags & 2) !== 0,
       isRunning: (flags & 4) !== 0,
+      gimbalDeg: [number(9), number(10)],
     };
   });
   const people = {

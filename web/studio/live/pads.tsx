@@ -1,4 +1,4 @@
-// Two pads for fingers and pointers: left up, down and turn, right ahead and aside.
+// Pads for fingers and pointers: left up, down and turn, in the middle the camera, right ahead and aside.
 import type { TargetedPointerEvent } from "preact";
 import { useState } from "preact/hooks";
 
@@ -45,12 +45,14 @@ function Pad({ label, onMove }: PadProps) {
 interface PadsProps {
   onLeft: (right: number, up: number) => void;
   onRight: (right: number, up: number) => void;
+  onCamera: (right: number, up: number) => void;
 }
 
-export function Pads({ onLeft, onRight }: PadsProps) {
+export function Pads({ onLeft, onRight, onCamera }: PadsProps) {
   return (
     <div class="pads">
       <Pad label="Up, down and turn" onMove={onLeft} />
+      <Pad label="Camera: tilt and turn" onMove={onCamera} />
       <Pad label="Ahead, back and aside" onMove={onRight} />
     </div>
   );

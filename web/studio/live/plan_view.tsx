@@ -76,9 +76,9 @@ function drawDrones(context: CanvasRenderingContext2D, sheet: Sheet, hello: Hell
   world.drones.forEach((drone, index) => {
     const { camera, id } = hello.drones[index]!;
     const [x, y] = sheet.toPx(drone.position[0], drone.position[1]);
-    const yaw = drone.yaw + camera.yaw_deg * kDegree;
+    const yaw = drone.yaw + drone.gimbalDeg[1] * kDegree;
     const half = (camera.hfov_deg / 2) * kDegree;
-    const reach = Math.min(40, Math.max(8, drone.position[2] / Math.tan(Math.max(0.3, -camera.pitch_deg * kDegree)))) * sheet.scale;
+    const reach = Math.min(40, Math.max(8, drone.position[2] / Math.tan(Math.max(0.3, -drone.gimbalDeg[0] * kDegree)))) * sheet.scale;
     context.fillStyle = index === flown ? "#0b647544" : "#5d697033";
     context.beginPath();
     context.moveTo(x, y);
