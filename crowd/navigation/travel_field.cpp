@@ -1,6 +1,7 @@
 #include "crowd/navigation/travel_field.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <limits>
 
@@ -9,6 +10,19 @@ namespace throng::crowd {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr unsigned kPointBits = 32;
+
+/// A cost, which is not negative, and the point that it is for as one number, in the order of cost
+/// and then of the point: a heap of these takes half as long as one of pairs.
+std::uint64_t open_entry(float cost, int point) {
+  return (std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << kPointBits) |
+         static_cast<std::uint32_t>(point);
+}
+
+std::pair<float, int> read_entry(std::uint64_t entry) {
+  return {std::bit_cast<float>(static_cast<std::uint32_t>(entry >> kPointBits)),
+          static_cast<int>(static_cast<std::uint32_t>(entry))};
+}
 
 }  // namespace
 
@@ -53,12 +67,12 @@ void TravelField::reach(int node, float cost, int next, Buffers& buffers) {
   Node& reached = nodes_[static_cast<std::size_t>(node)];
   if (cost >= reached.cost) return;
   reached = {cost, next};
-  buffers.open.emplace_back(cost, node);
+  buffers.open.push_back(open_entry(cost, node));
   std::push_heap(buffers.open.begin(), buffers.open.end(), std::greater<>());
 }
 
 void TravelField::renew(const Congestion& congestion, Buffers& buffers) {
-  std::vector<std::pair<float, int>>& open = buffers.open;
+  std::vector<std::uint64_t>& open = buffers.open;
   has_delays_ = !congestion.is_nil();
   std::fill(nodes_.begin(), nodes_.end(), Node{kFar, -1});
   open.clear();
@@ -68,6 +82,8 @@ void TravelField::renew(const Congestion& congestion, Buffers& buffers) {
     for (const int portal : portals_->into(polygon)) {
       const PortalTable::Entry& entry = portals_->entries()[static_cast<std::size_t>(portal)];
       for (int node = entry.first_point; node < entry.first_point + entry.points; ++node) {
+        // Most points are closer to the goal.
+        if (nodes_[static_cast<std::size_t>(node)].cost <= cost) continue;
         const Eigen::Vector2f& before = points[static_cast<std::size_t>(node)].place;
         const float least = cost + kPortalM + (place - before).norm();
         if (least < nodes_[static_cast<std::size_t>(node)].cost) {
@@ -79,7 +95,7 @@ void TravelField::renew(const Congestion& congestion, Buffers& buffers) {
   reach_from(goal_.polygon, -1, goal_.point, 0);
   while (!open.empty()) {
     std::pop_heap(open.begin(), open.end(), std::greater<>());
-    const auto [cost, node] = open.back();
+    const auto [cost, node] = read_entry(open.back());
     open.pop_back();
     if (cost > nodes_[static_cast<std::size_t>(node)].cost) continue;
     const PortalTable::Point& here = points[static_cast<std::size_t>(node)];

@@ -1,6 +1,7 @@
 // Travel times to a goal from everywhere on a mesh, shared by all who walk there.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,7 +51,7 @@ class TravelField {
     explicit Buffers(const PortalTable& portals);
     std::vector<Gate> gates;
     std::vector<std::pair<float, int>> firsts;
-    std::vector<std::pair<float, int>> open;  ///< heap
+    std::vector<std::uint64_t> open;  ///< heap of costs with their points
   };
 
   /// The table must outlive this object.
