@@ -39,6 +39,21 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
+/// Limits the loops of what it runs to some threads, the calling one among them.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads) : arena_(threads) {}
+
+  /// Returns what `act` returns. Exceptions pass.
+  template <typename Act>
+  auto run(const Act& act) {
+    return arena_.execute(act);
+  }
+
+ private:
+  tbb::task_arena arena_;
+};
+
 /// A value per thread of a loop. Values are created before the loop, so that threads that join
 /// later allocate nothing.
 template <typename T>

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/compute/parallel.h"
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "jobs/engine/newest_step.h"
@@ -56,6 +57,16 @@ struct SteppedJob::State {
     steps = static_cast<long>(std::ceil(spec.duration_s / run->dt_s() - kRounding));
   }
 
+  /// Made when it is first used.
+  live::OnboardCamera& own_camera() {
+    if (!camera) {
+      population = skinning::load_population(skinning::population_folder());
+      camera.emplace(job, scenario, *population, newest.header(), run->drones(),
+                     live::ImageSize{choices.image_width, choices.image_height});
+    }
+    return *camera;
+  }
+
   RunChoices choices;
   jobs::JobSpec job;
   world::Scenario scenario;
@@ -71,7 +82,8 @@ struct SteppedJob::State {
 };
 
 SteppedJob::SteppedJob(std::string_view job, const std::string& source, const RunChoices& choices)
-    : state_(std::make_unique<State>(job, source, choices)) {}
+    : threads_(std::make_unique<ThreadLimit>(choices.threads)),
+      state_(threads_->run([&] { return std::make_unique<State>(job, source, choices); })) {}
 
 SteppedJob::~SteppedJob() = default;
 
@@ -96,7 +108,7 @@ void SteppedJob::step(const std::vector<sim::RemoteCommand>& commands) {
   }
   state.newest.forget_samples();
   if (state.pilots) state.pilots->advance(commands);
-  state.run->step();
+  threads_->run([&] { state.run->step(); });
   ++state.done;
 }
 
@@ -106,19 +118,13 @@ const std::vector<std::uint8_t>& SteppedJob::image(std::size_t drone) {
     throw InputError({"", "image", "drone " + std::to_string(drone),
                       "one of " + std::to_string(state.run->drones().size())});
   }
-  if (!state.camera) {
-    state.population = skinning::load_population(skinning::population_folder());
-    state.camera.emplace(state.job, state.scenario, *state.population, header(),
-                         state.run->drones(),
-                         live::ImageSize{state.choices.image_width, state.choices.image_height});
-  }
   live::Moment moment = state.newest.moment(dt_s());
   for (std::size_t i = 0; i < state.run->drones().size(); ++i) {
     const std::vector<sim::PilotSample>& setpoints =
         state.pilots ? state.pilots->log(i) : state.spec.drones[i].guidance.setpoints;
     moment.setpoints.push_back(sim::setpoints_around(setpoints, time_s() - dt_s(), time_s()));
   }
-  return state.camera->draw(moment, drone, time_s());
+  return *threads_->run([&] { return &state.own_camera().draw(moment, drone, time_s()); });
 }
 
 std::vector<std::string> SteppedJob::finish() {

@@ -15,6 +15,10 @@
 #include "world/scenario.h"
 #include "world/trace.h"
 
+namespace throng {
+class ThreadLimit;
+}
+
 namespace throng::engine {
 
 /// One row per drone: position and velocity (m, m/s, world), orientation (w, x, y, z, body to
@@ -28,6 +32,7 @@ struct RunChoices {
   std::filesystem::path trace_file;   ///< "": no trace
   int image_width = 320;
   int image_height = 180;
+  int threads = 1;  ///< of the simulation and of images; they change no result
 };
 
 /// Not thread-safe; images are made by the thread that makes the first one.
@@ -72,6 +77,7 @@ class SteppedJob {
 
  private:
   struct State;
+  std::unique_ptr<ThreadLimit> threads_;
   std::unique_ptr<State> state_;
 };
 

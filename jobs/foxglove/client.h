@@ -59,6 +59,8 @@ class Client : public std::enable_shared_from_this<Client> {
   void send_changed(const std::vector<Parameter>& changed);
   /// Ends the connection when everything is sent.
   void close_when_sent();
+  /// Ends the connection now.
+  void leave();
 
  private:
   using Request = boost::beast::http::request<boost::beast::http::empty_body>;
@@ -70,7 +72,6 @@ class Client : public std::enable_shared_from_this<Client> {
   void read();
   void take_frame(boost::beast::error_code error);
   void send_next();
-  void leave();
   void send_text(std::string text);
 
   // Each does what a message asks for.

@@ -135,7 +135,11 @@ struct Server::State {
     acceptor.close();
     for_clients([](Client& client) { client.close_when_sent(); });
     farewell.expires_after(kMaxFarewell);
-    farewell.async_wait([this](boost::system::error_code) { context.stop(); });
+    farewell.async_wait([this](boost::system::error_code) {
+      // Connections may not outlive the context.
+      for_clients([](Client& client) { client.leave(); });
+      context.stop();
+    });
     stop_if_empty();
   }
 

@@ -117,6 +117,9 @@ void FlightTopics::add(const Moment& moment, const std::vector<sim::RemoteComman
   for (std::size_t i = 0; i < commands.size(); ++i) {
     add_command(drones_.at(i), commands[i], moment.time_s - moment.dt_s);
   }
+  if (commands.empty()) {
+    for (Drone& drone : drones_) add_mode(drone, {}, moment.time_s);
+  }
   struct New {
     const world::DroneSample* sample;
     std::size_t drone;
@@ -143,12 +146,16 @@ void FlightTopics::add_command(Drone& drone, const sim::RemoteCommand& command, 
   sink_({root + "/command", ros::Kind::velocity, time_s,
          ros::velocity({drone.topics.body_frame(), time_s}, command.velocity_mps,
                        {0, 0, command.yaw_rate_deg_s * kDegree})});
+  add_mode(drone, command, time_s);
+}
+
+void FlightTopics::add_mode(Drone& drone, const sim::RemoteCommand& command, double time_s) {
   const json mode = {{"beacon", command.beacon},
                      {"return_home", command.goes_home},
                      {"route", command.route != nullptr}};
   if (std::string text = mode.dump(); text != drone.pilot_mode) {
     drone.pilot_mode = std::move(text);
-    sink_({root + "/mode", ros::Kind::text, time_s, ros::text(drone.pilot_mode)});
+    sink_({drone.topics.root() + "/mode", ros::Kind::text, time_s, ros::text(drone.pilot_mode)});
   }
 }
 
@@ -183,11 +190,19 @@ void FlightTopics::add_people(const world::CrowdStep& people) {
 }
 
 void FlightTopics::add_image(const Moment& moment, std::size_t drone, double time_s,
-                             const std::string& jpeg) const {
-  const Drone& from = drones_.at(drone);
+                             const std::string& jpeg) {
+  Drone& from = drones_.at(drone);
   const world::DroneSample sample = moment.flown.drone_at(drone, time_s);
   const camera::Camera camera = flown_camera(moment, drone, from.camera, sample);
-  from.topics.publish_transforms(time_s, body_pose(sample), ros::camera_pose(camera.pose));
+  // Transforms with the stamp of others are errors to those who listen to /tf.
+  const std::vector<world::DroneSample>& known = moment.flown.drones.at(drone);
+  const bool is_known = time_s == std::exchange(from.last_image_s, time_s) ||
+                        std::any_of(known.begin(), known.end(), [&](const auto& other) {
+                          return ros::time_ns(other.time_s) == ros::time_ns(time_s);
+                        });
+  if (!is_known) {
+    from.topics.publish_transforms(time_s, body_pose(sample), ros::camera_pose(camera.pose));
+  }
   from.topics.publish_image(time_s, camera.intrinsics, "jpeg", jpeg);
 }
 

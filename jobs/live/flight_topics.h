@@ -50,8 +50,7 @@ class FlightTopics {
            const std::vector<nlohmann::json>& events);
 
   /// Adds an image of a drone's camera (OnboardCamera), a JPEG file, at a time in the moment.
-  void add_image(const Moment& moment, std::size_t drone, double time_s,
-                 const std::string& jpeg) const;
+  void add_image(const Moment& moment, std::size_t drone, double time_s, const std::string& jpeg);
 
  private:
   struct Drone {
@@ -60,8 +59,10 @@ class FlightTopics {
     sim::DroneSensors sensors;
     double last_s = -1;           ///< time of the last sample
     std::string pilot_mode = {};  ///< the last message
+    double last_image_s = -1;     ///< time of the last image; of the thread that adds images
   };
 
+  void add_mode(Drone& drone, const sim::RemoteCommand& command, double time_s);
   void add_command(Drone& drone, const sim::RemoteCommand& command, double time_s);
   void add_sample(const Moment& moment, std::size_t drone, const world::DroneSample& sample);
   void add_people(const world::CrowdStep& people);

@@ -88,18 +88,19 @@ void bind(py::module_& module) {
   py::class_<SteppedJob>(module, "SteppedJob")
       .def(py::init([](const std::string& job, const std::string& source,
                        std::optional<std::uint64_t> seed, bool is_remote, const std::string& trace,
-                       int width, int height) {
+                       int width, int height, int threads) {
              RunChoices choices;
              choices.seed = seed;
              choices.is_remote = is_remote;
              choices.trace_file = trace;
              choices.image_width = width;
              choices.image_height = height;
+             choices.threads = threads;
              const py::gil_scoped_release released;
              return std::make_unique<SteppedJob>(job, source, choices);
            }),
            py::arg("job"), py::arg("source"), py::arg("seed"), py::arg("is_remote"),
-           py::arg("trace"), py::arg("width"), py::arg("height"))
+           py::arg("trace"), py::arg("width"), py::arg("height"), py::arg("threads"))
       .def_property_readonly("dt_s", &SteppedJob::dt_s)
       .def_property_readonly("time_s", &SteppedJob::time_s)
       .def_property_readonly("duration_s", &SteppedJob::duration_s)

@@ -90,7 +90,11 @@ class Simulation:
         remote: bool = False,
         trace: str | os.PathLike[str] | None = None,
         image_size: tuple[int, int] = (320, 180),
+        threads: int = 1,
     ) -> None:
+        """`threads` share the work of a step; crowds of thousands are quicker with several. Results do not depend on it."""
+        if threads < 1:
+            raise EngineError(f"threads: found {threads}, expected 1 or more")
         module = _load()
         text, source = _job_text(job)
         self._errors = (module.InputError, module.EnvironmentError)
@@ -98,7 +102,7 @@ class Simulation:
         self._remote = remote
         try:
             self._run = module.SteppedJob(
-                text, source, seed, remote, "" if trace is None else os.fspath(trace), *self._size
+                text, source, seed, remote, "" if trace is None else os.fspath(trace), *self._size, threads
             )
         except self._errors as error:
             raise EngineError(str(error)) from None

@@ -45,6 +45,7 @@ def source_tree(folder, throng, people):
     (folder / "build" / "release" / "cli" / "throng").symlink_to(throng)
     (folder / "build" / "people").symlink_to(people)
     (folder / "tests").symlink_to(ROOT / "tests")
+    (folder / "examples").symlink_to(ROOT / "examples")
     (folder / "scenarios").mkdir()
     for place in (ROOT / "scenarios").iterdir():
         if place.name != "city_square":

@@ -3,7 +3,7 @@
 Each page has a folder of its own with links to what its commands name of the source tree. Blocks run in their order, in bash with
 -e and pipefail; files that the page says to save are saved. Exports last for the page. Differences from a user's
 terminal, to save time: the shipped jobs of city_square/ are shortened (doc_fixtures.shortened: 20 people, 160 x 120 pixels,
-one second), and the character library has one character, made of boxes. Port 8080 is a free one.
+one second), and the character library has one character, made of boxes. Ports 8080 and 8765 are free ones.
 """
 
 import os
@@ -91,6 +91,7 @@ class Page:
     def __init__(self, folder, people):
         self.folder = folder
         self.port = free_port()
+        self.live_port = free_port()
         fixtures.source_tree(folder, THRONG, people)
         programs = folder / "build/release/cli"  # also where the pages say that the program is
         program = programs / "throng"
@@ -101,6 +102,8 @@ class Page:
             **{name: value for name, value in os.environ.items() if not name.startswith("THRONG_")},
             "PATH": f"{programs}:{os.environ['PATH']}",
             "THRONG_PEOPLE": str(people),
+            "ROS_HOME": str(folder / "ros"),
+            "ROS_IP": "127.0.0.1",
             "THRONG_URL": f"http://127.0.0.1:{self.port}",
         }
         self.exports = ""
@@ -115,7 +118,9 @@ class Page:
             server = self.start_service()
         script = self.folder / "block.sh"
         script.write_text(
-            f"set -eo pipefail\n{self.exports}{block}".replace("127.0.0.1:8080", f"127.0.0.1:{self.port}")
+            f"set -eo pipefail\n{self.exports}{block}".replace("127.0.0.1:8080", f"127.0.0.1:{self.port}").replace(
+                "8765", str(self.live_port)
+            )
         )
         self.exports += "".join(line + "\n" for line in block.splitlines() if line.startswith("export "))
         try:

@@ -313,6 +313,34 @@ class Outside(unittest.TestCase):
         checked = subprocess.run([THRONG, "validate", self.base / "data/dataset"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
 
+    def test_a_client_that_neither_reads_nor_leaves_does_not_keep_the_flight_from_ending(self):
+        client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
+        client.do("subscribe", topics=["/d1/odometry"])
+        client.step(5)
+        client.do("rest")
+        client.wait("rests")
+        self.flight.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(), [str(self.base / "out/flight000")])
+
+    def test_images_of_a_flight_that_rests_repeat_no_transforms(self):
+        client = self.connect(self.begin())
+        image = "/d1/camera/image_color/compressed"
+        client.do("subscribe", topics=[image, "/tf", "/d1/mode"])
+        client.step(2)
+        for _ in range(3):  # it is drawn again while nothing moves
+            client.wait("message", topic=image)
+        stamps = [
+            (each["child_frame_id"], each["header"]["stamp"]["sec"], each["header"]["stamp"]["nanosec"])
+            for event in client.seen
+            if event["event"] == "message" and event["topic"] == "/tf"
+            for each in event["message"]["transforms"]
+        ]
+        self.assertEqual(len(stamps), len(set(stamps)))
+        self.assertTrue(client.call("/throng/reset")["success"])
+        client.wait("message", topic="/d1/mode")  # that of the new flight, before its first step
+        client.call("/throng/stop")
+        self.finish()
+
     def test_time_parameters_and_services(self):
         port = self.begin("--no-camera", "-o", self.base / "out", "--factor", 0)
         client, other = self.connect(port), self.connect(port)

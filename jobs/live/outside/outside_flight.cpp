@@ -144,7 +144,7 @@ class OutsideFlight {
     return true;
   }
 
-  std::unique_ptr<CameraThread> start_camera(const FlightTopics& topics, bool is_recorded) {
+  std::unique_ptr<CameraThread> start_camera(FlightTopics& topics, bool is_recorded) {
     if (!options_.has_camera) return nullptr;
     ImageSinks sinks;
     sinks.is_wanted = [this, is_recorded](std::size_t drone) {
