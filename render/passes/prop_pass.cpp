@@ -1,10 +1,12 @@
 #include "render/passes/prop_pass.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "render/frame.h"
 #include "render/gl/shaders.h"
+#include "render/props/leaf_sprites.h"
 #include "render/props/mesh_file.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/surface_classes.h"
@@ -14,10 +16,11 @@ namespace throng::render {
 namespace {
 
 using embedded::shader_light;
-using embedded::shader_noise;
 
 constexpr std::string_view kNoShadows = "#define NO_SHADOWS\n";
+constexpr std::string_view kNoSun = "#define NO_SUN\n";
 constexpr std::string_view kLeaves = "#define LEAVES\n";
+constexpr GLuint kLeafUnit = 5;  // also in shaders/prop.frag.glsl
 
 /// Appends the triangles of one kind, solid or leaves, of a mesh whose vertices start at `base`.
 Range append(const PropMesh& mesh, bool leaves, std::uint32_t base,
@@ -30,6 +33,27 @@ Range append(const PropMesh& mesh, bool leaves, std::uint32_t base,
     for (std::size_t k = i; k < i + 3; ++k) indices.push_back(base + mesh.indices[k]);
   }
   return {first, static_cast<std::uint32_t>(indices.size()) - first};
+}
+
+Texture make_leaf_sprites() {
+  Texture texture = make_texture(GL_TEXTURE_2D_ARRAY);
+  const GLuint name = texture.name();
+  const int levels = std::bit_width(static_cast<unsigned>(kLeafTexels));
+  glTextureStorage3D(name, levels, GL_RG8, kLeafTexels, kLeafTexels, kLeafSprites);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  for (int sprite = 0; sprite < kLeafSprites; ++sprite) {
+    const auto shown = draw_leaf_sprite(static_cast<LeafSprite>(sprite));
+    for (int level = 0; level < levels; ++level) {
+      const int size = kLeafTexels >> level;
+      glTextureSubImage3D(name, level, 0, 0, sprite, size, size, 1, GL_RG, GL_UNSIGNED_BYTE,
+                          shown.at(static_cast<std::size_t>(level)).data());
+    }
+  }
+  return texture;
 }
 
 }  // namespace
@@ -91,14 +115,18 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   vertices_ = make_buffer(vertices);
   indices_ = make_buffer(indices);
   array_ = make_prop_array(vertices_, indices_);
-  const auto camera_program = [&](std::string_view kind) {
-    return make_program({embedded::shader_view, embedded::shader_prop_vert},
-                        {words, quality.shadow_texels > 0 ? "" : kNoShadows, kind, shader_light,
-                         shader_noise, embedded::shader_prop_frag});
-  };
-  solid_ = camera_program("");
-  leaves_ = camera_program(kLeaves);
+  const std::string_view shadows = quality.shadow_texels > 0 ? "" : kNoShadows;
+  const std::string_view sun = words.find(kNoSun) == std::string_view::npos ? "" : kNoSun;
+  solid_ = make_program(
+      {embedded::shader_view, embedded::shader_prop_vert},
+      {words, shadows, shader_light, embedded::shader_noise, embedded::shader_prop_frag});
+  leaves_ = make_program(
+      {sun, shadows, kLeaves, shader_light, embedded::shader_view, embedded::shader_prop_vert},
+      {words, shadows, kLeaves, shader_light, embedded::shader_prop_frag});
   shadow_ = make_program({shader_light, embedded::shader_scenery_shadow_vert}, {});
+  leaf_shadow_ = make_program({shader_light, embedded::shader_leaf_shadow_vert},
+                              {embedded::shader_leaf_shadow_frag});
+  leaf_sprites_ = make_leaf_sprites();
   check_gl("loading props");
 }
 
@@ -132,6 +160,7 @@ void PropPass::draw(const ClipPlanes& planes, double time_s) const {
   draw_ranges(solid_, closed, &Item::solid);
   glDisable(GL_CULL_FACE);
   draw_ranges(solid_, open, &Item::solid);
+  glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves_, closed, &Item::leaves);
 }
 
@@ -150,7 +179,8 @@ void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2
   glBindVertexArray(array_.name());
   glDisable(GL_CULL_FACE);
   draw_ranges(shadow_, casters, &Item::solid);
-  draw_ranges(shadow_, casters, &Item::leaves);
+  glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
+  draw_ranges(leaf_shadow_, casters, &Item::leaves);
 }
 
 }  // namespace throng::render

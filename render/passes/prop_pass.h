@@ -57,6 +57,8 @@ class PropPass {
   Program solid_;
   Program leaves_;
   Program shadow_;
+  Program leaf_shadow_;
+  Texture leaf_sprites_;
 };
 
 }  // namespace throng::render

@@ -47,6 +47,7 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
 }
 
 constexpr std::string_view kTextured = "#define TEXTURED\n";
+constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
 constexpr std::string_view kPlain = "surroundings";
 
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
@@ -65,6 +66,15 @@ Program make_corners_program(std::string_view words, std::string_view material) 
   return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
                        material, embedded::shader_scenery_corners_vert},
                       {embedded::shader_silhouette, embedded::shader_corners_frag});
+}
+
+/// Tells the land around the scenario where this is.
+void tell_place(const Program& program, const world::Rectangle& ground) {
+  const GLint where = glGetUniformLocation(program.name(), "place");
+  const Eigen::Vector4f corners(
+      static_cast<float>(ground.min.x()), static_cast<float>(ground.min.y()),
+      static_cast<float>(ground.max.x()), static_cast<float>(ground.max.y()));
+  if (where >= 0) glProgramUniform4fv(program.name(), where, 1, corners.data());
 }
 
 /// The mesh, its surfaces classified if wanted.
@@ -104,6 +114,7 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
   glVertexArrayElementBuffer(array_.name(), indices_.name());
   learn(material_, choose_shader(material_, scenario), words, quality);
   learn(std::string(kPlain), embedded::shader_ground_surroundings, words, quality);
+  tell_place(looks_.at(std::string(kPlain)).program, scenario.ground);
   for (const GroundLayer& layer : layers_) {
     learn(layer.material, choose_shader(layer.material, scenario), words, quality);
   }
@@ -117,10 +128,12 @@ void SceneryPass::learn(const std::string& material, std::string_view shader,
   if (!quality.textured) {
     look.program = make_corners_program(words, shader);
   } else if (is_baked(material)) {
-    look.program = make_scenery_program(words, kTextured, embedded::shader_ground_frag);
+    const std::string own = std::string(words).append(material == "grass" ? kNoPuddles : "");
+    look.program = make_scenery_program(own, kTextured, embedded::shader_ground_frag);
     look.texture = bake_ground(shader, quality.ground_texels);
   } else {
-    look.program = make_scenery_program(words, shader, embedded::shader_ground_frag);
+    const std::string own = std::string(words).append(material == kPlain ? kNoPuddles : "");
+    look.program = make_scenery_program(own, shader, embedded::shader_ground_frag);
   }
 }
 

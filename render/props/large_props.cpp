@@ -188,11 +188,11 @@ void make_fountain(PropBuilder& builder) {
                   at(i + 1, kInnerM, kRimM)},
                  0.8 * kStone, Finish::matt);
   }
-  builder.tube({0, 0, 0.2}, kInnerM, {0, 0, 0.42}, kInnerM, {0.05, 0.10, 0.12}, Finish::glossy,
+  builder.tube({0, 0, 0.2}, kInnerM, {0, 0, 0.42}, kInnerM, {0.05, 0.085, 0.085}, Finish::water,
                kSides);
   builder.tube({0, 0, 0.42}, 0.35, {0, 0, 1.5}, 0.22, kStone, Finish::matt, 10);
   builder.tube({0, 0, 1.5}, 0.3, {0, 0, 1.7}, 0.95, kStone, Finish::matt, 14);
-  builder.tube({0, 0, 1.72}, 0.9, {0, 0, 1.74}, 0.85, {0.06, 0.11, 0.13}, Finish::glossy, 14);
+  builder.tube({0, 0, 1.72}, 0.9, {0, 0, 1.74}, 0.85, {0.05, 0.085, 0.085}, Finish::water, 14);
   builder.tube({0, 0, 1.7}, 0.12, {0, 0, 2.3}, 0.05, kStone);
 }
 

@@ -1,6 +1,7 @@
 #include "render/props/mesh_file.h"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,8 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A material's color, linear; light gray when it has none.
-std::array<std::uint8_t, 4> material_color(const aiMaterial& material) {
+/// A material's color, linear, then the finish; light gray when it has none.
+std::array<std::uint8_t, 4> material_color(const aiMaterial& material, Finish finish) {
   aiColor4D color(0.6F, 0.6F, 0.6F, 1.0F);
   if (material.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) {
     material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
@@ -30,7 +31,7 @@ std::array<std::uint8_t, 4> material_color(const aiMaterial& material) {
   const auto byte = [](float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
   };
-  return {byte(color.r), byte(color.g), byte(color.b), static_cast<std::uint8_t>(Finish::matt)};
+  return {byte(color.r), byte(color.g), byte(color.b), static_cast<std::uint8_t>(finish)};
 }
 
 /// Files have y up; the world has z up.
@@ -71,6 +72,8 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
 PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id) {
   Assimp::Importer importer;
   importer.SetIOHandler(std::make_unique<ConfinedFiles>().release());  // which it deletes
+  constexpr float kSmoothDeg = 35;  // edges between faces at a greater angle are sharp
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothDeg);
   const aiScene* scene = importer.ReadFile(
       placed.file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                 aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
@@ -81,11 +84,13 @@ PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id) {
   const Eigen::Affine3d place = Eigen::Translation3d(placed.position) *
                                 Eigen::AngleAxisd(placed.yaw_rad, Vector3d::UnitZ()) *
                                 Eigen::Scaling(placed.scale);
+  const Finish finish =
+      placed.semantic_class == world::SemanticClass::water ? Finish::water : Finish::matt;
   PropMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
     if (!part.HasNormals()) continue;  // points and lines
-    append(part, material_color(*scene->mMaterials[part.mMaterialIndex]), place, id, mesh);
+    append(part, material_color(*scene->mMaterials[part.mMaterialIndex], finish), place, id, mesh);
   }
   if (mesh.indices.empty()) {
     throw InputError(Problem{placed.file.string(), "", "no triangles", "a mesh with triangles"});

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/compute/random.h"
+#include "render/props/leaf_sprites.h"
 #include "render/props/prop_shapes.h"
 
 namespace throng::render {
@@ -44,6 +45,16 @@ class PropBuilder {
     }
     mesh_.indices.insert(mesh_.indices.end(),
                          {first, first + 1, first + 2, first, first + 2, first + 3});
+  }
+
+  /// Adds a card with a sprite of leaves, lit as a surface with this normal.
+  void leaves(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& normal,
+              const Eigen::Vector3d& paint, LeafSprite sprite) {
+    quad(corners, {normal, normal, normal, normal}, paint, Finish::leaves);
+    // The sprite is told by the whole part of the first coordinate.
+    for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
+      mesh_.vertices[i].card[0] += 2 * static_cast<float>(sprite);
+    }
   }
 
   /// Adds a block between two horizontal rectangles; without its lower side if that is on the

@@ -9,6 +9,7 @@
 #include "base/compute/random.h"
 #include "render/props/large_props.h"
 #include "render/props/prop_builder.h"
+#include "render/props/trees.h"
 
 namespace throng::render {
 
@@ -21,37 +22,6 @@ using Builder = PropBuilder;
 
 const Vector3d kMetal(0.10, 0.105, 0.11);
 const Vector3d kWood(0.26, 0.16, 0.085);
-
-void grow_tree(Builder& builder) {
-  constexpr int kCards = 150;
-  Random& random = builder.random();
-  const double height = random.uniform(4.6, 6.2);
-  const Vector3d middle(0, 0, 0.66 * height);
-  const Vector3d radii(random.uniform(1.5, 2.0), random.uniform(1.5, 2.0), 0.36 * height);
-  const Vector3d bark(0.13, 0.105, 0.08);
-  const double hue = random.uniform();
-  const Vector3d green =
-      (1 - hue) * Vector3d(0.075, 0.13, 0.035) + hue * Vector3d(0.13, 0.15, 0.04);
-  builder.tube({0, 0, 0}, 0.17, {0, 0, 0.5 * height}, 0.1, bark, Finish::matt, 6);
-  for (int i = 0; i < kCards; ++i) {
-    // Directions spread evenly over the sphere (a Fibonacci lattice).
-    const double z = 1 - 2 * (i + 0.5) / kCards;
-    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    const double ring = std::sqrt(1 - z * z);
-    const Vector3d out(ring * std::cos(angle), ring * std::sin(angle), z);
-    const double depth = random.uniform(0.55, 1.0);
-    const Vector3d at = middle + depth * radii.cwiseProduct(out);
-    const Vector3d facing =
-        (out + 0.7 * Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)))
-            .normalized();
-    const Vector3d u = 0.62 * facing.unitOrthogonal();
-    const Vector3d v = facing.cross(u);
-    // Leaves inside and below get less light.
-    const double light = (0.45 + 0.55 * depth) * (0.8 + 0.2 * z) * random.uniform(0.75, 1.2);
-    builder.quad({at - u - v, at + u - v, at + u + v, at - u + v}, {out, out, out, out},
-                 light * green, Finish::leaves);
-  }
-}
 
 void make_bench(Builder& builder) {
   for (const double y : {-0.25, -0.08, 0.09}) {

@@ -14,14 +14,16 @@ enum class Finish : std::uint8_t {
   matt = 0,
   leaves = 1,  ///< a card of leaves with holes
   glossy = 2,  ///< lacquer and glass, which reflect the sky
-  lamp = 3     ///< emits light after sunset
+  lamp = 3,    ///< emits light after sunset
+  water = 4    ///< mirrors sky and sun in waves
 };
 
 /// A vertex of a prop.
 struct PropVertex {
   std::array<float, 3> position{};  ///< m, world
   std::array<float, 3> normal{};
-  std::array<float, 2> card{};          ///< leaves: coordinates on the card, 0 to 1
+  /// Leaves: coordinates on the card, 0 to 1; twice the number of the sprite is added to the first.
+  std::array<float, 2> card{};
   std::array<std::uint8_t, 4> paint{};  ///< linear albedo, then the Finish
   std::uint32_t id = 0;
 };

@@ -189,7 +189,7 @@ SceneryMesh scenery_mesh(const world::Scenario& scenario) {
 
 double tallest_m(const world::Scenario& scenario) {
   double tallest = 2.5;
-  constexpr double kTreeM = 7.5;
+  constexpr double kTreeM = 8.4;
   constexpr double kMeshM = 30;  // higher parts of meshes throw no shadow
   if (!scenario.meshes.empty()) tallest = kMeshM;
   for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTreeM * prop.scale);

@@ -17,6 +17,12 @@ vec3 wet(vec3 radiance, float sky_share) {
   vec3 to_eye = light.eye.xyz - world;
   float distance_m = length(to_eye);
   float lie = noise(p * 0.23 + 40.0) + 0.35 * noise(p * 1.1 + 3.0);
+#ifdef NO_PUDDLES
+  // Water seeps away between blades of grass, which mirror little.
+  float cosine_dry = clamp(to_eye.z / distance_m, 0.0, 1.0);
+  vec3 sheen = mix(light.haze.rgb, light.zenith.rgb, cosine_dry) * (0.35 + 0.65 * sky_share);
+  return radiance * 0.68 + sheen * (0.02 + 0.10 * pow(1.0 - cosine_dry, 5.0));
+#endif
   float puddle = smoothstep(0.80, 0.88, lie);
   vec2 cell = floor(p * 4.0);
   float ring = fract(light.eye.w * 1.7 + hash(ivec2(cell)));

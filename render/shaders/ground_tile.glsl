@@ -42,8 +42,33 @@ float spot(vec2 p, float per_meter, float share, float radius, int salt) {
   return pick(cell, count, salt + 2) < share ? clamp(1.0 - away / r, 0.0, 1.0) : 0.0;
 }
 
-// Thin winding lines, where `where` selects them.
+// Thin winding lines, where `where` selects them: some of the borders between cells around random
+// points (Worley 1996), so that they meet and end, and enclose nothing.
 float cracks(vec2 p, float per_meter, float where, int salt) {
-  float level = grain(p, per_meter, salt) + 0.35 * grain(p, 5.0 * per_meter, salt + 1) - 0.67;
-  return smoothstep(0.016, 0.004, abs(level)) * step(where, grain(p, 0.21, salt + 2));
+  float chosen = step(where, grain(p, 0.21, salt + 2));
+  p += 0.5 * (vec2(grain(p, 1.4, salt), grain(p, 1.4, salt + 1)) - 0.5);
+  p += 0.12 * (vec2(grain(p, 7.0, salt + 3), grain(p, 7.0, salt + 4)) - 0.5);
+  ivec2 count = ivec2(int(per_meter * kTileM + 0.5));
+  vec2 at = p * vec2(count) / kTileM;
+  ivec2 cell = ivec2(floor(at));
+  vec2 nearest = vec2(9.0);  // two distances
+  ivec2 owners = ivec2(0);   // the cells' numbers
+  for (int i = 0; i < 9; ++i) {
+    ivec2 other = cell + ivec2(i % 3 - 1, i / 3 - 1);
+    vec2 middle = vec2(other) + vec2(pick(other, count, salt + 5), pick(other, count, salt + 6));
+    float away = length(at - middle);
+    ivec2 own = wrapped(other, count);
+    int number = own.y * count.x + own.x;
+    if (away < nearest.x) {
+      nearest = vec2(away, nearest.x);
+      owners = ivec2(number, owners.x);
+    } else if (away < nearest.y) {
+      nearest.y = away;
+      owners.y = number;
+    }
+  }
+  ivec2 pair = ivec2(min(owners.x, owners.y), max(owners.x, owners.y));
+  float is_there = step(hash(pair + ivec2(salt * 17, salt * 29)), 0.4);
+  float off_m = 0.5 * (nearest.y - nearest.x) * kTileM / float(count.x);
+  return smoothstep(0.016, 0.005, off_m) * is_there * chosen;
 }

@@ -2,21 +2,45 @@
 // holes between.
 in vec3 world;
 in vec3 normal;
-in vec2 card;
 flat in vec4 paint;
 flat in uint id;
-flat in int card_number;
+#ifdef LEAVES
+in vec3 card;
+in float sunlit_share;
+layout(binding = 5) uniform sampler2DArray leaf_sprites;  // cover and shade; render/props/leaf_sprites.h
+#endif
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 const float kGlossy = 2.0;
 const float kLamp = 3.0;
+const float kWater = 4.0;
 
 vec3 sky_in(vec3 direction) {
   vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(direction.z, 0.0)));
   return sky * (direction.z > 0.0 ? 1.0 : 0.25);
 }
+
+#ifndef LEAVES
+// The slope of smooth noise with `per_meter` features per meter that drifts over the water.
+vec2 drifting_slope(vec2 p, float per_meter, float turn, vec2 drift) {
+  mat2 turned = mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+  vec2 at = turned * p * per_meter + drift;
+  const float kStep = 0.2;
+  float here = noise(at);
+  return vec2(noise(at + vec2(kStep, 0.0)) - here, noise(at + vec2(0.0, kStep)) - here) * turned / kStep;
+}
+
+// The slope of the water's surface: swell, waves and ripples.
+vec2 wave_slope(vec2 p, float time_s, float distance_m) {
+  vec2 slope = 0.05 * drifting_slope(p, 0.35, 0.4, time_s * vec2(0.25, 0.1)) +
+               0.10 * drifting_slope(p, 1.1, 1.3, time_s * vec2(-0.5, 0.4));
+  // Those finer than a pixel blur what they mirror.
+  float seen = clamp(60.0 / distance_m, 0.0, 1.0);
+  return slope + 0.10 * seen * drifting_slope(p, 3.3, 2.5, time_s * vec2(0.9, -0.8));
+}
+#endif
 
 void main() {
   vec3 albedo = paint.rgb;
@@ -28,24 +52,21 @@ void main() {
   if (!gl_FrontFacing) n = -n;
 #endif
 #ifdef LEAVES
-  const float kTwigs = 6.0;
-  ivec2 twig = ivec2(floor(card * kTwigs)) + ivec2(card_number * 11, 0);
-  float pick = hash(twig);
-  vec2 from_twig = fract(card * kTwigs) - 0.5 + 0.4 * vec2(pick - 0.5, hash(twig + 77) - 0.5);
-  vec2 from_middle = card - 0.5;
-  if (length(from_twig) > 0.62 - 0.5 * pick || dot(from_middle, from_middle) > 0.25) discard;
-  albedo *= 0.75 + 0.5 * pick;
-  // Light goes through leaves: their dark side is not black.
-  float facing = 0.3 + 0.7 * max(dot(n, light.sun_direction.xyz), 0.0);
-  float shadow_bias = 0.9;
+  vec2 leaf = texture(leaf_sprites, card).rg;
+  if (leaf.r < 0.5) discard;
+  albedo *= 2.0 * leaf.g;
+  // Light goes through leaves and around their sides: the dark side is not black, and has no hard
+  // border.
+  float wrapped = 0.5 + 0.5 * dot(n, light.sun_direction.xyz);
+  float facing = 0.12 + 0.88 * wrapped * wrapped;
+  float shadow = sunlit_share;
 #else
   float facing = max(dot(n, light.sun_direction.xyz), 0.0);
-  float shadow_bias = 0.06;
-#endif
 #ifdef NO_SHADOWS
   float shadow = 1.0;
 #else
-  float shadow = sunlit_small(world + 0.05 * n, shadow_bias);
+  float shadow = sunlit_small(world + 0.05 * n, 0.06);
+#endif
 #endif
   vec3 received = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z) +
                   light.sun.rgb * (facing * shadow);
@@ -61,6 +82,27 @@ void main() {
     float fresnel = 0.05 + 0.95 * pow(1.0 - max(dot(to_eye, n), 0.0), 5.0);
     float glint = pow(max(dot(mirrored, light.sun_direction.xyz), 0.0), 90.0);
     radiance += fresnel * sky_in(mirrored) + light.sun.rgb * (0.8 * glint * shadow);
+  }
+#endif
+#ifndef LEAVES
+  if (finish == kWater && n.z > 0.5) {
+    vec3 to_eye = light.eye.xyz - world;
+    float distance_m = length(to_eye);
+    to_eye /= distance_m;
+    vec2 slope = wave_slope(world.xy, light.eye.w, distance_m);
+    vec3 surface = normalize(vec3(-slope, 1.0));
+    vec3 mirrored = reflect(-to_eye, surface);
+    mirrored.z = abs(mirrored.z);
+    float fresnel = 0.02 + 0.98 * pow(1.0 - max(dot(to_eye, surface), 0.0), 5.0);
+    float glint = pow(max(dot(mirrored, light.sun_direction.xyz), 0.0), 220.0);
+    // Of the light that enters, little comes back; a shadow on it is faint.
+    float through = max(dot(surface, light.sun_direction.xyz), 0.0) * (0.85 + 0.15 * shadow);
+    vec3 inside = albedo * (light.sky.rgb + light.sun.rgb * through);
+#ifdef LAMPS
+    inside += albedo * light.lamps.rgb * lamp_light(world, n);
+#endif
+    radiance = (1.0 - fresnel) * inside + fresnel * sky_in(mirrored) +
+               light.sun.rgb * (6.0 * glint * fresnel * shadow);
   }
 #endif
 #ifdef LAMPS

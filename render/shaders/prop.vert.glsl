@@ -1,4 +1,4 @@
-// Props, in world coordinates.
+// Props, in world coordinates. With LEAVES: light.glsl comes first.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 card_in;
@@ -7,17 +7,27 @@ layout(location = 4) in uint id_in;
 
 out vec3 world;
 out vec3 normal;
-out vec2 card;
 flat out vec4 paint;
 flat out uint id;
-flat out int card_number;
+#ifdef LEAVES
+out vec3 card;  // coordinates on the card, then the sprite's layer
+out float sunlit_share;
+#endif
 
 void main() {
   world = position;
   normal = normal_in;
-  card = card_in;
   paint = paint_in;
   id = id_in;
-  card_number = gl_VertexID / 4;
+#ifdef LEAVES
+  float layer = floor(card_in.x / 2.0);
+  card = vec3(card_in.x - 2.0 * layer, card_in.y, layer);
+#ifdef NO_SHADOWS
+  sunlit_share = 1.0;
+#else
+  // At the corners of a card: shadows within a crown have no hard edges.
+  sunlit_share = sunlit_small(position, 0.7);
+#endif
+#endif
   gl_Position = project(position);
 }

@@ -261,21 +261,27 @@ TEST(HazardOpacity, SaysWhereAndHowMuchAnImageIsHidden) {
   }
 }
 
-/// The pixels that are redder than blue by more than `red`, with nobody about.
-Mask flames(const world::Disaster& disaster, double time_s, double smoke, int red) {
+Frame draw_fire(const std::vector<world::Disaster>& disasters, double time_s, double smoke) {
   world::Scenario scenario = open_ground();
-  scenario.disasters = {disaster};
+  scenario.disasters = disasters;
   Environment lighting;
   lighting.smoke = smoke;
   Stage stage(scenario, lighting);
   Scene scene;
   scene.time_s = time_s;
-  const Frame frame = stage.renderer().draw(scene, camera_at({-16, 0, 7}, 0, -20));
+  return stage.renderer().draw(scene, camera_at({-16, 0, 7}, 0, -20));
+}
+
+/// The pixels that the disaster makes redder than blue by more than `red`, with nobody about.
+Mask flames(const world::Disaster& disaster, double time_s, double smoke, int red) {
+  const Frame frame = draw_fire({disaster}, time_s, smoke);
+  const Frame before = draw_fire({}, time_s, smoke);
   Mask mask;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      const std::uint8_t* const rgb = &frame.rgb[3 * pixel_index(frame, x, y)];
-      if (rgb[0] <= rgb[2] + red) continue;
+      const std::size_t at = 3 * pixel_index(frame, x, y);
+      const int excess = frame.rgb[at] - frame.rgb[at + 2];
+      if (excess <= red || excess <= before.rgb[at] - before.rgb[at + 2] + 5) continue;
       ++mask.pixels;
       mask.box.extend(Eigen::Vector2d(x, y));
     }
