@@ -51,7 +51,7 @@ class PropBuilder {
   void leaves(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& normal,
               const Eigen::Vector3d& paint, LeafSprite sprite) {
     quad(corners, {normal, normal, normal, normal}, paint, Finish::leaves);
-    // The sprite is told by the whole part of the first coordinate.
+    // The whole part of the first coordinate says which sprite it is.
     for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
       mesh_.vertices[i].card[0] += 2 * static_cast<float>(sprite);
     }

@@ -204,7 +204,7 @@ void grow_tree(PropBuilder& builder) {
   const Vector3d crown(radius, radius, 0.5 * (1 - kind.base) * height);
   for (std::size_t l = 0; l < lobes.size(); ++l) {
     const Lobe& lobe = lobes[l];
-    // Of a ball of the same area at the equator as from the side and from above, on average.
+    // A rough mean between the areas of a ball and of a long ellipsoid.
     const double surface_m2 =
         4 * std::numbers::pi * lobe.radii.x() * 0.5 * (lobe.radii.x() + lobe.radii.z());
     const int cards = std::max(8, static_cast<int>(kind.cards_per_m2 * surface_m2));

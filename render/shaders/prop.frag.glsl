@@ -95,7 +95,7 @@ void main() {
     mirrored.z = abs(mirrored.z);
     float fresnel = 0.02 + 0.98 * pow(1.0 - max(dot(to_eye, surface), 0.0), 5.0);
     float glint = pow(max(dot(mirrored, light.sun_direction.xyz), 0.0), 220.0);
-    // Of the light that enters, little comes back; a shadow on it is faint.
+    // Little of the light that enters comes back; a shadow on it is faint.
     float through = max(dot(surface, light.sun_direction.xyz), 0.0) * (0.85 + 0.15 * shadow);
     vec3 inside = albedo * (light.sky.rgb + light.sun.rgb * through);
 #ifdef LAMPS
