@@ -101,8 +101,8 @@ test("the camera, its accuracy and the corners in each image are shown", async (
   assert.ok(!(await warnings.allInnerTexts()).join().includes("--"));
   await warnings.filter({ hasText: "(“About known”: cx = 640 ± 20)" }).waitFor();
   assert.ok(
-    camera.warnings.some((text) => text.startsWith("9 views")),
-    "fewer than 10 views were used",
+    camera.warnings.some((text) => /^[1-9] views/.test(text)),
+    "it warns of fewer than 10 views",
   );
   assert.equal(await page.locator(".cell-covered").count(), Math.round(48 * camera.coverage));
   const figure = page.locator("#view-view01-png");
