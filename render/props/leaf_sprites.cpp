@@ -104,7 +104,9 @@ Level halved(const Level& fine, int size) {
       int plain = 0;
       for (const int row : {2 * y, 2 * y + 1}) {
         for (const int column : {2 * x, 2 * x + 1}) {
-          const LeafTexel& texel = fine[static_cast<std::size_t>(row * size + column)];
+          const LeafTexel& texel =
+              fine[static_cast<std::size_t>(row) * static_cast<std::size_t>(size) +
+                   static_cast<std::size_t>(column)];
           cover += texel.cover;
           shade += texel.cover * texel.shade;
           plain += texel.shade;
