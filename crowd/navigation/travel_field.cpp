@@ -13,7 +13,7 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr unsigned kPointBits = 32;
 
 /// A cost, which is not negative, and the point that it is for as one number, in the order of cost
-/// and then of the point: a heap of these takes half as long as one of pairs.
+/// and then of the point: one comparison instead of two.
 std::uint64_t open_entry(float cost, int point) {
   return (std::uint64_t{std::bit_cast<std::uint32_t>(cost)} << kPointBits) |
          static_cast<std::uint32_t>(point);

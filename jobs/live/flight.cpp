@@ -38,8 +38,7 @@ const world::TraceHeader& Flight::header() const { return recorder_.header(); }
 std::vector<FlownDrone> Flight::flown_drones() const {
   std::vector<FlownDrone> list;
   for (const sim::PlannedDrone& drone : drones()) {
-    const bool is_rigid = drone.mission.camera.gimbal.model == camera::GimbalModel::rigid;
-    list.push_back({drone.mission.id, !is_rigid});
+    list.push_back({drone.mission.id, !drone.mission.camera.gimbal.is_rigid()});
   }
   return list;
 }

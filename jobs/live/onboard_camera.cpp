@@ -6,7 +6,6 @@
 #include "base/geometry/angle.h"
 #include "jobs/pipeline/frames/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
-#include "sim/recording/gimbal_setpoints.h"
 #include "sim/sensors/gimbal.h"
 #include "spec/job/environment.h"
 
@@ -48,25 +47,18 @@ camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSiz
   shown.width = size.width;
   shown.height = size.height;
   shown.mount_m = camera.mount_m;
-  const bool is_rigid = camera.gimbal.model == camera::GimbalModel::rigid;
-  shown.gimbal.model = is_rigid ? camera::GimbalModel::rigid : camera::GimbalModel::ideal;
+  if (camera.gimbal.is_rigid()) shown.gimbal.model = camera::GimbalModel::rigid;
   shown.hfov_deg = camera.pinhole_hfov_rad() / kDegree;
   shown.pitch_deg = camera.pitch_deg;
   shown.yaw_deg = camera.yaw_deg;
   return shown;
 }
 
-camera::GimbalAngles gimbal_angles(const Moment& moment, std::size_t drone,
-                                   const camera::CameraSpec& shown, double time_s) {
-  if (drone >= moment.setpoints.size()) return shown.gimbal_angles();
-  return sim::gimbal_at(moment.setpoints[drone], shown.gimbal_angles(), time_s);
-}
-
 camera::Camera flown_camera(const Moment& moment, std::size_t drone,
                             const camera::CameraSpec& shown, const world::DroneSample& sample) {
-  const camera::GimbalAngles angles = gimbal_angles(moment, drone, shown, sample.time_s);
-  return jobs::camera_on(sample, shown,
-                         sim::ideal_view(sample.orientation, shown.gimbal.model, angles));
+  return jobs::camera_on(
+      sample, shown,
+      sim::ideal_view(sample.orientation, shown, moment.setpoints.at(drone), sample.time_s));
 }
 
 OnboardCamera::OnboardCamera(const jobs::JobSpec& job, world::Scenario scenario,

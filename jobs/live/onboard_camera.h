@@ -27,10 +27,6 @@ struct ImageSize {
 /// horizontal field of view.
 camera::CameraSpec shown_camera(const camera::CameraSpec& camera, const ImageSize& size = {});
 
-/// Direction of a drone's camera on its gimbal at a time within the moment's step.
-camera::GimbalAngles gimbal_angles(const Moment& moment, std::size_t drone,
-                                   const camera::CameraSpec& shown, double time_s);
-
 /// A drone's camera (shown_camera()) at one of the drone's samples within the moment's step.
 camera::Camera flown_camera(const Moment& moment, std::size_t drone,
                             const camera::CameraSpec& shown, const world::DroneSample& sample);

@@ -65,7 +65,7 @@ json drones_json(const Flight& flight) {
                      {{"hfov_deg", camera.hfov_deg},
                       {"pitch_deg", camera.pitch_deg},
                       {"yaw_deg", camera.yaw_deg},
-                      {"is_rigid", camera.gimbal.model == camera::GimbalModel::rigid}}}});
+                      {"is_rigid", camera.gimbal.is_rigid()}}}});
   }
   return list;
 }

@@ -126,7 +126,10 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   shadow_ = make_program({shader_light, embedded::shader_scenery_shadow_vert}, {});
   leaf_shadow_ = make_program({shader_light, embedded::shader_leaf_shadow_vert},
                               {embedded::shader_leaf_shadow_frag});
-  leaf_sprites_ = make_leaf_sprites();
+  if (std::any_of(items_.begin(), items_.end(),
+                  [](const Item& item) { return item.leaves.count > 0; })) {
+    leaf_sprites_ = make_leaf_sprites();
+  }
   check_gl("loading props");
 }
 

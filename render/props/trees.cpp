@@ -27,8 +27,8 @@ struct Species {
   Interval radius;  ///< of the crown
   double base;      ///< of the crown, as a share of the height
   int lobes;
-  double lobe_radius;   ///< over that of the crown
-  double lobe_height;   ///< over its radius
+  double lobe_radius;   ///< over that of the crown; a cone has its own
+  double lobe_height;   ///< over its radius; likewise
   double cards_per_m2;  ///< of a lobe's surface
   double card_m;        ///< half the side of a card
   std::array<Vector3d, 2> greens;

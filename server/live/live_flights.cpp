@@ -84,8 +84,7 @@ std::shared_ptr<LiveFlight> LiveFlights::begin(const jobs::ResolvedJob& job,
   spec.owner = owner;
   spec.name = job.spec().name;
   for (const jobs::DroneSpec& drone : job.spec().drones) {
-    const bool is_rigid = drone.camera.gimbal.model == camera::GimbalModel::rigid;
-    spec.drones.push_back({drone.mission.id, !is_rigid});
+    spec.drones.push_back({drone.mission.id, !drone.camera.gimbal.is_rigid()});
   }
   spec.job_json = dump_text(to_json(job.spec()));
   spec.memory_mib = flight_memory_mib(job);

@@ -65,8 +65,7 @@ void check_exits(const DroneMission& mission, const world::Scenario& scenario,
 void check_setpoints(const DroneMission& mission, const std::string& pointer,
                      std::vector<Problem>& problems) {
   const std::vector<PilotSample>& samples = mission.guidance.setpoints;
-  const bool is_rigid = mission.camera.gimbal.model == camera::GimbalModel::rigid;
-  for (std::size_t i = 0; is_rigid && i < samples.size(); ++i) {
+  for (std::size_t i = 0; mission.camera.gimbal.is_rigid() && i < samples.size(); ++i) {
     if (!samples[i].gimbal) continue;
     problems.push_back({"", fmt::format("{}/setpoints/{}/6", pointer, i),
                         "a direction of the gimbal",

@@ -123,7 +123,7 @@ std::optional<camera::GimbalAngles> RemotePilots::next_gimbal(std::size_t drone,
                                                               const RemoteCommand& command) const {
   const std::optional<camera::GimbalAngles>& last = logs_[drone].back().gimbal;
   const camera::CameraSpec& camera = run_.drones()[drone].mission.camera;
-  if (!command.gimbal || camera.gimbal.model == camera::GimbalModel::rigid) return last;
+  if (!command.gimbal || camera.gimbal.is_rigid()) return last;
   const camera::GimbalAngles from = last.value_or(camera.gimbal_angles());
   const double max_deg = kMaxRemoteGimbalDegS * run_.dt_s();
   const auto turned = [&](double angle, double wanted, double min, double max) {

@@ -79,12 +79,13 @@ double heading_from_orientation(const Eigen::Quaterniond& orientation) {
 }
 
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
-  return ideal_view(orientation, camera.gimbal.model, camera.gimbal_angles());
+  return ideal_view(orientation, camera, {}, 0);
 }
 
-ViewAngles ideal_view(const Eigen::Quaterniond& orientation, camera::GimbalModel model,
-                      const camera::GimbalAngles& angles) {
-  if (model == camera::GimbalModel::rigid) return rigid_view(orientation, angles);
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera,
+                      const std::vector<PilotSample>& setpoints, double time_s) {
+  const camera::GimbalAngles angles = gimbal_at(setpoints, camera.gimbal_angles(), time_s);
+  if (camera.gimbal.is_rigid()) return rigid_view(orientation, angles);
   return {heading_from_orientation(orientation) + angles.yaw_deg * kDegree,
           angles.pitch_deg * kDegree, 0};
 }
@@ -111,7 +112,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera:
     angles = gimbal_at(setpoints, camera.gimbal_angles(), sample.time_s);
     const Vector3d next(heading + angles.yaw_deg * kDegree, angles.pitch_deg * kDegree, 0);
     if (spec.model != camera::GimbalModel::second_order) {
-      const ViewAngles view = ideal_view(sample.orientation, spec.model, angles);
+      const ViewAngles view = ideal_view(sample.orientation, camera, setpoints, sample.time_s);
       points_.push_back({sample.time_s, view, view});
       continue;
     }

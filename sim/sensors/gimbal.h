@@ -26,9 +26,9 @@ double heading_from_orientation(const Eigen::Quaterniond& orientation);
 /// Viewing direction with an ideal gimbal, the drone's heading plus the camera's yaw, the camera's
 /// pitch, no roll; or of a rigid mount, which tilts with the drone.
 ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera);
-/// The same in another direction than the camera's own.
-ViewAngles ideal_view(const Eigen::Quaterniond& orientation, camera::GimbalModel model,
-                      const camera::GimbalAngles& angles);
+/// The same at a time of a flight by these set-points, which may turn the gimbal.
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera,
+                      const std::vector<PilotSample>& setpoints, double time_s);
 
 /// The viewing direction of a camera over a run, computed from a trace, as SensorLog.
 class GimbalLog {

@@ -29,6 +29,8 @@ inline constexpr double kMaxGimbalYawDeg = 180;
 
 /// A gimbal; its errors count for GimbalModel::second_order only.
 struct GimbalSpec {
+  bool is_rigid() const { return model == GimbalModel::rigid; }
+
   GimbalModel model = GimbalModel::ideal;
   double natural_rad_s = 25;            ///< natural frequency of each axis's second-order response
   double damping = 0.7;                 ///< damping ratio of this response

@@ -294,6 +294,19 @@ class RosNode(unittest.TestCase):
             beacon.publish(on)
             mode.until(lambda each: json.loads(each.data)["beacon"] == on)
 
+        # 60 degrees down (positive about y), which the camera's frame in /tf shows: its z looks ahead.
+        self.publisher("/d1/gimbal", Quaternion).publish(Quaternion(0, 0.5, 0, 3**0.5 / 2))
+
+        def pitch_deg(message):
+            for each in message.transforms:
+                if each.child_frame_id == "d1/camera_optical_frame":
+                    q = each.transform.rotation
+                    return math.degrees(math.asin(1 - 2 * (q.x**2 + q.y**2)))
+            return 0
+
+        transforms = self.watch("/tf", TFMessage)
+        poll(lambda: abs(pitch_deg(transforms.next()) + 60) < 1)
+
         velocity.linear.x = 99
         self.publisher("/d1/cmd_vel", Twist).publish(velocity)
         refused = re.compile(r"\[ERROR\].*/d1/cmd_vel: /linear: found \[99")

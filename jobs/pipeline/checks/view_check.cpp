@@ -10,7 +10,6 @@
 #include "jobs/pipeline/frames/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
 #include "sim/planning/planned_paths.h"
-#include "sim/recording/gimbal_setpoints.h"
 #include "sim/sensors/gimbal.h"
 #include "spec/job/plan.h"
 #include "spec/job/spec.h"
@@ -117,9 +116,8 @@ std::vector<std::optional<CameraView>> views_of_run(const JobSpec& whole_job,
       drone.position = poses[i][k].position;
       drone.orientation = Eigen::AngleAxisd(poses[i][k].yaw_rad, Vector3d::UnitZ());
       const sim::DroneMission& mission = spec.drones[i];
-      const sim::ViewAngles angles = sim::ideal_view(
-          drone.orientation, mission.camera.gimbal.model,
-          sim::gimbal_at(mission.guidance.setpoints, mission.camera.gimbal_angles(), times[k]));
+      const sim::ViewAngles angles =
+          sim::ideal_view(drone.orientation, mission.camera, mission.guidance.setpoints, times[k]);
       add_image(camera_on(drone, mission.camera, angles), times[k], cells, *view);
     }
     view->mean_people /= static_cast<double>(times.size());

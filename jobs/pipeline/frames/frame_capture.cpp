@@ -89,8 +89,7 @@ sim::ViewAngles FrameCapture::view_at(std::size_t drone, std::int64_t frame,
   const camera::CameraSpec& camera = cameras_[drone];
   sim::ViewAngles view = gimbals_[drone].view_at(sample.time_s);
   if (camera.gimbal.model != camera::GimbalModel::second_order) {
-    view = sim::ideal_view(sample.orientation, camera.gimbal.model,
-                           sim::gimbal_at(setpoints(drone), camera.gimbal_angles(), sample.time_s));
+    view = sim::ideal_view(sample.orientation, camera, setpoints(drone), sample.time_s);
   }
   const camera::FrameOffsets draw = offsets_at(drone, frame);
   view.yaw += draw.yaw_deg * kDegree;
