@@ -119,8 +119,10 @@ struct Renderer::State {
   const Frame& draw_metered(const Scene& scene, const camera::Camera& camera);
   void draw_smooth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                    Frame& frame);
+  void upload_view(const camera::Camera& camera) const;
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                  PeoplePass::Purpose purpose);
+  void draw_truth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen);
   void scenery_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NeighborFrame* next, const NeighborFrame* previous,
                      const std::vector<Seen>& seen, Frame& frame);
@@ -143,6 +145,7 @@ struct Renderer::State {
   RenderOptions options;
   QualitySettings quality;
   bool multisample;
+  bool color_apart;  ///< colors have several samples a pixel, and are rendered on their own
   const skinning::Population* population;
   PeopleFinder finder;
   Daylight daylight;
@@ -182,6 +185,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       options(wanted),
       quality(quality_settings(wanted.quality)),
       multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
+      color_apart(quality.supersampling > 1 || multisample),
       population(&people),
       finder(people, quality),
       daylight(render::daylight(environment)),
@@ -191,7 +195,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       props(scenario, light_words(environment), quality, wanted.semantic),
       airframes(light_words(environment), quality),
       contacts(scenario, daylight),
-      people_pass(people, quality, light_words(environment)),
+      people_pass(people, quality, light_words(environment), color_apart),
       sky(environment),
       smoke(environment, scenario.disasters),
       shadow_map(quality.shadow_texels),
@@ -297,7 +301,11 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   using Purpose = PeoplePass::Purpose;
   if (choice.truth) scenery_silhouettes(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
-  draw_view(scene, camera, seen, choice.truth ? Purpose::image_and_silhouettes : Purpose::image);
+  if (choice.truth && color_apart) {
+    draw_truth(scene, camera, seen);
+  } else {
+    draw_view(scene, camera, seen, choice.truth ? Purpose::truth : Purpose::image);
+  }
   lap("draw");
 }
 
@@ -323,12 +331,16 @@ void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& came
   }
 }
 
-void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
-                                const std::vector<Seen>& seen, PeoplePass::Purpose purpose) {
+void Renderer::State::upload_view(const camera::Camera& camera) const {
   const camera::Intrinsics& k = camera.intrinsics;
   const ViewBlock view = view_block(camera, guarded_viewport(k.width, k.height));
   glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
+}
+
+void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
+                                const std::vector<Seen>& seen, PeoplePass::Purpose purpose) {
+  upload_view(camera);
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(purpose, scene.people, make_draws(seen));
   props.draw(clip_planes(camera), scene.time_s);
@@ -338,6 +350,16 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   sky.draw_sky(camera);
   smoke.draw(scene, camera);
   sky.draw_rain(camera, scene.index);
+}
+
+/// Ids, depth and silhouettes without colors.
+void Renderer::State::draw_truth(const Scene& scene, const camera::Camera& camera,
+                                 const std::vector<Seen>& seen) {
+  upload_view(camera);
+  people_pass.draw(PeoplePass::Purpose::truth, scene.people, make_draws(seen));
+  props.draw_ids(clip_planes(camera), scene.time_s);
+  airframes.draw(scene.drones, camera);
+  place.draw_ids();
 }
 
 void Renderer::State::draw_surfaces(const Scene& scene, const NeighborFrame* next,
@@ -468,8 +490,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
   std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
   state.draw_image(scene, camera, choice, seen, frame);
-  const bool wants_light = state.quality.supersampling == 1 && !state.multisample;
-  state.target->read(wants_light, frame);
+  state.target->read(!state.color_apart, frame);
   if (state.options.semantic) split_classes(frame);
   state.lap("read back");
   if (state.quality.smooth_edges && !state.multisample) smooth_edges(frame);

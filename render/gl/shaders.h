@@ -33,6 +33,8 @@ extern const std::string_view shader_ground_dirt;
 extern const std::string_view shader_ground_kerb;
 extern const std::string_view shader_ground_paint;
 extern const std::string_view shader_ground_surroundings;
+extern const std::string_view shader_ids_frag;
+extern const std::string_view shader_leaf_ids_frag;
 extern const std::string_view shader_leaf_shadow_vert;
 extern const std::string_view shader_leaf_shadow_frag;
 extern const std::string_view shader_prop_vert;

@@ -126,6 +126,10 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   shadow_ = make_program({shader_light, embedded::shader_scenery_shadow_vert}, {});
   leaf_shadow_ = make_program({shader_light, embedded::shader_leaf_shadow_vert},
                               {embedded::shader_leaf_shadow_frag});
+  solid_ids_ = make_program({embedded::shader_view, embedded::shader_prop_vert},
+                            {embedded::shader_ids_frag});
+  leaf_ids_ = make_program({kNoShadows, kLeaves, embedded::shader_view, embedded::shader_prop_vert},
+                           {embedded::shader_leaf_ids_frag});
   if (std::any_of(items_.begin(), items_.end(),
                   [](const Item& item) { return item.leaves.count > 0; })) {
     leaf_sprites_ = make_leaf_sprites();
@@ -151,6 +155,15 @@ void PropPass::draw_ranges(const Program& program, const std::vector<const Item*
 }
 
 void PropPass::draw(const ClipPlanes& planes, double time_s) const {
+  draw_with(solid_, leaves_, planes, time_s);
+}
+
+void PropPass::draw_ids(const ClipPlanes& planes, double time_s) const {
+  draw_with(solid_ids_, leaf_ids_, planes, time_s);
+}
+
+void PropPass::draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
+                         double time_s) const {
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
@@ -160,11 +173,11 @@ void PropPass::draw(const ClipPlanes& planes, double time_s) const {
   if (closed.empty() && open.empty()) return;
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
-  draw_ranges(solid_, closed, &Item::solid);
+  draw_ranges(solid, closed, &Item::solid);
   glDisable(GL_CULL_FACE);
-  draw_ranges(solid_, open, &Item::solid);
+  draw_ranges(solid, open, &Item::solid);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
-  draw_ranges(leaves_, closed, &Item::leaves);
+  draw_ranges(leaves, closed, &Item::leaves);
 }
 
 void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,

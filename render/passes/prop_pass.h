@@ -29,6 +29,9 @@ class PropPass {
   /// SceneryPass::draw().
   void draw(const ClipPlanes& planes, double time_s) const;
 
+  /// Draws only the ids and the depth of the same triangles.
+  void draw_ids(const ClipPlanes& planes, double time_s) const;
+
   /// Draws the props whose shadows touch `area` of the ground into the shadow map; `slope` is
   /// shadow_slope().
   void draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
@@ -47,6 +50,8 @@ class PropPass {
   /// Appends a mesh to `vertices` and `indices`.
   Item& add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
             std::vector<std::uint32_t>& indices);
+  void draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
+                 double time_s) const;
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,
                    Range Item::*range) const;
 
@@ -58,6 +63,8 @@ class PropPass {
   Program leaves_;
   Program shadow_;
   Program leaf_shadow_;
+  Program solid_ids_;
+  Program leaf_ids_;
   Texture leaf_sprites_;
 };
 

@@ -95,7 +95,8 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
       material_(scenario.ground_material),
-      shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})) {
+      shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})),
+      ids_(make_program({shader_view, shader_scenery_vert}, {embedded::shader_ids_frag})) {
   const std::string words = light_words(environment).append(shadow_words(quality));
   if (quality.textured) {
     walls_ = make_scenery_program(words, embedded::shader_wall_frag);
@@ -159,6 +160,16 @@ void SceneryPass::draw() const {
   for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
   draw_ground(material_, mesh_.ground);
   draw_ground(std::string(kPlain), mesh_.surroundings);
+}
+
+void SceneryPass::draw_ids() const {
+  glEnable(GL_CULL_FACE);
+  glBindVertexArray(array_.name());
+  draw_range(ids_, mesh_.walls);
+  draw_range(ids_, mesh_.roofs);
+  for (const GroundLayer& layer : layers_) draw_range(ids_, layer.range);
+  draw_range(ids_, mesh_.ground);
+  draw_range(ids_, mesh_.surroundings);
 }
 
 void SceneryPass::draw_shadow() const {

@@ -26,6 +26,9 @@ class SceneryPass {
   /// to be bound.
   void draw() const;
 
+  /// Draws only the ids and the depth of the same triangles.
+  void draw_ids() const;
+
   /// Draws buildings into the shadow map.
   void draw_shadow() const;
 
@@ -51,6 +54,7 @@ class SceneryPass {
   std::map<std::string, Look> looks_;  ///< by the ground's material
   std::string material_;               ///< material of the ground that no layer covers
   Program shadow_;
+  Program ids_;
 };
 
 }  // namespace throng::render

@@ -54,6 +54,7 @@ constexpr std::string_view kLitCorners = "#define LIT_CORNERS\n";
 constexpr std::string_view kShadowed = "#define SHADOWED\n";
 constexpr std::string_view kSurface = "#define SURFACE\n";
 constexpr std::string_view kSilhouettes = "#define SILHOUETTES\n";
+constexpr std::string_view kSilhouettesAndIds = "#define SILHOUETTES\n#define IDS_ONLY\n";
 
 VertexArray make_person_array(const PeopleMeshes& meshes, const Buffer& instances) {
   VertexArray array = make_vertex_array();
@@ -121,7 +122,7 @@ Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
 }  // namespace
 
 PeoplePass::PeoplePass(const skinning::Population& population, const QualitySettings& quality,
-                       std::string_view words)
+                       std::string_view words, bool color_apart)
     : palettes_per_character_(population.palettes_per_character),
       meshes_(people_meshes(population, choose_packing(quality))),
       palettes_(make_buffer(device_palettes(population, largest_palettes()))),
@@ -132,7 +133,7 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
   array_ = make_person_array(meshes_, instances_);
   const bool shadowed = quality.shadow_texels > 0;
   image_ = make_image_programs(words, shadowed, "");
-  image_and_silhouettes_ = make_image_programs(words, shadowed, kSilhouettes);
+  truth_ = make_image_programs(words, shadowed, color_apart ? kSilhouettesAndIds : kSilhouettes);
   const auto coverage_program = [&](std::string_view alpha) {
     return make_program({kCoverage, shader_view, shader_person_vert},
                         {alpha, embedded::shader_coverage_frag});
@@ -151,17 +152,17 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
 }
 
 PeoplePass::ImagePrograms PeoplePass::make_image_programs(std::string_view words, bool shadowed,
-                                                          std::string_view silhouettes) {
+                                                          std::string_view outputs) {
   const std::string_view shadows = shadowed ? kShadowed : "";
   const auto textured = [&](std::string_view lit, std::string_view alpha) {
     return make_program(
-        {words, silhouettes, lit, shadows, shader_view, shader_light, shader_person_vert},
-        {words, silhouettes, lit, alpha, shader_light, embedded::shader_silhouette,
+        {words, outputs, lit, shadows, shader_view, shader_light, shader_person_vert},
+        {words, outputs, lit, alpha, shader_light, embedded::shader_silhouette,
          shader_person_frag});
   };
   Program by_corners = make_program(
-      {words, silhouettes, kCorners, shadows, shader_view, shader_light, shader_person_vert},
-      {silhouettes, embedded::shader_silhouette, embedded::shader_corners_frag});
+      {words, outputs, kCorners, shadows, shader_view, shader_light, shader_person_vert},
+      {outputs, embedded::shader_silhouette, embedded::shader_corners_frag});
   return {{textured("", ""), textured(kLitCorners, ""), std::move(by_corners)},
           textured("", kAlphaTest)};
 }
@@ -335,9 +336,7 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
     return;
   }
   if (purpose == Purpose::image) return draw_image(batches, image_);
-  if (purpose == Purpose::image_and_silhouettes) {
-    return draw_image(batches, image_and_silhouettes_);
-  }
+  if (purpose == Purpose::truth) return draw_image(batches, truth_);
   glEnable(GL_CULL_FACE);
   glUseProgram(coverage_.name());
   draw_batches(batches, &PeopleLevel::opaque);

@@ -28,7 +28,7 @@ struct PersonDraw {
   Shading shading = Shading::by_corners;
   float depth_m = 0;  ///< nearer people are rendered first
   /// Offset (pixels, right and down) from the image to the person's silhouette in the atlas
-  /// (Purpose::coverage and Purpose::image_and_silhouettes).
+  /// (Purpose::coverage and Purpose::truth).
   std::array<std::int32_t, 2> shift = kNowhere;
 
   /// An offset outside of every atlas.
@@ -39,13 +39,14 @@ struct PersonDraw {
 /// and Light blocks, the shadow map and the target to be bound.
 class PeoplePass {
  public:
-  /// `words` are light_words() of the environment.
+  /// `words` are light_words() of the environment. With `color_apart` images are rendered on their
+  /// own, and Purpose::truth writes no colors.
   PeoplePass(const skinning::Population& population, const QualitySettings& quality,
-             std::string_view words);
+             std::string_view words, bool color_apart);
 
-  /// image_and_silhouettes also writes the people's whole silhouettes, visible or occluded, to the
+  /// truth also writes the people's whole silhouettes, visible or occluded, to the
   /// atlas that is bound to image unit 0 (render/truth/silhouettes.h).
-  enum class Purpose { image, image_and_silhouettes, shadow, coverage };
+  enum class Purpose { image, truth, shadow, coverage };
 
   /// Renders level by level, from near to far within a character. The order depends only on the
   /// values of `draws`, so that equal scenes give equal pixels.
@@ -78,7 +79,7 @@ class PeoplePass {
     Program alpha_tested;
   };
   static ImagePrograms make_image_programs(std::string_view words, bool shadowed,
-                                           std::string_view silhouettes);
+                                           std::string_view outputs);
   static void draw_image(const std::vector<Batch>& batches, const ImagePrograms& programs);
   void bind(const VertexArray& array) const;
 
@@ -92,7 +93,7 @@ class PeoplePass {
   VertexArray surface_array_;
   Texture textures_;
   ImagePrograms image_;
-  ImagePrograms image_and_silhouettes_;
+  ImagePrograms truth_;
   Program shadow_;
   Program coverage_;
   Program coverage_alpha_;

@@ -1,4 +1,5 @@
-// Skin, hair and clothes. With LIT_CORNERS light and air come from the corners.
+// Skin, hair and clothes. With LIT_CORNERS light and air come from the corners; with IDS_ONLY only
+// ids and silhouettes are written.
 #ifdef LIT_CORNERS
 in vec3 received;
 in vec3 air;
@@ -12,7 +13,9 @@ flat in uvec4 shaded;
 
 layout(binding = 0) uniform sampler2DArray textures;
 
+#ifndef IDS_ONLY
 layout(location = 0) out vec4 color;
+#endif
 layout(location = 1) out uint instance;
 
 vec3 linear_from_srgb(vec3 c) {
@@ -38,10 +41,13 @@ vec3 seen(vec3 albedo) {
 #endif
 
 void main() {
+#if defined(ALPHA_TEST) || !defined(IDS_ONLY)
   vec4 texel = texture(textures, vec3(texture_place(), float(surface.x)));
+#endif
 #ifdef ALPHA_TEST
   if (texel.a < 0.5) discard;
 #endif
+#ifndef IDS_ONLY
   vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
   if (surface.w != 0u) {
     vec4 shades = texture(textures, vec3(texture_place(), float(surface.w)));
@@ -50,6 +56,7 @@ void main() {
     }
   }
   color = vec4(film(seen(albedo)), 1.0);
+#endif
   instance = surface.z;
   leave_silhouette();
 }
