@@ -111,7 +111,8 @@ struct Renderer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area, const ShadowMap& shadows);
+  void draw_shadows(const Scene& scene, const camera::Camera& camera,
+                    const Eigen::AlignedBox2d& area, const ShadowMap& shadows);
   void draw_image(const Scene& scene, const camera::Camera& camera, const DrawChoice& choice,
                   std::vector<Seen>& seen, Frame& frame);
   void draw_light(const Scene& scene, const camera::Camera& camera, double exposure_gain,
@@ -215,8 +216,8 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
 
 Renderer::State::~State() { context.make_current(); }
 
-void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area,
-                                   const ShadowMap& shadows) {
+void Renderer::State::draw_shadows(const Scene& scene, const camera::Camera& camera,
+                                   const Eigen::AlignedBox2d& area, const ShadowMap& shadows) {
   const Eigen::Vector2d slope = shadow_slope(daylight);
   std::vector<PersonDraw> casters;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
@@ -227,7 +228,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
     shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
     shade = {shade.min().array() - reach, shade.max().array() + reach};
     if (!shade.intersects(area)) continue;
-    casters.push_back(finder.caster(i, person));
+    casters.push_back(finder.caster(i, person, camera));
   }
   shadows.begin();
   place.draw_shadow();
@@ -272,7 +273,7 @@ void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camer
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
-  if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, area, shadows);
+  if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, camera, area, shadows);
   shadows.bind();
   if (lamp_map) lamp_map->bind();
 }

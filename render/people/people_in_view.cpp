@@ -10,6 +10,9 @@ namespace throng::render {
 
 namespace {
 
+/// Image height (px) of people whose shadows show a head.
+constexpr double kFineShadowPx = 40;
+
 Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
   return {Eigen::Vector2d::Zero(),
           Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
@@ -55,9 +58,14 @@ std::span<const SkinPoint> PeopleFinder::head_points(std::uint32_t character,
   return bodies_[character][std::min(level, kCoarsest)].head;
 }
 
-PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& instance) const {
-  const std::size_t level =
-      population_->characters[instance.appearance.character].levels.size() - 1;
+PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& instance,
+                                const camera::Camera& camera) const {
+  const skinning::Character& character = population_->characters[instance.appearance.character];
+  const double distance_m = (instance.position.cast<double>() - camera.pose.center()).norm();
+  const double height_px =
+      camera.intrinsics.fy_px * character.stature_m / std::max(distance_m, double{kNear});
+  const std::size_t finer = height_px < kFineShadowPx ? 0 : 2;
+  const std::size_t level = character.levels.size() - 1 - std::min(finer, character.levels.size() - 1);
   return {person, static_cast<std::uint32_t>(level), shading_of(level), 0};
 }
 

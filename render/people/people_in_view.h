@@ -47,8 +47,10 @@ class PeopleFinder {
   /// computed.
   std::span<const SkinPoint> head_points(std::uint32_t character, std::size_t level) const;
 
-  /// The draw of a person into the shadow map, at the coarsest level.
-  PersonDraw caster(std::uint32_t person, const PersonInstance& instance) const;
+  /// The draw of a person into the shadow map: two levels finer than the coarsest, with a head and
+  /// feet, where the camera would see a standing person kFineShadowPx tall or taller.
+  PersonDraw caster(std::uint32_t person, const PersonInstance& instance,
+                    const camera::Camera& camera) const;
 
  private:
   Shading shading_of(std::size_t level) const;
