@@ -20,6 +20,9 @@ using embedded::shader_noise;
 using embedded::shader_scenery_vert;
 using embedded::shader_view;
 
+/// Below this the shadows on the ground are so long that texels of the shadow map show.
+constexpr double kLowSunRad = 0.6;
+
 constexpr GLuint kGroundUnit = 3;  // also in shaders/ground.frag.glsl
 
 std::string_view choose_shader(const std::string& material, const world::Scenario& scenario) {
@@ -46,6 +49,7 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
                       {words, shader_light, shader_noise, surface, more});
 }
 
+constexpr std::string_view kWideFilter = "#define WIDE_FILTER\n";
 constexpr std::string_view kTextured = "#define TEXTURED\n";
 constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
 constexpr std::string_view kPlain = "surroundings";
@@ -98,9 +102,12 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
       shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})),
       ids_(make_program({shader_view, shader_scenery_vert}, {embedded::shader_ids_frag})) {
   const std::string words = light_words(environment).append(shadow_words(quality));
+  const std::string ground_words =
+      words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
   if (quality.textured) {
-    walls_ = make_scenery_program(words, embedded::shader_wall_frag);
-    roofs_ = make_scenery_program(words, embedded::shader_roof_frag);
+    const std::string wide = words + std::string(kWideFilter);
+    walls_ = make_scenery_program(wide, embedded::shader_wall_frag);
+    roofs_ = make_scenery_program(wide, embedded::shader_roof_frag);
   } else {
     walls_ = make_corners_program(words, kWallAlbedo);
     roofs_ = make_corners_program(words, kRoofAlbedo);
@@ -113,11 +120,11 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
                      {4, 1, GL_UNSIGNED_INT, false, offsetof(SceneryVertex, id)},
                      {5, 1, GL_FLOAT, false, offsetof(SceneryVertex, facade)}});
   glVertexArrayElementBuffer(array_.name(), indices_.name());
-  learn(material_, choose_shader(material_, scenario), words, quality);
-  learn(std::string(kPlain), embedded::shader_ground_surroundings, words, quality);
+  learn(material_, choose_shader(material_, scenario), ground_words, quality);
+  learn(std::string(kPlain), embedded::shader_ground_surroundings, ground_words, quality);
   tell_place(looks_.at(std::string(kPlain)).program, scenario.ground);
   for (const GroundLayer& layer : layers_) {
-    learn(layer.material, choose_shader(layer.material, scenario), words, quality);
+    learn(layer.material, choose_shader(layer.material, scenario), ground_words, quality);
   }
   check_gl("loading the scenery");
 }

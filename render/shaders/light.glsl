@@ -95,6 +95,28 @@ float sunlit(vec3 world, float bias_m) {
   }
   return shaded ? lit / float(4 * kLooks) : sunlit_small(world, bias_m);
 }
+#elif defined(WIDE_FILTER)
+// How much of the sun reaches a point of a wall, or of the ground when the sun is low and the map's
+// texels are large: from the nearest 4 x 4 texels, a tent of two texels to each side.
+float sunlit(vec3 world, float bias_m) {
+  vec2 size = vec2(textureSize(shadow_map, 0));
+  vec2 texel = shadow_uv(world) * size - 0.5;
+  vec2 first = floor(texel);
+  vec2 f = texel - first;
+  float height = (world.z + bias_m) * light.shadow_slope.z;
+  // Columns and rows -1 and 0, then 1 and 2.
+  vec4 weight_x = vec4(1.0 - f.x, 2.0 - f.x, 1.0 + f.x, f.x);
+  vec4 weight_y = vec4(1.0 - f.y, 2.0 - f.y, 1.0 + f.y, f.y);
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = vec2(float(i & 1), float(i >> 1)) * 2.0;
+    vec4 a = textureGather(shadow_map, (first + corner) / size, height);
+    vec2 wx = (i & 1) == 0 ? weight_x.xy : weight_x.zw;
+    vec2 wy = i < 2 ? weight_y.xy : weight_y.zw;
+    sum += wy.x * (a.w * wx.x + a.z * wx.y) + wy.y * (a.x * wx.x + a.y * wx.y);
+  }
+  return sum * (1.0 / 16.0);
+}
 #else
 float sunlit(vec3 world, float bias_m) { return sunlit_small(world, bias_m); }
 #endif
