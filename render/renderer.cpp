@@ -106,7 +106,7 @@ void resize(std::optional<T>& target, int width, int height, Others... others) {
 
 struct Renderer::State {
   State(const world::Scenario& scenario, const skinning::Population& people,
-        const Environment& environment, const DeviceChoice& device, const RenderOptions& wanted);
+        const Environment& shown, const DeviceChoice& device, const RenderOptions& wanted);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -149,6 +149,8 @@ struct Renderer::State {
   bool color_apart;  ///< colors have several samples a pixel, and are rendered on their own
   const skinning::Population* population;
   PeopleFinder finder;
+  Environment environment;
+  std::vector<world::Disaster> disasters;
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
@@ -180,7 +182,7 @@ struct Renderer::State {
 };
 
 Renderer::State::State(const world::Scenario& scenario, const skinning::Population& people,
-                       const Environment& environment, const DeviceChoice& device,
+                       const Environment& shown, const DeviceChoice& device,
                        const RenderOptions& wanted)
     : context(device.name),
       options(wanted),
@@ -189,14 +191,16 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       color_apart(quality.supersampling > 1 || multisample),
       population(&people),
       finder(people, quality),
+      environment(shown),
+      disasters(scenario.disasters),
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
       place(scenario, environment, quality, wanted.semantic),
-      props(scenario, light_words(environment), quality, wanted.semantic),
-      airframes(light_words(environment), quality),
+      props(scenario, light_words(environment, scenario.disasters), quality, wanted.semantic),
+      airframes(light_words(environment, scenario.disasters), quality),
       contacts(scenario, daylight),
-      people_pass(people, quality, light_words(environment), color_apart),
+      people_pass(people, quality, light_words(environment, scenario.disasters), color_apart),
       sky(environment),
       smoke(environment, scenario.disasters),
       shadow_map(quality.shadow_texels),
@@ -268,8 +272,10 @@ void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camer
                                  double exposure_gain, const ShadowMap& shadows) {
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
+  const std::vector<Fire> fires =
+      fires_at(environment, disasters, scene.time_s, camera.pose.center());
   const LightBlock light = light_block(
-      daylight, {area, ground, tallest, camera.pose.center(), scene.time_s, exposure_gain});
+      daylight, {area, ground, tallest, camera.pose.center(), scene.time_s, fires, exposure_gain});
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);

@@ -19,11 +19,24 @@ constexpr std::uint64_t kSmoke = std::uint64_t{1} << 43;  // apart from other us
 constexpr std::uint64_t kPuffs = 130;                     // of one danger
 constexpr std::uint64_t kUsualDust = 40;                  // of them
 constexpr double kLifeS = 15;
-constexpr double kDriftMps = 0.45;
 constexpr std::uint64_t kFlames = std::uint64_t{1} << 45;
 constexpr float kShines = 2;  // added to the opacity of what does; also in shaders/smoke.frag.glsl
 const Eigen::Vector3d kSoot(0.10, 0.10, 0.105);
 const Eigen::Vector3d kDustAlbedo(0.36, 0.31, 0.25);
+
+/// Air in which smoke drifts: the wind, but never still. A strong wind tears smoke apart, which this
+/// many puffs cannot show: it is taken as kMaxDriftMps.
+Eigen::Vector2d drift_mps(const Environment& environment) {
+  constexpr double kLeastDriftMps = 0.45;
+  constexpr double kMaxDriftMps = 2.5;
+  const double speed_mps = environment.wind_mps.norm();
+  if (speed_mps > kLeastDriftMps) {
+    return environment.wind_mps * (std::min(speed_mps, kMaxDriftMps) / speed_mps);
+  }
+  Random wind(environment.seed, Stream::environment, kSmoke);
+  const double heading = wind.uniform(0, 2 * std::numbers::pi);
+  return kLeastDriftMps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+}
 
 }  // namespace
 
@@ -33,10 +46,10 @@ SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster
       instances_(make_buffer()),
       array_(make_vertex_array()),
       program_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
-                            {light_words(environment), embedded::shader_light,
+                            {light_words(environment, disasters_), embedded::shader_light,
                              embedded::shader_noise, embedded::shader_smoke_frag})),
       opacity_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
-                            {"#define OPACITY\n", light_words(environment), embedded::shader_light,
+                            {"#define OPACITY\n", light_words(environment, disasters_), embedded::shader_light,
                              embedded::shader_noise, embedded::shader_smoke_frag})) {
   describe_vertices(array_, 0, instances_, sizeof(Puff), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Puff, place)},
@@ -73,9 +86,7 @@ SmokePass::Source SmokePass::smoke_source(const world::Disaster& disaster, doubl
 // Every puff rises, widens and thins out over kLifeS, and then starts again.
 void SmokePass::add_puffs(const Source& source, std::size_t number, double time_s,
                           const camera::Camera& camera) {
-  Random wind(environment_.seed, Stream::environment, kSmoke);
-  const double heading = wind.uniform(0, 2 * std::numbers::pi);
-  const Eigen::Vector2d drift = kDriftMps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  const Eigen::Vector2d drift = drift_mps(environment_);
   for (std::uint64_t i = 0; i < kPuffs; ++i) {
     Random random(environment_.seed, Stream::environment, kSmoke + 1 + kPuffs * number + i);
     const double whole = time_s / kLifeS + random.uniform();
@@ -111,33 +122,38 @@ void SmokePass::add_puffs(const Source& source, std::size_t number, double time_
 
 void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
                            const camera::Camera& camera) {
-  constexpr std::uint64_t kMaxPuffs = 60;
-  constexpr double kFlameS = 1.1;
-  constexpr double kFireballS = 4;
+  constexpr std::uint64_t kMaxTongues = 110;
+  constexpr double kFlameS = 0.9;
   const double since_s = time_s - disaster.start_s;
   const bool explodes = disaster.kind == world::DisasterKind::explosion;
   if (since_s < 0 || (explodes && since_s > kFireballS)) return;
   if (!explodes && disaster.kind != world::DisasterKind::fire) return;
   const double reach_m = 0.6 * disaster.reach_m(time_s);
   const double fades = explodes ? 1 - since_s / kFireballS : 1;
-  for (std::uint64_t i = 0; i < kMaxPuffs; ++i) {
-    Random random(environment_.seed, Stream::environment, kFlames + kMaxPuffs * number + i);
+  const Eigen::Vector2d lean_mps = 0.5 * drift_mps(environment_);
+  for (std::uint64_t i = 0; i < kMaxTongues; ++i) {
+    Random random(environment_.seed, Stream::environment, kFlames + kMaxTongues * number + i);
     const double whole = time_s / kFlameS + random.uniform();
     const double share = whole - std::floor(whole);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
-    const double out_m = reach_m * std::sqrt(random.uniform()) * (1 - 0.5 * share);
-    const Eigen::Vector3d at(disaster.position.x() + out_m * std::cos(angle),
-                             disaster.position.y() + out_m * std::sin(angle),
-                             0.2 + (1.2 + 0.5 * reach_m) * share);
-    const double radius = (0.22 + 0.16 * reach_m) * (1.1 - 0.8 * share);
+    const double out = std::sqrt(random.uniform());
+    const double out_m = reach_m * out * (1 - 0.4 * share);
+    // Tongues in the middle are the tallest; each grows, rises a little and goes out.
+    const double size_m = (0.35 + 0.3 * reach_m) * (1.15 - 0.6 * out) * random.uniform(0.7, 1.2);
+    const double radius_m = size_m * (0.7 + 0.5 * share);
+    const double height_m = radius_m * 1.6 + (0.4 + 0.5 * reach_m) * (1.1 - out) * share;
+    const Eigen::Vector2d at = disaster.position +
+                               out_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)) +
+                               lean_mps * (kFlameS * share);
     Puff puff;
     puff.place = {static_cast<float>(at.x()), static_cast<float>(at.y()),
-                  static_cast<float>(at.z()), static_cast<float>(radius)};
-    // From yellow to red as it rises.
-    puff.look = {2.4F, static_cast<float>(1.15 - 0.85 * share), 0.12F,
-                 kShines + static_cast<float>(0.6 * fades * environment_.smoke * (1 - share))};
+                  static_cast<float>(height_m), static_cast<float>(radius_m)};
+    const double shows = std::min({1.0, 6 * share, 3 * (1 - share)});
+    puff.look = {static_cast<float>(1.0 - 0.55 * share * out), 0, 0,
+                 kShines + static_cast<float>(0.9 * fades * environment_.smoke * shows)};
     puff.kind = static_cast<float>(HazardMatter::fire);
-    puff.depth_m = static_cast<float>(camera.project(at).depth_m);
+    puff.depth_m =
+        static_cast<float>(camera.project({at.x(), at.y(), height_m}).depth_m);
     if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
   }
 }

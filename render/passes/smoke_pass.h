@@ -28,7 +28,7 @@ class SmokePass {
   /// One disc, as shaders/smoke.vert.glsl reads it.
   struct Puff {
     std::array<float, 4> place{};  ///< center and radius (m)
-    /// Linear albedo and opacity; for puffs that emit light: radiance and opacity + 2.
+    /// Linear albedo and opacity; of flames: heat (0 to 1), 0, 0 and opacity + 2.
     std::array<float, 4> look{};
     float depth_m = 0;  ///< the camera's z
     float kind = 0;     ///< HazardMatter

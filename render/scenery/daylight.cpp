@@ -167,6 +167,7 @@ Daylight daylight(const Environment& environment) {
   light.illuminance_lux = mean * kUnitLux;
   const double exposure = exposure_for(mean) * (light.soft ? kDiffuse : 1) *
                           closed_for_fog(environment, light.extinction_per_m);
+  light.exposure = exposure;
   light.sun *= exposure;
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.

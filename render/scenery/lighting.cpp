@@ -30,16 +30,57 @@ void snap(double& low, double& high) {
   high = low + length;
 }
 
+/// Whether a disaster has flames.
+bool burns(const world::Disaster& disaster) {
+  return disaster.kind == world::DisasterKind::fire ||
+         disaster.kind == world::DisasterKind::explosion;
+}
+
+/// Light of a fire's flames on a white surface that faces it in 1 m, over the square of its reach
+/// in m, in units of daylight (54,000 lux). A square meter of a large pool fire releases about
+/// 0.5 MW (Babrauskas 1983), flames cover a third of the disc that it reaches, and their light is
+/// taken as 0.1 lm/W, as a candle's.
+constexpr double kFireLight = 0.1 * 0.5e6 * 0.36 / 4 / 54000;
+
+/// At night a camera closes before what a fire lights becomes white: its light counts as if the
+/// exposure were no longer than this.
+constexpr double kMaxFireExposure = 40;
+
 }  // namespace
 
-std::string light_words(const Environment& environment) {
+std::string light_words(const Environment& environment,
+                        std::span<const world::Disaster> disasters) {
   const Daylight light = daylight(environment);
   std::string words;
   if (light.dark) words += "#define NO_SUN\n";
   if (light.soft) words += "#define SOFT\n";
   if (light.lamps_on) words += "#define LAMPS\n";
   if (environment.weather == Weather::rain) words += "#define WET\n";
+  if (environment.smoke > 0 && std::any_of(disasters.begin(), disasters.end(), burns)) {
+    words += "#define FIRES\n";
+  }
   return words;
+}
+
+std::vector<Fire> fires_at(const Environment& environment,
+                           std::span<const world::Disaster> disasters, double time_s,
+                           const Eigen::Vector3d& eye) {
+  std::vector<Fire> fires;
+  for (const world::Disaster& disaster : disasters) {
+    const double age_s = time_s - disaster.start_s;
+    if (!burns(disaster) || age_s < 0) continue;
+    const bool explodes = disaster.kind == world::DisasterKind::explosion;
+    const double burning = explodes ? std::max(1 - age_s / kFireballS, 0.0) : 1;
+    fires.push_back({disaster.position, disaster.reach_m(time_s), environment.smoke * burning});
+  }
+  if (environment.smoke <= 0) fires.clear();
+  const auto light = [&](const Fire& fire) {
+    return fire.reach_m / ((fire.position - eye.head<2>()).norm() + 1);
+  };
+  std::stable_sort(fires.begin(), fires.end(),
+                   [&](const Fire& a, const Fire& b) { return light(a) > light(b); });
+  fires.resize(std::min(fires.size(), kMaxFires));
+  return fires;
 }
 
 Eigen::Vector2d shadow_slope(const Daylight& light) {
@@ -80,6 +121,14 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   block.lamps = four(light.lamps);
   block.lamp_area = box_corners(frame.lamp_area);
   block.eye = four(frame.eye, frame.time_s);
+  for (std::size_t i = 0; i < frame.fires.size(); ++i) {
+    const Fire& fire = frame.fires[i];
+    const double strength = kFireLight * fire.reach_m * fire.reach_m * fire.strength *
+                            std::min(light.exposure, kMaxFireExposure);
+    block.fires.at(i) = {static_cast<float>(fire.position.x()),
+                         static_cast<float>(fire.position.y()), static_cast<float>(fire.reach_m),
+                         static_cast<float>(strength)};
+  }
   return block;
 }
 

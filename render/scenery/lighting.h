@@ -10,15 +10,32 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "render/scenery/daylight.h"
 #include "render/view.h"
+#include "world/disasters.h"
 
 namespace throng::render {
 
 /// Steps along each side of shadow_area() to which it is aligned: texels at standard quality.
 inline constexpr int kShadowSize = 2048;
+
+/// Seconds for which the fireball of an explosion burns.
+inline constexpr double kFireballS = 4;
+
+/// Fires that can light a scene at once.
+inline constexpr std::size_t kMaxFires = 4;
+
+/// A fire, or what an explosion left.
+struct Fire {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double reach_m = 0;   ///< radius of the burnt ground
+  double strength = 0;  ///< 0 to 1: share of its flames that burn
+};
 
 /// The Light uniform block (std140).
 struct LightBlock {
@@ -33,6 +50,7 @@ struct LightBlock {
   std::array<float, 4> lamps{};
   std::array<float, 4> lamp_area{};
   std::array<float, 4> eye{};
+  std::array<std::array<float, 4>, kMaxFires> fires{};
 };
 
 /// The inputs of the Light block that depend on the frame.
@@ -42,12 +60,20 @@ struct LightFrame {
   double tallest_m = 0;
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
-  double exposure_gain = 1;  ///< gain of the camera's metering (render/lens/metering.h)
+  std::span<const Fire> fires{};  ///< at most kMaxFires
+  double exposure_gain = 1;       ///< gain of the camera's metering (render/lens/metering.h)
 };
 
 /// Preprocessor lines "#define WORD" for the shaders of this environment: NO_SUN, SOFT (soft
-/// shadows), LAMPS, WET.
-std::string light_words(const Environment& environment);
+/// shadows), LAMPS, WET, and FIRES where one of these disasters burns.
+std::string light_words(const Environment& environment,
+                        std::span<const world::Disaster> disasters = {});
+
+/// The fires that burn or have burnt at a time of the run, those that light `eye` most first; at
+/// most kMaxFires. None while hazards are not shown (Environment::smoke is 0).
+std::vector<Fire> fires_at(const Environment& environment,
+                           std::span<const world::Disaster> disasters, double time_s,
+                           const Eigen::Vector3d& eye);
 
 /// The negative displacement of a shadow on the ground per meter of height.
 Eigen::Vector2d shadow_slope(const Daylight& light);

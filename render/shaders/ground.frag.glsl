@@ -48,6 +48,10 @@ vec3 ground_albedo(vec2 p, vec2 width) {
 
 void main() {
   vec3 albedo = ground_albedo(world.xy, fwidth(world.xy)) * local.x;
+#ifdef FIRES
+  float burnt = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
+  albedo = charcoal(albedo, burnt);
+#endif
   vec3 received = light.sky.rgb * openness;
 #ifndef NO_SUN
   received += light.sun.rgb * (light.sun_direction.z * sunlit(world, 0.02));
@@ -55,7 +59,13 @@ void main() {
 #ifdef LAMPS
   received += light.lamps.rgb * lamp_light(world, vec3(0.0, 0.0, 1.0));
 #endif
+#ifdef FIRES
+  received += fire_light(world, vec3(0.0, 0.0, 1.0));
+#endif
   vec3 radiance = albedo * received;
+#ifdef FIRES
+  radiance += embers(world, burnt, 0.6 * noise(world.xy * 2.9) + 0.4 * noise(world.xy * 8.3 + 5.0));
+#endif
 #ifdef WET
   radiance = wet(radiance, openness);
 #endif

@@ -13,6 +13,7 @@ layout(std140, binding = 1) uniform Light {
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
   vec4 eye;            // the camera's center; w: time, s
+  vec4 fires[4];       // position on the ground, reach (m), light on a white surface in 1 m
 } light;
 
 layout(binding = 1) uniform sampler2DShadow shadow_map;
@@ -133,6 +134,50 @@ float lamp_light(vec3 world, vec3 normal) {
   float facing = max(dot(seen.xyz, normal), 0.0) + 0.25 * max(seen.w - length(seen.xyz), 0.0) +
                  0.16 * seen.w;
   return facing * clamp(2.6 - 0.5 * world.z, 0.0, 1.0);
+}
+#endif
+
+#ifdef FIRES
+// Light of the fires on a surface.
+vec3 fire_light(vec3 world, vec3 normal) {
+  const vec3 kHue = vec3(1.45, 0.85, 0.36);
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    float reach = light.fires[i].z;
+    // The middle of the flames flickers by a tenth, and is as large as they are.
+    float turn = light.eye.w * (11.0 + 3.0 * float(i));
+    float flicker = 1.0 + 0.06 * sin(turn) + 0.05 * sin(2.3 * turn + 1.0);
+    vec3 to_fire = vec3(light.fires[i].xy, 0.5 + 0.4 * reach) - world;
+    float square = dot(to_fire, to_fire) + 0.15 * reach * reach;
+    float facing = 0.2 + 0.8 * max(dot(normal, to_fire) * inversesqrt(square), 0.0);
+    sum += light.fires[i].w * flicker * facing / square;
+  }
+  return kHue * sum;
+}
+
+// How burnt a surface is, 0 to 1; `ragged` is noise in [0, 1].
+float charred(vec3 world, float ragged) {
+  float most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    float reach = light.fires[i].z;
+    float away = length(world.xy - light.fires[i].xy) + 0.25 * max(world.z - 1.5 - reach, 0.0);
+    float edge = reach * (0.6 + 0.6 * ragged);
+    most = max(most, 1.0 - smoothstep(0.6 * edge, edge + 1e-3, away));
+  }
+  return most;
+}
+
+vec3 charcoal(vec3 albedo, float burnt) { return mix(albedo, vec3(0.018, 0.017, 0.016), 0.94 * burnt); }
+
+// Light of embers on burnt ground; `grain` is noise in [0, 1].
+vec3 embers(vec3 world, float burnt, float grain) {
+  float burning = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    float reach = light.fires[i].z;
+    float near = 1.0 - smoothstep(0.3 * reach, 0.9 * reach + 1e-3, length(world.xy - light.fires[i].xy));
+    burning = max(burning, near * step(1e-9, light.fires[i].w));
+  }
+  return vec3(2.6, 0.55, 0.06) * (burning * burnt * smoothstep(0.62, 0.85, grain));
 }
 #endif
 

@@ -7,6 +7,9 @@ in vec2 uv;
 #else
 in vec4 world_sun;
 in vec3 uv_sky;
+#ifdef FIRES
+in vec3 warm;
+#endif
 #endif
 flat in uvec4 surface;
 flat in uvec4 shaded;
@@ -35,6 +38,9 @@ vec3 seen(vec3 albedo) {
   vec3 direct = light.lamps.rgb * world_sun.w;
 #else
   vec3 direct = light.sun.rgb * (world_sun.w * sunlit_small(world_sun.xyz, 0.06));
+#endif
+#ifdef FIRES
+  direct += warm;
 #endif
   return through_air(albedo * (direct + ambient), world_sun.xyz);
 }

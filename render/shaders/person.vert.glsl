@@ -114,6 +114,9 @@ vec3 light_at(vec3 world, vec3 n) {
   direct *= sunlit_small(world, 0.06);
 #endif
 #endif
+#ifdef FIRES
+  direct += fire_light(world, n);
+#endif
   return direct + ambient;
 }
 #endif
@@ -202,6 +205,9 @@ out vec2 uv;
 #else
 out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
 out vec3 uv_sky;        // texture coordinates; share of the sky's light
+#ifdef FIRES
+out vec3 warm;          // light of fires
+#endif
 #endif
 flat out uvec4 surface;  // texture layer, tint as sRGB, id, a portrait's second layer or 0
 flat out uvec4 shaded;   // a portrait's tints
@@ -222,6 +228,9 @@ void main() {
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
+#ifdef FIRES
+  warm = fire_light(world, n);
+#endif
 #endif
   surface = uvec4(part() & 0xFFFu, choose_tint(tint_slot()), instance_id(), part() >> 12 & 0xFFFu);
   shaded = tints;

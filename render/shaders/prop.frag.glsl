@@ -73,6 +73,10 @@ void main() {
 #ifdef LAMPS
   received += light.lamps.rgb * lamp_light(world, n);
 #endif
+#ifdef FIRES
+  albedo = charcoal(albedo, charred(world, 0.5));
+  received += fire_light(world, n);
+#endif
   vec3 radiance = albedo * received;
   float finish = round(paint.a * 255.0);
 #ifndef LEAVES

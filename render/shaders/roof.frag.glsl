@@ -28,7 +28,11 @@ void main() {
   albedo *= 0.6;
 #endif
   float sun = light.sun_direction.z * sunlit(world, 0.1);
-  vec3 radiance = albedo * (light.sun.rgb * sun + light.sky.rgb);
+  vec3 received = light.sun.rgb * sun + light.sky.rgb;
+#ifdef FIRES
+  received += fire_light(world, vec3(0.0, 0.0, 1.0));
+#endif
+  vec3 radiance = albedo * received;
   color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

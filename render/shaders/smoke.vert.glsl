@@ -1,6 +1,6 @@
-// A disc of smoke that faces the camera.
+// A puff of smoke, or a tongue of flame, that faces the camera.
 layout(location = 0) in vec4 place;  // per instance: middle and radius, m
-layout(location = 1) in vec4 look;   // albedo, opacity
+layout(location = 1) in vec4 look;   // albedo, opacity; of flames see smoke.frag.glsl
 layout(location = 2) in float kind;  // HazardMatter
 
 out vec3 world;
@@ -14,6 +14,8 @@ void main() {
   puff = look;
   matter = vec3(kind == 0.0, kind == 1.0, kind == 2.0);
   shift = place.xy * 3.0 + vec2(gl_InstanceID);
-  world = place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * on_disc.y);
+  // Tongues are higher than wide, seen from the side.
+  float stretch = look.a > 1.5 ? 1.0 + 0.9 * abs(view.down.z) : 1.0;
+  world = place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * (stretch * on_disc.y));
   gl_Position = project(world);
 }

@@ -271,6 +271,12 @@ void main() {
   vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
   ambient = mix(ambient, light.sky.rgb, normal.z);
   vec3 received = light.sun.rgb * sun + ambient;
+#ifdef FIRES
+  float burnt = charred(world, noise(vec2(local.x, local.y * 0.5) * 0.8));
+  s.albedo = charcoal(s.albedo, burnt);
+  s.shine *= 1.0 - burnt;
+  received += fire_light(world, normal);
+#endif
   vec3 glow = vec3(0.0);
 #ifdef LAMPS
   received += light.lamps.rgb * lamp_light(world + 0.6 * normal, normal);

@@ -135,6 +135,8 @@ RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run
   run.light.smoke = draw(spec.smoke, "smoke");
   run.light.seed = run_seed;
   run.wind = wind_of_run(spec.wind, run_seed);
+  constexpr double kSmokeM = 5;  // above the ground, where most of a hazard's smoke is
+  run.light.wind_mps = run.wind.mean_at(kSmokeM).head<2>();
   return run;
 }
 
