@@ -525,7 +525,8 @@ double Renderer::metered_gain(const Scene& scene, const camera::Camera& camera) 
   state.context.make_current();
   const Frame& image = state.draw_metered(scene, metering_camera(camera));
   check_gl("metering a frame");
-  return metering_gain(image.rgb, metered_lightness(state.daylight.illuminance_lux));
+  return metering_gain(image.rgb, metered_lightness(state.daylight.illuminance_lux),
+                       state.daylight.film_black);
 }
 
 std::span<const Vehicle> Renderer::vehicles() const { return state_->vehicles; }

@@ -15,20 +15,19 @@ namespace {
 
 // Also in shaders/light.glsl.
 constexpr double kWhite = 2.2;
-constexpr double kBlack = 0.008;
 
 /// As in shaders/light.glsl, where the source stands.
-double film_response(double radiance) {
-  const double x = std::max(radiance - kBlack, 0.0);
+double film_response(double radiance, double black) {
+  const double x = std::max(radiance - black, 0.0);
   return x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
-double film(double radiance) {
-  return std::min(film_response(radiance) / film_response(kWhite), 1.0);
+double film(double radiance, double black) {
+  return std::min(film_response(radiance, black) / film_response(kWhite, black), 1.0);
 }
 
 /// The radiance that the film shows as each byte.
-std::array<double, 256> radiances() {
+std::array<double, 256> radiances(double black) {
   std::array<double, 256> table{};
   for (std::size_t byte = 0; byte < table.size(); ++byte) {
     double low = 0;
@@ -36,7 +35,7 @@ std::array<double, 256> radiances() {
     constexpr int kHalvings = 30;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
-      (film(middle) * 255 < static_cast<double>(byte) ? low : high) = middle;
+      (film(middle, black) * 255 < static_cast<double>(byte) ? low : high) = middle;
     }
     table[byte] = 0.5 * (low + high);
   }
@@ -44,19 +43,19 @@ std::array<double, 256> radiances() {
 }
 
 /// L of the film's image of a radiance.
-double film_lightness(double radiance) {
-  const double luminance = linear_from_encoded(film(radiance));
+double film_lightness(double radiance, double black) {
+  const double luminance = linear_from_encoded(film(radiance, black));
   return luminance > 0.008856 ? 116 * std::cbrt(luminance) - 16 : 903.3 * luminance;
 }
 
 /// Pixels by the octaves of their radiance, which is all that the lightness depends on.
 class Histogram {
  public:
-  explicit Histogram(std::span<const std::uint8_t> rgb) {
-    static const std::array<double, 256> kRadiances = radiances();
+  Histogram(std::span<const std::uint8_t> rgb, double black) : black_(black) {
+    const std::array<double, 256> shown = radiances(black);
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-      const double radiance = 0.2126 * kRadiances[rgb[i]] + 0.7152 * kRadiances[rgb[i + 1]] +
-                              0.0722 * kRadiances[rgb[i + 2]];
+      const double radiance = 0.2126 * shown[rgb[i]] + 0.7152 * shown[rgb[i + 1]] +
+                              0.0722 * shown[rgb[i + 2]];
       add(kPerOctave * std::log2(std::max(radiance, kDarkest) / kDarkest));
     }
   }
@@ -67,7 +66,7 @@ class Histogram {
     for (std::size_t i = 0; i < bins_.size(); ++i) {
       if (bins_[i] == 0) continue;
       const double octave = (static_cast<double>(i) + 0.5) / kPerOctave;
-      sum += bins_[i] * film_lightness(gain * kDarkest * std::exp2(octave));
+      sum += bins_[i] * film_lightness(gain * kDarkest * std::exp2(octave), black_);
     }
     return sum / pixels_;
   }
@@ -93,6 +92,7 @@ class Histogram {
 
   std::array<double, kBins> bins_{};
   double pixels_ = 0;
+  double black_;
 };
 
 }  // namespace
@@ -117,10 +117,10 @@ double metered_lightness(double illuminance_lux) {
   return kNight + (kDay - kNight) * std::clamp(share, 0.0, 1.0);
 }
 
-double metering_gain(std::span<const std::uint8_t> rgb, double lightness) {
+double metering_gain(std::span<const std::uint8_t> rgb, double lightness, double film_black) {
   constexpr double kMaxGain = 8;
   constexpr double kCorrected = 0.75;  // share of the difference, in EV
-  const Histogram histogram(rgb);
+  const Histogram histogram(rgb, film_black);
   if (histogram.empty()) return 1;
   double low = 1 / kMaxGain;
   double high = kMaxGain;

@@ -18,8 +18,8 @@ double metered_lightness(double illuminance_lux);
 
 /// The gain of light by which an image with these sRGB bytes approaches a mean lightness. As in
 /// real cameras, it corrects most of the difference, within limits, so that scenarios still differ
-/// in brightness.
-double metering_gain(std::span<const std::uint8_t> rgb, double lightness);
+/// in brightness. `film_black` is Daylight::film_black.
+double metering_gain(std::span<const std::uint8_t> rgb, double lightness, double film_black);
 
 /// The ISO speed of a camera at f/2.8 and 1/60 s in this light (the incident-light equation of ISO
 /// 2720 with C = 250), times the gain. Returns 0 (no noise) below 400, where noise is invisible,

@@ -168,6 +168,7 @@ Daylight daylight(const Environment& environment) {
   const double exposure = exposure_for(mean) * (light.soft ? kDiffuse : 1) *
                           closed_for_fog(environment, light.extinction_per_m);
   light.exposure = exposure;
+  if (light.soft) light.film_black = 0.02;
   light.sun *= exposure;
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.

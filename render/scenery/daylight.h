@@ -24,6 +24,9 @@ struct Daylight {
   bool soft = false;  ///< soft shadows: the light comes from the whole sky
   bool dark = false;  ///< no shadows
   bool lamps_on = false;
+  /// Radiance that images show as black, over that of white. Cameras set it higher in flat light,
+  /// whose images would otherwise have no dark parts.
+  double film_black = 0.008;
   double exposure = 1;          ///< factor of the camera's adaptation in the colors above
   double extinction_per_m = 0;  ///< extinction coefficient of the air
   double illuminance_lux = 0;   ///< on horizontal ground under open sky, including lamps

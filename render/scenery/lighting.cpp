@@ -110,7 +110,7 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   LightBlock block;
   block.sun_direction = four(light.direction);
   block.sun = four(light.sun);
-  block.sky = four(light.sky);
+  block.sky = four(light.sky, light.film_black);
   block.bounce = four(bounce);
   block.haze = four(light.haze, light.extinction_per_m * kLog2OfE);
   block.shadow_area = box_corners(frame.shadow_area);

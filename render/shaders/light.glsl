@@ -2,7 +2,7 @@
 layout(std140, binding = 1) uniform Light {
   vec4 sun_direction;  // toward the sun
   vec4 sun;            // radiance of a white surface that faces it
-  vec4 sky;            // the same under open sky, no sun
+  vec4 sky;            // the same under open sky, no sun; w: the radiance that is shown as black
   vec4 bounce;         // light that comes back from the ground
   vec4 haze;           // color of far air; w: its thickness, in powers of two per meter
   vec4 shadow_area;    // corner of the shadow map on the ground, then 1 / size (1/m)
@@ -184,8 +184,7 @@ vec3 embers(vec3 world, float burnt, float grain) {
 // A film's response, which contains the display's gamma: the rational fit by Hejl and
 // Burgess-Dawson (2010), with a darker black (0.004 there).
 vec3 film_response(vec3 radiance) {
-  const float kBlack = 0.008;  // also in render/lens/metering.cpp
-  vec3 x = max(radiance - kBlack, 0.0);
+  vec3 x = max(radiance - light.sky.w, 0.0);
   return (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);
 }
 

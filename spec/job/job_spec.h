@@ -80,7 +80,7 @@ struct JobSpec {
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
   /// Styling of people; `umbrellas` applies only in rain.
-  skinning::Styling styling{.umbrellas = 0.05};
+  skinning::Styling styling{.umbrellas = 0.33};
   double props_density = 1;  ///< share of the scenario's scattered props that are present
   OutputSpec outputs;
   std::vector<RandomField> randomize;  ///< sampled for each run by job_of_run()

@@ -11,6 +11,8 @@
 namespace throng::render {
 namespace {
 
+constexpr double kFilmBlack = 0.008;  // of clear days and nights
+
 Environment environment_at(double elevation_deg, Weather weather = Weather::clear) {
   return {0.8, elevation_deg * kDegree, weather, 20000, 0, 1};
 }
@@ -32,7 +34,7 @@ TEST(Metering, TheGainBringsAnImageToTheLightnessButForAQuarterOfTheDifference) 
   const camera::Camera camera = camera_at({15, 0, 12}, 180, -35);
   const Frame image = stage.renderer().draw({}, camera);
   for (const double lightness : {35.0, 45.0, 60.0}) {
-    const double gain = metering_gain(image.rgb, lightness);
+    const double gain = metering_gain(image.rgb, lightness, kFilmBlack);
     const Frame corrected =
         stage.renderer().draw({}, camera, nullptr, {.exposure_gain = std::pow(gain, 1 / 0.75)});
     EXPECT_NEAR(mean_lightness(corrected), lightness, 1.5);
@@ -43,13 +45,13 @@ TEST(Metering, TheGainBringsAnImageToTheLightnessButForAQuarterOfTheDifference) 
 }
 
 TEST(Metering, OfNothingOrBlackOrWhiteIsWithinTheCamerasRange) {
-  EXPECT_EQ(metering_gain({}, 50), 1);
+  EXPECT_EQ(metering_gain({}, 50, kFilmBlack), 1);
   const std::vector<std::uint8_t> black(300, 0);
   const std::vector<std::uint8_t> white(300, 255);
-  EXPECT_LE(metering_gain(black, 50), 8);
-  EXPECT_GT(metering_gain(black, 50), 4);
-  EXPECT_LT(metering_gain(white, 50), 1);
-  EXPECT_GE(metering_gain(white, 50), 0.125);
+  EXPECT_LE(metering_gain(black, 50, kFilmBlack), 8);
+  EXPECT_GT(metering_gain(black, 50, kFilmBlack), 4);
+  EXPECT_LT(metering_gain(white, 50, kFilmBlack), 1);
+  EXPECT_GE(metering_gain(white, 50, kFilmBlack), 0.125);
 }
 
 TEST(Metering, PeopleDoNotChangeIt) {
