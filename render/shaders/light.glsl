@@ -70,9 +70,14 @@ float sunlit(vec3 world, float bias_m) {
   along /= slope;
   float across_m = light.shadow_slope.w;
   mat2 disc = mat2(along / light.sun_direction.z, vec2(-along.y, along.x));
-  // A turn of its own for each pixel turns bands into grain (Jimenez 2014).
-  float turn =
-      6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  // A turn of its own for each 2 x 2 fragments turns bands into grain; within them the places lie
+  // between each other's.
+  uvec2 fragment = uvec2(gl_FragCoord.xy);
+  uint bits = (fragment.x >> 1) * 1597334673u ^ (fragment.y >> 1) * 3812015801u;
+  bits = (bits ^ bits >> 15) * 2246822519u;
+  float among = float((fragment.x & 1u) + 2u * (fragment.y & 1u));
+  float turn = 6.2831853 * (float(bits >> 8) * (1.0 / 16777216.0) + among / float(4 * kLooks));
+  disc *= 0.85 + 0.1 * among;
   disc *= mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
   disc = mat2(disc[0] * light.shadow_area.zw, disc[1] * light.shadow_area.zw);
   float widest_m = min(across_m * (1.0 / light.shadow_slope.z - world.z), kWidestPenumbra);

@@ -11,9 +11,13 @@ layout(location = 1) out uint instance;
 
 struct Surface {
   vec3 albedo;
-  vec3 shine;  // mirrored sky
-  vec3 glow;   // own light, after sunset
+  vec3 shine;    // how much of it is glass, by color
+  vec3 glow;     // own light, after sunset
+  float mirror;  // share of the light that the glass mirrors at a right angle
+  float tilt;    // by which a pane leans
 };
+
+Surface dull() { return Surface(vec3(0.0), vec3(0.0), vec3(0.0), 0.1, 0.0); }
 
 #ifdef LAMPS
 const float kWindow = 3.0e-4;  // light of a window, in units of lamp light
@@ -60,8 +64,8 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   vec3 warm = mix(vec3(1.0, 0.72, 0.42), vec3(0.85, 0.92, 1.0), step(0.8, fract(home * 17.0)));
   s.glow += warm * (pane * shade * step(home, 0.36) * (0.35 + 1.6 * home) * (1.0 - 0.6 * curtain));
 #endif
-  // Double glazing; no two panes stand quite alike.
-  s.shine += pane * shade * (0.75 + 0.5 * hash(cell + 101)) * vec3(1.0);
+  s.shine += pane * shade * vec3(1.0);  // double glazing
+  s.tilt = 0.08 * (hash(cell + 101) - 0.5);
   float sill = band(p.x, -half_size.x - 0.1, half_size.x + 0.1, width.x) *
                band(p.y, -0.12, 0.0, width.y);
   float below = band(p.x, -half_size.x, half_size.x, width.x) * band(p.y, -0.25, -0.12, width.y);
@@ -78,11 +82,12 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   ivec2 cell = ivec2(floor(at)) + 13 * key;
   vec2 frame = stripes_xy(at + 0.5 * vec2(0.05, 0.0), 0.05, width / pane_size);
   float spandrel = stripes(at.y, 0.22, width.y / pane_size.y);
-  Surface s;
-  s.glow = vec3(0.0);
+  Surface s = dull();
   float tone = hash(cell);
   s.albedo = mix(vec3(0.03, 0.04, 0.045) * (0.7 + 0.6 * tone), vec3(0.10, 0.12, 0.13), spandrel);
-  s.shine = vec3(0.85, 0.97, 1.0) * (1.6 + 0.8 * hash(cell + 101));
+  s.shine = vec3(0.85, 0.97, 1.0);
+  s.mirror = 0.30;
+  s.tilt = 0.03 * (hash(cell + 101) - 0.5);
   float metal = max(frame.x, band(p.y, size.y - 0.5, size.y, width.y));
   s.albedo = mix(s.albedo, vec3(0.30, 0.31, 0.32), metal);
   s.shine *= 1.0 - metal;
@@ -111,16 +116,32 @@ void add_sign(inout Surface s, ivec2 key, int bay_number, vec2 p, vec2 bay, vec2
   s.albedo = mix(s.albedo, paint.r > 0.3 ? vec3(0.05) : vec3(0.55, 0.53, 0.46), board * letters);
 }
 
-// Reflection of a pane: the sky above, the street and the houses across it below; stronger at
-// grazing angles (Fresnel's law in Schlick's form, 1994, for two panes of glass).
-vec3 mirrored_in_glass() {
+// The houses across the street as panes mirror them: fronts 20 m away with windows, each of its own
+// height and color; `along` and `z` say where on them.
+vec3 opposite_house(vec2 along_z, float block, vec3 sky) {
+  vec3 across_sun = light.sun.rgb * max(-dot(normal, light.sun_direction.xyz), 0.0);
+  vec3 paint = render_color(fract(block * 3.7));
+  vec2 at = fract(along_z / vec2(2.9, 3.2));
+  float window = step(0.28, at.x) * step(at.x, 0.72) * step(0.25, at.y) * step(at.y, 0.78);
+  return mix(paint, 0.35 * sky, window) * (across_sun + 0.5 * light.sky.rgb + 0.4 * light.bounce.rgb);
+}
+
+// What a pane mirrors: the sky with its gradient, and the street and the houses across it. `plain`
+// is the share of light that it mirrors at a right angle; more at grazing angles (Fresnel's law in
+// Schlick's form, 1994).
+vec3 mirrored_in_glass(float plain, float tilt) {
   vec3 to_eye = normalize(light.eye.xyz - world);
   vec3 d = reflect(-to_eye, normal);
-  float skyline = 0.25 * noise(vec2(atan(d.y, d.x) * 5.0, 3.0));
-  vec3 street = light.bounce.rgb * (0.35 + 0.5 * noise(world.xy * 0.7 + 9.0 * d.xy));
-  vec3 seen = mix(street, mix(light.haze.rgb, light.zenith.rgb, sqrt(max(d.z, 0.0))),
-                  smoothstep(skyline - 0.02, skyline + 0.02, d.z));
-  return seen * (0.10 + 0.9 * pow(1.0 - max(dot(to_eye, normal), 0.0), 5.0));
+  // No two panes stand quite alike.
+  d = normalize(d + tilt * vec3(-normal.y, normal.x, 0.6));
+  vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(d.z, 0.0)));
+  const float kAcrossM = 20.0;
+  vec3 there = world + d * (kAcrossM / max(dot(d, normal), 0.05));
+  float along = there.x * -normal.y + there.y * normal.x;
+  float block = hash(ivec2(int(floor(along / 13.0)), int(floor(dot(world, normal) / 30.0))));
+  vec3 seen = there.z < 7.0 + 9.0 * block ? opposite_house(vec2(along, there.z), block, sky) : sky;
+  seen = there.z < 0.0 ? 0.8 * light.bounce.rgb : seen;
+  return seen * (plain + (1.0 - plain) * pow(1.0 - max(dot(to_eye, normal), 0.0), 5.0));
 }
 
 // A door in the middle bay of the ground floor; `p` is relative to its middle bottom.
@@ -150,9 +171,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   float edge = stripes(leaf + 0.03, 0.06, width.x * leaves / size.x);
   float pane = (1.0 - stripes(leaf + 0.14, 0.28, width.x * leaves / size.x)) *
                band(p.y, 0.9, size.y - 0.5, width.y);
-  Surface s;
-  s.shine = vec3(0.0);
-  s.glow = vec3(0.0);
+  Surface s = dull();
   s.albedo = vec3(0.46, 0.44, 0.40);
   // Light reaches a short distance in along the floor.
   vec3 passage = mix(vec3(0.10, 0.095, 0.085), vec3(0.018), clamp(p.y / 1.3, 0.0, 1.0));
@@ -174,9 +193,7 @@ Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
   float slots = normal.z > 0.5 ? 0.0 : stripes(p.y / 0.12, 0.4, width.y / 0.12);
   float rim = 1.0 - band(p.x, 0.06, size.x - 0.06, width.x) * band(p.y, 0.06, size.y - 0.06, width.y);
-  Surface s;
-  s.shine = vec3(0.0);
-  s.glow = vec3(0.0);
+  Surface s = dull();
   s.albedo = vec3(0.33, 0.335, 0.34) * tone * (1.0 - 0.45 * slots * (1.0 - rim)) *
              (0.85 + 0.3 * noise(p * 2.3));
   return s;
@@ -189,9 +206,7 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   float splash = exp(-3.0 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
   float coping = band(p.y, size.y - 0.12, size.y, width.y);
   float post = stripes(p.x / 3.0 + 0.03, 0.06, width.x / 3.0);
-  Surface s;
-  s.shine = vec3(0.0);
-  s.glow = vec3(0.0);
+  Surface s = dull();
   s.albedo = brick ? brick_color(p, width) : render_color(hash(key + 31)) * (1.0 - 0.25 * post);
   s.albedo *= (1.0 + 0.2 * stain) * (1.0 - 0.4 * splash);
   s.albedo = mix(s.albedo, vec3(0.48, 0.46, 0.42), coping);
@@ -202,9 +217,7 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
 Surface hedge(vec2 p, vec2 size) {
   float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
   float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;
-  Surface s;
-  s.shine = vec3(0.0);
-  s.glow = vec3(0.0);
+  Surface s = dull();
   s.albedo = vec3(0.055, 0.10, 0.030) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
   return s;
 }
@@ -233,9 +246,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   float splash = exp(-1.6 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
   float rough = (noise(p * 16.0) - 0.5) * fine;
 
-  Surface s;
-  s.shine = vec3(0.0);
-  s.glow = vec3(0.0);
+  Surface s = dull();
   s.albedo = brick && !ground_floor ? brick_color(p, width) : render_color(hash(key + 31));
   s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
@@ -267,6 +278,8 @@ void main() {
   float facing = max(dot(normal, light.sun_direction.xyz), 0.0);
   // Walls stand off their own shadow by more than a texel of the map.
   float sun = facing * sunlit(world + 0.12 * normal, 0.02);
+  // A shadow falls through glass onto what is behind it, and is not seen on it.
+  sun = mix(sun, 0.5 * facing, min(s.shine.g, 1.0));
   float low = clamp(world.z / 4.0, 0.0, 1.0);
   vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
   ambient = mix(ambient, light.sky.rgb, normal.z);
@@ -282,7 +295,7 @@ void main() {
   received += light.lamps.rgb * lamp_light(world + 0.6 * normal, normal);
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
-  vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass() + glow;
+  vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass(s.mirror, s.tilt) + glow;
   color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }
