@@ -132,7 +132,8 @@ Facade read_facade(const JsonValue& value) {
   if (word == "brick") return Facade::brick;
   if (word == "glass") return Facade::glass;
   if (word == "hedge") return Facade::hedge;
-  value.reject("one of: plaster, brick, glass, hedge");
+  if (word == "screen") return Facade::screen;
+  value.reject("one of: plaster, brick, glass, hedge, screen");
   return Facade::by_id;
 }
 

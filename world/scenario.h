@@ -56,7 +56,14 @@ struct Exit {
 
 /// Appearance of a building's walls. by_id: plaster or brick, depending on the building's index.
 /// The values are those of shaders/wall.frag.glsl, which has further ones for render::WallLook.
-enum class Facade : std::uint8_t { by_id = 0, plaster = 1, brick = 2, glass = 3, hedge = 8 };
+enum class Facade : std::uint8_t {
+  by_id = 0,
+  plaster = 1,
+  brick = 2,
+  glass = 3,
+  hedge = 8,
+  screen = 9  ///< a wall of lights that shows moving pictures
+};
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
 struct Building {

@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 constexpr double kMinSizePx = 48;  // standing height of people who still get a rim: it costs as
                                    // much as they do, and shows as a few pixels
 constexpr double kPersonReachM = 0.5;
+constexpr double kLampReachM = 14;  // farther lamps cast no visible shadow
 constexpr double kTypicalStatureM = 1.7;
 
 /// A prop's part that touches the ground or nearly does: what it hides the sky from.
@@ -53,6 +54,7 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
         rim(prop.position, 0.9 * half, prop.yaw_rad, contact_reach_m(prop.kind), 1.1 * strength_));
     if (is_round(prop.kind)) still_.back().rounding_m = still_.back().footprint[2];
   }
+  if (light.lamps_on) lamps_ = all_lamps(scenario);
   constexpr double kWallReachM = 0.9;
   for (const world::Building& building : scenario.buildings) {
     for (std::size_t i = 0; i < building.footprint.size(); ++i) {
@@ -66,6 +68,42 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
                     {{0, 4, GL_FLOAT, false, offsetof(Rim, footprint)},
                      {1, 4, GL_FLOAT, false, offsetof(Rim, shade)},
                      {2, 1, GL_FLOAT, false, offsetof(Rim, rounding_m)}});
+}
+
+// A lamp's shadow is as long as its height over the person's says, and wide: lamps are no points, and
+// others shine into it.
+void ContactPass::add_lamp_shadows(const PersonInstance& person) {
+  constexpr double kLeastShare = 0.12;  // of the light, that of a visible shadow
+  constexpr double kLongestM = 4;
+  constexpr double kHalfWidthM = 0.16;
+  constexpr double kEdgeM = 0.3;
+  struct Shining {
+    Vector2d away;
+    double height_m;
+    double light;
+  };
+  std::vector<Shining> shining;
+  double sum = 0;
+  const Vector2d foot = person.position.head<2>().cast<double>();
+  for (const Lamp& lamp : lamps_) {
+    const Vector2d away = foot - lamp.position.head<2>();
+    if (away.norm() > kLampReachM || (away.dot(lamp.away) <= 0 && !lamp.away.isZero())) continue;
+    const double square = away.squaredNorm() + lamp.position.z() * lamp.position.z();
+    shining.push_back(
+        {away, lamp.position.z(), lamp.strength * lamp.position.z() / (square * std::sqrt(square))});
+    sum += shining.back().light;
+  }
+  for (const Shining& lamp : shining) {
+    const double share = lamp.light / sum;
+    if (share < kLeastShare || lamp.height_m < kTypicalStatureM + 0.3) continue;
+    const double distance = std::max(lamp.away.norm(), 0.05);
+    const double length = std::min(
+        distance * kTypicalStatureM / (lamp.height_m - kTypicalStatureM), kLongestM);
+    const Vector2d along = lamp.away / distance;
+    rims_.push_back(rim(foot + 0.5 * length * along, {0.5 * length, kHalfWidthM},
+                        std::atan2(along.y(), along.x()), kEdgeM, 0.6 * share));
+    rims_.back().rounding_m = static_cast<float>(std::min(0.5 * length, kHalfWidthM));
+  }
 }
 
 void ContactPass::draw(std::span<const PersonInstance> people, const camera::Camera& camera) {
@@ -86,6 +124,7 @@ void ContactPass::draw(std::span<const PersonInstance> people, const camera::Cam
     rims_.push_back(rim(person->position.head<2>().cast<double>(), {0.04, 0.1}, person->yaw_rad,
                         kPersonReachM, strength_));
   }
+  for (const PersonInstance* person : seen) add_lamp_shadows(*person);
   if (rims_.empty()) return;
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(rims_.size() * sizeof(Rim)),
                     rims_.data(), GL_STREAM_DRAW);

@@ -9,6 +9,7 @@
 #include "render/gl/gl_objects.h"
 #include "render/scene.h"
 #include "render/scenery/daylight.h"
+#include "render/scenery/lamps.h"
 #include "render/view.h"
 #include "world/scenario.h"
 
@@ -32,6 +33,10 @@ class ContactPass {
   static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
                  double reach_m, double strength);
 
+  /// Adds the soft shadows that the lamps around a person cast on the ground.
+  void add_lamp_shadows(const PersonInstance& person);
+
+  std::vector<Lamp> lamps_;  ///< empty by day
   std::vector<Rim> still_;  ///< rims of props and walls
   std::vector<Rim> rims_;   ///< rims of the current frame
   double strength_;

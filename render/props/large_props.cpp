@@ -73,7 +73,7 @@ void make_fence(PropBuilder& builder) {
 void make_kiosk(PropBuilder& builder) {
   const Vector3d paint = choose_paint(builder.random(), kBrightCloths);
   builder.box({-1.4, -1.1, 0}, {1.4, 1.1, 1.0}, 0.75 * paint);
-  builder.block(rectangle(1.38, 1.08), 1.0, rectangle(1.38, 1.08), 2.2, kGlass, Finish::glossy);
+  builder.block(rectangle(1.38, 1.08), 1.0, rectangle(1.38, 1.08), 2.2, kGlass, Finish::lit_glass);
   for (const double x : {-1.4, 1.32}) {
     for (const double y : {-1.1, 1.02}) builder.box({x, y, 1.0}, {x + 0.08, y + 0.08, 2.2}, kSteel);
   }
@@ -105,6 +105,7 @@ void make_tent(PropBuilder& builder) {
     const auto low = [&](const Vector2d& p) { return Vector3d(p.x(), p.y(), kEavesM - 0.35); };
     cloth(builder, {low(a), low(b), eaves(b), eaves(a)}, kCanvas);
   }
+  builder.box({-0.2, -0.2, 2.55}, {0.2, 0.2, 2.65}, {0.75, 0.72, 0.6}, Finish::lamp);
   for (const double y : {-2.2, 1.5}) {
     builder.box({-2.2, y, 0.7}, {2.2, y + 0.7, 0.76}, kPlanks);
     for (const double x : {-2.0, 1.9}) {
@@ -125,7 +126,7 @@ void make_stage(PropBuilder& builder) {
     }
   }
   builder.block(rectangle(8, 4.5), kRoofM, rectangle(7.6, 4.1), kRoofM + 0.9, {0.12, 0.12, 0.125});
-  builder.box({-7.3, 4.1, kFloorM}, {7.3, 4.3, kRoofM}, {0.04, 0.06, 0.14}, Finish::glossy);
+  builder.box({-7.3, 4.1, kFloorM}, {7.3, 4.3, kRoofM}, {0.04, 0.06, 0.14}, Finish::screen);
   for (int i = 0; i < 12; ++i) {
     const double x = -6.6 + 1.2 * i;
     builder.box({x - 0.18, -4.3, kRoofM - 0.45}, {x + 0.18, -3.95, kRoofM - 0.05},
@@ -149,7 +150,7 @@ void make_train(PropBuilder& builder) {
       {{{0.55, 0.56, 0.57}, {0.50, 0.05, 0.05}, {0.08, 0.16, 0.32}, {0.62, 0.62, 0.60}}});
   builder.block(rectangle(9.6, 1.2), 0.3, rectangle(9.6, 1.2), 0.9, kDarkSteel);
   builder.block(rectangle(9.95, 1.42), 0.9, rectangle(9.95, 1.42), 1.75, paint, Finish::glossy);
-  builder.block(rectangle(9.93, 1.40), 1.75, rectangle(9.93, 1.38), 2.75, kGlass, Finish::glossy);
+  builder.block(rectangle(9.93, 1.40), 1.75, rectangle(9.93, 1.38), 2.75, kGlass, Finish::lit_glass);
   builder.block(rectangle(9.95, 1.42), 2.75, rectangle(9.95, 1.40), 3.2, paint, Finish::glossy);
   builder.block(rectangle(9.9, 1.38), 3.2, rectangle(9.7, 0.9), 3.75, {0.30, 0.31, 0.32});
   for (int i = 0; i < 8; ++i) {

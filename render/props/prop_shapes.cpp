@@ -106,6 +106,7 @@ void make_stall(Builder& builder) {
                          random.uniform(0, 0.2));
     builder.box({x, -0.82, 0.85}, {x + 0.22, -0.3, 0.85 + random.uniform(0.08, 0.25)}, goods);
   }
+  builder.box({-0.12, -0.42, 1.98}, {0.12, -0.18, 2.04}, {0.75, 0.72, 0.6}, Finish::lamp);
   for (const double x : {-1.4, 1.34}) {
     for (const double y : {-1.0, 0.94}) builder.box({x, y, 0}, {x + 0.06, y + 0.06, 2.1}, kMetal);
   }

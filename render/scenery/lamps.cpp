@@ -36,6 +36,30 @@ bool is_hidden(const world::Scenario& scenario, const Lamp& lamp, const Eigen::V
                      [&](const auto& building) { return crosses(building, from, point); });
 }
 
+/// Adds the lamps of a prop, where its shape has them (render/props).
+void add_prop_lamps(const world::Prop& prop, std::vector<Lamp>& lamps) {
+  const auto add = [&](double x, double y, double z, double strength) {
+    const Eigen::Vector2d at =
+        prop.position + prop.scale * (Eigen::Rotation2Dd(prop.yaw_rad) * Eigen::Vector2d(x, y));
+    lamps.push_back({{at.x(), at.y(), prop.scale * z}, {0, 0}, strength});
+  };
+  switch (prop.kind) {
+    case world::PropKind::lamp_post:
+      return add(0, 0, kLampPostM, 1);
+    case world::PropKind::stall:
+      return add(0, -0.3, 2, 0.15);
+    case world::PropKind::kiosk:
+      return add(0, -1.3, 2.2, 0.15);
+    case world::PropKind::tent:
+      return add(0, 0, 2.6, 0.4);
+    case world::PropKind::stage:
+      for (const double x : {-6.0, -3.0, 0.0, 3.0, 6.0}) add(x, -4, 7, 6);
+      return;
+    default:
+      return;
+  }
+}
+
 }  // namespace
 
 std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
@@ -62,10 +86,7 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
 
 std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
   std::vector<Lamp> lamps = wall_lamps(scenario);
-  for (const world::Prop& prop : scenario.props) {
-    if (prop.kind != world::PropKind::lamp_post) continue;
-    lamps.push_back({{prop.position.x(), prop.position.y(), kLampPostM * prop.scale}, {0, 0}});
-  }
+  for (const world::Prop& prop : scenario.props) add_prop_lamps(prop, lamps);
   return lamps;
 }
 
@@ -81,7 +102,7 @@ Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector
     // Street lamps throw their light wide, and none above the horizontal.
     const double down = std::sqrt(std::max(direction.z(), 0.0));
     const double rim = 1 - std::pow(distance / kReachM, 4);
-    const double strength = kStrengthM2 * down * rim * rim / (distance * distance);
+    const double strength = lamp.strength * kStrengthM2 * down * rim * rim / (distance * distance);
     sum.head<3>() += strength * direction;
     sum.w() += strength;
   }

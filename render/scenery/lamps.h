@@ -1,4 +1,4 @@
-// Street lamps, which are lit after sunset: their positions and light.
+// Lamps of streets, stalls and stages, which are lit after sunset: their positions and light.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,18 +11,19 @@
 
 namespace throng::render {
 
-/// A street lamp.
+/// A lamp.
 struct Lamp {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position of the light, m
   /// Outward normal of the wall of a wall lamp, which shines to this side only; zero: all around.
   Eigen::Vector2d away = Eigen::Vector2d::Zero();
+  double strength = 1;  ///< over that of a street lamp
 };
 
 /// Lamps on every 12 m of every wall that is at least 4 m long (also in
 /// shaders/wall.frag.glsl), 4.2 m above the ground.
 std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
 
-/// The lamps on walls and on lamp posts.
+/// The lamps on walls, on lamp posts, and in what is used at night: stalls, tents, kiosks, stages.
 std::vector<Lamp> all_lamps(const world::Scenario& scenario);
 
 /// Lamp light 1 m above a point of the ground, without lamps that buildings occlude: the sum of the

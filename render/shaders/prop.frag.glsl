@@ -16,6 +16,8 @@ layout(location = 1) out uint instance;
 const float kGlossy = 2.0;
 const float kLamp = 3.0;
 const float kWater = 4.0;
+const float kLitGlass = 5.0;
+const float kScreen = 6.0;
 
 vec3 sky_in(vec3 direction) {
   vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(direction.z, 0.0)));
@@ -72,6 +74,9 @@ void main() {
                   light.sun.rgb * (facing * shadow);
 #ifdef LAMPS
   received += light.lamps.rgb * lamp_light(world, n);
+#ifdef LEAVES
+  received += light.lamps.rgb * (0.6 * lamp_light(world, -n));  // through leaves
+#endif
 #endif
 #ifdef FIRES
   albedo = charcoal(albedo, charred(world, 0.5));
@@ -80,7 +85,7 @@ void main() {
   vec3 radiance = albedo * received;
   float finish = round(paint.a * 255.0);
 #ifndef LEAVES
-  if (finish == kGlossy) {
+  if (finish == kGlossy || finish == kLitGlass) {
     vec3 to_eye = normalize(light.eye.xyz - world);
     vec3 mirrored = reflect(-to_eye, n);
     float fresnel = 0.05 + 0.95 * pow(1.0 - max(dot(to_eye, n), 0.0), 5.0);
@@ -109,7 +114,18 @@ void main() {
                light.sun.rgb * (6.0 * glint * fresnel * shadow);
   }
 #endif
+#ifndef LEAVES
+  if (finish == kScreen) {
+    vec2 place = floor(vec2(world.x + world.y, world.z) * 2.5) / 2.5;
+    vec3 picture = stage_picture(place * 0.11, light.eye.w);
+    radiance += 0.2 * picture * received;
 #ifdef LAMPS
+    radiance += light.lamps.rgb * (8.0e-4 * picture);
+#endif
+  }
+#endif
+#ifdef LAMPS
+  if (finish == kLitGlass) radiance += light.lamps.rgb * vec3(2.2e-4, 1.9e-4, 1.4e-4);
   if (finish == kLamp) radiance += light.lamps.rgb * 2.5e-3;
 #endif
   color = vec4(film(through_air(radiance, world)), 1.0);

@@ -222,12 +222,28 @@ Surface hedge(vec2 p, vec2 size) {
   return s;
 }
 
+// A wall of lights in a black frame, which shows moving pictures.
+Surface screen(vec2 p, vec2 size) {
+  vec2 width = fwidth(p);
+  vec2 place = floor(p / 0.25) * 0.25;
+  float time_s = light.eye.w;
+  vec3 picture = stage_picture(place / size.y, time_s);
+  float lit = band(p.x, 0.3, size.x - 0.3, width.x) * band(p.y, 1.2, size.y - 0.3, width.y);
+  Surface s = dull();
+  s.albedo = mix(vec3(0.02), 0.3 * picture, lit);
+  s.shine = vec3(0.3 * lit);
+  s.mirror = 0.04;
+  s.glow = 2.6 * picture * lit;
+  return s;
+}
+
 Surface facade(vec2 p, vec2 size, uint building) {
   const float kLowestStory = 2.6;  // kMinStoryM of render/scenery/lamps.cpp
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
   if (kind == 8) return hedge(p, size);
+  if (kind == 9) return screen(p, size);
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
   if (kind == 6) return roof_plant(p, size, key);
   bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;

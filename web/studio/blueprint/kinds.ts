@@ -63,7 +63,7 @@ export const kKinds: Kind[] = [
     fields: [
       kId,
       { ...number("height_m", "Height", "m"), isRequired: true },
-      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "glass", "hedge"], usual: "by number" },
+      { key: "facade", label: "Facade", type: "choice", choices: ["plaster", "brick", "glass", "hedge", "screen"], usual: "by number" },
     ],
     members: { height_m: 9 },
   },
