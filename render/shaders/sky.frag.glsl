@@ -6,14 +6,14 @@ layout(location = 0) out vec4 color;
 void main() {
   vec3 d = normalize(ray);
   // Hills and woods, 3 km away and more, as far as the air lets them through.
-  float around = atan(d.y, d.x);
-  float woods = 0.004 + 0.005 * noise(vec2(around * 40.0, 3.0)) + 0.003 * noise(vec2(around * 170.0, 5.0));
-  float hills = 0.008 + 0.020 * noise(vec2(around * 5.0, 9.0)) + 0.006 * noise(vec2(around * 17.0, 11.0));
+  vec2 around = d.xy / max(length(d.xy), 1e-3);
+  float woods = 0.004 + 0.005 * noise(around * 40.0 + 3.0) + 0.003 * noise(around * 170.0 + 5.0);
+  float hills = 0.008 + 0.020 * noise(around * 5.0 + 9.0) + 0.006 * noise(around * 17.0 + 11.0);
   if (d.z < max(woods, hills)) {
     bool is_wood = d.z < woods;
     vec3 received = light.sky.rgb + 0.35 * light.sun.rgb;
     float passed = exp2(-(is_wood ? 3000.0 : 6000.0) * light.haze.w) * (is_wood ? 0.75 : 0.5);
-    vec3 far = vec3(0.05, 0.07, 0.035) * (0.8 + 0.4 * noise(vec2(around * 300.0, d.z * 900.0)));
+    vec3 far = vec3(0.05, 0.07, 0.035) * (0.8 + 0.4 * noise(around * 300.0 + d.z * 900.0));
     color = vec4(film(mix(light.haze.rgb, far * received, passed)), 1.0);
     return;
   }

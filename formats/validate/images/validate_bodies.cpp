@@ -118,9 +118,12 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
         in_amodal_limit(shot.image, Eigen::Vector3d(corners.col(i)).hnormalized().array() + 0.5);
   }
   const Box& box = person.amodal;
-  // The box holds finer meshes than the drawn one.
-  const double focal_px = shot.image.camera_matrix(0, 0);
-  const double slack_px = 1.5 + 0.05 * focal_px / corners.row(2).minCoeff();
+  // The box holds finer meshes than the drawn one: those of people who are small in the image may
+  // lose a twentieth of a stature (has_lost_limbs() in skinning/bake/mesh_levels.cpp).
+  constexpr double kSmallPx = 60;
+  const double px_per_m = shot.image.camera_matrix(0, 0) / corners.row(2).minCoeff();
+  const double slack_m = box.height < kSmallPx ? 0.09 : 0.05;
+  const double slack_px = 1.5 + slack_m * px_per_m;
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       Eigen::AlignedBox2d face;
