@@ -102,32 +102,33 @@ void edge_with_kerb(const Polygon& corners, LayerBuilder& layers) {
   }
 }
 
-/// Streets and paths go on where they end at the edge of the scenario's ground.
-void go_on_beyond(const world::GroundArea& area, const world::Rectangle& ground, double height_m,
-                  LayerBuilder& layers) {
+}  // namespace
+
+std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
   constexpr double kSlackM = 0.05;
   constexpr double kReachM = 1500;
   constexpr double kMaxWidthM = 25;  // of a street
-  if (area.material == "grass") return;
-  for (std::size_t i = 0; i < area.corners.size(); ++i) {
-    const Vector2d& from = area.corners[i];
-    const Vector2d& to = area.corners[(i + 1) % area.corners.size()];
+  const world::GroundArea& street = scenario.areas.at(area);
+  std::vector<Polygon> parts;
+  if (street.material == "grass") return parts;
+  for (std::size_t i = 0; i < street.corners.size(); ++i) {
+    const Vector2d& from = street.corners[i];
+    const Vector2d& to = street.corners[(i + 1) % street.corners.size()];
     if ((to - from).norm() > kMaxWidthM) continue;
     for (int axis = 0; axis < 2; ++axis) {
       for (const double side : {-1.0, 1.0}) {
-        const double edge = side < 0 ? ground.min[axis] : ground.max[axis];
+        const double edge = side < 0 ? scenario.ground.min[axis] : scenario.ground.max[axis];
         if (side * (from[axis] - edge) < -kSlackM || side * (to[axis] - edge) < -kSlackM) continue;
         const Vector2d away = side * kReachM * Vector2d::Unit(axis);
         const bool is_left = geometry::cross(from - to, away) > 0;
         const Vector2d& first = is_left ? to : from;
         const Vector2d& second = is_left ? from : to;
-        layers.add({first, second, second + away, first + away}, height_m);
+        parts.push_back({first, second, second + away, first + away});
       }
     }
   }
+  return parts;
 }
-
-}  // namespace
 
 std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
                                            const Openness& openness, SceneryMesh& mesh) {
@@ -156,7 +157,7 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
             {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
             height_m);
       }
-      go_on_beyond(area, scenario.ground, height_m, builder);
+      for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }
   return layers;
