@@ -122,7 +122,7 @@ class LandBuilder {
     if (beyond_m(middle) > kFarthestLandM) return;
     Random random = random_of(1, plot);
     if (has_house(plot) && keeps(middle, random)) add_house(middle, random);
-    const std::uint32_t trees = random.below(is_town_ ? 3 : 4);
+    const std::uint32_t trees = 1 + random.below(4);
     for (std::uint32_t i = 0; i < trees; ++i) {
       const Vector2d in_plot(random.uniform(0.08, 0.92), random.uniform() < 0.5
                                                              ? random.uniform(0.02, 0.16)
@@ -159,8 +159,8 @@ class LandBuilder {
   void add_tree(const Vector2d& middle, double size, Random& random) {
     FarTree tree;
     tree.middle = middle;
-    tree.height_m = size * random.uniform(7, 14);
-    tree.crown_m = tree.height_m * random.uniform(0.3, 0.42);
+    tree.height_m = size * random.uniform(7, 16);
+    tree.crown_m = tree.height_m * random.uniform(0.24, 0.46);
     tree.detail = detail_at(middle);
     if (!keeps(middle, random) || !is_free(middle, tree.crown_m)) return;
     add_far_tree(cell_of(middle), tree, random);
@@ -168,7 +168,7 @@ class LandBuilder {
 
   /// Trees and bushes along the field's lower border and its first side.
   void add_borders(const Field& field) {
-    constexpr double kApartM = 8.5;
+    constexpr double kApartM = 7;
     const double low_m = field.number.y() * kFieldM;
     const bool lower = has_hedge(field.number.y());
     const int along = lower ? static_cast<int>(field.length_m / kApartM) : 0;
@@ -182,7 +182,7 @@ class LandBuilder {
       // Rows have gaps, and parts of bushes alone.
       const double grown = smooth_noise(0.035 * at + Vector2d::Constant(77));
       if (grown < 0.34) continue;
-      add_tree(ground_from_land(at), grown < 0.5 ? 0.4 : 1, random);
+      add_tree(ground_from_land(at), grown < 0.45 ? 0.35 : 1, random);
     }
   }
 

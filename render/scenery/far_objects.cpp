@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 
 using Paints = std::array<std::array<double, 3>, 6>;
 
-constexpr Paints kPlasters = {{{0.50, 0.47, 0.41},
-                               {0.55, 0.53, 0.49},
-                               {0.44, 0.38, 0.29},
-                               {0.40, 0.39, 0.37},
-                               {0.30, 0.17, 0.12},
-                               {0.47, 0.42, 0.34}}};
+constexpr Paints kPlasters = {{{0.36, 0.33, 0.27},
+                               {0.40, 0.385, 0.35},
+                               {0.33, 0.27, 0.19},
+                               {0.27, 0.265, 0.25},
+                               {0.21, 0.115, 0.08},
+                               {0.34, 0.29, 0.22}}};
 constexpr Paints kTiles = {{{0.21, 0.095, 0.06},
                             {0.17, 0.085, 0.06},
                             {0.12, 0.115, 0.11},
@@ -192,9 +192,9 @@ void add_far_house(PropBuilder& builder, const FarHouse& house, Random& random) 
 }
 
 void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
-  const Vector3d green = random.uniform(0.7, 1.15) * Vector3d(0.065 + 0.04 * random.uniform(),
-                                                              0.105 + 0.03 * random.uniform(),
-                                                              0.030 + 0.012 * random.uniform());
+  const Vector3d green = random.uniform(0.6, 1.05) * Vector3d(0.05 + 0.035 * random.uniform(),
+                                                              0.08 + 0.02 * random.uniform(),
+                                                              0.024 + 0.01 * random.uniform());
   const double crown_half = 0.5 * std::max(1.2, 0.82 * tree.height_m);
   const Vector3d heart(tree.middle.x(), tree.middle.y(), tree.height_m - crown_half);
   const double turn = random.uniform(0, std::numbers::pi);

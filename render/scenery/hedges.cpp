@@ -93,7 +93,7 @@ class HedgePlanter {
   }
 
  private:
-  static constexpr double kCardsPerM2 = 10;
+  static constexpr double kCardsPerM2 = 12;
   static constexpr double kCardM = 0.2;  ///< half the side of a card
   static constexpr double kMaxCardM = 0.45;
   static constexpr double kMaxCards = 4000;
@@ -115,17 +115,14 @@ class HedgePlanter {
       return Vector3d(random_.uniform(-1, 1), random_.uniform(-1, 1), random_.uniform(-1, 1));
     };
     const double half = half_m_ * random_.uniform(0.75, 1);
-    const Vector3d facing = (out + 0.33 * jitter()).normalized();
+    const Vector3d facing = (out + 0.45 * jitter()).normalized();
     const double turn = random_.uniform(0, std::numbers::pi);
     const Vector3d side = facing.unitOrthogonal();
     const Vector3d u = half * (std::cos(turn) * side + std::sin(turn) * facing.cross(side));
     const Vector3d v = facing.cross(u);
-    const double out_m = std::abs(out.dot(u)) + std::abs(out.dot(v));
-    at += (random_.uniform(-0.02, kMaxLeafReachM) - out_m) * out;
-    const double up_m = std::abs(u.z()) + std::abs(v.z());
-    if (out.z() == 0) at.z() = std::max(at.z(), 0.8 * up_m);
-    at.z() = std::min(at.z(), hedge_.height_m + kMaxLeafReachM - up_m);
-    keep_within(std::abs(u.x()) + std::abs(v.x()), std::abs(u.y()) + std::abs(v.y()), at);
+    const Vector3d surface = at;
+    at += random_.uniform(-0.07, 0.04) * out;
+    if (out.z() == 0) at.z() = std::clamp(at.z(), 0.6 * half, hedge_.height_m - 0.4 * half);
     const double share = std::clamp(at.z() / hedge_.height_m, 0.0, 1.0);
     const double tone = 2 * ground_tone_at(7 * at.head<2>()) - 1;
     const double light =
@@ -133,22 +130,24 @@ class HedgePlanter {
     const Vector3d yellow(1 + 0.25 * random_.uniform(), 1, 1);
     const Vector3d normal = (out + Vector3d(0, 0, 0.25) + 0.35 * jitter()).normalized();
     std::array<Vector3d, 4> corners = {at - u - v, at + u - v, at + u + v, at - u + v};
-    for (Vector3d& corner : corners) corner.z() = std::max(corner.z(), 0.01);
-    cell_of(at).leaves(corners, normal, (light * kHedgeGreen).cwiseProduct(yellow), LeafSprite::broad);
+    for (Vector3d& corner : corners) keep_within(surface, out, at, corner);
+    cell_of(at).leaves(corners, normal, (light * kHedgeGreen).cwiseProduct(yellow),
+                       LeafSprite::broad);
   }
 
-  /// Moves a card's middle along the ground so that it ends where the hedge does.
-  void keep_within(double reach_x, double reach_y, Vector3d& at) const {
-    const Vector2d before = at.head<2>();
-    for (const Vector2d& off : {Vector2d(reach_x, 0), Vector2d(-reach_x, 0), Vector2d(0, reach_y),
-                                Vector2d(0, -reach_y)}) {
-      const double beyond =
-          geometry::signed_distance_to(hedge_.footprint, at.head<2>() + off) - kMaxLeafReachM;
-      if (beyond > 0) at.head<2>() -= beyond * off.normalized();
+  /// Bends a card so that its corner is not farther out of the hedge than leaves reach.
+  void keep_within(const Vector3d& surface, const Vector3d& out, const Vector3d& middle,
+                   Vector3d& corner) const {
+    const double beyond = (corner - surface).dot(out) - kMaxLeafReachM;
+    if (beyond > 0) corner -= beyond * out;
+    corner.z() = std::clamp(corner.z(), 0.01, hedge_.height_m + kMaxLeafReachM);
+    constexpr int kHalvings = 4;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double off = geometry::signed_distance_to(hedge_.footprint, corner.head<2>());
+      if (off <= kMaxLeafReachM) return;
+      corner.head<2>() = 0.5 * (corner.head<2>() + middle.head<2>());
     }
-    if (geometry::signed_distance_to(hedge_.footprint, at.head<2>()) > kMaxLeafReachM) {
-      at.head<2>() = before;
-    }
+    corner.head<2>() = surface.head<2>();
   }
 
   static const world::Prop kOrigin;
@@ -166,7 +165,7 @@ const world::Prop HedgePlanter::kOrigin;
 }  // namespace
 
 world::Building without_leaves(const world::Building& building) {
-  constexpr double kInsideM = 0.06;
+  constexpr double kInsideM = 0.1;
   if (building.facade != world::Facade::hedge) return building;
   world::Building inside = building;
   const double thickness_m =
