@@ -101,8 +101,8 @@ class LandBuilder {
   }
 
   FarDetail detail_at(const Vector2d& point) const {
-    constexpr double kNearM = 170;
-    constexpr double kMiddleM = 420;
+    constexpr double kNearM = 130;
+    constexpr double kMiddleM = 300;
     const double off = beyond_m(point);
     return off < kNearM ? FarDetail::near : off < kMiddleM ? FarDetail::middle : FarDetail::far;
   }
@@ -134,7 +134,7 @@ class LandBuilder {
 
   /// Thins out what is far: it covers few pixels.
   bool keeps(const Vector2d& point, Random& random) const {
-    const double full_m = is_town_ ? 260 : 420;
+    const double full_m = is_town_ ? 200 : 260;
     return random.uniform() * beyond_m(point) < full_m;
   }
 

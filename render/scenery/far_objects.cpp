@@ -207,7 +207,7 @@ void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
                    0.8 * green);
   }
   // Tilted ones on the outside give it lobes and a top.
-  const int lobes = tree.detail == FarDetail::far ? 2 : tree.detail == FarDetail::middle ? 4 : 7;
+  const int lobes = tree.detail == FarDetail::far ? 2 : tree.detail == FarDetail::middle ? 3 : 6;
   for (int i = 0; i < lobes; ++i) {
     const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
     const double up = -0.35 + 1.2 * (i + random.uniform()) / lobes;

@@ -102,6 +102,27 @@ void edge_with_kerb(const Polygon& corners, LayerBuilder& layers) {
   }
 }
 
+/// How many areas lie below each area, one on top of the other, by their bounds: those that meet
+/// need heights of their own.
+std::vector<std::size_t> area_levels(const std::vector<world::GroundArea>& areas) {
+  constexpr double kTouchM = 0.001;
+  std::vector<Eigen::AlignedBox2d> bounds;
+  std::vector<std::size_t> levels;
+  for (const world::GroundArea& area : areas) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& corner : area.corners) box.extend(corner);
+    std::size_t level = 0;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const Eigen::AlignedBox2d common = box.intersection(bounds[i]);
+      if (common.isEmpty() || common.sizes().minCoeff() < kTouchM) continue;
+      level = std::max(level, levels[i] + 1);
+    }
+    bounds.push_back(box);
+    levels.push_back(level);
+  }
+  return levels;
+}
+
 }  // namespace
 
 std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
@@ -147,10 +168,11 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
       if (area.kerb) edge_with_kerb(area.corners, builder);
     }
   });
+  const std::vector<std::size_t> levels = area_levels(scenario.areas);
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];
     const double height_m =
-        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMaxHeights));
+        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(levels[i], kMaxHeights));
     layer(area.material, [&] {
       for (const auto& triangle : geometry::triangulate(area.corners)) {
         builder.add_in_cells(

@@ -21,8 +21,8 @@ struct GroundLayer {
 /// Returns the share of the sky's light at a point of the ground.
 using Openness = std::function<float(const Eigen::Vector2d&)>;
 
-/// The parts of a scenario's streets and paths that go on beyond the edge of its ground, of the area
-/// with this index: convex polygons, counter-clockwise (m).
+/// The parts of a scenario's streets and paths that go on beyond the edge of its ground, of the
+/// area with this index: convex polygons, counter-clockwise (m).
 std::vector<std::vector<Eigen::Vector2d>> streets_beyond(const world::Scenario& scenario,
                                                          std::size_t area);
 
