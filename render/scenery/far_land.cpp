@@ -101,8 +101,8 @@ class LandBuilder {
   }
 
   FarDetail detail_at(const Vector2d& point) const {
-    constexpr double kNearM = 130;
-    constexpr double kMiddleM = 300;
+    constexpr double kNearM = 110;
+    constexpr double kMiddleM = 260;
     const double off = beyond_m(point);
     return off < kNearM ? FarDetail::near : off < kMiddleM ? FarDetail::middle : FarDetail::far;
   }
@@ -121,8 +121,8 @@ class LandBuilder {
     const Vector2d middle = ground_from_land(at);
     if (beyond_m(middle) > kFarthestLandM) return;
     Random random = random_of(1, plot);
-    if (has_house(plot) && keeps(middle, random)) add_house(middle, random);
-    const std::uint32_t trees = 1 + random.below(4);
+    if (has_house(plot) && keeps(middle, is_town_ ? 140 : 200, random)) add_house(middle, random);
+    const std::uint32_t trees = random.below(4);
     for (std::uint32_t i = 0; i < trees; ++i) {
       const Vector2d in_plot(random.uniform(0.08, 0.92), random.uniform() < 0.5
                                                              ? random.uniform(0.02, 0.16)
@@ -132,10 +132,10 @@ class LandBuilder {
     }
   }
 
-  /// Thins out what is far: it covers few pixels.
-  bool keeps(const Vector2d& point, Random& random) const {
-    const double full_m = is_town_ ? 200 : 260;
-    return random.uniform() * beyond_m(point) < full_m;
+  /// Thins out what is far, which covers few pixels and of which one sees the front rows.
+  bool keeps(const Vector2d& point, double full_m, Random& random) const {
+    const double share = full_m / std::max(beyond_m(point), 1.0);
+    return random.uniform() < share * share;
   }
 
   void add_house(const Vector2d& middle, Random& random) {
@@ -162,13 +162,15 @@ class LandBuilder {
     tree.height_m = size * random.uniform(7, 16);
     tree.crown_m = tree.height_m * random.uniform(0.24, 0.46);
     tree.detail = detail_at(middle);
-    if (!keeps(middle, random) || !is_free(middle, tree.crown_m)) return;
+    // One that is far stands for its neighbors as well, which are left out.
+    tree.crown_m *= std::clamp(beyond_m(middle) / 300, 1.0, 2.5);
+    if (!keeps(middle, 125, random) || !is_free(middle, tree.crown_m)) return;
     add_far_tree(cell_of(middle), tree, random);
   }
 
   /// Trees and bushes along the field's lower border and its first side.
   void add_borders(const Field& field) {
-    constexpr double kApartM = 7;
+    constexpr double kApartM = 9;
     const double low_m = field.number.y() * kFieldM;
     const bool lower = has_hedge(field.number.y());
     const int along = lower ? static_cast<int>(field.length_m / kApartM) : 0;

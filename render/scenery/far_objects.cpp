@@ -49,6 +49,7 @@ class HouseBuilder {
     add_walls(eaves_m);
     house_.has_flat_roof ? add_flat_roof(eaves_m) : add_pitched_roof(eaves_m);
     if (house_.detail != FarDetail::far) add_windows();
+    if (house_.detail == FarDetail::far) return;
     const Vector2d rim = house_.half_size + Vector2d::Constant(1.3);
     constexpr double kAboveM = 0.04;
     quad({-rim.x(), -rim.y(), kAboveM}, {rim.x(), -rim.y(), kAboveM}, {rim.x(), rim.y(), kAboveM},
@@ -96,28 +97,30 @@ class HouseBuilder {
     constexpr double kFootM = 0.7;  // darker by splashes, bushes and the shade at its foot
     for (int wall = 0; wall < 4; ++wall) {
       const double half = half_length(wall);
-      panel(wall, -half, half, 0, kFootM, 0, 0.6 * wall_);
-      panel(wall, -half, half, kFootM, eaves_m, 0, wall_);
+      const double foot_m = house_.detail == FarDetail::near ? kFootM : 0;
+      if (foot_m > 0) panel(wall, -half, half, 0, foot_m, 0, 0.6 * wall_);
+      panel(wall, -half, half, foot_m, eaves_m, 0, wall_);
     }
   }
 
   void add_windows() {
-    const bool is_block = house_.has_flat_roof;
+    // Bands for all windows of a story, which piers divide near by.
+    const bool has_bands = house_.has_flat_roof || house_.detail == FarDetail::middle;
+    const bool has_piers = has_bands && house_.detail == FarDetail::near;
     for (int wall = 0; wall < 4; ++wall) {
       const double half = half_length(wall);
-      const int windows = std::max(1, static_cast<int>(2 * half / (is_block ? 2.6 : 3.2)));
+      const int windows = std::max(1, static_cast<int>(2 * half / (has_bands ? 2.6 : 3.2)));
       const double apart = 2 * half / windows;
       for (int story = 0; story < house_.stories; ++story) {
         const double low = kStoryM * story + 0.95;
-        // One band for all windows of a story of a block, which piers then divide.
-        if (is_block) panel(wall, 0.6 - half, half - 0.6, low, low + 1.35, 0.04, kPane);
-        for (int i = 0; i < windows && !is_block; ++i) {
+        if (has_bands) panel(wall, 0.6 - half, half - 0.6, low, low + 1.35, 0.04, kPane);
+        for (int i = 0; i < windows && !has_bands; ++i) {
           const double middle = -half + (i + 0.5) * apart;
           if (random_.uniform() < 0.12) continue;
           panel(wall, middle - 0.55, middle + 0.55, low, low + 1.25, 0.04, kPane);
         }
       }
-      for (int i = 1; i < windows && is_block; ++i) {
+      for (int i = 1; i < windows && has_piers; ++i) {
         const double middle = -half + i * apart;
         panel(wall, middle - 0.5, middle + 0.5, 0.7, kStoryM * house_.stories - 0.3, 0.08, wall_);
       }
@@ -155,7 +158,7 @@ class HouseBuilder {
       quad(at(gable_x, -gable_y, gable_low_m), at(gable_x, gable_y, gable_low_m), top, top,
            is_hipped ? roof_ : wall_);
     }
-    if (house_.detail == FarDetail::far) return;
+    if (house_.detail != FarDetail::near) return;
     const double x = random_.uniform(-0.5, 0.5) * half.x();
     for (const Vector2d& side :
          {Vector2d(0, -1), Vector2d(1, 0), Vector2d(0, 1), Vector2d(-1, 0)}) {
@@ -200,14 +203,14 @@ void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
   const double turn = random.uniform(0, std::numbers::pi);
   const auto across = [&](double angle) { return Vector3d(std::cos(angle), std::sin(angle), 0); };
   // Upright cards that cross show the crown from the side.
-  const int upright = tree.detail == FarDetail::far ? 2 : 3;
+  const int upright = tree.detail == FarDetail::near ? 3 : 2;
   for (int i = 0; i < upright; ++i) {
     const double angle = turn + i * std::numbers::pi / upright;
     add_round_card(builder, heart, tree.crown_m * across(angle), {0, 0, crown_half}, heart,
                    0.8 * green);
   }
   // Tilted ones on the outside give it lobes and a top.
-  const int lobes = tree.detail == FarDetail::far ? 2 : tree.detail == FarDetail::middle ? 3 : 6;
+  const int lobes = tree.detail == FarDetail::far ? 0 : tree.detail == FarDetail::middle ? 1 : 5;
   for (int i = 0; i < lobes; ++i) {
     const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
     const double up = -0.35 + 1.2 * (i + random.uniform()) / lobes;
@@ -220,7 +223,7 @@ void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
     add_round_card(builder, heart + off, u, v, heart, (0.85 + 0.3 * up) * green);
   }
   // The shade below it, and the trunk.
-  if (tree.detail == FarDetail::far) return;
+  if (tree.detail != FarDetail::near) return;
   const Vector3d foot(tree.middle.x(), tree.middle.y(), 0.06);
   builder.leaves({foot - tree.crown_m * across(turn), foot - tree.crown_m * across(turn + 1.57),
                   foot + tree.crown_m * across(turn), foot + tree.crown_m * across(turn + 1.57)},

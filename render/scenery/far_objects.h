@@ -31,7 +31,7 @@ struct FarTree {
 /// from `random`.
 void add_far_house(PropBuilder& builder, const FarHouse& house, Random& random);
 
-/// Adds a tree of 5 to 11 large cards.
+/// Adds a tree of 2 to 9 large cards.
 void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random);
 
 }  // namespace throng::render

@@ -93,8 +93,8 @@ class HedgePlanter {
   }
 
  private:
-  static constexpr double kCardsPerM2 = 12;
-  static constexpr double kCardM = 0.2;  ///< half the side of a card
+  static constexpr double kCardsPerM2 = 13;
+  static constexpr double kCardM = 0.27;  ///< half the side of a card
   static constexpr double kMaxCardM = 0.45;
   static constexpr double kMaxCards = 4000;
   static constexpr double kCellM = 12;
@@ -132,7 +132,7 @@ class HedgePlanter {
     std::array<Vector3d, 4> corners = {at - u - v, at + u - v, at + u + v, at - u + v};
     for (Vector3d& corner : corners) keep_within(surface, out, at, corner);
     cell_of(at).leaves(corners, normal, (light * kHedgeGreen).cwiseProduct(yellow),
-                       LeafSprite::broad);
+                       LeafSprite::small);
   }
 
   /// Bends a card so that its corner is not farther out of the hedge than leaves reach.

@@ -29,7 +29,8 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   // Furrows, and patches where more or less grows.
   float furrows = stripes(q.y / 4.0, 0.5, width.y / 4.0) - 0.5;
   albedo *= 1.0 + 0.16 * furrows * step(0.3, kind) + 0.3 * (noise(q * 0.045) - 0.5);
-  albedo *= 1.0 + 0.25 * (noise(q * 0.6) - 0.5) * clamp(1.5 - 0.5 * w, 0.0, 1.0);
+  float grain = (noise(q * 0.6) - 0.5) * clamp(1.5 - 0.5 * w, 0.0, 1.0);
+  albedo *= 1.0 + 0.25 * grain;
   vec2 off = max(max(place.xy - p, p - place.zw), 0.0);
   // Houses in their gardens instead of some fields.
   vec2 plot = q / vec2(26.0, 34.0);
@@ -38,7 +39,7 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   vec3 village = mix(vec3(0.10, 0.13, 0.05), vec3(0.17, 0.18, 0.09), garden);
   vec2 in_plot = fract(plot);
   village = mix(village, vec3(0.07, 0.095, 0.036), smoothstep(0.5, 0.8, noise(q * 0.13 + 50.0)));
-  village *= 1.0 + 0.4 * (noise(q * 0.7) - 0.5) * clamp(1.5 - 0.5 * w, 0.0, 1.0);
+  village *= 1.0 + 0.4 * grain;
   float roof = band(in_plot.x, 0.28, 0.72, width.x / 26.0) * band(in_plot.y, 0.3, 0.62, width.y / 34.0) *
                step(hash(ivec2(floor(plot)) + 5), 0.75) * step(kFarM, length(off));
   float red = hash(ivec2(floor(plot)) + 11);
@@ -59,7 +60,7 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   vec3 rough = mix(vec3(0.105, 0.13, 0.05), vec3(0.17, 0.165, 0.085), noise(p * 0.16));
   rough *= 1.0 + 0.35 * (noise(p * 1.7) - 0.5) * clamp(1.5 - w, 0.0, 1.0);
   rough = mix(rough, vec3(0.08, 0.105, 0.04), 0.7 * smoothstep(0.5, 0.85, noise(p * 0.21 + 20.0)));
-  rough *= 0.8 + 0.4 * noise(p * 0.9 + 40.0);
+  rough *= 1.0 + 0.4 * grain;
   albedo = mix(rough, albedo, smoothstep(26.0, 30.0, outside_m));
   return mix(albedo, kMean, smoothstep(40.0, 120.0, w));
 }

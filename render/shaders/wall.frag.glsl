@@ -205,7 +205,7 @@ Surface hedge(vec2 p, vec2 size) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  s.albedo = vec3(0.028, 0.050, 0.015) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
+  s.albedo = vec3(0.019, 0.034, 0.010) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
   return s;
 }
 

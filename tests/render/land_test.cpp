@@ -144,8 +144,8 @@ TEST_F(FarLand, IsATownBetweenTallHousesAndVillagesElsewhere) {
   }
   const std::vector<PropMesh> town = far_land(scenario_, {}, false);
   EXPECT_GT(count_triangles(villages), 5'000U);
-  EXPECT_LT(count_triangles(villages), 80'000U);
-  EXPECT_LT(count_triangles(town), 80'000U);
+  EXPECT_LT(count_triangles(villages), 30'000U);
+  EXPECT_LT(count_triangles(town), 30'000U);
   const auto high_corners = [](const std::vector<PropMesh>& meshes) {
     std::size_t count = 0;
     for (const PropMesh& mesh : meshes) {
