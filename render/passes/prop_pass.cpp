@@ -178,7 +178,7 @@ void PropPass::draw(const ClipPlanes& planes, double time_s) const {
     (item.closed ? closed : open).push_back(&item);
   }
   if (closed.empty() && open.empty()) return;
-  // What is near hides what is far, which then costs little.
+  // Near props hide far ones, which then cost little.
   const Eigen::Vector4d& near = planes.back();
   std::stable_sort(closed.begin(), closed.end(), [&](const Item* a, const Item* b) {
     return near.head<3>().dot(a->middle) < near.head<3>().dot(b->middle);

@@ -1,4 +1,5 @@
-// Sprites of twigs with leaves and of a far crown, drawn by procedure: what the cards of plants show.
+// Sprites of twigs with leaves and of a far crown, drawn by procedure: what the cards of plants
+// show.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +9,11 @@ namespace throng::render {
 
 /// Layers of the texture.
 enum class LeafSprite : std::uint8_t {
-  broad,   ///< linden, oak
-  small,   ///< birch
-  narrow,  ///< ash, willow
+  broad,    ///< linden, oak
+  small,    ///< birch
+  narrow,   ///< ash, willow
   needles,  ///< pine
-  crown    ///< a whole crown, seen from afar
+  crown     ///< a whole crown, seen from afar
 };
 inline constexpr int kLeafSprites = 5;
 inline constexpr int kLeafTexels = 256;  ///< width and height of a sprite

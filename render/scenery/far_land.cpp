@@ -24,8 +24,8 @@ using Eigen::Vector2i;
 
 constexpr double kLandYawRad = -0.347;  // of the rows of fields on the ground
 
-/// Random numbers of one thing on the land, by its kind and cell.
-Random random_of(std::uint64_t kind, const Vector2i& cell, int number = 0) {
+/// Random numbers of one object on the land, by its kind and cell.
+Random draw_random(std::uint64_t kind, const Vector2i& cell, int number = 0) {
   constexpr int kOffset = 1 << 20;  // indices are not negative
   const auto x = static_cast<std::uint64_t>(cell.x() + kOffset);
   const auto y = static_cast<std::uint64_t>(cell.y() + kOffset);
@@ -45,7 +45,7 @@ class LandBuilder {
     for (std::size_t i = 0; i < scenario.areas.size(); ++i) {
       for (auto& street : streets_beyond(scenario, i)) streets_.push_back(std::move(street));
     }
-    const Vector2d reach = Vector2d::Constant(kFarthestLandM);
+    const Vector2d reach = Vector2d::Constant(kMaxLandM);
     for (const AlignedBox2d::CornerType corner :
          {AlignedBox2d::BottomLeft, AlignedBox2d::BottomRight, AlignedBox2d::TopLeft,
           AlignedBox2d::TopRight}) {
@@ -90,7 +90,7 @@ class LandBuilder {
   bool is_free(const Vector2d& point, double radius_m) const {
     constexpr double kVergeM = 2.5;
     const double off = beyond_m(point);
-    if (off < kNearestLandM + radius_m || off > kFarthestLandM - radius_m) return false;
+    if (off < kMinLandM + radius_m || off > kMaxLandM - radius_m) return false;
     const auto is_near = [&](const auto& street) {
       return geometry::distance_to(street, point) < radius_m + kVergeM;
     };
@@ -101,8 +101,8 @@ class LandBuilder {
   }
 
   FarDetail detail_at(const Vector2d& point) const {
-    constexpr double kNearM = 110;
-    constexpr double kMiddleM = 260;
+    constexpr double kNearM = 90;
+    constexpr double kMiddleM = 200;
     const double off = beyond_m(point);
     return off < kNearM ? FarDetail::near : off < kMiddleM ? FarDetail::middle : FarDetail::far;
   }
@@ -119,8 +119,8 @@ class LandBuilder {
     const Vector2d at = (plot.cast<double>() + Vector2d(0.5, 0.46)).cwiseProduct(kPlotM);
     if (!is_built(field_at(at), built_share_)) return;
     const Vector2d middle = ground_from_land(at);
-    if (beyond_m(middle) > kFarthestLandM) return;
-    Random random = random_of(1, plot);
+    if (beyond_m(middle) > kMaxLandM) return;
+    Random random = draw_random(1, plot);
     if (has_house(plot) && keeps(middle, is_town_ ? 140 : 200, random)) add_house(middle, random);
     const std::uint32_t trees = random.below(4);
     for (std::uint32_t i = 0; i < trees; ++i) {
@@ -176,7 +176,7 @@ class LandBuilder {
     const int along = lower ? static_cast<int>(field.length_m / kApartM) : 0;
     const int up = static_cast<int>(kFieldM / kApartM);
     for (int i = 0; i < along + up; ++i) {
-      Random random = random_of(2, field.number, i);
+      Random random = draw_random(2, field.number, i);
       const double off = random.uniform(0.5, 5);
       const double step = (i < along ? i : i - along) + random.uniform(0.2, 0.8);
       const Vector2d at = i < along ? Vector2d(field.begin_m + step * kApartM, low_m + off)
@@ -197,7 +197,7 @@ class LandBuilder {
     const int columns = static_cast<int>(field.length_m / kApartM);
     const int rows = static_cast<int>(kFieldM / kApartM);
     for (int i = 0; i < columns * rows; ++i) {
-      Random random = random_of(3, field.number, i);
+      Random random = draw_random(3, field.number, i);
       const Vector2d cell(i % columns + random.uniform(), i / columns + random.uniform());
       const Vector2d at = Vector2d(field.begin_m, field.number.y() * kFieldM) + kApartM * cell;
       if (smooth_noise(0.02 * at + Vector2d::Constant(13)) < 0.4) continue;

@@ -1,4 +1,4 @@
-// What stands on the land beyond a scenario: houses, trees along the borders of fields, woods.
+// Houses, trees along the borders of fields, and woods on the land beyond a scenario.
 // Independent of GL.
 #pragma once
 
@@ -11,8 +11,8 @@
 namespace throng::render {
 
 /// The nearest and the farthest of it from the edge of the scenario's ground (m).
-inline constexpr double kNearestLandM = 40;
-inline constexpr double kFarthestLandM = 900;
+inline constexpr double kMinLandM = 40;
+inline constexpr double kMaxLandM = 900;
 
 /// Houses and trees on the fields of shaders/ground_surroundings.glsl, with the ground's id, in
 /// parts of some 150 m for culling. None stands on a street that goes on beyond the ground or on

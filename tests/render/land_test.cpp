@@ -31,7 +31,7 @@ std::size_t count_triangles(const std::vector<PropMesh>& meshes) {
   return corners / 3;
 }
 
-Eigen::AlignedBox3d bounds_of(const std::vector<PropMesh>& meshes) {
+Eigen::AlignedBox3d find_bounds(const std::vector<PropMesh>& meshes) {
   Eigen::AlignedBox3d box;
   for (const PropMesh& mesh : meshes) {
     for (const PropVertex& vertex : mesh.vertices) {
@@ -90,7 +90,7 @@ TEST(Plants, StayOnTheGroundThatTheirKindCovers) {
       prop.kind = kind;
       prop.look = look;
       const PropMesh mesh = prop_shape(prop, kIdProp);
-      const Eigen::AlignedBox3d box = bounds_of({mesh});
+      const Eigen::AlignedBox3d box = find_bounds({mesh});
       const Vector2d half = world::prop_types().at(static_cast<std::size_t>(kind)).half_size;
       EXPECT_LE(box.max().x(), half.x() + 0.3) << look;
       EXPECT_LE(box.max().y(), half.y() + 0.3) << look;
@@ -129,8 +129,8 @@ TEST_F(FarLand, KeepsAwayFromTheGroundItsStreetsAndMeshes) {
     for (const PropVertex& vertex : mesh.vertices) {
       ASSERT_EQ(vertex.id, kIdGround);
       const Vector2d at = Eigen::Vector3f(vertex.position.data()).head<2>().cast<double>();
-      ASSERT_GT(ground.exteriorDistance(at), kNearestLandM - 6);
-      ASSERT_LT(ground.exteriorDistance(at), kFarthestLandM + 6);
+      ASSERT_GT(ground.exteriorDistance(at), kMinLandM - 6);
+      ASSERT_LT(ground.exteriorDistance(at), kMaxLandM + 6);
       for (const auto& street : streets) ASSERT_GT(geometry::distance_to(street, at), 0);
       ASSERT_FALSE(river.contains(at));
     }

@@ -25,7 +25,7 @@ class Planting {
   void area(const Eigen::Vector2d& min, const Eigen::Vector2d& max, const char* material,
             bool kerb = false);
 
-  /// Paves the frame in two materials, the second along its walls, and the ways from its gates to
+  /// Paves the frame in two materials, the second along its walls, and paths from its gates to
   /// the street around it; the rest of the ground is another one's.
   void pave(const char* material, const char* beside_walls, double beside_m);
 
