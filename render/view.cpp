@@ -60,6 +60,14 @@ bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& center, double 
   });
 }
 
+bool is_outside(const ClipPlanes& planes, const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector3d half = 0.5 * box.sizes();
+  return std::any_of(planes.begin(), planes.end(), [&](const Eigen::Vector4d& plane) {
+    const double reach = plane.head<3>().cwiseAbs().dot(half);
+    return plane.head<3>().dot(box.center()) + plane.w() < -reach;
+  });
+}
+
 Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedBox2d& area,
                                  double z) {
   std::vector<Eigen::Vector2d> polygon = {

@@ -49,6 +49,9 @@ ClipPlanes clip_planes(const camera::Camera& camera);
 /// Whether a sphere is completely outside of one of the half-spaces.
 bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& center, double radius_m);
 
+/// Whether a box along the axes is completely outside of one of the half-spaces.
+bool is_outside(const ClipPlanes& planes, const Eigen::AlignedBox3d& box);
+
 /// Bounds (m) of the visible part of the horizontal rectangle `area` at height `z`; empty if none
 /// is visible.
 Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedBox2d& area,

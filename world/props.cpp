@@ -177,7 +177,9 @@ const std::array<PropType, kPropKinds>& prop_types() {
                                                           {"tent", {3, 3}},
                                                           {"stage", {8, 4.5}},
                                                           {"train", {10, 1.45}},
-                                                          {"fountain", {2.6, 2.6}}}};
+                                                          {"fountain", {2.6, 2.6}},
+                                                          {"bush", {0.7, 0.7}},
+                                                          {"planter", {0.9, 0.4}}}};
   return types;
 }
 

@@ -26,9 +26,11 @@ enum class PropKind : std::uint8_t {
   tent,
   stage,
   train,
-  fountain
+  fountain,
+  bush,
+  planter
 };
-inline constexpr std::size_t kPropKinds = 14;
+inline constexpr std::size_t kPropKinds = 16;
 
 /// Name of a kind in files and its size on the ground at scale 1: half of its length along its
 /// heading and half of its width (m). People cannot walk there.

@@ -44,6 +44,8 @@ constexpr std::array<SemanticClassInfo, kSemanticClasses> kClasses = {{
     {C::rubble, "rubble", {120, 100, 90}, G::prop},
     {C::water, "water", {50, 120, 190}, G::prop},
     {C::stands, "stands", {90, 110, 160}, G::prop},
+    {C::bush, "bush", {70, 140, 70}, G::prop},
+    {C::planter, "planter", {190, 120, 90}, G::prop},
 }};
 
 constexpr bool is_in_order() {
@@ -57,9 +59,11 @@ static_assert(is_in_order(), "the table has the order of the enumerators");
 }  // namespace
 
 SemanticClass semantic_class(PropKind kind) {
-  // Both lists have the same order.
-  return static_cast<SemanticClass>(static_cast<std::size_t>(C::tree) +
-                                    static_cast<std::size_t>(kind));
+  // Both lists have the same order, in two parts: numbers of classes never change.
+  const bool is_later = kind >= PropKind::bush;
+  const auto first = static_cast<std::size_t>(is_later ? C::bush : C::tree);
+  const auto first_kind = static_cast<std::size_t>(is_later ? PropKind::bush : PropKind::tree);
+  return static_cast<SemanticClass>(first + static_cast<std::size_t>(kind) - first_kind);
 }
 
 std::optional<SemanticClass> semantic_class_named(std::string_view name) {

@@ -14,7 +14,7 @@ namespace throng::world {
 
 enum class SemanticClass : std::uint8_t {
   sky = 0,       ///< also pixels outside the image circle of a lens
-  terrain = 1,   ///< ground around a scenario
+  terrain = 1,   ///< land around a scenario, with what stands on it
   building = 2,  ///< facades
   object = 3,    ///< surfaces of no other class, e.g. meshes without a class
   person = 4,    ///< with clothes and carried objects
@@ -47,8 +47,10 @@ enum class SemanticClass : std::uint8_t {
   rubble = 31,
   water = 32,
   stands = 33,  ///< tiers of seats
+  bush = 34,
+  planter = 35,
 };
-inline constexpr std::size_t kSemanticClasses = 34;
+inline constexpr std::size_t kSemanticClasses = 36;
 
 /// Kinds of instances to which a pixel can belong.
 enum class SemanticGroup : std::uint8_t {

@@ -74,6 +74,8 @@ constexpr std::array<Mapping, world::kSemanticClasses> kMappings = {{
     {C::rubble, kStatic, kUavidClutter},
     {C::water, kUnlabeled, kUavidClutter},
     {C::stands, kBuilding, kUavidBuilding},
+    {C::bush, kVegetation, kUavidVegetation},
+    {C::planter, kStatic, kUavidVegetation},
 }};
 
 constexpr bool is_in_order() {

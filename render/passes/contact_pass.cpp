@@ -26,7 +26,7 @@ double contact_reach_m(world::PropKind kind) { return kind == world::PropKind::c
 bool is_round(world::PropKind kind) {
   using world::PropKind;
   return kind == PropKind::fountain || kind == PropKind::tree || kind == PropKind::lamp_post ||
-         kind == PropKind::bin || kind == PropKind::bollard;
+         kind == PropKind::bin || kind == PropKind::bollard || kind == PropKind::bush;
 }
 
 }  // namespace

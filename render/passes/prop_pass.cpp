@@ -8,6 +8,8 @@
 #include "render/gl/shaders.h"
 #include "render/props/leaf_sprites.h"
 #include "render/props/mesh_file.h"
+#include "render/scenery/far_land.h"
+#include "render/scenery/hedges.h"
 #include "render/scenery/rubble.h"
 #include "render/scenery/surface_classes.h"
 
@@ -66,6 +68,7 @@ PropPass::Item& PropPass::add(const PropMesh& mesh, bool closed, std::vector<Pro
   }
   const auto base = static_cast<std::uint32_t>(vertices.size());
   Item& item = items_.emplace_back();
+  item.box = bounds;
   item.middle = bounds.center();
   item.radius_m = 0.5 * bounds.diagonal().norm();
   item.solid = append(mesh, false, base, indices);
@@ -85,6 +88,22 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
                      {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
   glVertexArrayElementBuffer(array.name(), indices.name());
   return array;
+}
+
+void PropPass::add_dressing(const world::Scenario& scenario, bool semantic,
+                            std::vector<PropVertex>& vertices,
+                            std::vector<std::uint32_t>& indices) {
+  std::vector<Eigen::AlignedBox2d> taken;
+  for (std::size_t i = 0; i < scenario.meshes.size(); ++i) {
+    const Eigen::AlignedBox3d& box = items_.at(scenario.props.size() + i).box;
+    taken.emplace_back(box.min().head<2>(), box.max().head<2>());
+  }
+  for (const PropMesh& mesh : hedge_leaves(scenario, semantic)) {
+    add(mesh, true, vertices, indices).casts = false;
+  }
+  for (const PropMesh& mesh : far_land(scenario, taken, semantic)) {
+    add(mesh, true, vertices, indices).casts = false;
+  }
 }
 
 PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
@@ -111,6 +130,7 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
     }
     if (!pieces.empty()) ++id;
   }
+  add_dressing(scenario, semantic, vertices, indices);
   if (items_.empty()) return;
   vertices_ = make_buffer(vertices);
   indices_ = make_buffer(indices);
@@ -167,10 +187,15 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
-    if (time_s < item.from_s || is_outside(planes, item.middle, item.radius_m)) continue;
+    if (time_s < item.from_s || is_outside(planes, item.box)) continue;
     (item.closed ? closed : open).push_back(&item);
   }
   if (closed.empty() && open.empty()) return;
+  // Near props hide far ones, which then cost little.
+  const Eigen::Vector4d& near = planes.back();
+  std::stable_sort(closed.begin(), closed.end(), [&](const Item* a, const Item* b) {
+    return near.head<3>().dot(a->middle) < near.head<3>().dot(b->middle);
+  });
   glBindVertexArray(array_.name());
   glEnable(GL_CULL_FACE);
   draw_ranges(solid, closed, &Item::solid);
@@ -184,7 +209,7 @@ void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2
                            double time_s) const {
   std::vector<const Item*> casters;
   for (const Item& item : items_) {
-    if (time_s < item.from_s) continue;
+    if (time_s < item.from_s || !item.casts) continue;
     const Eigen::Vector2d middle = item.middle.head<2>();
     Eigen::AlignedBox2d shade(middle);
     shade.extend(Eigen::Vector2d(middle - slope * (item.middle.z() + item.radius_m)));

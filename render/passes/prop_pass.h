@@ -1,4 +1,5 @@
-// Renders props (trees, benches, lamp posts, cars, ...), users' meshes and rubble.
+// Renders props (trees, benches, lamp posts, cars, ...), users' meshes, rubble, the leaves of
+// hedges and what stands on the land beyond the scenario.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,13 +39,15 @@ class PropPass {
                    double time_s) const;
 
  private:
-  /// One prop: its bounding sphere and its triangles.
+  /// One prop: its bounds and its triangles.
   struct Item {
+    Eigen::AlignedBox3d box;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     double radius_m = 0;
     Range solid;
     Range leaves;
     bool closed = true;  ///< only its outside is visible
+    bool casts = true;   ///< throws a shadow
     double from_s = 0;   ///< absent before this time
   };
   /// Appends a mesh to `vertices` and `indices`.
@@ -52,6 +55,10 @@ class PropPass {
             std::vector<std::uint32_t>& indices);
   void draw_with(const Program& solid, const Program& leaves, const ClipPlanes& planes,
                  double time_s) const;
+  /// Appends the leaves of hedges, whose walls throw their shadows, and the land beyond, whose
+  /// shadows nobody sees.
+  void add_dressing(const world::Scenario& scenario, bool semantic,
+                    std::vector<PropVertex>& vertices, std::vector<std::uint32_t>& indices);
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,
                    Range Item::*range) const;
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "render/gl/shaders.h"
 #include "render/scenery/ground_texture.h"
+#include "render/scenery/land_pattern.h"
 #include "render/scenery/lighting.h"
 #include "render/scenery/scenery_classes.h"
 
@@ -72,13 +73,18 @@ Program make_corners_program(std::string_view words, std::string_view material) 
                       {embedded::shader_silhouette, embedded::shader_corners_frag});
 }
 
-/// Tells the land around the scenario where this is.
-void tell_place(const Program& program, const world::Rectangle& ground) {
+/// Tells the land around the scenario where this is, and how much of it is built over.
+void tell_place(const Program& program, const world::Scenario& scenario) {
+  const world::Rectangle& ground = scenario.ground;
   const GLint where = glGetUniformLocation(program.name(), "place");
   const Eigen::Vector4f corners(
       static_cast<float>(ground.min.x()), static_cast<float>(ground.min.y()),
       static_cast<float>(ground.max.x()), static_cast<float>(ground.max.y()));
   if (where >= 0) glProgramUniform4fv(program.name(), where, 1, corners.data());
+  const GLint built = glGetUniformLocation(program.name(), "built_share");
+  if (built >= 0) {
+    glProgramUniform1f(program.name(), built, static_cast<float>(built_share(scenario)));
+  }
 }
 
 /// The mesh, its surfaces classified if wanted.
@@ -122,7 +128,7 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
   glVertexArrayElementBuffer(array_.name(), indices_.name());
   learn(material_, choose_shader(material_, scenario), ground_words, quality);
   learn(std::string(kPlain), embedded::shader_ground_surroundings, ground_words, quality);
-  tell_place(looks_.at(std::string(kPlain)).program, scenario.ground);
+  tell_place(looks_.at(std::string(kPlain)).program, scenario);
   for (const GroundLayer& layer : layers_) {
     learn(layer.material, choose_shader(layer.material, scenario), ground_words, quality);
   }

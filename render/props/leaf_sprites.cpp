@@ -31,6 +31,8 @@ Foliage foliage(LeafSprite sprite) {
       return {150, 0.15, 0.27, 0.7, 1.2};
     case LeafSprite::needles:
       return {560, 0.085, 0.13, 0.85, 0.6};
+    case LeafSprite::crown:
+      return {1500, 0.042, 0.7, 0.4, 0.8};
     case LeafSprite::broad:
       break;
   }
@@ -63,6 +65,19 @@ void draw_leaf(const Foliage& leaves, const Vector2d& base, double angle, double
   }
 }
 
+/// A place in one of the clumps of a crown, which give it an uneven outline with gaps.
+Vector2d place_in_clump(int leaf, Random& random) {
+  constexpr int kClumps = 13;
+  constexpr double kClumpSize = 0.13;
+  const int clump = leaf % kClumps;
+  const double away = 0.31 * std::sqrt((clump + 0.5) / kClumps);
+  const double turn = clump * std::numbers::pi * (3 - std::sqrt(5.0));
+  const double off = kClumpSize * std::sqrt(random.uniform());
+  const double angle = random.uniform(0, 2 * std::numbers::pi);
+  return Vector2d(0.5, 0.5) + away * Vector2d(std::cos(turn), std::sin(turn)) +
+         off * Vector2d(std::cos(angle), std::sin(angle));
+}
+
 Level draw_finest(LeafSprite sprite) {
   const Foliage leaves = foliage(sprite);
   Random random(static_cast<std::uint64_t>(sprite), Stream::environment);
@@ -80,8 +95,8 @@ Level draw_finest(LeafSprite sprite) {
       around = (twig + random.uniform(-0.1, 0.1)) * 2 * std::numbers::pi / kTwigs;
       turn = random.uniform() < 0.5 ? 0.7 : -0.7;
     }
-    const Vector2d base =
-        Vector2d(0.5, 0.5) + radius * Vector2d(std::cos(around), std::sin(around));
+    Vector2d base = Vector2d(0.5, 0.5) + radius * Vector2d(std::cos(around), std::sin(around));
+    if (sprite == LeafSprite::crown) base = place_in_clump(i, random);
     const double shade = random.uniform(95, 165) * (1.1 - 0.3 * share);
     draw_leaf(leaves, base, around + turn, shade, level);
   }

@@ -1,4 +1,5 @@
-// Sprites of twigs with leaves, drawn by procedure: what the cards of trees show.
+// Sprites of twigs with leaves and of a far crown, drawn by procedure: what the cards of plants
+// show.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,13 @@ namespace throng::render {
 
 /// Layers of the texture.
 enum class LeafSprite : std::uint8_t {
-  broad,   ///< linden, oak
-  small,   ///< birch
-  narrow,  ///< ash, willow
-  needles  ///< pine
+  broad,    ///< linden, oak
+  small,    ///< birch
+  narrow,   ///< ash, willow
+  needles,  ///< pine
+  crown     ///< a whole crown, seen from afar
 };
-inline constexpr int kLeafSprites = 4;
+inline constexpr int kLeafSprites = 5;
 inline constexpr int kLeafTexels = 256;  ///< width and height of a sprite
 
 /// One texel: how much of it leaves cover, and the brightness of these, 0 to 255 (128: the mean).

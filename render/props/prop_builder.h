@@ -50,7 +50,14 @@ class PropBuilder {
   /// Adds a card with a sprite of leaves, lit as a surface with this normal.
   void leaves(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& normal,
               const Eigen::Vector3d& paint, LeafSprite sprite) {
-    quad(corners, {normal, normal, normal, normal}, paint, Finish::leaves);
+    leaves(corners, {normal, normal, normal, normal}, paint, sprite);
+  }
+
+  /// The same, lit as a curved surface with these normals at its corners.
+  void leaves(const std::array<Eigen::Vector3d, 4>& corners,
+              const std::array<Eigen::Vector3d, 4>& normals, const Eigen::Vector3d& paint,
+              LeafSprite sprite) {
+    quad(corners, normals, paint, Finish::leaves);
     // The whole part of the first coordinate says which sprite it is.
     for (std::size_t i = mesh_.vertices.size() - corners.size(); i < mesh_.vertices.size(); ++i) {
       mesh_.vertices[i].card[0] += 2 * static_cast<float>(sprite);

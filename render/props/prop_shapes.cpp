@@ -8,6 +8,7 @@
 
 #include "base/compute/random.h"
 #include "render/props/large_props.h"
+#include "render/props/plants.h"
 #include "render/props/prop_builder.h"
 #include "render/props/trees.h"
 
@@ -171,6 +172,12 @@ PropMesh prop_shape(const world::Prop& prop, std::uint32_t id) {
       break;
     case world::PropKind::fountain:
       make_fountain(builder);
+      break;
+    case world::PropKind::bush:
+      make_bush(builder);
+      break;
+    case world::PropKind::planter:
+      make_planter(builder);
       break;
   }
   return builder.take();

@@ -102,32 +102,54 @@ void edge_with_kerb(const Polygon& corners, LayerBuilder& layers) {
   }
 }
 
-/// Streets and paths go on where they end at the edge of the scenario's ground.
-void go_on_beyond(const world::GroundArea& area, const world::Rectangle& ground, double height_m,
-                  LayerBuilder& layers) {
+/// How many areas lie below each area, one on top of the other, by their bounds: those that meet
+/// need heights of their own.
+std::vector<std::size_t> area_levels(const std::vector<world::GroundArea>& areas) {
+  constexpr double kTouchM = 0.001;
+  std::vector<Eigen::AlignedBox2d> bounds;
+  std::vector<std::size_t> levels;
+  for (const world::GroundArea& area : areas) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& corner : area.corners) box.extend(corner);
+    std::size_t level = 0;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const Eigen::AlignedBox2d common = box.intersection(bounds[i]);
+      if (common.isEmpty() || common.sizes().minCoeff() < kTouchM) continue;
+      level = std::max(level, levels[i] + 1);
+    }
+    bounds.push_back(box);
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+}  // namespace
+
+std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
   constexpr double kSlackM = 0.05;
   constexpr double kReachM = 1500;
   constexpr double kMaxWidthM = 25;  // of a street
-  if (area.material == "grass") return;
-  for (std::size_t i = 0; i < area.corners.size(); ++i) {
-    const Vector2d& from = area.corners[i];
-    const Vector2d& to = area.corners[(i + 1) % area.corners.size()];
+  const world::GroundArea& street = scenario.areas.at(area);
+  std::vector<Polygon> parts;
+  if (street.material == "grass") return parts;
+  for (std::size_t i = 0; i < street.corners.size(); ++i) {
+    const Vector2d& from = street.corners[i];
+    const Vector2d& to = street.corners[(i + 1) % street.corners.size()];
     if ((to - from).norm() > kMaxWidthM) continue;
     for (int axis = 0; axis < 2; ++axis) {
       for (const double side : {-1.0, 1.0}) {
-        const double edge = side < 0 ? ground.min[axis] : ground.max[axis];
+        const double edge = side < 0 ? scenario.ground.min[axis] : scenario.ground.max[axis];
         if (side * (from[axis] - edge) < -kSlackM || side * (to[axis] - edge) < -kSlackM) continue;
         const Vector2d away = side * kReachM * Vector2d::Unit(axis);
         const bool is_left = geometry::cross(from - to, away) > 0;
         const Vector2d& first = is_left ? to : from;
         const Vector2d& second = is_left ? from : to;
-        layers.add({first, second, second + away, first + away}, height_m);
+        parts.push_back({first, second, second + away, first + away});
       }
     }
   }
+  return parts;
 }
-
-}  // namespace
 
 std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
                                            const Openness& openness, SceneryMesh& mesh) {
@@ -146,17 +168,18 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
       if (area.kerb) edge_with_kerb(area.corners, builder);
     }
   });
+  const std::vector<std::size_t> levels = area_levels(scenario.areas);
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];
     const double height_m =
-        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMaxHeights));
+        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(levels[i], kMaxHeights));
     layer(area.material, [&] {
       for (const auto& triangle : geometry::triangulate(area.corners)) {
         builder.add_in_cells(
             {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
             height_m);
       }
-      go_on_beyond(area, scenario.ground, height_m, builder);
+      for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }
   return layers;

@@ -9,6 +9,7 @@
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame.h"
+#include "render/scenery/hedges.h"
 #include "render/scenery/scenery_details.h"
 
 namespace throng::render {
@@ -174,13 +175,13 @@ SceneryMesh scenery_mesh(const world::Scenario& scenario) {
   SceneryMesh mesh;
   const auto indices = [&] { return static_cast<std::uint32_t>(mesh.indices.size()); };
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    add_walls(scenario.buildings[i], kIdBuilding + i, mesh);
+    add_walls(without_leaves(scenario.buildings[i]), kIdBuilding + i, mesh);
   }
   add_exit_doors(scenario, mesh);
   add_roof_plant(scenario, mesh);
   mesh.walls = {0, indices()};
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
-    add_roof(scenario.buildings[i], kIdBuilding + i, mesh);
+    add_roof(without_leaves(scenario.buildings[i]), kIdBuilding + i, mesh);
   }
   mesh.roofs = {mesh.walls.count, indices() - mesh.walls.count};
   add_ground(scenario, mesh);

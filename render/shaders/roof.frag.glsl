@@ -23,7 +23,7 @@ void main() {
   vec3 albedo = mix(vec3(0.27, 0.26, 0.25), vec3(0.36, 0.33, 0.29), tone);
   albedo *= (1.0 + 0.2 * gravel + 0.25 * stain) * (1.0 - 0.3 * seam) * (1.0 - 0.3 * gutter);
   albedo = mix(albedo, vec3(0.46, 0.44, 0.40), parapet);
-  if (facade_kind > 7.5) albedo = vec3(0.075, 0.135, 0.04) * (0.6 + 0.8 * noise(p * 3.1));
+  if (facade_kind > 7.5) albedo = vec3(0.020, 0.036, 0.011) * (0.6 + 0.8 * noise(p * 3.1));
 #ifdef WET
   albedo *= 0.6;
 #endif

@@ -218,7 +218,7 @@ Surface hedge(vec2 p, vec2 size) {
   float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
   float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;
   Surface s = dull();
-  s.albedo = vec3(0.055, 0.10, 0.030) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
+  s.albedo = vec3(0.019, 0.034, 0.010) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
   return s;
 }
 

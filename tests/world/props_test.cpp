@@ -57,8 +57,18 @@ TEST_F(PropsTest, AreReadAsTheyStand) {
   EXPECT_EQ(distance_to(scenario.props[0], {-20, 4}), 0);
 }
 
+TEST_F(PropsTest, PlantersCoverAsMuchGroundAsTheyAreLarge) {
+  const Scenario scenario = load(R"(, "props": [{"kind": "bush", "position": [-20, 0]},
+                                                {"kind": "planter", "position": [-30, 0]}])");
+  ASSERT_EQ(scenario.props.size(), 2U);
+  EXPECT_EQ(semantic_class(scenario.props[0].kind), SemanticClass::bush);
+  EXPECT_EQ(semantic_class(scenario.props[1].kind), SemanticClass::planter);
+  EXPECT_NEAR(distance_to(scenario.props[0], {-18, 0}), 1.3, 1e-9);
+  EXPECT_NEAR(distance_to(scenario.props[1], {-30, 1.4}), 1, 1e-9);
+}
+
 TEST_F(PropsTest, MistakesAreNamedByTheirPointer) {
-  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bush", "position": [0, 0]}])"), "/props/0/kind");
+  EXPECT_EQ(refused_at(R"(, "props": [{"kind": "statue", "position": [0, 0]}])"), "/props/0/kind");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin"}])"), "/props/0");
   EXPECT_EQ(refused_at(R"(, "props": [{"kind": "bin", "position": [0, 0], "size": 1}])"),
             "/props/0/size");

@@ -44,6 +44,8 @@ const kPropKinds = [
   "stage",
   "train",
   "fountain",
+  "bush",
+  "planter",
 ];
 const kPropFields: FieldSpec[] = [
   { key: "kind", label: "Kind", type: "choice", choices: kPropKinds, isRequired: true },

@@ -297,8 +297,10 @@ void MapReader::add_prop(const OsmPoint& point) {
     const char* value;
     world::PropKind kind;
   };
-  constexpr std::array<NamedProp, 5> kProps = {
+  constexpr std::array<NamedProp, 7> kProps = {
       {{"natural", "tree", world::PropKind::tree},
+       {"natural", "shrub", world::PropKind::bush},
+       {"man_made", "planter", world::PropKind::planter},
        {"highway", "street_lamp", world::PropKind::lamp_post},
        {"amenity", "bench", world::PropKind::bench},
        {"amenity", "waste_basket", world::PropKind::bin},

@@ -9,6 +9,7 @@
 
 #include "base/compute/random.h"
 #include "world/scenarios/blueprint/frame.h"
+#include "world/scenarios/blueprint/planting.h"
 #include "world/scenarios/blueprint/surroundings.h"
 
 namespace throng::scenarios {
@@ -46,6 +47,14 @@ class Site {
   Random& random() { return random_; }
   Frame& frame() { return frame_; }
   json& blueprint() { return blueprint_; }
+  /// For the frame with its gates.
+  Planting planting() {
+    constexpr std::uint64_t kPlanting = 100;
+    return {
+        frame_,
+        Random(spec_.seed, Stream::environment, kPlaceIndex + kPlanting + kind_number(spec_.kind)),
+        blueprint_};
+  }
 
   double gate_width_m(double min_width_m, double max_width_m) {
     const double drawn = random_.uniform(min_width_m, max_width_m);
@@ -85,7 +94,6 @@ class Site {
 
   /// Ground, crowd and drone; `free_m2` is where people can be.
   json finish(const char* material, double free_m2) {
-    constexpr double kApproachM = 12;
     const Vector2d walls = Vector2d::Constant(frame_.depth_m);
     const Vector2d around = walls + Vector2d::Constant(kSurroundingsM);
     const Vector2d approach = walls + Vector2d::Constant(kApproachM);
@@ -163,6 +171,10 @@ json plaza(const GeneratorSpec& spec) {
       spread_gates(frame, kAllSides, site.gate_count(3, 6), site.gate_width_m(2.5, 6), random);
   build_walls(frame, {0.35 + 0.65 * spec.building_density, 7, random.uniform(10, 24)}, random,
               site.blueprint());
+  const bool is_paved = random.uniform() < 0.6;
+  Planting planting = site.planting();
+  planting.pave(is_paved ? "pavers" : "asphalt", is_paved ? "asphalt" : "concrete", 3);
+  planting.add_strips(is_paved ? "asphalt" : "pavers", 1.1, 11);
   if (random.uniform() < 0.7) site.prop("fountain", {0, 0});
   const Vector2d bed(std::max(2.5, 0.07 * frame.size().x()),
                      std::max(2.5, 0.07 * frame.size().y()));
@@ -174,12 +186,17 @@ json plaza(const GeneratorSpec& spec) {
       site.prop("tree", middle);
     }
   }
+  planting.add_corner_lawns(std::clamp(0.14 * frame.size().minCoeff(), 4.0, 8.0));
+  for (const double side : {-1.0, 1.0}) {
+    const Vector2d row(0.5 * frame.size().x() - 9, side * (0.5 * frame.size().y() - 5.2));
+    planting.add_row({-row.x(), row.y()}, row, 5, {"tree", "planter", "bench"},
+                     0.3 + 0.6 * spec.clutter);
+  }
   const Vector2d inset = Vector2d::Constant(4);
-  site.scatter({"bench", "lamp_post", "bin", "tree"}, frame.min + inset, frame.max - inset, 0.014,
-               5);
+  site.scatter({"bench", "lamp_post", "bin", "tree", "planter"}, frame.min + inset,
+               frame.max - inset, 0.014, 5);
   site.scatter({"stall", "kiosk"}, frame.min + inset, frame.max - inset, 0.003, 8);
-  const char* material = random.uniform() < 0.6 ? "pavers" : "concrete";
-  return site.finish(material, 0.8 * frame.size().prod());
+  return site.finish("grass", 0.8 * frame.size().prod());
 }
 
 /// A long, narrow space between houses, with lanes to both sides.
@@ -204,6 +221,10 @@ json street(const GeneratorSpec& spec) {
   const double half_m = 0.5 * frame.size().y();
   const bool has_road = random.uniform() < 0.5;
   const Vector2d road(0.5 * frame.size().x() + 60, 0.22 * frame.size().y());
+  const bool is_paved = random.uniform() < 0.6;
+  Planting planting = site.planting();
+  planting.pave(is_paved ? "pavers" : "asphalt", is_paved ? "asphalt" : "concrete", 2.2);
+  if (!has_road) planting.add_strips(is_paved ? "concrete" : "pavers", 0.9, 12);
   if (has_road) site.area(-road, road, "asphalt", true);
   const double row_m = half_m - 3;
   for (double x = frame.min.x() + 7; x < frame.max.x() - 6; x += 9) {
@@ -215,9 +236,14 @@ json street(const GeneratorSpec& spec) {
     }
     if (clear) site.prop(random.uniform() < 0.6 ? "tree" : "lamp_post", {x, side * row_m});
   }
+  for (const double side : {-1.0, 1.0}) {
+    const Vector2d row(0.5 * frame.size().x() - 10, side * row_m);
+    planting.add_row({-row.x(), row.y()}, row, 6.5, {"planter", "bench", "planter"},
+                     0.15 + 0.5 * spec.clutter);
+  }
   const Vector2d inset(8, 3.2);
   site.scatter({"bench", "bin", "bench"}, frame.min + inset, frame.max - inset, 0.01, 5);
-  return site.finish(random.uniform() < 0.6 ? "pavers" : "concrete", 0.9 * frame.size().prod());
+  return site.finish("grass", 0.9 * frame.size().prod());
 }
 
 /// A hall in some of the quarters between two paths that cross at `hub`.
@@ -243,6 +269,12 @@ void add_halls(Site& site, const Vector2d& hub, const Vector2d& path) {
       site.blueprint()["buildings"].push_back(house_json(fmt::format("hall{}", ++number),
                                                          middle - half, middle + half,
                                                          random.uniform(6, 16), random));
+      const Vector2d beside = half + Vector2d::Constant(0.85);
+      Planting planting = site.planting();
+      for (const double side : {-1.0, 1.0}) {
+        const Vector2d row(half.x() - 1, side * beside.y());
+        planting.add_row(middle + Vector2d(-row.x(), row.y()), middle + row, 2.5, {"bush"}, 0.6);
+      }
     }
   }
 }
@@ -259,14 +291,21 @@ json campus(const GeneratorSpec& spec) {
   const Vector2d path = Vector2d::Constant(random.uniform(2.5, 4));
   const Vector2d hub =
       frame.size().cwiseProduct(Vector2d(random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)));
+  const char* paving = random.uniform() < 0.5 ? "pavers" : "asphalt";
   site.area({frame.min.x() - 20, hub.y() - path.y()}, {frame.max.x() + 20, hub.y() + path.y()},
-            "pavers");
+            paving, true);
   site.area({hub.x() - path.x(), frame.min.y() - 20}, {hub.x() + path.x(), frame.max.y() + 20},
-            "pavers");
+            paving, true);
   const Vector2d court = path + Vector2d::Constant(random.uniform(0, 5));
   site.area(hub - court, hub + court, random.uniform() < 0.5 ? "pavers" : "concrete");
   if (random.uniform() < 0.5) site.prop("fountain", hub);
   add_halls(site, hub, path);
+  Planting planting = site.planting();
+  for (const double side : {-1.0, 1.0}) {
+    const double y = hub.y() + side * (path.y() + 1.8);
+    planting.add_row({frame.min.x() + 4, y}, {frame.max.x() - 4, y}, 7,
+                     {"tree", "tree", "bench", "tree", "planter"}, 0.35 + 0.5 * spec.clutter);
+  }
   const Vector2d inset = Vector2d::Constant(4);
   site.scatter({"tree", "tree", "tree", "bench", "lamp_post"}, frame.min + inset, frame.max - inset,
                0.012, 5);
@@ -288,15 +327,20 @@ json block(const GeneratorSpec& spec) {
               site.blueprint());
   const Vector2d lot((frame.size().x() - (columns + 1) * street_m) / columns,
                      (frame.size().y() - (rows + 1) * street_m) / rows);
+  Planting planting = site.planting();
+  planting.pave("asphalt", "pavers", 1.8);
   for (int column = 0; column < columns; ++column) {
     for (int row = 0; row < rows; ++row) {
       const Vector2d low = frame.min + Vector2d(street_m + column * (lot.x() + street_m),
                                                 street_m + row * (lot.y() + street_m));
       const Vector2d high = low + lot;
       const std::string id = fmt::format("block{}_{}", column + 1, row + 1);
+      constexpr double kPavementM = 1.8;
+      site.area(low - Vector2d::Constant(kPavementM), high + Vector2d::Constant(kPavementM),
+                "pavers", true);
       if (lot.minCoeff() < 6 || random.uniform() > 0.25 + 0.75 * spec.building_density) {
         site.area(low, high, "grass", true);  // a small park
-        site.scatter({"tree", "tree", "bench"}, low, high, 0.03, 4.5);
+        site.scatter({"tree", "tree", "bench", "bush"}, low, high, 0.04, 3.5);
         continue;
       }
       const double cut = random.uniform(0.4, 0.6) * lot.x();
@@ -310,12 +354,15 @@ json block(const GeneratorSpec& spec) {
   }
   for (int row = 1; row < rows; ++row) {
     const double y = frame.min.y() + row * (lot.y() + street_m) + 0.5 * street_m;
-    site.area({frame.min.x() + street_m, y - 0.25 * street_m},
-              {frame.max.x() - street_m, y + 0.25 * street_m}, "asphalt", true);
+    site.blueprint()["ground"]["markings"].push_back(
+        {{"kind", "dashes"},
+         {"from", point_json({frame.min.x() + street_m, y})},
+         {"to", point_json({frame.max.x() - street_m, y})}});
   }
-  site.scatter({"lamp_post", "bin", "tree"}, frame.min + Vector2d::Constant(0.5 * street_m),
+  site.scatter({"lamp_post", "bin", "tree", "planter"},
+               frame.min + Vector2d::Constant(0.5 * street_m),
                frame.max - Vector2d::Constant(0.5 * street_m), 0.004, 6);
-  return site.finish("concrete", 0.4 * frame.size().prod());
+  return site.finish("grass", 0.4 * frame.size().prod());
 }
 
 }  // namespace

@@ -114,6 +114,11 @@ void add_surroundings(const Frame& frame, double from_m, double density, Random&
              blueprint);
   }
   for (const Edge& edge : edges) {
+    add_area(edge.box(-edge.half_m - kRoadM - kPavementM, edge.half_m + kRoadM + kPavementM, kRoadM,
+                      kRoadM + kPavementM),
+             "pavers", false, blueprint);
+  }
+  for (const Edge& edge : edges) {
     add_street(edge, random, blueprint);
     if (random.uniform() < 0.25 + 0.6 * density) {
       add_houses(edge, random, blueprint);

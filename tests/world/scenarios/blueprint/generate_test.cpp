@@ -139,6 +139,26 @@ TEST_P(Generated, KeepsObjectsOffThePathsToTheExits) {
   }
 }
 
+TEST_P(Generated, IsPlantedAndPavedInSeveralMaterials) {
+  std::set<std::string> materials;
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    GeneratorSpec spec = spec_from_seed(seed);
+    spec.clutter = 1;
+    spec.building_density = 0.3;
+    const json place = generate_blueprint(spec);
+    EXPECT_EQ(place["ground"]["material"], "grass") << "no pavement where nobody walks";
+    for (const json& area : place["ground"]["areas"]) materials.insert(area["material"]);
+    for (const json& prop : place["props"]) kinds.insert(prop["kind"]);
+    for (const json& scatter : place["scatter"]) {
+      for (const json& kind : scatter["kinds"]) kinds.insert(kind);
+    }
+  }
+  EXPECT_GE(materials.size(), 3U);
+  EXPECT_TRUE(kinds.contains("planter"));
+  EXPECT_TRUE(kinds.contains("bush") || spec_from_seed(1).kind == "street");
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Generated, ::testing::Values("plaza", "street", "campus", "block"),
                          [](const auto& each) { return std::string(each.param); });
 

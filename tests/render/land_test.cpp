@@ -1,0 +1,200 @@
+// Leaves of hedges, bushes and planters, and what stands on the land beyond a scenario.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/geometry/polygon.h"
+#include "render/scenery/far_land.h"
+#include "render/scenery/ground_layers.h"
+#include "render/scenery/hedges.h"
+#include "render/scenery/land_pattern.h"
+#include "render/scenery/surface_classes.h"
+#include "tests/render/stage.h"
+
+namespace throng::render {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kHedgeM = 1.4;
+
+world::Scenario with_hedge() {
+  world::Building hedge = block(6, 6.6, -10, 10, kHedgeM);
+  hedge.facade = world::Facade::hedge;
+  return open_ground({block(20, 30, -5, 5, 6), hedge});
+}
+
+std::size_t count_triangles(const std::vector<PropMesh>& meshes) {
+  std::size_t corners = 0;
+  for (const PropMesh& mesh : meshes) corners += mesh.indices.size();
+  return corners / 3;
+}
+
+Eigen::AlignedBox3d find_bounds(const std::vector<PropMesh>& meshes) {
+  Eigen::AlignedBox3d box;
+  for (const PropMesh& mesh : meshes) {
+    for (const PropVertex& vertex : mesh.vertices) {
+      box.extend(Eigen::Vector3f(vertex.position.data()).cast<double>());
+    }
+  }
+  return box;
+}
+
+TEST(Hedges, HaveLeavesThatStayWithinReachAndBelongToTheirBuildings) {
+  const world::Scenario scenario = with_hedge();
+  const std::vector<PropMesh> meshes = hedge_leaves(scenario, false);
+  ASSERT_GT(count_triangles(meshes), 600U);
+  for (const PropMesh& mesh : meshes) {
+    for (const PropVertex& vertex : mesh.vertices) {
+      ASSERT_EQ(vertex.id, kIdBuilding + 1);
+      const Eigen::Vector3d at = Eigen::Vector3f(vertex.position.data()).cast<double>();
+      ASSERT_LE(geometry::signed_distance_to(scenario.buildings[1].footprint, at.head<2>()), 0.08);
+      ASSERT_GE(at.z(), 0);
+      ASSERT_LE(at.z(), kHedgeM + 0.08);
+    }
+  }
+  const std::uint32_t classified = id_with_class(kIdBuilding + 1, world::SemanticClass::hedge);
+  EXPECT_EQ(hedge_leaves(scenario, true).front().vertices.front().id, classified);
+}
+
+TEST(Hedges, CostNoMoreCardsThanTheirCap) {
+  world::Scenario scenario = with_hedge();
+  scenario.buildings[1] = block(-500, 500, 0, 3, 3);
+  scenario.buildings[1].facade = world::Facade::hedge;
+  EXPECT_LT(count_triangles(hedge_leaves(scenario, false)), 2 * 4200U);
+}
+
+TEST(Hedges, HaveARaggedOutline) {
+  Stage stage(with_hedge());
+  const camera::Camera camera = camera_at({0, 0, 1.6}, 0, 0, 640, 480, 40);
+  const Frame frame = stage.draw(camera);
+  std::set<int> tops;
+  for (int x = 100; x < 540; ++x) {
+    int y = 0;
+    while (y < frame.height() && frame.id[pixel_index(frame, x, y)] != kIdBuilding + 1) ++y;
+    tops.insert(y);
+  }
+  EXPECT_GT(tops.size(), 6U) << "rows at which the hedge begins";
+  const world::Building inside = without_leaves(with_hedge().buildings[1]);
+  EXPECT_LT(inside.height_m, kHedgeM);
+  EXPECT_LT(geometry::signed_area(inside.footprint), 0.9 * 0.6 * 20);
+  EXPECT_EQ(without_leaves(with_hedge().buildings[0]).height_m, 6);
+}
+
+TEST(Plants, StayOnTheGroundThatTheirKindCovers) {
+  for (const world::PropKind kind : {world::PropKind::bush, world::PropKind::planter}) {
+    std::set<std::size_t> sizes;
+    for (std::uint32_t look = 0; look < 30; ++look) {
+      world::Prop prop;
+      prop.kind = kind;
+      prop.look = look;
+      const PropMesh mesh = prop_shape(prop, kIdProp);
+      const Eigen::AlignedBox3d box = find_bounds({mesh});
+      const Vector2d half = world::prop_types().at(static_cast<std::size_t>(kind)).half_size;
+      EXPECT_LE(box.max().x(), half.x() + 0.3) << look;
+      EXPECT_LE(box.max().y(), half.y() + 0.3) << look;
+      EXPECT_GE(box.min().z(), 0) << look;
+      EXPECT_GT(box.max().z(), 0.5) << look;
+      EXPECT_LT(box.max().z(), 1.8) << look;
+      sizes.insert(mesh.indices.size());
+    }
+    EXPECT_GE(sizes.size(), 3U) << "looks";
+  }
+}
+
+TEST(LandPattern, IsTheSameBothWays) {
+  for (const Vector2d& point : {Vector2d(0, 0), Vector2d(310.5, -77), Vector2d(-820, 640)}) {
+    EXPECT_LT((ground_from_land(land_from_ground(point)) - point).norm(), 0.01);
+  }
+  const Field field = field_at({123, 456});
+  EXPECT_LE(field.begin_m, 123);
+  EXPECT_GT(field.begin_m + field.length_m, 123);
+  EXPECT_EQ(field.number.y(), 3);
+}
+
+class FarLand : public ::testing::Test {
+ protected:
+  world::Scenario scenario_ = open_ground();
+};
+
+TEST_F(FarLand, KeepsAwayFromTheGroundItsStreetsAndMeshes) {
+  scenario_.areas = {{{{-40, -4}, {40, -4}, {40, 4}, {-40, 4}}, "asphalt", false}};
+  const Eigen::AlignedBox2d river(Vector2d(-1000, 60), Vector2d(1000, 200));
+  const std::vector<PropMesh> meshes = far_land(scenario_, {river}, false);
+  const auto streets = streets_beyond(scenario_, 0);
+  ASSERT_EQ(streets.size(), 2U);
+  const Eigen::AlignedBox2d ground(scenario_.ground.min, scenario_.ground.max);
+  for (const PropMesh& mesh : meshes) {
+    for (const PropVertex& vertex : mesh.vertices) {
+      ASSERT_EQ(vertex.id, kIdGround);
+      const Vector2d at = Eigen::Vector3f(vertex.position.data()).head<2>().cast<double>();
+      ASSERT_GT(ground.exteriorDistance(at), kMinLandM - 6);
+      ASSERT_LT(ground.exteriorDistance(at), kMaxLandM + 6);
+      for (const auto& street : streets) ASSERT_GT(geometry::distance_to(street, at), 0);
+      ASSERT_FALSE(river.contains(at));
+    }
+  }
+}
+
+TEST_F(FarLand, IsATownBetweenTallHousesAndVillagesElsewhere) {
+  const std::vector<PropMesh> villages = far_land(scenario_, {}, false);
+  for (int i = 0; i < 4; ++i) {
+    scenario_.buildings.push_back(block(9.0 * i - 20, 9.0 * i - 14, 0, 6, 12));
+  }
+  const std::vector<PropMesh> town = far_land(scenario_, {}, false);
+  EXPECT_GT(count_triangles(villages), 5'000U);
+  EXPECT_LT(count_triangles(villages), 30'000U);
+  EXPECT_LT(count_triangles(town), 30'000U);
+  const auto high_corners = [](const std::vector<PropMesh>& meshes) {
+    std::size_t count = 0;
+    for (const PropMesh& mesh : meshes) {
+      count += static_cast<std::size_t>(
+          std::count_if(mesh.vertices.begin(), mesh.vertices.end(), [](const PropVertex& vertex) {
+            return vertex.position[2] > 9 &&
+                   vertex.paint[3] == static_cast<std::uint8_t>(Finish::matt);
+          }));
+    }
+    return count;
+  };
+  EXPECT_GT(high_corners(town), 5 * high_corners(villages)) << "blocks of flats";
+}
+
+TEST_F(FarLand, RisesAboveTheHorizonAsGroundAndCastsNothing) {
+  Stage stage(scenario_);
+  const Frame frame = stage.draw(camera_at({0, 0, 4}, 0, 0, 640, 480));
+  int above = 0;
+  for (int y = 0; y < 235; ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const std::uint32_t id = frame.id[pixel_index(frame, x, y)];
+      ASSERT_TRUE(id == kIdNothing || id == kIdGround);
+      above += id == kIdGround ? 1 : 0;
+    }
+  }
+  EXPECT_GT(above, 500);
+  EXPECT_EQ(tallest_m(scenario_), 2.5);
+  EXPECT_EQ(far_land(scenario_, {}, true).front().vertices.front().id,
+            id_with_class(kIdGround, world::SemanticClass::terrain));
+}
+
+TEST(GroundLayers, ThatMeetHaveHeightsOfTheirOwn) {
+  world::Scenario scenario = open_ground();
+  for (int i = 0; i < 9; ++i) {
+    const double x = 4.0 * i - 20;
+    scenario.areas.push_back({{{x, 0}, {x + 2, 0}, {x + 2, 9}, {x, 9}}, "dirt", false});
+  }
+  scenario.areas.push_back({{{-20, 3}, {20, 3}, {20, 6}, {-20, 6}}, "grass", false});
+  SceneryMesh mesh = scenery_mesh(scenario);
+  const auto layers = add_ground_layers(
+      scenario, [](const Vector2d&) { return 1.0F; }, mesh);
+  const auto height = [&](const GroundLayer& layer) {
+    return mesh.vertices[mesh.indices[layer.range.first]].position[2];
+  };
+  for (const GroundLayer& layer : layers) {
+    if (layer.material != "dirt") continue;
+    EXPECT_LT(height(layer), height(layers.front()));
+  }
+}
+
+}  // namespace
+}  // namespace throng::render
