@@ -216,7 +216,7 @@ class Appearance(Part):
     oldest_years: float | None = None
     """Maximum age of the characters that take part. Unit: years. Default: 150."""
     umbrellas: float | None = None
-    """Share of people under an umbrella when it rains; none in dry weather. Default: 0.05."""
+    """Share of people under an umbrella when it rains; none in dry weather. Default: 0.33."""
 
 
 @dataclass

@@ -17,9 +17,9 @@ struct Environment {
   double visibility_m = 20000;
   double rain_mm_per_h = 0;  ///< rate of rain; ignored in other weather
   std::uint64_t seed = 1;    ///< determines lit windows, puddles and raindrops
+  double smoke = 0;          ///< 0 to 1: density of the smoke that rises from every hazard
   /// Mean wind near the ground, in which smoke drifts; m/s, world axes.
   Eigen::Vector2d wind_mps = Eigen::Vector2d::Zero();
-  double smoke = 0;          ///< 0 to 1: density of the smoke that rises from every hazard
 };
 
 }  // namespace throng::render
