@@ -62,7 +62,7 @@ enum class Facade : std::uint8_t {
   brick = 2,
   glass = 3,
   hedge = 8,
-  screen = 9  ///< a wall of lights that shows moving pictures
+  screen = 9  ///< a wall of lights that shows moving images
 };
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.

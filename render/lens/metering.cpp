@@ -54,8 +54,8 @@ class Histogram {
   Histogram(std::span<const std::uint8_t> rgb, double black) : black_(black) {
     const std::array<double, 256> shown = radiances(black);
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-      const double radiance = 0.2126 * shown[rgb[i]] + 0.7152 * shown[rgb[i + 1]] +
-                              0.0722 * shown[rgb[i + 2]];
+      const double radiance =
+          0.2126 * shown[rgb[i]] + 0.7152 * shown[rgb[i + 1]] + 0.0722 * shown[rgb[i + 2]];
       add(kPerOctave * std::log2(std::max(radiance, kDarkest) / kDarkest));
     }
   }

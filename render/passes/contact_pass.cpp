@@ -70,11 +70,11 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
                      {2, 1, GL_FLOAT, false, offsetof(Rim, rounding_m)}});
 }
 
-// A lamp's shadow is as long as its height over the person's says, and wide: lamps are no points, and
-// others shine into it.
+// A lamp's shadow is as long as its height over the person's says, and wide: lamps are no points,
+// and others shine into it.
 void ContactPass::add_lamp_shadows(const PersonInstance& person) {
-  constexpr double kLeastShare = 0.12;  // of the light, that of a visible shadow
-  constexpr double kLongestM = 4;
+  constexpr double kMinShare = 0.12;  // of the light, that of a visible shadow
+  constexpr double kMaxLengthM = 4;
   constexpr double kHalfWidthM = 0.16;
   constexpr double kEdgeM = 0.3;
   struct Shining {
@@ -89,16 +89,16 @@ void ContactPass::add_lamp_shadows(const PersonInstance& person) {
     const Vector2d away = foot - lamp.position.head<2>();
     if (away.norm() > kLampReachM || (away.dot(lamp.away) <= 0 && !lamp.away.isZero())) continue;
     const double square = away.squaredNorm() + lamp.position.z() * lamp.position.z();
-    shining.push_back(
-        {away, lamp.position.z(), lamp.strength * lamp.position.z() / (square * std::sqrt(square))});
+    shining.push_back({away, lamp.position.z(),
+                       lamp.strength * lamp.position.z() / (square * std::sqrt(square))});
     sum += shining.back().light;
   }
   for (const Shining& lamp : shining) {
     const double share = lamp.light / sum;
-    if (share < kLeastShare || lamp.height_m < kTypicalStatureM + 0.3) continue;
+    if (share < kMinShare || lamp.height_m < kTypicalStatureM + 0.3) continue;
     const double distance = std::max(lamp.away.norm(), 0.05);
-    const double length = std::min(
-        distance * kTypicalStatureM / (lamp.height_m - kTypicalStatureM), kLongestM);
+    const double length =
+        std::min(distance * kTypicalStatureM / (lamp.height_m - kTypicalStatureM), kMaxLengthM);
     const Vector2d along = lamp.away / distance;
     rims_.push_back(rim(foot + 0.5 * length * along, {0.5 * length, kHalfWidthM},
                         std::atan2(along.y(), along.x()), kEdgeM, 0.6 * share));

@@ -37,8 +37,8 @@ class ContactPass {
   void add_lamp_shadows(const PersonInstance& person);
 
   std::vector<Lamp> lamps_;  ///< empty by day
-  std::vector<Rim> still_;  ///< rims of props and walls
-  std::vector<Rim> rims_;   ///< rims of the current frame
+  std::vector<Rim> still_;   ///< rims of props and walls
+  std::vector<Rim> rims_;    ///< rims of the current frame
   double strength_;
   Buffer instances_;
   VertexArray array_;

@@ -107,7 +107,8 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
       material_(scenario.ground_material),
       shadow_(make_program({shader_light, embedded::shader_scenery_shadow_vert}, {})),
       ids_(make_program({shader_view, shader_scenery_vert}, {embedded::shader_ids_frag})) {
-  const std::string words = light_words(environment, scenario.disasters).append(shadow_words(quality));
+  const std::string words =
+      light_words(environment, scenario.disasters).append(shadow_words(quality));
   const std::string ground_words =
       words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
   if (quality.textured) {

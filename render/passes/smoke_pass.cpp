@@ -24,18 +24,18 @@ constexpr float kShines = 2;  // added to the opacity of what does; also in shad
 const Eigen::Vector3d kSoot(0.10, 0.10, 0.105);
 const Eigen::Vector3d kDustAlbedo(0.36, 0.31, 0.25);
 
-/// Air in which smoke drifts: the wind, but never still. A strong wind tears smoke apart, which this
-/// many puffs cannot show: it is taken as kMaxDriftMps.
+/// Air in which smoke drifts: the wind, but never still. A strong wind tears smoke apart, which
+/// this many puffs cannot show: it is taken as kMaxDriftMps.
 Eigen::Vector2d drift_mps(const Environment& environment) {
-  constexpr double kLeastDriftMps = 0.45;
+  constexpr double kMinDriftMps = 0.45;
   constexpr double kMaxDriftMps = 2.5;
   const double speed_mps = environment.wind_mps.norm();
-  if (speed_mps > kLeastDriftMps) {
+  if (speed_mps > kMinDriftMps) {
     return environment.wind_mps * (std::min(speed_mps, kMaxDriftMps) / speed_mps);
   }
   Random wind(environment.seed, Stream::environment, kSmoke);
   const double heading = wind.uniform(0, 2 * std::numbers::pi);
-  return kLeastDriftMps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  return kMinDriftMps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
 }
 
 }  // namespace
@@ -48,9 +48,10 @@ SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster
       program_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
                             {light_words(environment, disasters_), embedded::shader_light,
                              embedded::shader_noise, embedded::shader_smoke_frag})),
-      opacity_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
-                            {"#define OPACITY\n", light_words(environment, disasters_), embedded::shader_light,
-                             embedded::shader_noise, embedded::shader_smoke_frag})) {
+      opacity_(make_program(
+          {embedded::shader_view, embedded::shader_smoke_vert},
+          {"#define OPACITY\n", light_words(environment, disasters_), embedded::shader_light,
+           embedded::shader_noise, embedded::shader_smoke_frag})) {
   describe_vertices(array_, 0, instances_, sizeof(Puff), 1,
                     {{0, 4, GL_FLOAT, false, offsetof(Puff, place)},
                      {1, 4, GL_FLOAT, false, offsetof(Puff, look)},
@@ -152,8 +153,7 @@ void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, 
     puff.look = {static_cast<float>(1.0 - 0.55 * share * out), 0, 0,
                  kShines + static_cast<float>(0.9 * fades * environment_.smoke * shows)};
     puff.kind = static_cast<float>(HazardMatter::fire);
-    puff.depth_m =
-        static_cast<float>(camera.project({at.x(), at.y(), height_m}).depth_m);
+    puff.depth_m = static_cast<float>(camera.project({at.x(), at.y(), height_m}).depth_m);
     if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
   }
 }

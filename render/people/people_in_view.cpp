@@ -65,7 +65,8 @@ PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& inst
   const double height_px =
       camera.intrinsics.fy_px * character.stature_m / std::max(distance_m, double{kNear});
   const std::size_t finer = height_px < kFineShadowPx ? 0 : 2;
-  const std::size_t level = character.levels.size() - 1 - std::min(finer, character.levels.size() - 1);
+  const std::size_t level =
+      character.levels.size() - 1 - std::min(finer, character.levels.size() - 1);
   return {person, static_cast<std::uint32_t>(level), shading_of(level), 0};
 }
 

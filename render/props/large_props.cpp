@@ -150,7 +150,8 @@ void make_train(PropBuilder& builder) {
       {{{0.55, 0.56, 0.57}, {0.50, 0.05, 0.05}, {0.08, 0.16, 0.32}, {0.62, 0.62, 0.60}}});
   builder.block(rectangle(9.6, 1.2), 0.3, rectangle(9.6, 1.2), 0.9, kDarkSteel);
   builder.block(rectangle(9.95, 1.42), 0.9, rectangle(9.95, 1.42), 1.75, paint, Finish::glossy);
-  builder.block(rectangle(9.93, 1.40), 1.75, rectangle(9.93, 1.38), 2.75, kGlass, Finish::lit_glass);
+  builder.block(rectangle(9.93, 1.40), 1.75, rectangle(9.93, 1.38), 2.75, kGlass,
+                Finish::lit_glass);
   builder.block(rectangle(9.95, 1.42), 2.75, rectangle(9.95, 1.40), 3.2, paint, Finish::glossy);
   builder.block(rectangle(9.9, 1.38), 3.2, rectangle(9.7, 0.9), 3.75, {0.30, 0.31, 0.32});
   for (int i = 0; i < 8; ++i) {

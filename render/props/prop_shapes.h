@@ -12,12 +12,12 @@ namespace throng::render {
 /// Reflection of a surface; also in shaders/prop.frag.glsl.
 enum class Finish : std::uint8_t {
   matt = 0,
-  leaves = 1,  ///< a card of leaves with holes
-  glossy = 2,  ///< lacquer and glass, which reflect the sky
-  lamp = 3,    ///< emits light after sunset
-  water = 4,   ///< mirrors sky and sun in waves
+  leaves = 1,     ///< a card of leaves with holes
+  glossy = 2,     ///< lacquer and glass, which reflect the sky
+  lamp = 3,       ///< emits light after sunset
+  water = 4,      ///< mirrors sky and sun in waves
   lit_glass = 5,  ///< glossy, and lit from within after sunset
-  screen = 6      ///< a wall of lights that shows moving pictures
+  screen = 6      ///< a wall of lights that shows moving images
 };
 
 /// A vertex of a prop.

@@ -33,7 +33,7 @@ inline constexpr std::size_t kMaxFires = 4;
 /// A fire, or what an explosion left.
 struct Fire {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double reach_m = 0;   ///< radius of the burnt ground
+  double reach_m = 0;   ///< radius of the burned ground
   double strength = 0;  ///< 0 to 1: share of its flames that burn
 };
 
@@ -69,7 +69,7 @@ struct LightFrame {
 std::string light_words(const Environment& environment,
                         std::span<const world::Disaster> disasters = {});
 
-/// The fires that burn or have burnt at a time of the run, those that light `eye` most first; at
+/// The fires that burn or have burned at a time of the run, those that light `eye` most first; at
 /// most kMaxFires. None while hazards are not shown (Environment::smoke is 0).
 std::vector<Fire> fires_at(const Environment& environment,
                            std::span<const world::Disaster> disasters, double time_s,

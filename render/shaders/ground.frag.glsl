@@ -49,8 +49,8 @@ vec3 ground_albedo(vec2 p, vec2 width) {
 void main() {
   vec3 albedo = ground_albedo(world.xy, fwidth(world.xy)) * local.x;
 #ifdef FIRES
-  float burnt = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
-  albedo = charcoal(albedo, burnt);
+  float burned = charred(world, 0.7 * noise(world.xy * 0.9) + 0.3 * noise(world.xy * 3.7));
+  albedo = charcoal(albedo, burned);
 #endif
   vec3 received = light.sky.rgb * openness;
 #ifndef NO_SUN
@@ -64,7 +64,7 @@ void main() {
 #endif
   vec3 radiance = albedo * received;
 #ifdef FIRES
-  radiance += embers(world, burnt, 0.6 * noise(world.xy * 2.9) + 0.4 * noise(world.xy * 8.3 + 5.0));
+  radiance += embers(world, burned, 0.6 * noise(world.xy * 2.9) + 0.4 * noise(world.xy * 8.3 + 5.0));
 #endif
 #ifdef WET
   radiance = wet(radiance, openness);

@@ -160,7 +160,7 @@ vec3 fire_light(vec3 world, vec3 normal) {
   return kHue * sum;
 }
 
-// How burnt a surface is, 0 to 1; `ragged` is noise in [0, 1].
+// How burned a surface is, 0 to 1; `ragged` is noise in [0, 1].
 float charred(vec3 world, float ragged) {
   float most = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -172,17 +172,17 @@ float charred(vec3 world, float ragged) {
   return most;
 }
 
-vec3 charcoal(vec3 albedo, float burnt) { return mix(albedo, vec3(0.018, 0.017, 0.016), 0.94 * burnt); }
+vec3 charcoal(vec3 albedo, float burned) { return mix(albedo, vec3(0.018, 0.017, 0.016), 0.94 * burned); }
 
-// Light of embers on burnt ground; `grain` is noise in [0, 1].
-vec3 embers(vec3 world, float burnt, float grain) {
+// Light of embers on burned ground; `grain` is noise in [0, 1].
+vec3 embers(vec3 world, float burned, float grain) {
   float burning = 0.0;
   for (int i = 0; i < 4; ++i) {
     float reach = light.fires[i].z;
     float near = 1.0 - smoothstep(0.3 * reach, 0.9 * reach + 1e-3, length(world.xy - light.fires[i].xy));
     burning = max(burning, near * step(1e-9, light.fires[i].w));
   }
-  return vec3(2.6, 0.55, 0.06) * (burning * burnt * smoothstep(0.62, 0.85, grain));
+  return vec3(2.6, 0.55, 0.06) * (burning * burned * smoothstep(0.62, 0.85, grain));
 }
 #endif
 

@@ -117,10 +117,10 @@ void main() {
 #ifndef LEAVES
   if (finish == kScreen) {
     vec2 place = floor(vec2(world.x + world.y, world.z) * 2.5) / 2.5;
-    vec3 picture = stage_picture(place * 0.11, light.eye.w);
-    radiance += 0.2 * picture * received;
+    vec3 shown = screen_image(place * 0.11, light.eye.w);
+    radiance += 0.2 * shown * received;
 #ifdef LAMPS
-    radiance += light.lamps.rgb * (8.0e-4 * picture);
+    radiance += light.lamps.rgb * (8.0e-4 * shown);
 #endif
   }
 #endif

@@ -126,7 +126,7 @@ vec3 opposite_house(vec2 along_z, float block, vec3 sky) {
   return mix(paint, 0.35 * sky, window) * (across_sun + 0.5 * light.sky.rgb + 0.4 * light.bounce.rgb);
 }
 
-// What a pane mirrors: the sky with its gradient, and the street and the houses across it. `plain`
+// The light that a pane mirrors: the sky with its gradient, and the street and the houses across it. `plain`
 // is the share of light that it mirrors at a right angle; more at grazing angles (Fresnel's law in
 // Schlick's form, 1994).
 vec3 mirrored_in_glass(float plain, float tilt) {
@@ -222,18 +222,18 @@ Surface hedge(vec2 p, vec2 size) {
   return s;
 }
 
-// A wall of lights in a black frame, which shows moving pictures.
+// A wall of lights in a black frame, which shows moving images.
 Surface screen(vec2 p, vec2 size) {
   vec2 width = fwidth(p);
   vec2 place = floor(p / 0.25) * 0.25;
   float time_s = light.eye.w;
-  vec3 picture = stage_picture(place / size.y, time_s);
+  vec3 shown = screen_image(place / size.y, time_s);
   float lit = band(p.x, 0.3, size.x - 0.3, width.x) * band(p.y, 1.2, size.y - 0.3, width.y);
   Surface s = dull();
-  s.albedo = mix(vec3(0.02), 0.3 * picture, lit);
+  s.albedo = mix(vec3(0.02), 0.3 * shown, lit);
   s.shine = vec3(0.3 * lit);
   s.mirror = 0.04;
-  s.glow = 2.6 * picture * lit;
+  s.glow = 2.6 * shown * lit;
   return s;
 }
 
@@ -301,9 +301,9 @@ void main() {
   ambient = mix(ambient, light.sky.rgb, normal.z);
   vec3 received = light.sun.rgb * sun + ambient;
 #ifdef FIRES
-  float burnt = charred(world, noise(vec2(local.x, local.y * 0.5) * 0.8));
-  s.albedo = charcoal(s.albedo, burnt);
-  s.shine *= 1.0 - burnt;
+  float burned = charred(world, noise(vec2(local.x, local.y * 0.5) * 0.8));
+  s.albedo = charcoal(s.albedo, burned);
+  s.shine *= 1.0 - burned;
   received += fire_light(world, normal);
 #endif
   vec3 glow = vec3(0.0);

@@ -253,8 +253,10 @@ TEST(HazardOpacity, SaysWhereAndHowMuchAnImageIsHidden) {
       hidden += through < 0.5 ? 1 : 0;
     }
     EXPECT_GT(hidden, 300U);
-    EXPECT_LT(dimmer, thick.id.size() / 100);
-    EXPECT_LT(changed, thick.id.size() / 100);
+    if (kind != Kind::fire) {  // which lights what is around it, and burns the ground
+      EXPECT_LT(dimmer, thick.id.size() / 100);
+      EXPECT_LT(changed, thick.id.size() / 100);
+    }
     EXPECT_EQ(shown[0] > 0, kind == Kind::fire);
     EXPECT_EQ(shown[1] > 0, kind != Kind::gas);
     EXPECT_EQ(shown[2] > 0, kind == Kind::gas);
@@ -298,12 +300,83 @@ TEST(Flames, BurnWhereTheFireIsFromItsStartOn) {
   const Mask young = flames(fire, 11, 1, kRed);
   EXPECT_GT(young.pixels, 500U);
   const Eigen::Vector2d foot =
-      camera_at({-16, 0, 7}, 0, -20).project({fire.position.x(), fire.position.y(), 0.5}).pixel;
+      camera_at({-16, 0, 7}, 0, -20).project({fire.position.x(), fire.position.y(), 1.4}).pixel;
   EXPECT_LT((young.box.center() - foot).norm(), 12);
   EXPECT_GT(young.box.min().x(), 160) << "in the right half";
   const Mask old = flames(fire, 40, 1, kRed);
   EXPECT_GT(old.box.sizes().x(), 1.4 * young.box.sizes().x()) << "it has grown and burns on";
   EXPECT_EQ(flames(fire, 40, 0, kRed).pixels, 0U) << "nobody asked for smoke";
+}
+
+/// Mean red value of the pixels that show a square meter of the ground around a point.
+double red_at(const Frame& frame, const Eigen::Vector2d& point) {
+  double sum = 0;
+  int count = 0;
+  for (double x = -0.5; x <= 0.5; x += 0.25) {
+    for (double y = -0.5; y <= 0.5; y += 0.25) {
+      const Eigen::Vector2d at = frame.camera.project({point.x() + x, point.y() + y, 0}).pixel;
+      sum += frame.rgb[3 * pixel_index(frame, static_cast<int>(std::lround(at.x())),
+                                       static_cast<int>(std::lround(at.y())))];
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+TEST(Fires, LightTheGroundByNightAndLeaveItBurned) {
+  const auto drawn = [](world::DisasterKind kind, double elevation_deg, double time_s) {
+    world::Scenario scenario = open_ground();
+    scenario.disasters = {{kind, 0, {0, 0}, 10, 3, 0, 3}};
+    Environment lighting;
+    lighting.sun_elevation_rad = elevation_deg * kDegree;
+    lighting.smoke = 1;
+    Stage stage(scenario, lighting);
+    Scene scene;
+    scene.time_s = time_s;
+    return stage.renderer().draw(scene, camera_at({-16, 0, 9}, 0, -30));
+  };
+  using Kind = world::DisasterKind;
+  // Four meters before the fire, on the camera's side, where no smoke is.
+  const Eigen::Vector2d near(-4, 2.5);
+  const double dark = red_at(drawn(Kind::fire, -20, 9), near);
+  EXPECT_GT(red_at(drawn(Kind::fire, -20, 12), near), 1.5 * dark + 10);
+  // Dust hides little of the ground as soon as an explosion is over, long after its fireball.
+  const Eigen::Vector2d middle(-1, 0.5);
+  const double before = red_at(drawn(Kind::explosion, 45, 9), middle);
+  EXPECT_LT(red_at(drawn(Kind::explosion, 45, 30), middle), 0.75 * before);
+  EXPECT_NEAR(red_at(drawn(Kind::gas, -20, 10.1), near), dark, 3) << "gas does not burn";
+}
+
+TEST(Smoke, DriftsWithTheWind) {
+  // The mean column, in pixels, of what smoke makes darker in the sky of a camera that looks along
+  // +x, so that +y is on its left.
+  const auto column = [](double wind_mps) {
+    const auto drawn = [&](double smoke) {
+      world::Scenario scenario = open_ground();
+      scenario.disasters = {{world::DisasterKind::fire, 0, {0, 0}, 0, 2, 0, 2}};
+      Environment lighting;
+      lighting.smoke = smoke;
+      lighting.wind_mps = {0, wind_mps};
+      Stage stage(scenario, lighting);
+      Scene scene;
+      scene.time_s = 20;
+      return stage.renderer().draw(scene, camera_at({-40, 0, 8}, 0, 0));
+    };
+    const Frame clear = drawn(0);
+    const Frame thick = drawn(1);
+    double sum = 0;
+    int count = 0;
+    for (int y = 0; y < clear.height() / 2; ++y) {
+      for (int x = 0; x < clear.width(); ++x) {
+        if (brightness(clear, x, y) - brightness(thick, x, y) < 30) continue;
+        sum += x;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 50);
+    return sum / std::max(count, 1);
+  };
+  EXPECT_LT(column(2) + 30, column(-2));
 }
 
 TEST(Flames, AreThoseOfFireAndForAMomentOfAnExplosion) {
