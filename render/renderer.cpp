@@ -355,6 +355,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);
   sky.draw_sky(camera);
+  props.draw_backdrop(clip_planes(camera));
   smoke.draw(scene, camera);
   sky.draw_rain(camera, scene.index);
 }

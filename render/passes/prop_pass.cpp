@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "render/frame.h"
+#include "render/gl/color_only.h"
 #include "render/gl/shaders.h"
 #include "render/props/leaf_sprites.h"
 #include "render/props/mesh_file.h"
@@ -102,7 +103,9 @@ void PropPass::add_dressing(const world::Scenario& scenario, bool semantic,
     add(mesh, true, vertices, indices).casts = false;
   }
   for (const PropMesh& mesh : far_land(scenario, taken, semantic)) {
-    add(mesh, true, vertices, indices).casts = false;
+    Item& item = add(mesh, true, vertices, indices);
+    item.casts = false;
+    item.is_backdrop = true;
   }
 }
 
@@ -187,7 +190,7 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
-    if (time_s < item.from_s || is_outside(planes, item.box)) continue;
+    if (time_s < item.from_s || item.is_backdrop || is_outside(planes, item.box)) continue;
     (item.closed ? closed : open).push_back(&item);
   }
   if (closed.empty() && open.empty()) return;
@@ -203,6 +206,28 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   draw_ranges(solid, open, &Item::solid);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
   draw_ranges(leaves, closed, &Item::leaves);
+}
+
+// The farthest part first, since it leaves no depth.
+void PropPass::draw_backdrop(const ClipPlanes& planes) const {
+  std::vector<const Item*> parts;
+  for (const Item& item : items_) {
+    if (item.is_backdrop && !is_outside(planes, item.box)) parts.push_back(&item);
+  }
+  if (parts.empty()) return;
+  const Eigen::Vector4d& near = planes.back();
+  std::stable_sort(parts.begin(), parts.end(), [&](const Item* a, const Item* b) {
+    return near.head<3>().dot(a->middle) > near.head<3>().dot(b->middle);
+  });
+  const ColorOnly guard;
+  glBindVertexArray(array_.name());
+  glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
+  for (const Item* part : parts) {
+    glEnable(GL_CULL_FACE);
+    draw_ranges(solid_, {part}, &Item::solid);
+    glDisable(GL_CULL_FACE);
+    draw_ranges(leaves_, {part}, &Item::leaves);
+  }
 }
 
 void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,

@@ -33,6 +33,10 @@ class PropPass {
   /// Draws only the ids and the depth of the same triangles.
   void draw_ids(const ClipPlanes& planes, double time_s) const;
 
+  /// Draws the houses and trees on the land beyond into the color buffer, behind all else: like the
+  /// hills on the horizon they change neither ids nor depth. Expects sky and ground to be drawn.
+  void draw_backdrop(const ClipPlanes& planes) const;
+
   /// Draws the props whose shadows touch `area` of the ground into the shadow map; `slope` is
   /// shadow_slope().
   void draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
@@ -46,9 +50,10 @@ class PropPass {
     double radius_m = 0;
     Range solid;
     Range leaves;
-    bool closed = true;  ///< only its outside is visible
-    bool casts = true;   ///< throws a shadow
-    double from_s = 0;   ///< absent before this time
+    bool closed = true;        ///< only its outside is visible
+    bool casts = true;         ///< throws a shadow
+    bool is_backdrop = false;  ///< only colors show it
+    double from_s = 0;         ///< absent before this time
   };
   /// Appends a mesh to `vertices` and `indices`.
   Item& add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,

@@ -26,9 +26,9 @@ constexpr double kLandYawRad = -0.347;  // of the rows of fields on the ground
 
 /// Random numbers of one object on the land, by its kind and cell.
 Random draw_random(std::uint64_t kind, const Vector2i& cell, int number = 0) {
-  constexpr int kOffset = 1 << 20;  // indices are not negative
-  const auto x = static_cast<std::uint64_t>(cell.x() + kOffset);
-  const auto y = static_cast<std::uint64_t>(cell.y() + kOffset);
+  constexpr std::int64_t kOffset = 1 << 20;  // indices are not negative
+  const auto x = static_cast<std::uint64_t>(kOffset + cell.x());
+  const auto y = static_cast<std::uint64_t>(kOffset + cell.y());
   return Random(kind + 0xFA210, Stream::environment,
                 (x << 40U | y << 16U) + static_cast<std::uint64_t>(number));
 }
@@ -198,7 +198,8 @@ class LandBuilder {
     const int rows = static_cast<int>(kFieldM / kApartM);
     for (int i = 0; i < columns * rows; ++i) {
       Random random = draw_random(3, field.number, i);
-      const Vector2d cell(i % columns + random.uniform(), i / columns + random.uniform());
+      const int row = i / columns;
+      const Vector2d cell(i % columns + random.uniform(), row + random.uniform());
       const Vector2d at = Vector2d(field.begin_m, field.number.y() * kFieldM) + kApartM * cell;
       if (smooth_noise(0.02 * at + Vector2d::Constant(13)) < 0.4) continue;
       add_tree(ground_from_land(at), 1.1, random);

@@ -13,7 +13,7 @@ vec2 tongue() {
   float up = 0.5 - 0.5 * on_disc.y;
   vec2 rising = vec2(on_disc.x * 2.2, 2.6 * up - 2.6 * light.eye.w) + shift;
   float lick = noise(rising) + 0.5 * noise(2.3 * rising + 7.0) - 0.75;
-  float half_width = 0.85 * sqrt(clamp(2.0 * up, 0.0, 1.0)) * pow(1.0 - up, 0.8) + 0.02;
+  float half_width = 0.85 * sqrt(clamp(7.0 * up, 0.0, 1.0)) * pow(1.0 - up, 0.9) + 0.02;
   float inside = 1.0 - abs(on_disc.x + 1.1 * lick * up) / half_width;
   float torn = inside + 0.9 * lick * (0.4 + up);
   return vec2(smoothstep(0.0, 0.7, torn), clamp(torn * (1.05 - 0.8 * up), 0.0, 1.0));

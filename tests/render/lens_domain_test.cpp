@@ -187,7 +187,6 @@ TEST_F(LensDomain, DepthIsThatOfThePixelsOwnRay) {
       for (std::size_t i = 0; i < frame.id.size(); ++i) {
         const std::uint32_t id = frame.id[i];
         if (id != kIdGround && id != kIdBuilding) continue;
-        if (shows_land(frame, static_cast<int>(i % 320), static_cast<int>(i / 320))) continue;
         const Vector2d pixel(static_cast<double>(i % 320), static_cast<double>(i / 320));
         const double expected = true_depth(camera, pixel, id);
         if (!(expected > 0 && expected < 60)) continue;

@@ -69,7 +69,7 @@ Errors count_errors(const Frame& frame) {
   Errors errors;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
-      if (!frame.camera.intrinsics.direction_of({x, y}) || shows_land(frame, x, y)) continue;
+      if (!frame.camera.intrinsics.direction_of({x, y})) continue;
       const Hit hit = find_hit(frame.camera, {x, y});
       bool at_edge = false;
       for (const Vector2d& off : {Vector2d(kEdgePx, 0), Vector2d(-kEdgePx, 0), Vector2d(0, kEdgePx),

@@ -41,16 +41,6 @@ inline std::size_t pixel_index(const Frame& frame, int x, int y) {
          static_cast<std::size_t>(x);
 }
 
-/// Whether a pixel shows what stands on the land beyond open_ground(), or the land itself: the
-/// nearest of it is 80 m away from the middle.
-inline bool shows_land(const Frame& frame, int x, int y) {
-  const std::size_t i = pixel_index(frame, x, y);
-  if (frame.id[i] != kIdGround) return false;
-  constexpr double kNearestM = 72;
-  const Eigen::Vector3d point = frame.camera.unproject({x, y}, frame.depth_m[i]);
-  return point.head<2>().cwiseAbs().maxCoeff() > kNearestM;
-}
-
 /// Pixels with one id, and their bounds.
 struct Mask {
   std::uint64_t pixels = 0;

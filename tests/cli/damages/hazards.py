@@ -1,4 +1,6 @@
 """Damages to hazards and dangers. The dataset shows people after a disaster began."""
+import numpy as np
+
 from .dataset import damage
 from .rasters import raster_name
 
@@ -78,10 +80,13 @@ def opacity_of_smoke_called_gas(d):
 
 @damage
 def opacity_of_fire_upside_down(d):
-    def flames(image):
-        return (d.raster("hazard_opacity", image)[1][..., 0] > 0).sum()
+    def moved(image):  # by how many rows the middle of the flames would be
+        shown = (d.raster("hazard_opacity", image)[1][..., 0] > 0).sum(axis=1)
+        if shown.sum() == 0:
+            return 0
+        return abs((np.arange(len(shown)) * shown).sum() / shown.sum() - (len(shown) - 1) / 2)
 
-    d.change_raster("hazard_opacity", max(d.images, key=flames), lambda a: a[::-1])
+    d.change_raster("hazard_opacity", max(d.images, key=moved), lambda a: a[::-1])
 
 
 @damage
