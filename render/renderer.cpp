@@ -25,50 +25,13 @@
 #include "render/scenery/lamps.h"
 #include "render/scenery/lighting.h"
 #include "render/scenery/surface_classes.h"
-#include "render/truth/coverage.h"
 #include "render/truth/objects_in_view.h"
-#include "render/truth/silhouettes.h"
+#include "render/truth/people_coverage.h"
 #include "render/view.h"
 
 namespace throng::render {
 
 namespace {
-
-/// Whole pixels that a box touches, and one more on each side for the rasterizer's rounding.
-Eigen::AlignedBox2i pixel_box(const Eigen::AlignedBox2d& box) {
-  return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
-}
-
-/// Sets what shows a person.
-void add_visible(const Frame& frame, std::uint32_t agent, PixelMask& mask) {
-  if (mask.set.empty()) return;
-  for (int y = mask.pixels.min().y(); y < mask.pixels.max().y(); ++y) {
-    for (int x = mask.pixels.min().x(); x < mask.pixels.max().x(); ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
-          static_cast<std::size_t>(x);
-      if (frame.id[pixel] == id_of_agent(agent)) mask.put(x, y);
-    }
-  }
-}
-
-/// Weight of the pixels [min, max) that show a person.
-std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::AlignedBox2i& pixels,
-                         const PixelWeights* weights) {
-  const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
-                                  Eigen::Vector2i(frame.width(), frame.height()));
-  const Eigen::AlignedBox2i box = pixels.intersection(image);
-  const std::uint32_t own = id_of_agent(agent);
-  std::uint64_t sum = 0;
-  for (int y = box.min().y(); y < box.max().y(); ++y) {
-    const std::uint32_t* row =
-        &frame.id[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width())];
-    for (int x = box.min().x(); x < box.max().x(); ++x) {
-      if (row[x] == own) sum += weights == nullptr ? 1 : weights->at(x, y);
-    }
-  }
-  return sum;
-}
 
 std::vector<PersonDraw> make_draws(const std::vector<Seen>& seen) {
   std::vector<PersonDraw> draws;
@@ -124,7 +87,6 @@ struct Renderer::State {
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                  PeoplePass::Purpose purpose);
   void draw_truth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen);
-  void scenery_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NeighborFrame* next, const NeighborFrame* previous,
                      const std::vector<Seen>& seen, Frame& frame);
   void draw_opacity(const Scene& scene, Frame& frame);
@@ -132,8 +94,6 @@ struct Renderer::State {
                    const camera::Camera& camera);
   void read_motion(const Scene& scene, const NeighborFrame* other, const Frame& frame,
                    std::vector<float>& flow, std::vector<float>* depth_m) const;
-  void measure_coverage(const Scene& scene, const Frame& frame, const PixelWeights* weights,
-                        std::vector<Seen>& seen);
 
   /// Reports the end of a stage, for profiles.
   void lap(std::string_view stage) const {
@@ -165,8 +125,7 @@ struct Renderer::State {
   ShadowMap shadow_map;
   ShadowMap metering_shadows;
   std::vector<Vehicle> vehicles;
-  Silhouettes silhouettes;
-  CoverageCounter coverage;
+  PeopleCoverage coverage;
   Buffer view_buffer;
   Buffer next_view_buffer;
   Buffer light_buffer;
@@ -240,33 +199,6 @@ void Renderer::State::draw_shadows(const Scene& scene, const camera::Camera& cam
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
 }
 
-void Renderer::State::scenery_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen) {
-  const Eigen::AlignedBox2i image(
-      Eigen::Vector2i::Zero(), Eigen::Vector2i(camera.intrinsics.width, camera.intrinsics.height));
-  struct Room {
-    std::size_t person;
-    Eigen::AlignedBox2i pixels;
-  };
-  std::vector<Room> rooms;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i].is_listed) continue;
-    const Eigen::AlignedBox2i pixels = pixel_box(seen[i].truth.amodal_box);
-    if (image.contains(pixels)) rooms.push_back({i, pixels});
-  }
-  std::stable_sort(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) {
-    return a.pixels.sizes().y() > b.pixels.sizes().y();
-  });
-  silhouettes.begin();
-  std::size_t tile = 0;
-  for (const Room& room : rooms) {
-    const auto shift = silhouettes.add(room.pixels);
-    if (!shift) continue;
-    seen[room.person].draw.shift = {shift->x(), shift->y()};
-    seen[room.person].tile = tile++;
-  }
-  silhouettes.bind();
-}
-
 /// The uniforms of light, and the shadows of what is in `scene`.
 void Renderer::State::draw_light(const Scene& scene, const camera::Camera& camera,
                                  double exposure_gain, const ShadowMap& shadows) {
@@ -306,7 +238,7 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   draw_smooth(scene, camera, seen, frame);
   resize(target, k.width, k.height);
   using Purpose = PeoplePass::Purpose;
-  if (choice.truth) scenery_silhouettes(camera, seen);
+  if (choice.truth) coverage.prepare(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
   if (choice.truth && color_apart) {
     draw_truth(scene, camera, seen);
@@ -423,46 +355,6 @@ void Renderer::State::read_motion(const Scene& scene, const NeighborFrame* other
   fill_drone_flow(scene, *other, frame, flow, depth_m);
 }
 
-void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
-                                       const PixelWeights* weights, std::vector<Seen>& seen) {
-  silhouettes.read();
-  std::vector<std::size_t> measured;
-  std::vector<CoverageRequest> requests;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i].is_listed) continue;
-    PersonInView& truth = seen[i].truth;
-    if (seen[i].tile) {
-      truth.amodal_area_px = silhouettes.count(*seen[i].tile, weights);
-      if (options.whole_masks) {
-        truth.whole_mask = std::make_shared<PixelMask>(silhouettes.mask(*seen[i].tile));
-      }
-      continue;
-    }
-    measured.push_back(i);
-    requests.push_back({seen[i].draw, pixel_box(truth.amodal_box)});
-  }
-  std::vector<PixelMask> masks;
-  if (options.whole_masks) {
-    const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
-                                    Eigen::Vector2i(frame.width(), frame.height()));
-    for (const CoverageRequest& request : requests) {
-      masks.emplace_back(request.bounds.intersection(image));
-    }
-  }
-  const std::vector<std::uint64_t> counts =
-      coverage.count(people_pass, scene.people, requests, frame.camera, weights, masks);
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
-    // covered all the same.
-    PersonInView& truth = seen[measured[i]].truth;
-    truth.amodal_area_px =
-        std::max(counts[i], visible_in(frame, truth.agent, requests[i].bounds, weights));
-    if (!options.whole_masks) continue;
-    add_visible(frame, truth.agent, masks[i]);
-    truth.whole_mask = std::make_shared<PixelMask>(std::move(masks[i]));
-  }
-}
-
 int max_image_px(const DeviceChoice& device) {
   const Context context(device.name);
   return max_target_px();
@@ -512,7 +404,10 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
     state.draw_opacity(scene, frame);
     state.lap("opacity");
   }
-  if (choice.truth) state.measure_coverage(scene, frame, choice.weights, seen);
+  if (choice.truth) {
+    state.coverage.measure(state.people_pass, scene, frame, choice.weights, options.whole_masks,
+                           seen);
+  }
   check_gl("drawing a frame");
   for (Seen& person : seen) {
     if (person.is_listed) frame.people.push_back(std::move(person.truth));

@@ -14,7 +14,7 @@ namespace throng::world {
 
 enum class SemanticClass : std::uint8_t {
   sky = 0,       ///< also pixels outside the image circle of a lens
-  terrain = 1,   ///< land around a scenario, with what stands on it
+  terrain = 1,   ///< the land around a scenario
   building = 2,  ///< facades
   object = 3,    ///< surfaces of no other class, e.g. meshes without a class
   person = 4,    ///< with clothes and carried objects

@@ -221,7 +221,7 @@ class Appearance(Part):
 
 @dataclass
 class Wind(Part):
-    """The wind that acts on the drones."""
+    """The wind that acts on drones and smoke."""
 
     _: KW_ONLY
     speed_mps: float | Distribution | None = None
@@ -271,7 +271,7 @@ class Environment(Part):
     rain_mm_per_h: float | Distribution | None = None
     """Intensity of the rain if the weather is rain. Unit: mm/h. Default: 4."""
     wind: Wind | None = None
-    """The wind that acts on the drones."""
+    """The wind that acts on drones and smoke."""
 
 
 @dataclass

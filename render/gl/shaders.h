@@ -41,6 +41,7 @@ extern const std::string_view shader_prop_vert;
 extern const std::string_view shader_prop_frag;
 extern const std::string_view shader_wall_frag;
 extern const std::string_view shader_roof_frag;
+extern const std::string_view shader_screen;
 extern const std::string_view shader_sky_vert;
 extern const std::string_view shader_sky_frag;
 extern const std::string_view shader_smoke_vert;

@@ -17,7 +17,7 @@ void AirframePass::prepare() {
   program_ =
       make_program({embedded::shader_view, embedded::shader_prop_vert},
                    {words_, has_shadows_ ? "" : "#define NO_SHADOWS\n", embedded::shader_light,
-                    embedded::shader_noise, embedded::shader_prop_frag});
+                    embedded::shader_noise, embedded::shader_screen, embedded::shader_prop_frag});
   check_gl("loading drones");
 }
 

@@ -102,7 +102,7 @@ void PropPass::add_dressing(const world::Scenario& scenario, bool semantic,
   for (const PropMesh& mesh : hedge_leaves(scenario, semantic)) {
     add(mesh, true, vertices, indices).casts = false;
   }
-  for (const PropMesh& mesh : far_land(scenario, taken, semantic)) {
+  for (const PropMesh& mesh : far_land(scenario, taken)) {
     Item& item = add(mesh, true, vertices, indices);
     item.casts = false;
     item.is_backdrop = true;
@@ -140,9 +140,9 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   array_ = make_prop_array(vertices_, indices_);
   const std::string_view shadows = quality.shadow_texels > 0 ? "" : kNoShadows;
   const std::string_view sun = words.find(kNoSun) == std::string_view::npos ? "" : kNoSun;
-  solid_ = make_program(
-      {embedded::shader_view, embedded::shader_prop_vert},
-      {words, shadows, shader_light, embedded::shader_noise, embedded::shader_prop_frag});
+  solid_ = make_program({embedded::shader_view, embedded::shader_prop_vert},
+                        {words, shadows, shader_light, embedded::shader_noise,
+                         embedded::shader_screen, embedded::shader_prop_frag});
   leaves_ = make_program(
       {sun, shadows, kLeaves, shader_light, embedded::shader_view, embedded::shader_prop_vert},
       {words, shadows, kLeaves, shader_light, embedded::shader_prop_frag});

@@ -113,7 +113,7 @@ SceneryPass::SceneryPass(const world::Scenario& scenario, const Environment& env
       words + std::string(environment.sun_elevation_rad < kLowSunRad ? kWideFilter : "");
   if (quality.textured) {
     const std::string wide = words + std::string(kWideFilter);
-    walls_ = make_scenery_program(wide, embedded::shader_wall_frag);
+    walls_ = make_scenery_program(wide, embedded::shader_screen, embedded::shader_wall_frag);
     roofs_ = make_scenery_program(wide, embedded::shader_roof_frag);
   } else {
     walls_ = make_corners_program(words, kWallAlbedo);

@@ -125,12 +125,9 @@ void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, 
                            const camera::Camera& camera) {
   constexpr std::uint64_t kMaxTongues = 110;
   constexpr double kFlameS = 0.9;
-  const double since_s = time_s - disaster.start_s;
-  const bool explodes = disaster.kind == world::DisasterKind::explosion;
-  if (since_s < 0 || (explodes && since_s > kFireballS)) return;
-  if (!explodes && disaster.kind != world::DisasterKind::fire) return;
+  const double burning = burning_share(disaster, time_s);
+  if (burning <= 0) return;
   const double reach_m = 0.6 * disaster.reach_m(time_s);
-  const double fades = explodes ? 1 - since_s / kFireballS : 1;
   const Eigen::Vector2d lean_mps = 0.5 * drift_mps(environment_);
   for (std::uint64_t i = 0; i < kMaxTongues; ++i) {
     Random random(environment_.seed, Stream::environment, kFlames + kMaxTongues * number + i);
@@ -151,7 +148,7 @@ void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, 
                   static_cast<float>(height_m), static_cast<float>(radius_m)};
     const double shows = std::min({1.0, 6 * share, 3 * (1 - share)});
     puff.look = {static_cast<float>(1.0 - 0.55 * share * out), 0, 0,
-                 kShines + static_cast<float>(0.9 * fades * environment_.smoke * shows)};
+                 kShines + static_cast<float>(0.9 * burning * environment_.smoke * shows)};
     puff.kind = static_cast<float>(HazardMatter::fire);
     puff.depth_m = static_cast<float>(camera.project({at.x(), at.y(), height_m}).depth_m);
     if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);

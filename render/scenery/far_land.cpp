@@ -3,16 +3,15 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
 #include <utility>
 
 #include "base/geometry/polygon.h"
 #include "render/frame.h"
-#include "render/props/prop_builder.h"
+#include "render/props/prop_cells.h"
 #include "render/scenery/far_objects.h"
 #include "render/scenery/ground_layers.h"
 #include "render/scenery/land_pattern.h"
-#include "render/scenery/surface_classes.h"
 
 namespace throng::render {
 
@@ -21,8 +20,6 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector2i;
-
-constexpr double kLandYawRad = -0.347;  // of the rows of fields on the ground
 
 /// Random numbers of one object on the land, by its kind and cell.
 Random draw_random(std::uint64_t kind, const Vector2i& cell, int number = 0) {
@@ -35,11 +32,9 @@ Random draw_random(std::uint64_t kind, const Vector2i& cell, int number = 0) {
 
 class LandBuilder {
  public:
-  LandBuilder(const world::Scenario& scenario, const std::vector<AlignedBox2d>& taken,
-              std::uint32_t id)
+  LandBuilder(const world::Scenario& scenario, const std::vector<AlignedBox2d>& taken)
       : ground_(scenario.ground.min, scenario.ground.max),
         taken_(taken),
-        id_(id),
         built_share_(built_share(scenario)),
         is_town_(built_share_ > 0.5) {
     for (std::size_t i = 0; i < scenario.areas.size(); ++i) {
@@ -70,7 +65,7 @@ class LandBuilder {
 
   std::vector<PropMesh> take() {
     std::vector<PropMesh> meshes;
-    for (auto& [cell, builder] : cells_) meshes.push_back(builder.take());
+    cells_.take(meshes);
     return meshes;
   }
 
@@ -105,14 +100,6 @@ class LandBuilder {
     constexpr double kMiddleM = 200;
     const double off = beyond_m(point);
     return off < kNearM ? FarDetail::near : off < kMiddleM ? FarDetail::middle : FarDetail::far;
-  }
-
-  PropBuilder& cell_of(const Vector2d& point) {
-    constexpr double kCellM = 150;
-    static const world::Prop kOrigin;
-    const std::pair<long, long> cell = {std::lround(point.x() / kCellM),
-                                        std::lround(point.y() / kCellM)};
-    return cells_.try_emplace(cell, kOrigin, id_).first->second;
   }
 
   void add_plot(const Vector2i& plot) {
@@ -150,10 +137,10 @@ class LandBuilder {
     } else {
       house.half_size = {random.uniform(5, 7.5), random.uniform(4, 5.2)};
       house.stories = 1 + static_cast<int>(random.below(2));
-      if (random.uniform() < 0.3) house.yaw_rad += 0.5 * 3.14159265;
+      if (random.uniform() < 0.3) house.yaw_rad += 0.5 * std::numbers::pi;
     }
     if (!is_free(middle, house.half_size.norm())) return;
-    add_far_house(cell_of(middle), house, random);
+    add_far_house(cells_.at(middle), house, random);
   }
 
   void add_tree(const Vector2d& middle, double size, Random& random) {
@@ -165,7 +152,7 @@ class LandBuilder {
     // One that is far stands for its neighbors as well, which are left out.
     tree.crown_m *= std::clamp(beyond_m(middle) / 300, 1.0, 2.5);
     if (!keeps(middle, 125, random) || !is_free(middle, tree.crown_m)) return;
-    add_far_tree(cell_of(middle), tree, random);
+    add_far_tree(cells_.at(middle), tree, random);
   }
 
   /// Trees and bushes along the field's lower border and its first side.
@@ -208,21 +195,19 @@ class LandBuilder {
 
   AlignedBox2d ground_;
   const std::vector<AlignedBox2d>& taken_;
-  std::uint32_t id_;
   double built_share_;
   bool is_town_;
   std::vector<std::vector<Vector2d>> streets_;
   AlignedBox2d land_;
-  std::map<std::pair<long, long>, PropBuilder> cells_;
+  static constexpr double kCellM = 150;
+  PropCells cells_{kCellM, kIdNothing};
 };
 
 }  // namespace
 
 std::vector<PropMesh> far_land(const world::Scenario& scenario,
-                               const std::vector<AlignedBox2d>& taken, bool semantic) {
-  LandBuilder builder(
-      scenario, taken,
-      semantic ? id_with_class(kIdGround, world::SemanticClass::terrain) : kIdGround);
+                               const std::vector<AlignedBox2d>& taken) {
+  LandBuilder builder(scenario, taken);
   builder.build();
   return builder.take();
 }

@@ -17,9 +17,8 @@ inline constexpr double kMaxLandM = 900;
 /// Houses and trees on the fields of shaders/ground_surroundings.glsl, which images show and labels
 /// do not, in parts of some 150 m for culling. None stands on a street that goes on beyond the
 /// ground or on `taken`, the outlines of meshes. They depend only on the scenario's ground, streets
-/// and number of tall buildings. `semantic`: ids contain classes
-/// (render/scenery/surface_classes.h).
+/// and number of tall buildings.
 std::vector<PropMesh> far_land(const world::Scenario& scenario,
-                               const std::vector<Eigen::AlignedBox2d>& taken, bool semantic);
+                               const std::vector<Eigen::AlignedBox2d>& taken);
 
 }  // namespace throng::render

@@ -48,8 +48,8 @@ class HouseBuilder {
     const double eaves_m = kStoryM * house_.stories;
     add_walls(eaves_m);
     house_.has_flat_roof ? add_flat_roof(eaves_m) : add_pitched_roof(eaves_m);
-    if (house_.detail != FarDetail::far) add_windows();
     if (house_.detail == FarDetail::far) return;
+    add_windows();
     const Vector2d rim = house_.half_size + Vector2d::Constant(1.3);
     constexpr double kAboveM = 0.04;
     quad({-rim.x(), -rim.y(), kAboveM}, {rim.x(), -rim.y(), kAboveM}, {rim.x(), rim.y(), kAboveM},

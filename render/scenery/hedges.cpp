@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
 #include "render/frame.h"
-#include "render/props/prop_builder.h"
+#include "render/props/prop_cells.h"
 #include "render/scenery/scenery.h"
 #include "render/scenery/surface_classes.h"
 
@@ -50,7 +48,7 @@ std::vector<Vector2d> moved_inwards(const std::vector<Vector2d>& outline, double
 class HedgePlanter {
  public:
   HedgePlanter(const world::Building& hedge, std::uint32_t number, std::uint32_t id)
-      : hedge_(hedge), id_(id), random_(number, Stream::environment, 0x4ED6E) {
+      : hedge_(hedge), random_(number, Stream::environment, 0x4ED6E), cells_(kCellM, id) {
     const double top_m2 = geometry::signed_area(hedge.footprint);
     const double wanted = kCardsPerM2 * (top_m2 + perimeter_m(hedge.footprint) * hedge.height_m);
     thinned_ = std::min(1.0, kMaxCards / std::max(wanted, 1.0));
@@ -87,10 +85,7 @@ class HedgePlanter {
     }
   }
 
-  /// Moves the meshes of all cells to `meshes`.
-  void take(std::vector<PropMesh>& meshes) {
-    for (auto& [cell, builder] : cells_) meshes.push_back(builder.take());
-  }
+  void take(std::vector<PropMesh>& meshes) { cells_.take(meshes); }
 
  private:
   static constexpr double kCardsPerM2 = 13;
@@ -101,11 +96,6 @@ class HedgePlanter {
 
   int cards_on(double area_m2) {
     return static_cast<int>(kCardsPerM2 * thinned_ * area_m2 + random_.uniform());
-  }
-
-  PropBuilder& cell_of(const Vector3d& at) {
-    const std::pair<long, long> cell = {std::lround(at.x() / kCellM), std::lround(at.y() / kCellM)};
-    return cells_.try_emplace(cell, kOrigin, id_).first->second;
   }
 
   /// Adds a card on a surface, some of its corners inside the hedge and none farther out of it than
@@ -131,8 +121,8 @@ class HedgePlanter {
     const Vector3d normal = (out + Vector3d(0, 0, 0.25) + 0.35 * jitter()).normalized();
     std::array<Vector3d, 4> corners = {at - u - v, at + u - v, at + u + v, at - u + v};
     for (Vector3d& corner : corners) keep_within(surface, out, at, corner);
-    cell_of(at).leaves(corners, normal, (light * kHedgeGreen).cwiseProduct(yellow),
-                       LeafSprite::small);
+    cells_.at(at.head<2>())
+        .leaves(corners, normal, (light * kHedgeGreen).cwiseProduct(yellow), LeafSprite::small);
   }
 
   /// Bends a card so that its corner is not farther out of the hedge than leaves reach.
@@ -150,17 +140,12 @@ class HedgePlanter {
     corner.head<2>() = surface.head<2>();
   }
 
-  static const world::Prop kOrigin;
-
   const world::Building& hedge_;
-  std::uint32_t id_;
   Random random_;
   double thinned_ = 1;
   double half_m_ = kCardM;
-  std::map<std::pair<long, long>, PropBuilder> cells_;
+  PropCells cells_;
 };
-
-const world::Prop HedgePlanter::kOrigin;
 
 }  // namespace
 

@@ -19,6 +19,7 @@ Vector2d bend(const Vector2d& point) {
                          smooth_noise(kPerM * point + Vector2d::Constant(31)));
 }
 
+// By -kLandYawRad; also in shaders/ground_surroundings.glsl.
 Eigen::Matrix2d turn() { return (Eigen::Matrix2d() << 0.94, -0.34, 0.34, 0.94).finished(); }
 
 }  // namespace

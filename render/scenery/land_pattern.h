@@ -18,6 +18,9 @@ double smooth_noise(const Eigen::Vector2d& at);
 Eigen::Vector2d land_from_ground(const Eigen::Vector2d& point);
 Eigen::Vector2d ground_from_land(const Eigen::Vector2d& at);
 
+/// Direction of the rows of fields on the ground.
+inline constexpr double kLandYawRad = -0.347;
+
 /// Depth (m) of each row of fields.
 inline constexpr double kFieldM = 130;
 

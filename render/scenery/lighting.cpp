@@ -62,16 +62,22 @@ std::string light_words(const Environment& environment,
   return words;
 }
 
+double burning_share(const world::Disaster& disaster, double time_s) {
+  constexpr double kFireballS = 4;
+  const double age_s = time_s - disaster.start_s;
+  if (!burns(disaster) || age_s < 0) return 0;
+  if (disaster.kind == world::DisasterKind::fire) return 1;
+  return std::max(1 - age_s / kFireballS, 0.0);
+}
+
 std::vector<Fire> fires_at(const Environment& environment,
                            std::span<const world::Disaster> disasters, double time_s,
                            const Eigen::Vector3d& eye) {
   std::vector<Fire> fires;
   for (const world::Disaster& disaster : disasters) {
-    const double age_s = time_s - disaster.start_s;
-    if (!burns(disaster) || age_s < 0) continue;
-    const bool explodes = disaster.kind == world::DisasterKind::explosion;
-    const double burning = explodes ? std::max(1 - age_s / kFireballS, 0.0) : 1;
-    fires.push_back({disaster.position, disaster.reach_m(time_s), environment.smoke * burning});
+    if (!burns(disaster) || time_s < disaster.start_s) continue;
+    fires.push_back({disaster.position, disaster.reach_m(time_s),
+                     environment.smoke * burning_share(disaster, time_s)});
   }
   if (environment.smoke <= 0) fires.clear();
   const auto light = [&](const Fire& fire) {

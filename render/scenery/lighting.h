@@ -24,10 +24,7 @@ namespace throng::render {
 /// Steps along each side of shadow_area() to which it is aligned: texels at standard quality.
 inline constexpr int kShadowSize = 2048;
 
-/// Seconds for which the fireball of an explosion burns.
-inline constexpr double kFireballS = 4;
-
-/// Fires that can light a scene at once.
+/// Fires that can light a scene at once; also in shaders/light.glsl.
 inline constexpr std::size_t kMaxFires = 4;
 
 /// A fire, or what an explosion left.
@@ -68,6 +65,10 @@ struct LightFrame {
 /// shadows), LAMPS, WET, and FIRES where one of these disasters burns.
 std::string light_words(const Environment& environment,
                         std::span<const world::Disaster> disasters = {});
+
+/// The share, 0 to 1, of a disaster's flames that burn at a time of the run: all of a fire's, and
+/// of an explosion's fireball ever fewer.
+double burning_share(const world::Disaster& disaster, double time_s);
 
 /// The fires that burn or have burned at a time of the run, those that light `eye` most first; at
 /// most kMaxFires. None while hazards are not shown (Environment::smoke is 0).

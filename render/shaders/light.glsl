@@ -1,4 +1,6 @@
 // Sun, sky, shadows and the film that they fall on; filled by render/scenery/lighting.cpp.
+const int kMaxFires = 4;  // also in render/scenery/lighting.h
+
 layout(std140, binding = 1) uniform Light {
   vec4 sun_direction;  // toward the sun
   vec4 sun;            // radiance of a white surface that faces it
@@ -13,7 +15,7 @@ layout(std140, binding = 1) uniform Light {
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
   vec4 eye;            // the camera's center; w: time, s
-  vec4 fires[4];       // position on the ground, reach (m), light on a white surface in 1 m
+  vec4 fires[kMaxFires];  // position on the ground, reach (m), light on a white surface in 1 m
 } light;
 
 layout(binding = 1) uniform sampler2DShadow shadow_map;
@@ -147,7 +149,7 @@ float lamp_light(vec3 world, vec3 normal) {
 vec3 fire_light(vec3 world, vec3 normal) {
   const vec3 kHue = vec3(1.45, 0.85, 0.36);
   float sum = 0.0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kMaxFires; ++i) {
     float reach = light.fires[i].z;
     // The middle of the flames flickers by a tenth, and is as large as they are.
     float turn = light.eye.w * (11.0 + 3.0 * float(i));
@@ -163,7 +165,7 @@ vec3 fire_light(vec3 world, vec3 normal) {
 // How burned a surface is, 0 to 1; `ragged` is noise in [0, 1].
 float charred(vec3 world, float ragged) {
   float most = 0.0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kMaxFires; ++i) {
     float reach = light.fires[i].z;
     float away = length(world.xy - light.fires[i].xy) + 0.25 * max(world.z - 1.5 - reach, 0.0);
     float edge = reach * (0.6 + 0.6 * ragged);
@@ -177,7 +179,7 @@ vec3 charcoal(vec3 albedo, float burned) { return mix(albedo, vec3(0.018, 0.017,
 // Light of embers on burned ground; `grain` is noise in [0, 1].
 vec3 embers(vec3 world, float burned, float grain) {
   float burning = 0.0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kMaxFires; ++i) {
     float reach = light.fires[i].z;
     float near = 1.0 - smoothstep(0.3 * reach, 0.9 * reach + 1e-3, length(world.xy - light.fires[i].xy));
     burning = max(burning, near * step(1e-9, light.fires[i].w));

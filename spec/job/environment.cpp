@@ -95,7 +95,7 @@ const FieldTable<EnvironmentSpec>& environment_fields() {
     add_sampled(table, "rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
                 at(&EnvironmentSpec::rain_mm_per_h),
                 "Intensity of the rain if the weather is rain.");
-    table.group("wind", "Wind", "The wind that acts on the drones.");
+    table.group("wind", "Wind", "The wind that acts on drones and smoke.");
     table.add_all("wind", wind_fields(), at(&EnvironmentSpec::wind));
     return table;
   }();

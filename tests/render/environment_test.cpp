@@ -347,6 +347,50 @@ TEST(Fires, LightTheGroundByNightAndLeaveItBurned) {
   EXPECT_NEAR(red_at(drawn(Kind::gas, -20, 10.1), near), dark, 3) << "gas does not burn";
 }
 
+TEST(Screens, GlowByNight) {
+  const auto mean_of = [](world::Facade facade) {
+    world::Building wall = block(8, 10, -8, 8, 7);
+    wall.facade = facade;
+    Environment lighting;
+    lighting.sun_elevation_rad = -20 * kDegree;
+    Stage stage(open_ground({wall}), lighting);
+    const Frame frame = stage.draw(camera_at({-6, 0, 4}, 0, 0));
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < frame.id.size(); ++i) {
+      if (frame.id[i] != kIdBuilding) continue;
+      const auto width = static_cast<std::size_t>(frame.width());
+      const Eigen::Vector2d pixel(static_cast<double>(i % width), static_cast<double>(i / width));
+      const double height_m = frame.camera.unproject(pixel, frame.depth_m[i]).z();
+      if (height_m < 5.4 || height_m > 6.6) continue;  // above the lamps of walls
+      sum += frame.rgb[3 * i] + frame.rgb[3 * i + 1] + frame.rgb[3 * i + 2];
+      ++count;
+    }
+    EXPECT_GT(count, 200);
+    return sum / (3 * count);
+  };
+  EXPECT_GT(mean_of(world::Facade::screen), 2 * mean_of(world::Facade::plaster));
+}
+
+TEST(Lamps, CastSoftShadowsOfPeople) {
+  world::Scenario scenario = open_ground();
+  world::Prop lamp;
+  lamp.kind = world::PropKind::lamp_post;
+  lamp.position = {0, 0};
+  scenario.props = {lamp};
+  Environment lighting;
+  lighting.sun_elevation_rad = -20 * kDegree;
+  Stage stage(scenario, lighting);
+  const camera::Camera camera = camera_at({3, -6, 5}, 90, -38, 640, 480);
+  Scene somebody;
+  somebody.people = {stage.standing(1, 3, 0)};
+  const Frame with = stage.renderer().draw(somebody, camera);
+  const Frame without = stage.renderer().draw({}, camera);
+  // The first point is behind the person, seen from the lamp, the second as far before them.
+  EXPECT_LT(red_at(with, {4.2, 0}), 0.92 * red_at(without, {4.2, 0}));
+  EXPECT_GT(red_at(with, {1.6, 0}), 0.97 * red_at(without, {1.6, 0}));
+}
+
 TEST(Smoke, DriftsWithTheWind) {
   // The mean column, in pixels, of what smoke makes darker in the sky of a camera that looks along
   // +x, so that +y is on its left.

@@ -122,13 +122,12 @@ class FarLand : public ::testing::Test {
 TEST_F(FarLand, KeepsAwayFromTheGroundItsStreetsAndMeshes) {
   scenario_.areas = {{{{-40, -4}, {40, -4}, {40, 4}, {-40, 4}}, "asphalt", false}};
   const Eigen::AlignedBox2d river(Vector2d(-1000, 60), Vector2d(1000, 200));
-  const std::vector<PropMesh> meshes = far_land(scenario_, {river}, false);
+  const std::vector<PropMesh> meshes = far_land(scenario_, {river});
   const auto streets = streets_beyond(scenario_, 0);
   ASSERT_EQ(streets.size(), 2U);
   const Eigen::AlignedBox2d ground(scenario_.ground.min, scenario_.ground.max);
   for (const PropMesh& mesh : meshes) {
     for (const PropVertex& vertex : mesh.vertices) {
-      ASSERT_EQ(vertex.id, kIdGround);
       const Vector2d at = Eigen::Vector3f(vertex.position.data()).head<2>().cast<double>();
       ASSERT_GT(ground.exteriorDistance(at), kMinLandM - 6);
       ASSERT_LT(ground.exteriorDistance(at), kMaxLandM + 6);
@@ -139,11 +138,11 @@ TEST_F(FarLand, KeepsAwayFromTheGroundItsStreetsAndMeshes) {
 }
 
 TEST_F(FarLand, IsATownBetweenTallHousesAndVillagesElsewhere) {
-  const std::vector<PropMesh> villages = far_land(scenario_, {}, false);
+  const std::vector<PropMesh> villages = far_land(scenario_, {});
   for (int i = 0; i < 4; ++i) {
     scenario_.buildings.push_back(block(9.0 * i - 20, 9.0 * i - 14, 0, 6, 12));
   }
-  const std::vector<PropMesh> town = far_land(scenario_, {}, false);
+  const std::vector<PropMesh> town = far_land(scenario_, {});
   EXPECT_GT(count_triangles(villages), 5'000U);
   EXPECT_LT(count_triangles(villages), 30'000U);
   EXPECT_LT(count_triangles(town), 30'000U);

@@ -63,8 +63,7 @@ std::pair<Vector2d, Vector2d> strip_corners(const Frame& frame, Side side, const
 }
 
 json gate_json(const Frame& frame, const Gate& gate, std::size_t number) {
-  const Stretch gap{gate.middle_m - 0.5 * gate.width_m, gate.middle_m + 0.5 * gate.width_m};
-  const auto [low, high] = strip_corners(frame, gate.side, gap, 0);
+  const auto [low, high] = gate_ends(frame, gate);
   constexpr std::array<std::array<int, 2>, 4> kOutward = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
   return {{"id", fmt::format("exit{}", number + 1)},
           {"from", point_json(low)},
@@ -73,6 +72,18 @@ json gate_json(const Frame& frame, const Gate& gate, std::size_t number) {
 }
 
 }  // namespace
+
+std::pair<Vector2d, Vector2d> gate_ends(const Frame& frame, const Gate& gate) {
+  const Stretch gap{gate.middle_m - 0.5 * gate.width_m, gate.middle_m + 0.5 * gate.width_m};
+  return strip_corners(frame, gate.side, gap, 0);
+}
+
+void add_area(const Vector2d& min, const Vector2d& max, const char* material, bool kerb,
+              json& blueprint) {
+  json area = {{"corners", outline_json(min, max)}, {"material", material}};
+  if (kerb) area["kerb"] = 1;
+  blueprint["ground"]["areas"].push_back(area);
+}
 
 std::vector<Gate> spread_gates(const Frame& frame, const std::vector<Side>& sides, int count,
                                double width_m, Random& random) {

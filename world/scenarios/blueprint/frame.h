@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/compute/random.h"
@@ -50,9 +51,16 @@ std::vector<Gate> spread_gates(const Frame& frame, const std::vector<Side>& side
 nlohmann::json outline_json(const Eigen::Vector2d& min, const Eigen::Vector2d& max);
 nlohmann::json point_json(const Eigen::Vector2d& point);
 
+/// Adds a rectangle of another material to a blueprint's ground, with or without kerb stones.
+void add_area(const Eigen::Vector2d& min, const Eigen::Vector2d& max, const char* material,
+              bool kerb, nlohmann::json& blueprint);
+
 /// A house or hall as an element of a blueprint's "buildings".
 nlohmann::json house_json(const std::string& id, const Eigen::Vector2d& min,
                           const Eigen::Vector2d& max, double height_m, Random& random);
+
+/// The ends of a gate on a frame's inner side (m).
+std::pair<Eigen::Vector2d, Eigen::Vector2d> gate_ends(const Frame& frame, const Gate& gate);
 
 /// Adds the frame's walls to "buildings" and its gates to "exits" of a blueprint.
 void build_walls(const Frame& frame, const WallStyle& style, Random& random,

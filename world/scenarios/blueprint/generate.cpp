@@ -68,9 +68,7 @@ class Site {
   }
 
   void area(const Vector2d& min, const Vector2d& max, const char* material, bool kerb = false) {
-    json area = {{"corners", outline_json(min, max)}, {"material", material}};
-    if (kerb) area["kerb"] = 1;
-    blueprint_["ground"]["areas"].push_back(area);
+    add_area(min, max, material, kerb, blueprint_);
   }
   void prop(const char* kind, const Vector2d& at, double yaw_deg = 0) {
     blueprint_["props"].push_back({{"kind", kind},
@@ -247,7 +245,7 @@ json street(const GeneratorSpec& spec) {
 }
 
 /// A hall in some of the quarters between two paths that cross at `hub`.
-void add_halls(Site& site, const Vector2d& hub, const Vector2d& path) {
+void add_halls(Site& site, Planting& planting, const Vector2d& hub, const Vector2d& path) {
   constexpr double kAroundHallM = 4;
   const Frame& frame = site.frame();
   Random& random = site.random();
@@ -270,7 +268,6 @@ void add_halls(Site& site, const Vector2d& hub, const Vector2d& path) {
                                                          middle - half, middle + half,
                                                          random.uniform(6, 16), random));
       const Vector2d beside = half + Vector2d::Constant(0.85);
-      Planting planting = site.planting();
       for (const double side : {-1.0, 1.0}) {
         const Vector2d row(half.x() - 1, side * beside.y());
         planting.add_row(middle + Vector2d(-row.x(), row.y()), middle + row, 2.5, {"bush"}, 0.6);
@@ -299,8 +296,8 @@ json campus(const GeneratorSpec& spec) {
   const Vector2d court = path + Vector2d::Constant(random.uniform(0, 5));
   site.area(hub - court, hub + court, random.uniform() < 0.5 ? "pavers" : "concrete");
   if (random.uniform() < 0.5) site.prop("fountain", hub);
-  add_halls(site, hub, path);
   Planting planting = site.planting();
+  add_halls(site, planting, hub, path);
   for (const double side : {-1.0, 1.0}) {
     const double y = hub.y() + side * (path.y() + 1.8);
     planting.add_row({frame.min.x() + 4, y}, {frame.max.x() - 4, y}, 7,

@@ -11,26 +11,8 @@ namespace throng::scenarios {
 using Eigen::Vector2d;
 using nlohmann::json;
 
-std::pair<Vector2d, Vector2d> gate_ends(const Frame& frame, const Gate& gate) {
-  const double begin_m = gate.middle_m - 0.5 * gate.width_m;
-  const double end_m = gate.middle_m + 0.5 * gate.width_m;
-  switch (gate.side) {
-    case Side::south:
-      return {frame.min + Vector2d(begin_m, 0), frame.min + Vector2d(end_m, 0)};
-    case Side::west:
-      return {frame.min + Vector2d(0, begin_m), frame.min + Vector2d(0, end_m)};
-    case Side::north:
-      return {{frame.min.x() + begin_m, frame.max.y()}, {frame.min.x() + end_m, frame.max.y()}};
-    case Side::east:
-      break;
-  }
-  return {{frame.max.x(), frame.min.y() + begin_m}, {frame.max.x(), frame.min.y() + end_m}};
-}
-
 void Planting::area(const Vector2d& min, const Vector2d& max, const char* material, bool kerb) {
-  json area = {{"corners", outline_json(min, max)}, {"material", material}};
-  if (kerb) area["kerb"] = 1;
-  blueprint_["ground"]["areas"].push_back(area);
+  add_area(min, max, material, kerb, blueprint_);
 }
 
 void Planting::pave(const char* material, const char* beside_walls, double beside_m) {

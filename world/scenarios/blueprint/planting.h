@@ -21,10 +21,6 @@ class Planting {
   Planting(const Frame& frame, Random random, nlohmann::json& blueprint)
       : frame_(frame), random_(random), blueprint_(blueprint) {}
 
-  /// Adds an area of another material, with or without kerb stones.
-  void area(const Eigen::Vector2d& min, const Eigen::Vector2d& max, const char* material,
-            bool kerb = false);
-
   /// Paves the frame in two materials, the second along its walls, and paths from its gates to
   /// the street around it; the rest of the ground is another one's.
   void pave(const char* material, const char* beside_walls, double beside_m);
@@ -32,7 +28,7 @@ class Planting {
   /// Adds strips of another material across the frame, one each `apart_m`.
   void add_strips(const char* material, double width_m, double apart_m);
 
-  /// Adds a prop unless it would stand near a gate, a wall's corner or another placed prop.
+  /// Adds a prop unless it would stand near a gate or another placed prop.
   /// Returns whether it stands there.
   bool put(const char* kind, const Eigen::Vector2d& at, double yaw_deg = 0);
 
@@ -45,14 +41,13 @@ class Planting {
   void add_corner_lawns(double size_m);
 
  private:
+  void area(const Eigen::Vector2d& min, const Eigen::Vector2d& max, const char* material,
+            bool kerb = false);
   bool is_near_gate(const Eigen::Vector2d& at, double closer_than_m) const;
 
   const Frame& frame_;
   Random random_;
   nlohmann::json& blueprint_;
 };
-
-/// The ends of a gate on a frame's inner side (m).
-std::pair<Eigen::Vector2d, Eigen::Vector2d> gate_ends(const Frame& frame, const Gate& gate);
 
 }  // namespace throng::scenarios

@@ -50,13 +50,6 @@ std::array<Edge, 4> frame_edges(const Frame& frame, double from_m) {
            {middle - x, -Vector2d::UnitY(), -Vector2d::UnitX(), half.y()}}};
 }
 
-void add_area(const std::pair<Vector2d, Vector2d>& box, const char* material, bool kerb,
-              json& blueprint) {
-  json area = {{"corners", outline_json(box.first, box.second)}, {"material", material}};
-  if (kerb) area["kerb"] = 1;
-  blueprint["ground"]["areas"].push_back(area);
-}
-
 void add_street(const Edge& edge, Random& random, json& blueprint) {
   constexpr double kParkingM = 6.2;  // along the kerb, for a car
   blueprint["ground"]["markings"].push_back(
@@ -78,7 +71,7 @@ void add_street(const Edge& edge, Random& random, json& blueprint) {
 void add_lawn(const Edge& edge, Random& random, json& blueprint) {
   const auto [low, high] =
       edge.box(-edge.half_m, edge.half_m, kRoadM + kPavementM, kRoadM + kPavementM + kDeepestM);
-  add_area({low, high}, "grass", true, blueprint);
+  add_area(low, high, "grass", true, blueprint);
   const Vector2d inset = Vector2d::Constant(2);
   blueprint["scatter"].push_back(
       {{"kinds", {"tree"}},
@@ -110,13 +103,14 @@ void add_surroundings(const Frame& frame, double from_m, double density, Random&
                       json& blueprint) {
   const std::array<Edge, 4> edges = frame_edges(frame, from_m);
   for (const Edge& edge : edges) {  // as wide as the corners need, so that the kerbs meet
-    add_area(edge.box(-edge.half_m - kRoadM, edge.half_m + kRoadM, 0, kRoadM), "asphalt", false,
-             blueprint);
+    const auto [low, high] = edge.box(-edge.half_m - kRoadM, edge.half_m + kRoadM, 0, kRoadM);
+    add_area(low, high, "asphalt", false, blueprint);
   }
   for (const Edge& edge : edges) {
-    add_area(edge.box(-edge.half_m - kRoadM - kPavementM, edge.half_m + kRoadM + kPavementM, kRoadM,
-                      kRoadM + kPavementM),
-             "pavers", false, blueprint);
+    constexpr double kOuterM = kRoadM + kPavementM;
+    const auto [low, high] =
+        edge.box(-edge.half_m - kOuterM, edge.half_m + kOuterM, kRoadM, kOuterM);
+    add_area(low, high, "pavers", false, blueprint);
   }
   for (const Edge& edge : edges) {
     add_street(edge, random, blueprint);

@@ -1,0 +1,34 @@
+// How much of each person in view is visible, and how much would be if nothing hid them: areas and
+// masks of whole silhouettes.
+#pragma once
+
+#include <vector>
+
+#include "camera/camera.h"
+#include "render/frame.h"
+#include "render/people/people_in_view.h"
+#include "render/people/people_pass.h"
+#include "render/pixel_weights.h"
+#include "render/scene.h"
+#include "render/truth/coverage.h"
+#include "render/truth/silhouettes.h"
+
+namespace throng::render {
+
+class PeopleCoverage {
+ public:
+  /// Reserves a tile for each person who is wholly within the image, as far as there is room, and
+  /// binds the atlas of tiles for PeoplePass::Purpose::truth.
+  void prepare(const camera::Camera& camera, std::vector<Seen>& seen);
+
+  /// Sets the areas (px, by `weights` unless null) and, with `whole_masks`, the masks of whole
+  /// people, after they were rendered into `frame`; those without a tile are rendered again.
+  void measure(PeoplePass& pass, const Scene& scene, const Frame& frame,
+               const PixelWeights* weights, bool whole_masks, std::vector<Seen>& seen);
+
+ private:
+  Silhouettes silhouettes_;
+  CoverageCounter counter_;
+};
+
+}  // namespace throng::render
