@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files/staging.h"
+#include "base/files/untrusted_folders.h"
 #include "base/resource_exhaustion.h"
 
 namespace throng {
@@ -59,19 +60,22 @@ void make_folders(const fs::path& folder) {
 }
 
 std::string read_file(const fs::path& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail("read", path);
-  if (fs::is_directory(path)) fail("read", path, EISDIR);
+  const int file = open_for_reading(path);
+  if (file < 0) fail("read", path);
   constexpr std::size_t kBlockBytes = 1 << 16;
   std::string bytes;
+  ssize_t count = 0;
   do {
     const std::size_t size = bytes.size();
     bytes.resize(size + kBlockBytes);
-    file.read(bytes.data() + size, kBlockBytes);
-    bytes.resize(size + static_cast<std::size_t>(file.gcount()));
-  } while (file);
-  if (file.bad()) fail("read", path);
+    count = ::read(file, bytes.data() + size, kBlockBytes);
+    const bool is_interrupted = count < 0 && errno == EINTR;
+    bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (is_interrupted) count = 1;
+  } while (count > 0);
+  const int error = errno;
+  ::close(file);
+  if (count < 0) fail("read", path, error);
   return bytes;
 }
 

@@ -5,11 +5,10 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
 #include <memory>
 #include <vector>
 
-#include "base/error.h"
+#include "base/files/read_only_file.h"
 
 namespace throng {
 
@@ -69,18 +68,17 @@ std::uint32_t crc32(std::string_view bytes) {
 }
 
 FileHashes hashes_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
+  const ReadOnlyFile file(path);
   Sha256 hash;
   FileHashes hashes;
-  std::vector<unsigned char> block(1 << 20);
-  while (file) {
-    file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
-    const auto count = static_cast<std::size_t>(file.gcount());
-    hash.add(block.data(), count);
-    hashes.crc32 = crc32_gzip_refl(hashes.crc32, block.data(), count);
+  std::vector<char> block(1 << 20);
+  std::int64_t offset = 0;
+  for (std::size_t count = 1; count > 0; offset += static_cast<std::int64_t>(count)) {
+    count = file.read_at(offset, block);
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(block.data());
+    hash.add(bytes, count);
+    hashes.crc32 = crc32_gzip_refl(hashes.crc32, bytes, count);
   }
-  if (file.bad()) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
   hashes.sha256_hex = hash.hex();
   return hashes;
 }

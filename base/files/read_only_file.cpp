@@ -1,6 +1,5 @@
 #include "base/files/read_only_file.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,11 +8,12 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 
 namespace throng {
 
 ReadOnlyFile::ReadOnlyFile(const std::filesystem::path& path)
-    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : path_(path), descriptor_(open_for_reading(path)) {
   struct stat status {};
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     const int error = errno;

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/hash.h"
+#include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
 #include "jobs/queue/dataset/archive.h"
 #include "jobs/queue/dataset/folder.h"
@@ -59,7 +60,7 @@ void send_run_file(const RequestContext& context, const Request& request, Respon
                                  : jobs::JobFolder(context.folders.job_folder(row.id))
                                        .output_of({jobs::Task::Kind::measure, run});
   const fs::path file = root / folder / (jobs::run_name(run) + suffix);
-  if (fs::exists(file)) return response.set_content(read_file(file), type);
+  if (exists_without_links(file)) return response.set_content(read_file(file), type);
   if (!complete && !fs::exists(root)) {
     throw HttpError{409, fmt::format("the job is {}; this is there once run {} was measured",
                                      to_string(row.state), run)};
@@ -119,10 +120,11 @@ jobs::Selection requested_selection(const Request& request, const fs::path& data
 /// Files below a folder that have a name of their own, by their path from there.
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
+  if (!exists_without_links(folder)) return files;
   std::error_code error;
   fs::recursive_directory_iterator entries(folder, error);
   for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
-    if (entries->is_regular_file(error))
+    if (entries->symlink_status(error).type() == fs::file_type::regular)
       files.push_back(entries->path().lexically_relative(folder));
   }
   return files;
@@ -130,10 +132,12 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 
 /// Folders of a job's dataset files: the dataset, or the shards that have been published so far.
 std::vector<fs::path> places_of_images(const fs::path& job) {
-  if (fs::exists(job / "dataset")) return {job / "dataset"};
+  if (exists_without_links(job / "dataset")) return {job / "dataset"};
   std::vector<fs::path> places;
+  if (!exists_without_links(job / "work")) return places;
   std::error_code error;
   for (const auto& run : fs::directory_iterator(job / "work", error)) {
+    if (run.is_symlink(error)) continue;
     for (const auto& shard : fs::directory_iterator(run.path(), error)) {
       const std::string name = shard.path().filename().string();
       if (name.starts_with("shard") && name.find('.') == std::string::npos) {
@@ -282,7 +286,7 @@ void send_run_metrics(const RequestContext& context, const Request& request, Res
 fs::path trace_file(const RequestContext& context, const jobs::JobRow& row, int run) {
   fs::path trace = jobs::JobFolder(context.folders.job_folder(row.id))
                        .output_of({jobs::Task::Kind::simulate, run});
-  if (fs::exists(trace)) return trace;
+  if (exists_without_links(trace)) return trace;
   throw HttpError{409, fmt::format("the job is {}; this is there once run {} was simulated",
                                    to_string(row.state), run)};
 }
@@ -343,7 +347,7 @@ void send_log(const RequestContext& context, const Request& request, Response& r
   const jobs::JobRow row = find_job(context, request);
   const std::string name = request.matches[2];
   const fs::path file = context.folders.job_folder(row.id) / "logs" / name;
-  if (name == ".." || !fs::is_regular_file(file)) {
+  if (name == ".." || !fs::is_regular_file(file) || !exists_without_links(file)) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
   }
   answer_with_growing_file(request, response, file, "text/plain; charset=utf-8");

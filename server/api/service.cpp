@@ -1,10 +1,24 @@
 #include "server/api/service.h"
 
+#include "base/files/untrusted_folders.h"
+
 namespace throng::server {
+
+namespace {
+
+/// Workers, which may have been taken over by the input that they work on, write in these folders.
+std::filesystem::path with_distrusted_folders(const std::filesystem::path& data) {
+  for (const char* kind : {"jobs", "calibrations", "studies", "live", "check"}) {
+    distrust_folders_in(data / kind);
+  }
+  return data;
+}
+
+}  // namespace
 
 Service::Service(const ServiceOptions& options, jobs::Executor& executor)
     : executor_(executor),
-      folders_(options.data, options.scenarios),
+      folders_(with_distrusted_folders(options.data), options.scenarios),
       publish_to_(options.publish_to),
       store_(options.database.empty() ? options.data : options.database, options.clock,
              options.steady),

@@ -13,7 +13,7 @@ namespace {
 /// Another one for every manifest that there ever was.
 std::string name_of_manifest(const fs::path& dataset) {
   struct stat status {};
-  ::stat((dataset / jobs::kManifestName).c_str(), &status);
+  ::lstat((dataset / jobs::kManifestName).c_str(), &status);
   return fmt::format("{} {} {} {} {}", status.st_dev, status.st_ino, status.st_size,
                      status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }

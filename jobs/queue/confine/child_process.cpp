@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/files/untrusted_folders.h"
 #include "base/resource_exhaustion.h"
 #include "jobs/queue/confine/file_fence.h"
 
@@ -95,9 +96,13 @@ ChildProcess::Variables credential_variables() {
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variables& variables,
                            const std::filesystem::path& log, int input) {
   std::filesystem::create_directories(log.parent_path());
+  const int log_file = open_for_appending(log);
+  if (log_file < 0) throw_environment_error(fmt::format("cannot open {}", log.string()), errno);
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
-    throw_environment_error("cannot create a pipe", errno);
+    const int error = errno;
+    ::close(log_file);
+    throw_environment_error("cannot create a pipe", error);
   }
   const auto [read_end, write_end] = pipe_ends;
   ::fcntl(read_end, F_SETFL, O_NONBLOCK);
@@ -109,9 +114,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
     posix_spawn_file_actions_adddup2(&settings.actions, input, STDIN_FILENO);
   }
   posix_spawn_file_actions_adddup2(&settings.actions, write_end, STDOUT_FILENO);
-  constexpr int kLogMode = 0644;
-  posix_spawn_file_actions_addopen(&settings.actions, STDERR_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_APPEND, kLogMode);
+  posix_spawn_file_actions_adddup2(&settings.actions, log_file, STDERR_FILENO);
   // Libraries open sockets and files without a word: a child gets none of a client's connection.
   posix_spawn_file_actions_addclosefrom_np(&settings.actions, STDERR_FILENO + 1);
   // A server blocks and ignores signals that a worker must obey.
@@ -131,6 +134,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
       ::posix_spawnp(&pid_, arguments[0].c_str(), &settings.actions, &settings.attributes,
                      pointers_to(arguments).data(), pointers_to(environment).data());
   ::close(write_end);
+  ::close(log_file);
   if (error != 0) {
     ::close(read_end);
     throw_environment_error(fmt::format("cannot start {}", command[0]), error);

@@ -48,6 +48,12 @@ constexpr std::uint64_t kWrite =
     LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
     LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
     LANDLOCK_ACCESS_FS_MAKE_SYM | LANDLOCK_ACCESS_FS_REFER;
+// The service reads and appends to files in these folders: nothing there is a link, a device or a
+// pipe.
+constexpr std::uint64_t kWriteFiles =
+    LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_REMOVE_FILE |
+    LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_REFER |
+    kTruncate;
 // Rights that a rule for a file may hold.
 constexpr std::uint64_t kOfFiles = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE |
                                    LANDLOCK_ACCESS_FS_READ_FILE | kTruncate;
@@ -173,7 +179,7 @@ std::string fence_this_process(const FileFence& fence) {
   }
   allow_reading_around(rules, "/", hidden);
   for (const fs::path& path : fence.readable) rules.allow(path, kRead);
-  for (const fs::path& path : fence.writable) rules.allow(path, kRead | kWrite | kTruncate);
+  for (const fs::path& path : fence.writable) rules.allow(path, kRead | kWriteFiles);
   allow_devices(rules);
   if (!rules.restrict_this_process()) return fmt::format("files: {}", std::strerror(errno));
   return "";

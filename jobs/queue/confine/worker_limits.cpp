@@ -22,11 +22,12 @@ namespace {
 // System calls by which a process could reach the network without socket(), other processes of the
 // same user, or parts of the kernel that no task needs.
 constexpr std::array kRefusedCalls = {
-    SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter),  SCMP_SYS(pidfd_getfd),
-    SCMP_SYS(unshare),        SCMP_SYS(setns),           SCMP_SYS(mount),
-    SCMP_SYS(umount2),        SCMP_SYS(pivot_root),      SCMP_SYS(bpf),
-    SCMP_SYS(userfaultfd),    SCMP_SYS(perf_event_open), SCMP_SYS(keyctl),
-    SCMP_SYS(add_key),        SCMP_SYS(request_key),     SCMP_SYS(open_by_handle_at)};
+    SCMP_SYS(io_uring_setup), SCMP_SYS(io_uring_enter), SCMP_SYS(pidfd_getfd), SCMP_SYS(unshare),
+    SCMP_SYS(setns), SCMP_SYS(mount), SCMP_SYS(umount2), SCMP_SYS(pivot_root), SCMP_SYS(bpf),
+    SCMP_SYS(userfaultfd), SCMP_SYS(perf_event_open), SCMP_SYS(keyctl), SCMP_SYS(add_key),
+    SCMP_SYS(request_key), SCMP_SYS(open_by_handle_at),
+    // The service reads and writes in the folders of workers: nothing there may lead elsewhere.
+    SCMP_SYS(symlink), SCMP_SYS(symlinkat), SCMP_SYS(mknod), SCMP_SYS(mknodat)};
 // The leak check of AddressSanitizer traces the process itself.
 #if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
 constexpr std::array kRefusedTracing = {SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
@@ -54,8 +55,10 @@ int refuse_calls(Network network) {
   if (network == Network::refused) {
     error = refuse(SCMP_SYS(socket), {{0, SCMP_CMP_NE, AF_UNIX, 0}});
     if (error == 0) error = refuse(SCMP_SYS(connect), {});
-    // Datagrams to an address need no connection.
+    // Datagrams to an address need no connection. A filter cannot see the address of a message.
     if (error == 0) error = refuse(SCMP_SYS(sendto), {{4, SCMP_CMP_NE, 0, 0}});
+    if (error == 0) error = refuse(SCMP_SYS(sendmsg), {});
+    if (error == 0) error = refuse(SCMP_SYS(sendmmsg), {});
   }
   for (const int call : kRefusedCalls) error = error == 0 ? refuse(call, {}) : error;
   for (const int call : kRefusedTracing) error = error == 0 ? refuse(call, {}) : error;

@@ -1,18 +1,20 @@
 #include "jobs/queue/slurm/message_file_reader.h"
 
-#include <fstream>
+#include "base/error.h"
+#include "base/files/read_only_file.h"
 
 namespace throng::jobs {
 
 bool MessageFileReader::read() {
   steps_.clear();
-  std::ifstream file(path_, std::ios::binary);
-  if (!file || !file.seekg(offset_)) return false;
   // No worker says more within a look; a strange file is read in many looks.
   constexpr std::size_t kMaxBytes = 1 << 20;
   std::string block(kMaxBytes, '\0');
-  file.read(block.data(), static_cast<std::streamsize>(block.size()));
-  block.resize(static_cast<std::size_t>(file.gcount()));
+  try {
+    block.resize(ReadOnlyFile(path_).read_at(offset_, block));
+  } catch (const EnvironmentError&) {  // there is none yet
+    return false;
+  }
   if (block.empty()) return false;
   offset_ += static_cast<std::int64_t>(block.size());
   pending_ += block;

@@ -1,10 +1,14 @@
 #include "jobs/queue/slurm/node_records.h"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
 
 namespace throng::jobs {
@@ -38,7 +42,7 @@ std::vector<NodeWork> sorted_nodes(const std::map<std::string, NodeWork>& totals
 
 std::map<std::string, NodeWork> read_totals(const fs::path& path) {
   std::map<std::string, NodeWork> totals;
-  std::ifstream file(path);
+  std::istringstream file(exists_without_links(path) ? read_file(path) : std::string());
   for (std::string line; std::getline(file, line);) {
     try {
       const json value = parse_json(line, "");
@@ -97,18 +101,18 @@ void NodeRecords::end(const JobFolder& folder, const NodeRecord& record) {
   // Also where its beginning was not seen: begin() and end() need not pair.
   add(work_at(job_totals(folder), record.node), record.outcome, record.seconds);
   add(work_at(all_, record.node), record.outcome, record.seconds);
-  std::ofstream file(records_file(folder), std::ios::app);
-  if (!file) {  // no worker has made the folder yet
-    std::error_code ignored;
-    fs::create_directories(records_file(folder).parent_path(), ignored);
-    file.open(records_file(folder), std::ios::app);
-  }
-  file << json{{"task", record.task},       {"attempt", record.attempt},
-               {"node", record.node},       {"slurm_job", record.slurm_job},
-               {"outcome", record.outcome}, {"seconds", record.seconds},
-               {"message", record.message}}
-              .dump(-1, ' ', false, json::error_handler_t::replace)
-       << '\n';
+  std::error_code ignored;  // no worker has made the folder yet
+  fs::create_directories(records_file(folder).parent_path(), ignored);
+  const int file = open_for_appending(records_file(folder));
+  if (file < 0) return;
+  const std::string line = json{{"task", record.task},       {"attempt", record.attempt},
+                                {"node", record.node},       {"slurm_job", record.slurm_job},
+                                {"outcome", record.outcome}, {"seconds", record.seconds},
+                                {"message", record.message}}
+                               .dump(-1, ' ', false, json::error_handler_t::replace) +
+                           '\n';
+  static_cast<void>(::write(file, line.data(), line.size()));
+  ::close(file);
 }
 
 std::vector<NodeWork> NodeRecords::of(const JobFolder& folder) const {

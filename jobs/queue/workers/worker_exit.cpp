@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <string>
 
+#include "base/error.h"
+#include "base/files/read_only_file.h"
 #include "jobs/queue/workers/worker_protocol.h"
 
 namespace throng::jobs {
@@ -15,12 +16,14 @@ namespace throng::jobs {
 namespace {
 
 std::string read_tail(const std::filesystem::path& log) {
-  constexpr std::streamoff kMaxTailBytes = 400;
-  std::ifstream file(log, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size <= 0) return "";
-  file.seekg(std::max<std::streamoff>(0, size - kMaxTailBytes));
-  std::string text(std::istreambuf_iterator<char>(file), {});
+  constexpr std::int64_t kMaxTailBytes = 400;
+  std::string text(kMaxTailBytes, '\0');
+  try {
+    const ReadOnlyFile file(log);
+    text.resize(file.read_at(std::max<std::int64_t>(0, file.size() - kMaxTailBytes), text));
+  } catch (const EnvironmentError&) {  // there is no log
+    return "";
+  }
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }

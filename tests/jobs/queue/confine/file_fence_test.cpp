@@ -115,6 +115,18 @@ TEST_F(FileFenceTest, CredentialsAreReadByTheOneThatPublishes) {
   EXPECT_TRUE(reads(beside, Credentials::hidden));
 }
 
+TEST_F(FileFenceTest, ItMakesNoLinksOrPipesThatTheServiceWouldOpen) {
+  SKIP_WITHOUT_LANDLOCK();
+  const fs::path socket = mine / "socket";
+  EXPECT_FALSE(succeeds([&] { return ::symlink("/etc/passwd", (mine / "link").c_str()) == 0; }));
+  EXPECT_FALSE(succeeds([&] { return ::mkfifo((mine / "pipe").c_str(), 0644) == 0; }));
+  EXPECT_FALSE(succeeds([&] { return ::mknod(socket.c_str(), S_IFSOCK | 0644, 0) == 0; }));
+  EXPECT_FALSE(succeeds([&] {
+    return ::rename((mine / "to_keys").c_str(), (mine / "work").c_str()) == 0 &&
+           can_open(mine / "work", O_RDONLY);
+  }));
+}
+
 TEST_F(FileFenceTest, NothingElseIsWritten) {
   SKIP_WITHOUT_LANDLOCK();
   const std::map<std::string, std::function<bool()>> attempts = {

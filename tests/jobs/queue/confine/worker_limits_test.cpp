@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,11 +59,15 @@ TEST(WorkerLimits, OneThatPublishesConnectsAndIsLimitedOtherwise) {
 
 bool are_ways_around_refused() {
   std::array<int, 2> pair{};
+  const msghdr message{};
   return ::socketpair(AF_UNIX, SOCK_STREAM, 0, pair.data()) == 0 && ::write(pair[0], "x", 1) == 1 &&
          ::send(pair[0], "x", 1, 0) == 1 && is_refused(SYS_io_uring_setup) &&
          is_refused(SYS_connect) && is_refused(SYS_sendto, pair[0], "x", 1, 0, "y", 1) &&
          is_refused(SYS_unshare) && is_refused(SYS_bpf) && is_refused(SYS_pidfd_getfd) &&
-         is_refused(SYS_setns);
+         is_refused(SYS_setns) && is_refused(SYS_sendmsg, pair[0], &message, 0) &&
+         is_refused(SYS_sendmmsg, pair[0], &message, 0, 0) &&
+         is_refused(SYS_symlinkat, "x", AT_FDCWD, "throng_link") &&
+         is_refused(SYS_mknodat, AT_FDCWD, "throng_pipe", S_IFIFO | 0600, 0);
 }
 
 TEST(WorkerLimits, WaysAroundTheSocketAreRefused) {
