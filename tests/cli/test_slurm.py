@@ -194,6 +194,8 @@ class Slurm(unittest.TestCase):
         # A worker is killed in the next stage. It is the only attempt that is lost so far.
         worker, _ = self.worker_of("run000/shard0000")
         self.assertEqual(starts_of(folder)["run000_trace"], 1, "it did not run twice")
+        # A worker that dies before its first word leaves no count of its attempt.
+        wait_until(lambda: starts_of(folder).get("run000_shard0000", 0) == 1, what="the first attempt")
         os.kill(worker, signal.SIGKILL)
         wait_until(lambda: starts_of(folder).get("run000_shard0000", 0) == 2, what="the second attempt")
 
