@@ -76,6 +76,7 @@ std::optional<Form> requested_form(const Request& request) {
 void queue(const RequestContext& context, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
   submission.owner = context.caller.key_id;
+  submission.viewer = viewer_key(context.caller);
   submission.max_active = context.caller.max_active;
   submission.max_bytes = context.caller.max_bytes;
   const jobs::Added added = bundle == nullptr
@@ -121,8 +122,9 @@ void submit_job(const RequestContext& context, const Request& request, Response&
   check_labels(submission.labels, "?label");
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
-    json answer = has_bundle ? context.queue.dry_run_with_bundle(job, *form->bundle)
-                             : context.queue.dry_run(job);
+    const Viewer viewer = viewer_key(context.caller);
+    json answer = has_bundle ? context.queue.dry_run_with_bundle(job, *form->bundle, viewer)
+                             : context.queue.dry_run(job, viewer);
     answer["valid"] = true;
     return write_json(response, 200, answer);
   }
@@ -200,7 +202,10 @@ void clone_job(const RequestContext& context, const Request& request, Response& 
   }
   const std::string text = dump_text(job);
   const int priority = std::min(row.priority, context.caller.max_priority);
-  queue(context, {text, priority, row.labels, idempotency_key(request)}, response);
+  // Sharing is a decision about one job: its copy is seen by its owner until they share it.
+  std::vector<std::string> labels = row.labels;
+  std::erase(labels, jobs::kSharedLabel);
+  queue(context, {text, priority, std::move(labels), idempotency_key(request)}, response);
 }
 
 void remove_job(const RequestContext& context, const Request& request, Response& response) {

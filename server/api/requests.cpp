@@ -101,12 +101,11 @@ std::string cursor_from_request(const Request& request) {
 bool sees_all(const Caller& caller) { return caller.scope >= Scope::admin; }
 
 bool is_visible(const Caller& caller, const jobs::JobRow& row) {
-  return sees_all(caller) || row.owner == caller.key_id ||
-         std::find(row.labels.begin(), row.labels.end(), jobs::kSharedLabel) != row.labels.end();
+  return is_visible(viewer_key(caller), row);
 }
 
-std::optional<std::string> viewer_key(const Caller& caller) {
-  return sees_all(caller) ? std::nullopt : std::optional(caller.key_id);
+Viewer viewer_key(const Caller& caller) {
+  return sees_all(caller) ? Viewer() : Viewer(caller.key_id);
 }
 
 namespace {

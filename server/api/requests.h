@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "server/api/request_context.h"
+#include "server/catalog/viewer.h"
 #include "server/http/http_error.h"
 #include "server/http/http_fwd.h"
 
@@ -45,8 +46,8 @@ nlohmann::json json_fields(const httplib::Request& request, std::string_view wha
 /// Whether the caller may see all jobs. Other callers see their own and those labeled "shared".
 bool sees_all(const Caller& caller);
 bool is_visible(const Caller& caller, const jobs::JobRow& row);
-/// The value of JobFilter::visible_to for the caller.
-std::optional<std::string> viewer_key(const Caller& caller);
+/// The caller as a viewer of jobs, also the value of JobFilter::visible_to.
+Viewer viewer_key(const Caller& caller);
 
 /// The job in the request's path. Throws HttpError 404 if there is none that the caller may see.
 jobs::JobRow find_job(const RequestContext& context, const httplib::Request& request);

@@ -74,9 +74,9 @@ std::int64_t Calibrations::estimate_memory_mib(const fs::path& folder) {
   }
 }
 
-json Calibrations::image_camera(const std::string& id) const {
+json Calibrations::image_camera(const std::string& id, const Viewer& viewer) const {
   const std::optional<JobRow> row = jobs::is_job_id(id) ? store_.get(id) : std::nullopt;
-  if (!row || row->kind != jobs::JobKind::calibration) {
+  if (!row || row->kind != jobs::JobKind::calibration || !is_visible(viewer, *row)) {
     throw EnvironmentError("there is no calibration of this id");
   }
   if (row->state != JobState::succeeded) {

@@ -11,6 +11,7 @@
 #include "server/catalog/confined_checks.h"
 #include "server/catalog/queue_state.h"
 #include "server/catalog/service_folders.h"
+#include "server/catalog/viewer.h"
 
 namespace throng::server {
 
@@ -43,8 +44,9 @@ class Calibrations {
   /// Estimated memory of the calibration in a folder, in MiB.
   static std::int64_t estimate_memory_mib(const std::filesystem::path& folder);
 
-  /// The camera of a successful calibration. Throws EnvironmentError that says why there is none.
-  nlohmann::json image_camera(const std::string& id) const;
+  /// The camera of a successful calibration that the viewer sees. Throws EnvironmentError that says
+  /// why there is none.
+  nlohmann::json image_camera(const std::string& id, const Viewer& viewer) const;
 
  private:
   const ServiceFolders& folders_;

@@ -51,7 +51,27 @@ ScenarioUpload read_note(const fs::path& folder) {
           note.at("bytes"),
           note.at("files"),
           note.at("ids"),
-          note.value("summaries", std::vector<json>{})};
+          note.value("summaries", std::vector<json>{}),
+          0};
+}
+
+/// Hash of the files of a folder; of those directly in it, or of all below it.
+std::string hash_of_files(const fs::path& folder, bool with_subfolders) {
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::directory_entry& entry) {
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(folder));
+  };
+  if (with_subfolders) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) add(entry);
+  } else {
+    for (const auto& entry : fs::directory_iterator(folder)) add(entry);
+  }
+  std::sort(files.begin(), files.end());
+  std::string list;
+  for (const fs::path& file : files) {
+    list += fmt::format("{} {}\n", sha256_hex_of_file(folder / file), file.generic_string());
+  }
+  return sha256_hex(list);
 }
 
 /// Root of the bundle's files: below a single folder that holds everything.
@@ -147,7 +167,7 @@ ScenarioStore::Staged ScenarioStore::begin_staging(const std::string& name,
         Problem{"", "?name", '"' + name + '"',
                 fmt::format("1 to {} small letters, digits and underscores", kMaxNameLength)});
   }
-  return {{name, owner, unix_ms_now(), 0, 0, {}, {}},
+  return {{name, owner, unix_ms_now(), 0, 0, {}, {}, 0},
           {},
           std::make_unique<StagingFolder>(uploads_ / name)};
 }
@@ -205,7 +225,8 @@ ScenarioUpload ScenarioStore::publish(Staged& staged) {
   staged.folder->commit();
   fs::create_directory_symlink(fs::path("../uploads") / upload.name / kFilesName,
                                links_ / upload.name);
-  known_[upload.name] = upload;
+  ScenarioUpload& known = known_[upload.name] = upload;
+  known.publication = ++publications_;
   spdlog::info("scenarios {} uploaded: {} files, {} bytes", upload.name, upload.files,
                upload.bytes);
   return upload;
@@ -225,6 +246,31 @@ std::vector<ScenarioUpload> ScenarioStore::list() const {
   return all;
 }
 
+std::uint64_t ScenarioStore::publications() const {
+  const std::lock_guard lock(mutex_);
+  return publications_;
+}
+
+bool ScenarioStore::is_published_after(const std::string& name, std::uint64_t publications) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = known_.find(name);
+  return found != known_.end() && found->second.publication > publications;
+}
+
+std::string ScenarioStore::content_hash(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = hashes_.find(name);
+  if (found != hashes_.end()) return found->second;
+  try {
+    // The files of a scenario whose id has one part lie among those of the others.
+    const bool is_folder = fs::is_directory(links_ / name);
+    if (!is_folder && !world::has_scenario(links_, name)) return "";
+    return hashes_[name] = hash_of_files(is_folder ? links_ / name : links_, is_folder);
+  } catch (const fs::filesystem_error& error) {
+    throw EnvironmentError(fmt::format("cannot read the scenarios {}: {}", name, error.what()));
+  }
+}
+
 bool ScenarioStore::is_taken(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   return is_upload_name(name) && fs::exists(fs::symlink_status(links_ / name));
@@ -233,6 +279,7 @@ bool ScenarioStore::is_taken(const std::string& name) const {
 bool ScenarioStore::remove(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (known_.erase(name) == 0) return false;
+  hashes_.erase(name);
   std::error_code error;
   fs::remove(links_ / name, error);
   const fs::path trash = data_ / "trash";

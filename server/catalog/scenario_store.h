@@ -41,6 +41,7 @@ struct ScenarioUpload {
   std::vector<std::string> ids;  ///< ids of its scenarios: "NAME/plaza"
   /// Summaries from the check (spec/scenarios/scenario_summary.h), in the order of the ids.
   std::vector<nlohmann::json> summaries;
+  std::uint64_t publication = 0;  ///< ScenarioStore::publications() when it was published
 };
 
 /// The name belongs to another upload or scenario. Answered with 409.
@@ -93,6 +94,13 @@ class ScenarioStore {
   std::vector<ScenarioUpload> list() const;
   /// Whether the name is an upload's or a shipped scenario's.
   bool is_taken(const std::string& name) const;
+  /// Number of publications since the start.
+  std::uint64_t publications() const;
+  /// Whether an upload was published when there had been so many publications, or later.
+  bool is_published_after(const std::string& name, std::uint64_t publications) const;
+  /// Hash of all files of the scenarios whose ids begin with this name, uploaded or shipped; "" if
+  /// there are none. Another content has another hash.
+  std::string content_hash(const std::string& name) const;
   /// Removes an upload, which no job may be using. Returns false if there is none with this name.
   bool remove(const std::string& name);
 
@@ -109,7 +117,9 @@ class ScenarioStore {
   const ConfinedChecks& confined_;
   UploadLimits limits_;
   mutable std::mutex mutex_;
-  std::map<std::string, ScenarioUpload> known_;  ///< guarded by mutex_
+  std::map<std::string, ScenarioUpload> known_;       ///< guarded by mutex_
+  std::uint64_t publications_ = 0;                    ///< guarded by mutex_
+  mutable std::map<std::string, std::string> hashes_;  ///< content_hash(); guarded by mutex_
 };
 
 }  // namespace throng::server

@@ -48,21 +48,26 @@ json Studies::checked(const json& document) const {
 }
 
 JobRow Studies::submit(const json& document, const Quota& quota) {
+  const std::string text = dump_text(document);
+  const std::uint64_t uploads_before = uploads_.scenarios().publications();
   const json plan = checked(document);
   StagingFolder staging(folders_.studies() / "next");
-  write_file_atomically(staging.path() / study::kDocumentName, dump_text(document));
+  write_file_atomically(staging.path() / study::kDocumentName, text);
   write_file_atomically(staging.path() / study::kPlanName, dump_text(plan));
   JobRow row;
   {
     const auto uploads = uploads_.hold();
     require_scenarios(plan, folders_.scenarios());
+    const std::string sources =
+        uploads_.sources_json(text, jobs::JobKind::study, uploads_before);
     // Under the lock, so that it is not begun before its files are in their place.
     const auto lock = state_.hold();
     const jobs::Added added = store_.add({.name = plan.at("name"),
-                                          .spec_json = dump_text(document),
+                                          .spec_json = text,
                                           .kind = jobs::JobKind::study,
                                           .owner = quota.owner,
-                                          .limits = {quota.max_active, quota.max_bytes}});
+                                          .limits = {quota.max_active, quota.max_bytes},
+                                          .sources_json = sources});
     if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
     row = added.row;
     fs::rename(staging.path(), folders_.ground_truth_folder(row));

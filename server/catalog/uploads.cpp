@@ -42,10 +42,10 @@ void add_uploads(const json& spec, std::set<std::string>& uploads) {
 }
 
 /// Uploads that scenarios of a job or study may belong to; none of a calibration's.
-std::set<std::string> job_uploads(const JobRow& row) {
-  const json spec = parse_json_or_discard(row.spec_json);
+std::set<std::string> job_uploads(const std::string& spec_json, jobs::JobKind kind) {
+  const json spec = parse_json_or_discard(spec_json);
   std::set<std::string> uploads;
-  if (row.kind != jobs::JobKind::study) {
+  if (kind != jobs::JobKind::study) {
     add_uploads(spec, uploads);
   } else if (spec.is_object() && spec.contains("cases")) {
     for (const json& one : spec["cases"]) add_uploads(one, uploads);
@@ -97,13 +97,43 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
       std::vector<JobRow> rows = jobs_.list(filter);
       for (const JobRow& row : rows) {
         if (row.spec_json.find(beginning) == std::string::npos) continue;
-        if (job_uploads(row).contains(upload)) found.push_back(row);
+        if (job_uploads(row.spec_json, row.kind).contains(upload)) found.push_back(row);
       }
       if (static_cast<int>(rows.size()) < kJobsAtOnce) break;
       filter.after = rows.back().id;
     }
   }
   return found;
+}
+
+std::string Uploads::sources_json(const std::string& spec_json, jobs::JobKind kind,
+                                  std::uint64_t publications) const {
+  json sources = json::object();
+  for (const std::string& name : job_uploads(spec_json, kind)) {
+    if (scenarios_.is_published_after(name, publications)) {
+      throw InputError(Problem{"", "/scenario",
+                               fmt::format("scenarios \"{}\", which were replaced during the check",
+                                           name),
+                               "the same ones; submit it again"});
+    }
+    const std::string hash = scenarios_.content_hash(name);
+    if (!hash.empty()) sources[name] = hash;
+  }
+  return dump_text(sources);
+}
+
+void Uploads::require_same_sources(const JobRow& row) const {
+  const json sources = parse_json_or_discard(row.sources_json);
+  if (!sources.is_object()) return;  // the row is damaged
+  for (const auto& [name, hash] : sources.items()) {
+    const std::string now = scenarios_.content_hash(name);
+    if (now == hash) continue;
+    throw InputError(Problem{
+        "", "/scenario",
+        fmt::format("scenarios \"{}\", which {} since the job was submitted", name,
+                    now.empty() ? "were removed" : "have changed"),
+        "those that the job was resolved from; submit the job again to use the new ones"});
+  }
 }
 
 Uploads::Pinned::Pinned(Uploads& uploads, std::string_view bundle, const std::string& owner)
@@ -148,7 +178,7 @@ void Uploads::drop_if_unused(const std::string& bundle) {
 }
 
 void Uploads::drop_bundle_of(const JobRow& removed) {
-  for (const std::string& name : job_uploads(removed)) {
+  for (const std::string& name : job_uploads(removed.spec_json, removed.kind)) {
     if (!is_bundle_name(name)) continue;
     const std::unique_lock lock(mutex_);
     drop_if_unused(name);

@@ -22,12 +22,22 @@ class Uploads {
           UploadLimits limits);
 
   ScenarioStore& scenarios() { return scenarios_; }
+  const ScenarioStore& scenarios() const { return scenarios_; }
 
   /// Removes an upload. Returns false if there is none. Throws ConflictError if an active job uses
   /// it.
   bool remove(const std::string& name);
   /// Removes the bundle that was sent with a removed job, unless other jobs name it.
   void drop_bundle_of(const jobs::JobRow& removed);
+
+  /// Hashes of the scenarios that a resolved job, or a study's document, names
+  /// (JobRow::sources_json). Throws InputError if one of them was uploaded after the given number
+  /// of publications: it is not the one that was checked. Call with hold().
+  std::string sources_json(const std::string& spec_json, jobs::JobKind kind,
+                           std::uint64_t publications) const;
+  /// Throws InputError if a scenario of the job was removed or has other content than when the job
+  /// was resolved: a dataset would have parts of two places.
+  void require_same_sources(const jobs::JobRow& row) const;
 
   /// A lock to hold while a job that may name an upload is added: no upload is removed meanwhile.
   std::shared_lock<std::shared_mutex> hold() const { return std::shared_lock(mutex_); }

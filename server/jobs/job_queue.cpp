@@ -32,38 +32,44 @@ JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState
       confined_(confined),
       publish_to_(publish_to) {}
 
-std::string JobQueue::with_cameras(std::string_view job_json) const {
-  return jobs::with_calibrations(
-      job_json, [this](const std::string& id) { return calibrations_.image_camera(id); });
+std::string JobQueue::with_cameras(std::string_view job_json, const Viewer& viewer) const {
+  return jobs::with_calibrations(job_json, [&](const std::string& id) {
+    return calibrations_.image_camera(id, viewer);
+  });
 }
 
-jobs::ResolvedJob JobQueue::resolve(std::string_view job_json) const {
-  return confined_.job(with_cameras(job_json), folders_.scenarios());
+jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& viewer) const {
+  return confined_.job(with_cameras(job_json, viewer), folders_.scenarios());
 }
 
-json JobQueue::dry_run(std::string_view job_json) const {
-  json answer = confined_.dry_run(with_cameras(job_json), folders_.scenarios());
+json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
+  json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
   constexpr const char* kPublish = "/outputs/publish";
   publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
   return answer;
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {
-  const jobs::ResolvedJob resolved = resolve(submission.job_json);
+  const std::uint64_t uploads_before = uploads_.scenarios().publications();
+  const jobs::ResolvedJob resolved = resolve(submission.job_json, submission.viewer);
   const jobs::JobSpec& job = resolved.spec();
   publish_to_.require(job.outputs.publish);
   const auto lock = uploads_.hold();
   require_scenario(job);
+  const std::string spec_json = dump_text(to_json(job));
+  const std::string sources =
+      uploads_.sources_json(spec_json, jobs::JobKind::dataset, uploads_before);
   const json sent = {submission.job_json, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
-                                        .spec_json = dump_text(to_json(job)),
+                                        .spec_json = spec_json,
                                         .priority = submission.priority,
                                         .labels = submission.labels,
                                         .owner = submission.owner,
                                         .key = submission.key,
                                         .hash = sha256_hex(dump_text(sent)),
                                         .limits = {submission.max_active, submission.max_bytes},
-                                        .people = resolved.people()});
+                                        .people = resolved.people(),
+                                        .sources_json = sources});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);
@@ -83,10 +89,11 @@ jobs::Added JobQueue::submit_with_bundle(const Submission& submission, std::stri
   return added;
 }
 
-json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view bundle) {
+json JobQueue::dry_run_with_bundle(std::string_view job_json, std::string_view bundle,
+                                   const Viewer& viewer) {
   const std::string job = naming_bundle(bundle, job_json);
   const Uploads::Pinned pinned(uploads_, bundle, "");
-  return dry_run(job);
+  return dry_run(job, viewer);
 }
 
 void JobQueue::require_scenario(const jobs::JobSpec& job) const {
@@ -175,6 +182,12 @@ std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLi
           fmt::format("the job is {}: only one that failed or was cancelled can be "
                       "tried again",
                       to_string(row->state)));
+    }
+    const auto lock = uploads_.hold();
+    try {
+      uploads_.require_same_sources(*row);
+    } catch (const InputError& error) {
+      throw ConflictError(error.what());
     }
     const jobs::Retried retried = state_.retry(*row, limits);
     if (!retried.over_quota.empty()) throw QuotaError(retried.over_quota);

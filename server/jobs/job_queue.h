@@ -33,6 +33,7 @@ struct Submission {
   std::vector<std::string> labels = {};
   std::string key = {};        ///< idempotency key (jobs::NewJob::key); "" for none
   std::string owner = {};      ///< id of the caller's key
+  Viewer viewer = {};          ///< whose calibrations it may use
   int max_active = 0;          ///< as jobs::OwnerLimits::max_active
   std::int64_t max_bytes = 0;  ///< as jobs::OwnerLimits::max_bytes
 };
@@ -45,14 +46,16 @@ class JobQueue {
            const Calibrations& calibrations, const ConfinedChecks& confined,
            const PublishTargets& publish_to);
 
-  /// Checks and resolves a job without queuing it. Throws InputError.
-  jobs::ResolvedJob resolve(std::string_view job_json) const;
+  /// Checks and resolves a job without queuing it. It may use the cameras of calibrations that the
+  /// viewer sees. Throws InputError.
+  jobs::ResolvedJob resolve(std::string_view job_json, const Viewer& viewer) const;
 
   /// Checks a job and estimates its cost (ConfinedChecks::dry_run()) without queuing it. Throws
   /// InputError.
-  nlohmann::json dry_run(std::string_view job_json) const;
+  nlohmann::json dry_run(std::string_view job_json, const Viewer& viewer = {}) const;
   /// As dry_run(), with a bundle as in submit_with_bundle().
-  nlohmann::json dry_run_with_bundle(std::string_view job_json, std::string_view bundle);
+  nlohmann::json dry_run_with_bundle(std::string_view job_json, std::string_view bundle,
+                                     const Viewer& viewer = {});
 
   /// Checks and queues a job; durable when this returns. Throws InputError and QuotaError.
   jobs::Added submit(const Submission& submission);
@@ -96,7 +99,7 @@ class JobQueue {
 
  private:
   /// The job with calibrations that it names replaced by their cameras.
-  std::string with_cameras(std::string_view job_json) const;
+  std::string with_cameras(std::string_view job_json, const Viewer& viewer) const;
   void require_scenario(const jobs::JobSpec& job) const;
 
   const ServiceFolders& folders_;

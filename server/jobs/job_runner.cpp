@@ -54,11 +54,12 @@ bool may_begin(const JobRow& row, const std::vector<JobRow>& active, int max_act
 }  // namespace
 
 JobRunner::JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-                     jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
+                     const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
                      const PublishTargets& publish_to)
     : folders_(folders),
       store_(store),
       state_(state),
+      uploads_(uploads),
       executor_(executor),
       look_at_disk_(std::move(look_at_disk)),
       max_active_(max_active),
@@ -146,6 +147,7 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
   JobEvent event = JobEvent::fail;
   std::string error;
   try {
+    uploads_.require_same_sources(row);
     std::vector<jobs::RunFailure> failures;
     if (row.kind == jobs::JobKind::calibration) {
       make_calibration(row, stop);

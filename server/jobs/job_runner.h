@@ -16,6 +16,7 @@
 #include "jobs/queue/workers/executor.h"
 #include "server/catalog/queue_state.h"
 #include "server/catalog/service_folders.h"
+#include "server/catalog/uploads.h"
 #include "server/jobs/publish_targets.h"
 
 namespace throng::server {
@@ -30,7 +31,7 @@ class JobRunner {
   /// a further one only for an owner without active jobs, or with a priority above all active ones.
   /// All references must outlive this object.
   JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-            jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
+            const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
             const PublishTargets& publish_to);
   /// Ends the workers; active jobs stay "running" in the store and are resumed at the next start.
   ~JobRunner() = default;
@@ -63,6 +64,7 @@ class JobRunner {
   const ServiceFolders& folders_;
   jobs::Store& store_;
   QueueState& state_;
+  const Uploads& uploads_;
   jobs::Executor& executor_;
   LookAtDisk look_at_disk_;
   int max_active_;

@@ -262,6 +262,49 @@ TEST_F(Uploads, AreRemovedByTheirOwnerAndNotInUse) {
   EXPECT_FALSE(fs::exists(data.path() / "uploads/mine"));
 }
 
+TEST_F(Uploads, AJobGoesOnOnlyWithTheScenariosThatItWasResolvedFrom) {
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string other = keys.create("other", Scope::submit);
+  const auto as = [](const std::string& key) {
+    return httplib::Headers{{"Authorization", "Bearer " + key}};
+  };
+  ASSERT_EQ(upload(yard_bundle(), "name=mine", as(one))->status, 201);
+  Gate gate(executor);
+  const httplib::Result job = client().Post("/v1/jobs", as(one), kMine, "application/json");
+  ASSERT_EQ(job->status, 201) << job->body;
+  const std::string self = "/v1/jobs/" + json::parse(job->body)["id"].get<std::string>();
+  const auto post = [&](const std::string& what) {
+    return client().Post(self + what, as(one), "", "application/json");
+  };
+  ASSERT_EQ(post("/cancel")->status, 200);
+  ASSERT_EQ(client().Delete("/v1/scenarios/mine", as(one))->status, 204);
+  const httplib::Result gone = post("/retry");
+  expect_problem(gone, 409);
+  EXPECT_THAT(gone->body, HasSubstr("removed since the job was submitted"));
+
+  // Another place of the same name, of somebody else.
+  testing::Yard larger;
+  larger.scenario["name"] = "Another yard";
+  ASSERT_EQ(upload(packed(Packing::zip, yard_files(larger)), "name=mine", as(other))->status, 201);
+  const httplib::Result changed = post("/retry");
+  expect_problem(changed, 409);
+  EXPECT_THAT(changed->body, HasSubstr("changed since the job was submitted"));
+
+  // The same files again are the same place.
+  ASSERT_EQ(client().Delete("/v1/scenarios/mine", as(other))->status, 204);
+  ASSERT_EQ(upload(yard_bundle(), "name=mine", as(one))->status, 201);
+  EXPECT_EQ(post("/retry")->status, 200);
+}
+
+TEST_F(Uploads, AJobThatRunsIsRefusedOnceItsScenarioHasChanged) {
+  ASSERT_EQ(upload(yard_bundle())->status, 201);
+  const jobs::JobRow row = service.queue().submit({kMine}).row;
+  jobs::JobRow other = row;
+  other.sources_json = R"({"mine":"0"})";
+  service.uploads().require_same_sources(row);
+  EXPECT_THROW(service.uploads().require_same_sources(other), InputError);
+}
+
 TEST_F(Uploads, HaveABoundTogether) {
   UploadLimits limits;
   limits.max_uploads = 1;

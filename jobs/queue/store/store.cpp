@@ -70,6 +70,7 @@ Added Store::add(const NewJob& job) {
     row.labels = job.labels;
     row.owner = job.owner;
     row.people = job.people;
+    row.sources_json = job.sources_json;
     insert_job(connections_->writer, row, job);
     write_event(connections_->writer, row.id, row.created_ms, "submitted", "{}");
     connections_->last_id = row.id;

@@ -43,6 +43,9 @@ struct JobRow {
   bool keep = false;              ///< excluded from retention
   std::int64_t kept_from_ms = 0;  ///< when it ended, by Store::service_ms(); 0: not yet
   int people = 0;                 ///< ResolvedJob::people()
+  /// Hashes of the scenarios that it was resolved from, by the first parts of their ids; "{}" for
+  /// none.
+  std::string sources_json = "{}";
   std::string waiting_for = {};   ///< not stored: why no task of it runs although it is its turn
   /// Not stored: the state in the file is not a known one. The job counts as failed and can only be
   /// removed.
@@ -77,6 +80,7 @@ struct NewJob {
   std::string hash = {};
   OwnerLimits limits = {};  ///< checked against the owner's jobs without this one
   int people = 0;           ///< ResolvedJob::people()
+  std::string sources_json = "{}";  ///< JobRow::sources_json
 };
 
 /// Result of Store::retry().

@@ -50,6 +50,7 @@ JobRow read_row(SQLite::Statement& query) {
   row.keep = query.getColumn(15).getInt() != 0;
   row.kept_from_ms = query.getColumn(16);
   row.people = query.getColumn(17);
+  row.sources_json = query.getColumn(18).getString();
   if (row.is_damaged) {
     const nlohmann::json error = {
         {"kind", "environment"},
@@ -142,7 +143,8 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   SQLite::Statement insert(
       database,
       "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash, owner, people) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      "submission_hash, owner, people, sources) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?, "
+      "?, ?)");
   insert.bind(1, row.id);
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
@@ -154,6 +156,7 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.bind(9, job.hash);
   insert.bind(10, row.owner);
   insert.bind(11, row.people);
+  insert.bind(12, row.sources_json);
   insert.exec();
 }
 

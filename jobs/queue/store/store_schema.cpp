@@ -139,7 +139,9 @@ CREATE TRIGGER job_removed AFTER DELETE ON job BEGIN
   DELETE FROM job_name WHERE rowid = old.number;
   DELETE FROM job_label WHERE job = old.id;
 END;
-)"};
+)",
+    // Hashes of the scenarios that a job was resolved from.
+    "ALTER TABLE job ADD COLUMN sources TEXT NOT NULL DEFAULT '{}'"};
 
 }  // namespace
 

@@ -97,6 +97,14 @@ TEST_F(JobsApi, ACloneIsTheSameJobExceptForChanges) {
   gate.open();
 }
 
+TEST_F(JobsApi, ACloneOfASharedJobIsNotShared) {
+  Gate gate(executor);
+  const json job = submit_with("?label=paper&label=shared");
+  const json clone = post("/v1/jobs/" + job["id"].get<std::string>() + "/clone", 201, "{}");
+  EXPECT_EQ(clone["labels"], json({"paper"}));
+  gate.open();
+}
+
 TEST_F(JobsApi, PriorityAndLabelsChange) {
   Gate gate(executor);
   const std::string path = "/v1/jobs/" + submit();
