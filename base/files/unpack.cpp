@@ -98,7 +98,10 @@ class Names {
       path += (i == 0 ? "" : "/") + parts[i];
       const bool folder = is_folder || i + 1 < parts.size();
       const auto [known, is_new] = names_.try_emplace(lower_case(path), Known{path, folder});
-      if (is_new) continue;
+      if (is_new) {
+        folders_ += folder ? 1 : 0;
+        continue;
+      }
       if (known->second.path != path) {
         refuse(name, fmt::format("also \"{}\"", printable(known->second.path)),
                "names that differ in more than their case");
@@ -108,12 +111,16 @@ class Names {
     }
   }
 
+  /// Number of folders, those that entries only lie in included.
+  std::size_t folders() const { return folders_; }
+
  private:
   struct Known {
     std::string path;
     bool is_folder;
   };
   std::map<std::string, Known> names_;
+  std::size_t folders_ = 0;
 };
 
 /// Skipped entries, which macOS adds by itself.
@@ -181,6 +188,9 @@ class Unpacking {
     // Skipped entries, and entries that should have no bytes, count too: reading past them is work.
     if (is_clutter(parts)) return pass_on(name, [](std::string_view) {});
     names_.add(name, parts, type == AE_IFDIR);
+    if (names_.folders() > limits_.max_folders) {
+      refuse(name, fmt::format("more than {} folders", limits_.max_folders), "fewer folders");
+    }
     fs::path place = folder_;
     for (const std::string& part : parts) place /= part;
     fs::create_directories(type == AE_IFDIR ? place : place.parent_path());

@@ -18,6 +18,7 @@ struct UnpackLimits {
   std::int64_t max_ratio = 200;
   std::size_t max_path_bytes = 200;  ///< length of an entry's path
   std::size_t max_depth = 8;         ///< components of an entry's path
+  std::size_t max_folders = 1000;    ///< folders of all entries together
 };
 
 /// Number and total size of unpacked files.

@@ -184,6 +184,11 @@ std::optional<Problem> read(std::string_view text, const JsonLimits& limits,
                    fmt::format("at most {}", limits.max_bytes)};
   }
   json::sax_parse(text.begin(), text.end(), &builder);
+  // The parser takes a zero byte for the end, whatever follows.
+  const auto zero = builder.problem() ? std::string_view::npos : text.find('\0');
+  if (zero != std::string_view::npos) {
+    return Problem{"", text_position(text, zero), "a zero byte", "text without zero bytes"};
+  }
   return builder.problem();
 }
 

@@ -11,7 +11,8 @@ namespace throng::server {
 
 namespace {
 
-constexpr std::size_t kMaxSessions = 1000;
+constexpr std::size_t kMaxSessions = 10'000;
+constexpr std::size_t kMaxSessionsOfKey = 20;
 constexpr std::size_t kTokenLength = 32;
 constexpr std::chrono::hours kMaxIdle(7 * 24);
 
@@ -22,13 +23,22 @@ Sessions::Sessions(SteadyNow now) : now_(std::move(now)) {}
 std::string Sessions::open(std::string key) {
   std::string token = random_text(kTokenLength);
   const std::lock_guard lock(mutex_);
-  if (sessions_.size() >= kMaxSessions) {
-    sessions_.erase(std::min_element(
-        sessions_.begin(), sessions_.end(),
-        [](const auto& a, const auto& b) { return a.second.used < b.second.used; }));
-  }
+  // A key that signs in again and again signs out nobody else.
+  const auto of_key = std::count_if(sessions_.begin(), sessions_.end(),
+                                    [&](const auto& entry) { return entry.second.key == key; });
+  if (of_key >= static_cast<std::ptrdiff_t>(kMaxSessionsOfKey)) close_oldest(&key);
+  if (sessions_.size() >= kMaxSessions) close_oldest(nullptr);
   sessions_[sha256_hex(token)] = {std::move(key), now_()};
   return token;
+}
+
+void Sessions::close_oldest(const std::string* key) {
+  auto oldest = sessions_.end();
+  for (auto entry = sessions_.begin(); entry != sessions_.end(); ++entry) {
+    if (key != nullptr && entry->second.key != *key) continue;
+    if (oldest == sessions_.end() || entry->second.used < oldest->second.used) oldest = entry;
+  }
+  if (oldest != sessions_.end()) sessions_.erase(oldest);
 }
 
 std::string Sessions::key_of(std::string_view token) {

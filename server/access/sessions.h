@@ -17,14 +17,18 @@ class Sessions {
  public:
   explicit Sessions(SteadyNow now = &steady_now);
 
-  /// Opens a session for a key and returns its token. The number of sessions is limited to 1000; a
-  /// further one replaces the least recently used one.
+  /// Opens a session for a key and returns its token. A key has at most 20 sessions, and all keys
+  /// together 10 000: a further one replaces the least recently used one, of the same key or of
+  /// all.
   std::string open(std::string key);
   /// The key of a session; "" if there is no such session or it was not used for a week.
   std::string key_of(std::string_view token);
   void close(std::string_view token);
 
  private:
+  /// Closes the least recently used session of a key, or of all keys.
+  void close_oldest(const std::string* key);
+
   struct Session {
     std::string key;
     SteadyTime used;

@@ -257,16 +257,29 @@ std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& 
   return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
 }
 
-void record(AuditLog& audit, const std::string& key, const Request& request, int status) {
-  audit.record({key, request.method, request.path, status, request.remote_addr,
-                request.get_header_value("X-Forwarded-For")});
+AuditEntry audit_entry(const std::string& key, const Request& request, int status) {
+  return {key,    request.method,      request.path,
+          status, request.remote_addr, request.get_header_value("X-Forwarded-For")};
+}
+
+/// A refusal, of the key that was sent if it is one.
+void record_refusal(AuditLog& audit, const Keys& keys, Sessions& sessions, const Request& request,
+                    int status) {
+  std::string key;
+  try {
+    if (const auto caller = caller_in(keys, sessions, request)) key = caller->key_id;
+  } catch (const EnvironmentError& error) {
+    spdlog::error("{} {}: {}", request.method, request.path, error.what());
+  }
+  audit.record_refusal(audit_entry(key, request, status));
 }
 
 // Commands of live flights, twenty a second, are none that anybody would look up.
-bool is_audited(const std::string& method, const Route& route, int status) {
-  const bool is_refused = status == 401 || status == 403;
-  return (method != "GET" && method != "HEAD" && route.handler != &command_live) || is_refused;
+bool is_audited(const std::string& method, const Route& route) {
+  return method != "GET" && method != "HEAD" && route.handler != &command_live;
 }
+
+bool is_refusal(int status) { return status == 401 || status == 403 || status == 421; }
 
 HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
                              AuditLog& audit) {
@@ -275,7 +288,7 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& se
     try {
       return max_body_bytes(keys, sessions, request, loopback);
     } catch (const HttpError& error) {
-      if (error.status != 404) record(audit, "", request, error.status);
+      if (error.status != 404) record_refusal(audit, keys, sessions, request, error.status);
       throw;
     }
   };
@@ -313,8 +326,10 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
              service.folders(), hooks, service.live(), service.executor(), keys, sessions_, caller},
             request, response);
       });
-      if (is_audited(request.method, entry, response.status)) {
-        record(audit_, key, request, response.status);
+      if (is_refusal(response.status)) {
+        record_refusal(audit_, keys, sessions_, request, response.status);
+      } else if (is_audited(request.method, entry)) {
+        audit_.record(audit_entry(key, request, response.status));
       }
       if (!response.has_header("Content-Security-Policy")) {
         response.set_header("Content-Security-Policy", content_policy(entry));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
@@ -152,7 +153,7 @@ void send_calibration_image(const RequestContext& context, const Request& reques
   const json images = parse_own_json(row.spec_json, "the request").value("images", json::array());
   const std::filesystem::path file = context.folders.calibration_folder(row.id) / "files" / name;
   if (std::find(images.begin(), images.end(), json(name)) == images.end() ||
-      std::filesystem::path(name).filename() != name || !std::filesystem::is_regular_file(file)) {
+      std::filesystem::path(name).filename() != name || !exists_without_links(file)) {
     throw HttpError{404, "the calibration has no image of this name"};
   }
   const std::string bytes = read_file(file);

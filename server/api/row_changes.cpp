@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/text/utf8.h"
 #include "jobs/queue/store/store.h"
 #include "server/api/requests.h"
 #include "server/http/http.h"
@@ -28,7 +29,7 @@ HttpError wrong_change(const std::string& pointer, const std::string& found,
 
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
   const auto is_wrong = [](const std::string& label) {
-    return label.empty() || label.size() > kMaxLabelLength ||
+    return label.empty() || label.size() > kMaxLabelLength || !is_utf8(label) ||
            std::any_of(label.begin(), label.end(),
                        [](unsigned char c) { return c < ' ' || c == 127; });
   };

@@ -20,18 +20,26 @@ namespace {
 
 constexpr const char* kAuthorization = "Authorization";
 
-/// Names the port, because browsers send a cookie to all ports of a host.
-std::string cookie_name(const Request& request) {
+/// Whether the browser reaches the service by TLS, through a proxy.
+bool is_behind_tls(const Request& request) {
+  return request.get_header_value("X-Forwarded-Proto") == "https" ||
+         request.get_header_value("Origin").starts_with("https://");
+}
+
+/// Names the port, because browsers send a cookie to all ports of a host. Behind TLS, the prefix
+/// makes browsers refuse such a cookie from other hosts of the domain and from plain HTTP.
+std::string cookie_name(const Request& request, bool is_secure) {
+  const std::string prefix = is_secure ? "__Host-" : "";
   const std::string host = request.get_header_value("Host");
   const std::string port = host.substr(std::min(host.rfind(':'), host.size()));
   const bool is_port =
       port.size() > 1 && port.find_first_not_of("0123456789", 1) == std::string::npos;
-  return is_port ? "throng_session_" + port.substr(1) : "throng_session";
+  return prefix + (is_port ? "throng_session_" + port.substr(1) : "throng_session");
 }
 
-/// Value of the session's cookie; "" without one.
-std::string token_in(const Request& request) {
-  const std::string start = cookie_name(request) + "=";
+/// Value of the cookie of this name; "" without one.
+std::string cookie_value(const Request& request, const std::string& name) {
+  const std::string start = name + "=";
   const std::string header = request.get_header_value("Cookie");
   std::string_view rest = header;
   while (!rest.empty()) {
@@ -45,6 +53,14 @@ std::string token_in(const Request& request) {
   return "";
 }
 
+/// Token of the session; "" without one.
+std::string token_in(const Request& request) {
+  // A proxy that does not tell of TLS passes both kinds on.
+  std::string token =
+      is_behind_tls(request) ? "" : cookie_value(request, cookie_name(request, false));
+  return token.empty() ? cookie_value(request, cookie_name(request, true)) : token;
+}
+
 /// Browsers name the site of the page that sends a request; "none" is the person at the address
 /// bar. Requests that change something also have an Origin, which is checked for all callers.
 bool is_of_own_page(const Request& request) {
@@ -55,10 +71,10 @@ bool is_of_own_page(const Request& request) {
 
 void set_cookie(const Request& request, Response& response, const std::string& value,
                 const char* more) {
-  const bool is_secure = request.get_header_value("Origin").starts_with("https://");
-  response.set_header("Set-Cookie",
-                      fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}",
-                                  cookie_name(request), value, is_secure ? "; Secure" : "", more));
+  const bool is_secure = is_behind_tls(request);
+  response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}",
+                                                cookie_name(request, is_secure), value,
+                                                is_secure ? "; Secure" : "", more));
 }
 
 void write_session(const RequestContext& context, const std::optional<Caller>& caller,

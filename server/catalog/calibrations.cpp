@@ -27,6 +27,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kMemoryName = "memory_mib";
+constexpr std::size_t kMaxFileName = 200;  // a temporary name is longer, and may have 255 bytes
 
 }  // namespace
 
@@ -39,8 +40,10 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
   StagingFolder staging(folders_.calibrations() / "next");
   for (const Upload& file : files) {
     if (fs::path(file.name).filename() != file.name || file.name.empty() || file.name == "." ||
-        file.name == "..") {
-      throw InputError(Problem{"", "/files", file.name, "plain names of files"});
+        file.name == ".." || file.name.size() > kMaxFileName) {
+      throw InputError(
+          Problem{"", "/files", file.name.substr(0, kMaxFileName),
+                  fmt::format("plain names of files of at most {} bytes", kMaxFileName)});
     }
     write_file_atomically(staging.path() / "files" / file.name, file.bytes);
   }

@@ -133,7 +133,8 @@ class HttpServer::BoundedServer : public httplib::Server {
   /// False when the connection has to end.
   bool serve(Connection& connection, const RequestHead& head, bool is_last) {
     if (head.content_length > 0) {
-      const httplib::Request request = to_library_request(head);
+      httplib::Request request = to_library_request(head);
+      connection.get_remote_ip_and_port(request.remote_addr, request.remote_port);
       try {
         admit_body(request, head.content_length);
       } catch (const HttpError& error) {

@@ -68,6 +68,32 @@ TEST_F(HostileJson, IsRefusedEverywhere) {
   EXPECT_EQ(get_json("/v1/jobs")["jobs"].size(), 1U) << "nothing was queued";
 }
 
+TEST_F(HostileJson, NothingFollowsAZeroByte) {
+  const std::string body = std::string(kJob) + std::string("\0", 1) + R"({"scenario": "other"})";
+  for (const char* path : {"/v1/jobs", "/v1/jobs?dry_run", "/v1/calibrations", "/v1/webhooks"}) {
+    expect_problem(client().Post(path, body, "application/json"), 400);
+  }
+  EXPECT_TRUE(get_json("/v1/jobs")["jobs"].empty());
+}
+
+TEST_F(HostileJson, BytesThatAreNoTextAreRefusedInLabels) {
+  expect_problem(client().Post("/v1/jobs?label=%ff", kJob, "application/json"), 400);
+  EXPECT_EQ(get("/v1/jobs?label=%ff")->status, 200);
+  EXPECT_TRUE(get_json("/v1/jobs")["jobs"].empty());
+}
+
+TEST_F(HostileJson, NamesTooLongForAFileAreUnknown) {
+  const std::string self = "/v1/jobs/" + submit_and_wait();
+  const std::string name(300, 'x');
+  expect_problem(get(self + "/logs/" + name), 404);
+  expect_problem(get(self + "/files/" + name), 404);
+  expect_problem(get(self + "/previews/" + name), 404);
+  expect_problem(get("/v1/scenarios/" + name), 404);
+  const httplib::MultipartFormDataItems items = {{"request", "{}", "", "application/json"},
+                                                 {"file", "x", name, "text/csv"}};
+  expect_problem(client().Post("/v1/calibrations", items), 400);
+}
+
 TEST_F(HostileJson, ManySmallValuesAreRefused) {
   std::string many = "[1";
   for (int i = 0; i < 500'000; ++i) many += ",1";

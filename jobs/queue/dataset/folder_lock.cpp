@@ -16,11 +16,13 @@ namespace throng::jobs {
 FolderLock::FolderLock(const std::filesystem::path& folder, const char* name,
                        const std::string& what)
     : file_(folder / name) {
-  constexpr int kMode = 0644;
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode);
+  // Whoever may open the file may hold its lock.
+  constexpr mode_t kOwnerOnly = 0600;
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
   if (descriptor_ < 0) {
     throw EnvironmentError(fmt::format("cannot open {}: {}", file_.string(), std::strerror(errno)));
   }
+  ::fchmod(descriptor_, kOwnerOnly);  // an earlier version made it readable to all
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     ::close(descriptor_);
     throw EnvironmentError(fmt::format("another process uses the {} {}", what, folder.string()));

@@ -1,8 +1,13 @@
 #include "jobs/queue/store/store_connections.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 
 #include "base/files/files.h"
+#include "base/resource_exhaustion.h"
 #include "jobs/queue/store/store_rows.h"
 #include "jobs/queue/store/store_schema.h"
 
@@ -17,6 +22,17 @@ constexpr int kBusyTimeoutMs = 5000;
 fs::path created(const fs::path& folder) {
   make_folders(folder);
   return folder;
+}
+
+/// The file, which only its owner may read: jobs are other people's. SQLite gives its other files
+/// the same mode.
+fs::path private_file(const fs::path& path) {
+  constexpr mode_t kOwnerOnly = 0600;
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
+  if (descriptor < 0) throw_environment_error("cannot open " + path.string(), errno);
+  ::fchmod(descriptor, kOwnerOnly);
+  ::close(descriptor);
+  return path;
 }
 
 void prepare(SQLite::Database& database) {
@@ -36,7 +52,7 @@ std::optional<std::pair<dev_t, ino_t>> file_identity(const fs::path& file) {
 
 Store::Connections::Connections(const fs::path& folder, const Clock& wall, Clock steady)
     : lock(created(folder), "lock", "data folder"),
-      file(folder / "jobs.sqlite"),
+      file(private_file(folder / "jobs.sqlite")),
       writer(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs),
       reader((prepare(writer), file), SQLite::OPEN_READWRITE, kBusyTimeoutMs),
       commits(writer),

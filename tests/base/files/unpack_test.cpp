@@ -125,6 +125,10 @@ TEST_F(Unpacking, BombsAreRefusedEarly) {
   limits.max_entries = 3;
   EXPECT_THAT(refusal_of({{"1"}, {"2"}, {"3"}, {"4"}}, limits), HasSubstr("at most 3"));
   limits = {};
+  limits.max_folders = 3;
+  EXPECT_EQ(refusal_of({{"a/b/c/1"}, {"a/b/2"}}, limits), "");
+  EXPECT_THAT(refusal_of({{"a/b/c/1"}, {"a/d/2"}}, limits), HasSubstr("more than 3 folders"));
+  limits = {};
   limits.max_file_bytes = 1000;
   EXPECT_THAT(refusal_of({{"a", std::string(1001, 'x')}}, limits), HasSubstr("at most 1000 bytes"));
   limits = {};

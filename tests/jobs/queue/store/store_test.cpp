@@ -37,6 +37,22 @@ TEST_F(StoreTest, AddedAndChangedRowsSurviveReopening) {
   EXPECT_FALSE(store.get("jnosuchjob00000"));
 }
 
+TEST_F(StoreTest, OthersOfTheMachineReadAndLockNothing) {
+  const auto mode_of = [&](const char* name) {
+    return static_cast<unsigned>(std::filesystem::status(folder.path() / name).permissions());
+  };
+  for (int i = 0; i < 2; ++i) {
+    const Store store(folder.path(), clock());
+    for (const char* name : {"jobs.sqlite", "jobs.sqlite-wal", "lock"}) {
+      EXPECT_EQ(mode_of(name), 0600U) << name;
+    }
+    // As an earlier version has left them.
+    for (const char* name : {"jobs.sqlite", "jobs.sqlite-wal", "lock"}) {
+      std::filesystem::permissions(folder.path() / name, std::filesystem::perms(0644));
+    }
+  }
+}
+
 // A data folder that an older service has left.
 TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
   {
