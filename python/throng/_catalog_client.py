@@ -23,6 +23,7 @@ from .api_types import (
     Key,
     KeyList,
     Scenario,
+    ScenarioList,
     Session,
     Study,
     StudyList,
@@ -64,7 +65,14 @@ class CatalogClient:
 
     def scenarios(self) -> list[Scenario]:
         """The scenarios that jobs can name."""
-        return self._get("/v1/scenarios")["scenarios"]
+        scenarios: list[Scenario] = []
+        after: str | None = None
+        while True:
+            answer: ScenarioList = self._get("/v1/scenarios", {"after": after})
+            scenarios += answer["scenarios"]
+            after = answer["next"]
+            if after is None:
+                return scenarios
 
     def scenario(self, scenario_id: str) -> Scenario:
         return self._get(f"/v1/scenarios/{path_of(scenario_id)}")

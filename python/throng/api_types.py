@@ -34,8 +34,8 @@ class Job(TypedDict):
     progress: Progress
     error: JobError | None
     links: dict[str, str]
-    job: dict[str, Any]
-    """The job with all defaults."""
+    job: NotRequired[dict[str, Any]]
+    """The job with all defaults. Not in lists."""
 
 
 class JobList(TypedDict):
@@ -372,8 +372,8 @@ class Study(TypedDict):
     progress: StudyProgress
     error: JobError | None
     links: dict[str, str]
-    study: dict[str, Any] | None
-    """The document as it was sent."""
+    study: NotRequired[dict[str, Any] | None]
+    """The document as it was sent. Not in lists."""
     plan: NotRequired[StudyPlan]
     summary: NotRequired[StudySummary | None]
 
@@ -562,6 +562,8 @@ class ScenarioList(TypedDict):
     """ScenarioList of the service."""
 
     scenarios: list[Scenario]
+    next: str | None
+    """Where the next page begins: `?after=`. A page ends when it has 4 MiB."""
 
 
 class UploadFinding(TypedDict):

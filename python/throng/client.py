@@ -99,7 +99,7 @@ class Client(CatalogClient):
         oldest_first: bool = False,
         page: int = 100,
     ) -> Iterator[Job]:
-        """All jobs that fit, page by page as they are asked for."""
+        """All jobs that fit, page by page as they are asked for, without what they were asked to do (`job`)."""
         after: str | None = None
         while True:
             query = {

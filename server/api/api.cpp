@@ -320,11 +320,11 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
       guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         key = caller.key_id;
-        entry.handler(
-            {service.queue(), service.uploads(), service.calibrations(), service.studies(),
-             service.housekeeping(), service.datasets(), service.reports(), service.confined(),
-             service.folders(), hooks, service.live(), service.executor(), keys, sessions_, caller},
-            request, response);
+        entry.handler({service.queue(), service.uploads(), service.calibrations(),
+                       service.studies(), service.housekeeping(), service.datasets(),
+                       service.reports(), service.confined(), service.folders(), hooks,
+                       service.live(), service.executor(), keys, sessions_, answers_, caller},
+                      request, response);
       });
       if (is_refusal(response.status)) {
         record_refusal(audit_, keys, sessions_, request, response.status);

@@ -12,6 +12,7 @@
 #include "server/access/sessions.h"
 #include "server/api/routes.h"
 #include "server/api/service.h"
+#include "server/http/answer_budget.h"
 #include "server/http/http_server.h"
 #include "server/webhooks/webhook_sender.h"
 
@@ -35,6 +36,7 @@ class Api {
  private:
   Sessions sessions_;
   AuditLog audit_;
+  AnswerBudget answers_;
   HttpServer server_;
 };
 

@@ -89,20 +89,15 @@ void submit_calibration(const RequestContext& context, const Request& request, R
 
 void list_calibrations(const RequestContext& context, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
-  const int limit = requested_limit(request);
-  const std::vector<jobs::JobRow> rows =
-      context.queue.list({.kind = jobs::JobKind::calibration,
-                          .after = cursor_from_request(request),
-                          .limit = limit,
-                          .visible_to = viewer_key(context.caller)});
-  json list = json::array();
-  for (const jobs::JobRow& row : rows)
-    list.push_back(calibration_json(row, context.housekeeping.retention()));
-  const bool more = static_cast<int>(rows.size()) == limit;
-  write_json(response, 200,
-             {{"calibrations", std::move(list)},
-              {"next", more ? json(rows.back().id) : json(nullptr)},
-              {"schema", kSchema}});
+  const jobs::JobFilter filter{.kind = jobs::JobKind::calibration,
+                               .after = cursor_from_request(request),
+                               .limit = requested_limit(request),
+                               .visible_to = viewer_key(context.caller)};
+  send_rows(context, response, "calibrations", filter,
+            [&](const jobs::JobRow& row) {
+              return calibration_json(row, context.housekeeping.retention());
+            },
+            {{"schema", kSchema}});
 }
 
 void send_calibration(const RequestContext& context, const Request& request, Response& response) {

@@ -32,6 +32,12 @@ jobs::JobRow find_own(const RequestContext& context, const Request& request) {
   return row;
 }
 
+void write_job(const RequestContext& context, Response& response, int status,
+               const jobs::JobRow& row) {
+  response.status = status;
+  response.set_content(job_text(row, context.housekeeping.retention()), "application/json");
+}
+
 /// The value of every ?name= in the query.
 std::vector<std::string> query_values(const Request& request, const char* name) {
   std::vector<std::string> values;
@@ -89,8 +95,7 @@ void queue(const RequestContext& context, Submission submission, Response& respo
   }
   response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
   if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
-  write_json(response, added.is_new ? 201 : 200,
-             job_json(added.row, context.housekeeping.retention()));
+  write_job(context, response, added.is_new ? 201 : 200, added.row);
 }
 
 std::vector<jobs::JobState> requested_states(const Request& request) {
@@ -145,25 +150,22 @@ void list_jobs(const RequestContext& context, const Request& request, Response& 
   filter.after = cursor_from_request(request);
   filter.limit = requested_limit(request);
   filter.visible_to = viewer_key(context.caller);
-  const std::vector<jobs::JobRow> rows = context.queue.list(filter);
-  json jobs = json::array();
-  for (const jobs::JobRow& row : rows)
-    jobs.push_back(job_json(row, context.housekeeping.retention()));
-  const bool more = static_cast<int>(rows.size()) == filter.limit;
-  write_json(response, 200,
-             {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+  filter.with_spec = false;  // jobs may be large; GET /v1/jobs/{id} has them
+  send_rows(context, response, "jobs", filter, [&](const jobs::JobRow& row) {
+    return job_json(row, context.housekeeping.retention());
+  });
 }
 
 void send_job(const RequestContext& context, const Request& request, Response& response) {
   const std::string id = request.matches[1];
   if (!sees_all(context.caller)) static_cast<void>(find_job(context, request));
-  const auto text = jobs::is_job_id(id)
-                        ? context.queue.text_of_job(
-                              id,
-                              [&](const jobs::JobRow& row) {
-                                return dump_text(job_json(row, context.housekeeping.retention()));
-                              })
-                        : nullptr;
+  const auto text =
+      jobs::is_job_id(id)
+          ? context.queue.text_of_job(id,
+                                      [&](const jobs::JobRow& row) {
+                                        return job_text(row, context.housekeeping.retention());
+                                      })
+          : nullptr;
   if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
   response.set_content(*text, "application/json");
 }
@@ -173,13 +175,13 @@ void change_job(const RequestContext& context, const Request& request, Response&
   const jobs::JobChange wanted = read_change(context, request, row);
   const auto changed = context.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*changed, context.housekeeping.retention()));
+  write_job(context, response, 200, *changed);
 }
 
 void cancel_job(const RequestContext& context, const Request& request, Response& response) {
   const auto row = context.queue.cancel(find_own(context, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, context.housekeeping.retention()));
+  write_job(context, response, 200, *row);
 }
 
 void retry_job(const RequestContext& context, const Request& request, Response& response) {
@@ -190,7 +192,7 @@ void retry_job(const RequestContext& context, const Request& request, Response& 
       own.id, is_owner ? jobs::OwnerLimits{context.caller.max_active, context.caller.max_bytes}
                        : jobs::OwnerLimits{});
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, context.housekeeping.retention()));
+  write_job(context, response, 200, *row);
 }
 
 void clone_job(const RequestContext& context, const Request& request, Response& response) {

@@ -8,6 +8,7 @@
 #include "server/catalog/service_folders.h"
 #include "server/catalog/studies.h"
 #include "server/catalog/uploads.h"
+#include "server/http/answer_budget.h"
 #include "server/jobs/datasets.h"
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
@@ -32,6 +33,7 @@ struct RequestContext {
   const jobs::Executor& executor;
   Keys& keys;
   Sessions& sessions;
+  AnswerBudget& answers;
   const Caller& caller;
 };
 

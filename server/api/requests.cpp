@@ -9,6 +9,7 @@
 
 #include "base/json/json_text.h"
 #include "jobs/queue/store/job_id.h"
+#include "server/api/list_answer.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
 
@@ -118,6 +119,26 @@ std::string_view kind_word(jobs::JobKind kind) {
 
 jobs::JobRow find_job(const RequestContext& context, const Request& request) {
   return find_row(context, request, jobs::JobKind::dataset);
+}
+
+void send_rows(const RequestContext& context, httplib::Response& response, const char* name,
+               jobs::JobFilter filter, const std::function<json(const jobs::JobRow&)>& to_json,
+               const json& more) {
+  ListAnswer answer(context.answers, name);
+  filter.max_text_bytes = kMaxPageBytes;
+  std::vector<jobs::JobRow> rows = context.queue.list(filter);
+  std::size_t bytes = 0;
+  std::string last;
+  for (jobs::JobRow& row : rows) {
+    if (answer.is_full()) break;
+    answer.add(to_json(row));
+    bytes += text_bytes(row);
+    last = row.id;
+    row = {};
+  }
+  const bool has_more = static_cast<int>(rows.size()) == filter.limit || bytes >= kMaxPageBytes ||
+                        (!rows.empty() && !rows.back().id.empty());
+  answer.send(response, has_more ? last : "", more);
 }
 
 void require_own(const RequestContext& context, const jobs::JobRow& row) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -51,6 +52,13 @@ Viewer viewer_key(const Caller& caller);
 
 /// The job in the request's path. Throws HttpError 404 if there is none that the caller may see.
 jobs::JobRow find_job(const RequestContext& context, const httplib::Request& request);
+
+/// Sends a page of rows as {"NAME": [...], "next": ...} and the members of `more`. The page ends
+/// early when its rows are large. Throws HttpError 503 if there are too many such answers at once.
+void send_rows(const RequestContext& context, httplib::Response& response, const char* name,
+               jobs::JobFilter filter,
+               const std::function<nlohmann::json(const jobs::JobRow&)>& to_json,
+               const nlohmann::json& more = {});
 
 /// Throws HttpError 403 unless the caller owns the job, calibration or study, or is an
 /// administrator.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "server/api/list_answer.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
@@ -122,11 +123,26 @@ void upload_scenarios(const RequestContext& context, const Request& request, Res
   }
 }
 
-void list_scenarios(const RequestContext& context, const Request&, Response& response) {
+void list_scenarios(const RequestContext& context, const Request& request, Response& response) {
   std::vector<std::string> ids = world::list_scenarios(context.folders.scenarios());
   // Those of one job's bundle are of no use to others.
   std::erase_if(ids, [](const std::string& id) { return is_bundle_name(upload_name(id)); });
-  write_json(response, 200, {{"scenarios", scenarios_json(context, ids)}});
+  const std::string after = request.get_param_value("after");
+  std::sort(ids.begin(), ids.end());
+  std::erase_if(ids, [&](const std::string& id) { return !after.empty() && id <= after; });
+  ListAnswer answer(context.answers, "scenarios");
+  constexpr std::size_t kAtOnce = 100;  // for each the check of shipped ones is a process
+  std::size_t sent = 0;
+  while (sent < ids.size() && !answer.is_full()) {
+    const std::size_t end = std::min(sent + kAtOnce, ids.size());
+    for (const json& value : scenarios_json(context, {ids.begin() + static_cast<long>(sent),
+                                                      ids.begin() + static_cast<long>(end)})) {
+      if (answer.is_full()) break;
+      answer.add(value);
+      ++sent;
+    }
+  }
+  answer.send(response, sent < ids.size() ? ids[sent - 1] : "", {});
 }
 
 void send_scenario(const RequestContext& context, const Request& request, Response& response) {

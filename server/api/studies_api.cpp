@@ -100,18 +100,14 @@ void submit_study(const RequestContext& context, const Request& request, Respons
 }
 
 void list_studies(const RequestContext& context, const Request& request, Response& response) {
-  const int limit = requested_limit(request);
-  const std::vector<jobs::JobRow> rows =
-      context.queue.list({.kind = jobs::JobKind::study,
-                          .after = cursor_from_request(request),
-                          .limit = limit,
-                          .visible_to = viewer_key(context.caller)});
-  json list = json::array();
-  for (const jobs::JobRow& row : rows)
-    list.push_back(study_json(row, context.housekeeping.retention()));
-  const bool more = static_cast<int>(rows.size()) == limit;
-  write_json(response, 200,
-             {{"studies", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+  const jobs::JobFilter filter{.kind = jobs::JobKind::study,
+                               .after = cursor_from_request(request),
+                               .limit = requested_limit(request),
+                               .visible_to = viewer_key(context.caller),
+                               .with_spec = false};
+  send_rows(context, response, "studies", filter, [&](const jobs::JobRow& row) {
+    return study_json(row, context.housekeeping.retention());
+  });
 }
 
 void send_study(const RequestContext& context, const Request& request, Response& response) {

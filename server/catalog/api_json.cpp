@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/json/json_text.h"
 #include "server/http/reason_phrase.h"
@@ -182,7 +183,7 @@ json calibration_json(const jobs::JobRow& row, const Retention& retention) {
 json study_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/studies/" + row.id;
   json value = row_json(row, retention);
-  value["study"] = parsed_or(row.spec_json, nullptr);
+  if (!row.spec_json.empty()) value["study"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}, {"values", self + "/files/values.json"}};
   if (row.state == jobs::JobState::succeeded) {
     value["links"]["report"] = self + "/report";
@@ -194,13 +195,21 @@ json study_json(const jobs::JobRow& row, const Retention& retention) {
 json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
   json value = row_json(row, retention);
-  value["job"] = parsed_or(row.spec_json, nullptr);
+  if (!row.spec_json.empty()) value["job"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}};
   if (has_dataset(row.state)) {
     value["links"]["archive"] = self + "/archive";
     value["links"]["metrics"] = self + "/metrics";
   }
   return value;
+}
+
+std::string job_text(jobs::JobRow row, const Retention& retention) {
+  const std::string spec = std::exchange(row.spec_json, {});
+  std::string text = dump_text(job_json(row, retention));
+  text.pop_back();
+  // As it is: a job of many values takes dozens of times its text's size when it is parsed.
+  return text + ",\"job\":" + (is_own_json(spec) ? spec : "null") + "}";
 }
 
 json problem_document(int status, const std::string& detail, const std::vector<Problem>& problems) {

@@ -44,6 +44,8 @@ nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
 
 /// A job as in GET /v1/jobs/{id}.
 nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
+/// The text of job_json() with the job. Throws nothing if the job is damaged: it is null.
+std::string job_text(jobs::JobRow row, const Retention& retention);
 
 /// A problem document (RFC 9457).
 nlohmann::json problem_document(int status, const std::string& detail,

@@ -43,6 +43,32 @@ std::string upload_note(const ScenarioUpload& upload) {
                     {"summaries", upload.summaries}});
 }
 
+/// The summary, unless it is larger than any that a scenario's texts, exits and drones need: lists
+/// hold those of all uploads.
+json bounded_summary(json summary) {
+  constexpr std::size_t kMaxBytes = 32 << 10;
+  if (dump_text(summary).size() <= kMaxBytes) return summary;
+  return {{"error",
+           "its name, description, exits and drones are larger than lists can hold; upload "
+           "it again with shorter ones"}};
+}
+
+/// Throws InputError for scenarios whose summaries are too large for lists.
+void require_bounded(const jobs::CheckedScenarios& checked) {
+  constexpr std::size_t kMaxBytes = 256 << 10;
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < checked.summaries.size(); ++i) {
+    bytes += dump_text(checked.summaries[i]).size();
+    const bool is_large = bounded_summary(checked.summaries[i]).contains("error") &&
+                          !checked.summaries[i].contains("error");
+    if (!is_large && bytes <= kMaxBytes) continue;
+    throw InputError(
+        Problem{checked.ids.at(i), "", "texts, exits and drones that are too large for lists",
+                "a name, a description, exits and drones of 32 KiB in a scenario, and 256 KiB in "
+                "all scenarios of an upload"});
+  }
+}
+
 ScenarioUpload read_note(const fs::path& folder) {
   const json note = parse_own_json(read_file(folder / kNoteName), (folder / kNoteName).string());
   return {folder.filename().string(),
@@ -122,6 +148,7 @@ void ScenarioStore::find_uploads() {
       if (!is_upload_name(name)) continue;
       ScenarioUpload upload = read_note(entry.path());
       if (upload.summaries.size() != upload.ids.size()) describe(upload);
+      for (json& summary : upload.summaries) summary = bounded_summary(std::move(summary));
       known_[name] = std::move(upload);
     } catch (const std::exception& error) {
       spdlog::warn("upload {}: cannot be read and is left aside: {}", name, error.what());
@@ -176,6 +203,7 @@ void ScenarioStore::finish_staging(Staged& staged) const {
   const fs::path& folder = staged.folder->path();
   ScenarioUpload& upload = staged.upload;
   jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
+  require_bounded(checked);
   for (const std::string& id : checked.ids) upload.ids.push_back(upload.name + "/" + id);
   upload.summaries = std::move(checked.summaries);
   staged.findings = std::move(checked.findings);

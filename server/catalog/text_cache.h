@@ -9,8 +9,8 @@
 
 namespace throng::server {
 
-/// Texts of one revision of the queue's state; a new revision clears the cache. Safe to use from
-/// many threads.
+/// Texts of one revision of the queue's state, at most 16 MiB; a new revision clears the cache.
+/// Safe to use from many threads.
 class TextCache {
  public:
   using Text = std::shared_ptr<const std::string>;
@@ -24,6 +24,7 @@ class TextCache {
  private:
   mutable std::mutex mutex_;
   std::uint64_t revision_ = 0;
+  std::size_t bytes_ = 0;  ///< of all texts
   std::unordered_map<std::string, Text> texts_;
 };
 

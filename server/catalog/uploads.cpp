@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::string_view kOwnBundle = "bundle/";
 constexpr int kJobsAtOnce = 500;
+constexpr std::size_t kBytesAtOnce = 4 << 20;
 
 /// The places of scenarios' ids in the value of a job's "scenario", or of a study's case's.
 std::vector<json*> ids_in(json& scenario) {
@@ -93,13 +94,14 @@ std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
     filter.kind = kind;
     filter.states = states;
     filter.limit = kJobsAtOnce;
+    filter.max_text_bytes = kBytesAtOnce;
     while (true) {
       std::vector<JobRow> rows = jobs_.list(filter);
       for (const JobRow& row : rows) {
         if (row.spec_json.find(beginning) == std::string::npos) continue;
         if (job_uploads(row.spec_json, row.kind).contains(upload)) found.push_back(row);
       }
-      if (static_cast<int>(rows.size()) < kJobsAtOnce) break;
+      if (rows.empty()) break;
       filter.after = rows.back().id;
     }
   }
@@ -111,10 +113,10 @@ std::string Uploads::sources_json(const std::string& spec_json, jobs::JobKind ki
   json sources = json::object();
   for (const std::string& name : job_uploads(spec_json, kind)) {
     if (scenarios_.is_published_after(name, publications)) {
-      throw InputError(Problem{"", "/scenario",
-                               fmt::format("scenarios \"{}\", which were replaced during the check",
-                                           name),
-                               "the same ones; submit it again"});
+      throw InputError(
+          Problem{"", "/scenario",
+                  fmt::format("scenarios \"{}\", which were replaced during the check", name),
+                  "the same ones; submit it again"});
     }
     const std::string hash = scenarios_.content_hash(name);
     if (!hash.empty()) sources[name] = hash;
@@ -128,11 +130,11 @@ void Uploads::require_same_sources(const JobRow& row) const {
   for (const auto& [name, hash] : sources.items()) {
     const std::string now = scenarios_.content_hash(name);
     if (now == hash) continue;
-    throw InputError(Problem{
-        "", "/scenario",
-        fmt::format("scenarios \"{}\", which {} since the job was submitted", name,
-                    now.empty() ? "were removed" : "have changed"),
-        "those that the job was resolved from; submit the job again to use the new ones"});
+    throw InputError(
+        Problem{"", "/scenario",
+                fmt::format("scenarios \"{}\", which {} since the job was submitted", name,
+                            now.empty() ? "were removed" : "have changed"),
+                "those that the job was resolved from; submit the job again to use the new ones"});
   }
 }
 

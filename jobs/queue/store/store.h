@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,7 +47,7 @@ struct JobRow {
   /// Hashes of the scenarios that it was resolved from, by the first parts of their ids; "{}" for
   /// none.
   std::string sources_json = "{}";
-  std::string waiting_for = {};   ///< not stored: why no task of it runs although it is its turn
+  std::string waiting_for = {};  ///< not stored: why no task of it runs although it is its turn
   /// Not stored: the state in the file is not a known one. The job counts as failed and can only be
   /// removed.
   bool is_damaged = false;
@@ -78,8 +79,8 @@ struct NewJob {
   std::string key = {};
   /// Hash of the request; it distinguishes a repeated submission from a key that is used twice.
   std::string hash = {};
-  OwnerLimits limits = {};  ///< checked against the owner's jobs without this one
-  int people = 0;           ///< ResolvedJob::people()
+  OwnerLimits limits = {};          ///< checked against the owner's jobs without this one
+  int people = 0;                   ///< ResolvedJob::people()
   std::string sources_json = "{}";  ///< JobRow::sources_json
 };
 
@@ -110,7 +111,13 @@ struct JobFilter {
   std::string after = {};             ///< last id of the previous page; "": first page
   int limit = 50;
   std::optional<std::string> visible_to = {};  ///< only jobs of this owner and shared ones
+  bool with_spec = true;                       ///< false: JobRow::spec_json stays empty
+  /// The page ends with the row at which the texts of its rows have as many bytes (text_bytes()).
+  std::size_t max_text_bytes = std::numeric_limits<std::size_t>::max();
 };
+
+/// Size of the texts of a row.
+std::size_t text_bytes(const JobRow& row);
 
 /// An event of a job.
 struct EventRow {

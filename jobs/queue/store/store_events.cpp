@@ -22,8 +22,10 @@ std::vector<EventRow> Store::events(const std::string& job, std::int64_t after, 
     query.bind(":after", after);
     query.bind(":limit", limit);
     if (!job.empty()) query.bind(":job", job);
+    constexpr std::size_t kMaxBytes = 1 << 20;
     std::vector<EventRow> rows;
-    while (query.executeStep()) {
+    for (std::size_t bytes = 0; bytes < kMaxBytes && query.executeStep();
+         bytes += rows.back().data_json.size()) {
       rows.push_back({query.getColumn(0).getInt64(), query.getColumn(1).getString(),
                       query.getColumn(2).getInt64(), query.getColumn(3).getString(),
                       query.getColumn(4).getString()});

@@ -32,6 +32,13 @@ struct Source {
   std::string where;
 };
 
+/// Columns of rows whose jobs, which may be large, are not needed.
+std::string columns_without_spec() {
+  constexpr std::string_view kSpec = "job.spec";
+  std::string columns = kColumns;
+  return columns.replace(columns.find(kSpec), kSpec.size(), "''");
+}
+
 Source filter_source(const JobFilter& filter) {
   const bool has_label = !filter.label.empty();
   const char* compared = filter.oldest_first ? ">" : "<";
@@ -85,7 +92,8 @@ std::string list_query(const JobFilter& filter) {
                        " AND job.id IN (SELECT id FROM job WHERE kind = :kind AND state IN ({}))",
                        fmt::join(names, ", "));
   }
-  return fmt::format("SELECT {} FROM {} WHERE {} ORDER BY {} {} LIMIT :limit", kColumns,
+  const std::string columns = filter.with_spec ? kColumns : columns_without_spec();
+  return fmt::format("SELECT {} FROM {} WHERE {} ORDER BY {} {} LIMIT :limit", columns,
                      source.tables, where, source.order, filter.oldest_first ? "ASC" : "DESC");
 }
 
@@ -110,7 +118,7 @@ std::vector<JobRow> Store::list(const JobFilter& filter) const {
     }
     if (filter.visible_to) query.bind(":viewer", *filter.visible_to);
     query.bind(":limit", filter.limit);
-    return read_rows(query);
+    return read_rows(query, filter.max_text_bytes);
   });
 }
 
@@ -148,7 +156,7 @@ std::vector<JobRow> Store::ended(int limit) const {
     SQLite::Statement query(database,
                             fmt::format("SELECT {} FROM job WHERE kept_from_ms > 0 AND keep = 0 "
                                         "ORDER BY kept_from_ms LIMIT ?",
-                                        kColumns));
+                                        columns_without_spec()));
     query.bind(1, limit);
     return read_rows(query);
   });

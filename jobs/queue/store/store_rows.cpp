@@ -61,9 +61,19 @@ JobRow read_row(SQLite::Statement& query) {
   return row;
 }
 
-std::vector<JobRow> read_rows(SQLite::Statement& query) {
+std::size_t text_bytes(const JobRow& row) {
+  std::size_t bytes = row.name.size() + row.spec_json.size() + row.progress_json.size() +
+                      row.error_json.size() + row.waiting_for.size();
+  for (const std::string& label : row.labels) bytes += label.size();
+  return bytes;
+}
+
+std::vector<JobRow> read_rows(SQLite::Statement& query, std::size_t max_text_bytes) {
   std::vector<JobRow> rows;
-  while (query.executeStep()) rows.push_back(read_row(query));
+  for (std::size_t bytes = 0; bytes < max_text_bytes && query.executeStep();) {
+    rows.push_back(read_row(query));
+    bytes += text_bytes(rows.back());
+  }
   return rows;
 }
 

@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +21,9 @@ inline constexpr const char* kColumns =
 
 /// The job in the query's current row.
 JobRow read_row(SQLite::Statement& query);
-/// All rows of a query.
-std::vector<JobRow> read_rows(SQLite::Statement& query);
+/// All rows of a query, or those up to the one at which their texts have `max_text_bytes`.
+std::vector<JobRow> read_rows(SQLite::Statement& query,
+                              std::size_t max_text_bytes = std::numeric_limits<std::size_t>::max());
 /// The first row of a query; std::nullopt if there is none.
 std::optional<JobRow> read_first_row(SQLite::Statement& query);
 

@@ -24,8 +24,8 @@ export interface Job {
   progress: Progress;
   error: JobError | null;
   links: Record<string, string>;
-  /** The job with all defaults. */
-  job: Record<string, unknown>;
+  /** The job with all defaults. Not in lists. */
+  job?: Record<string, unknown>;
 }
 
 export interface JobList {
@@ -277,8 +277,8 @@ export interface Study {
   };
   error: JobError | null;
   links: Record<string, string>;
-  /** The document as it was sent. */
-  study: Record<string, unknown> | null;
+  /** The document as it was sent. Not in lists. */
+  study?: Record<string, unknown> | null;
   plan?: StudyPlan;
   summary?: StudySummary | null;
 }
@@ -413,6 +413,8 @@ export interface Scenario {
 
 export interface ScenarioList {
   scenarios: Scenario[];
+  /** Where the next page begins: `?after=`. A page ends when it has 4 MiB. */
+  next: string | null;
 }
 
 export interface Upload {

@@ -45,6 +45,7 @@ export const nameOf = (job: Job, run: number | null) => (run === null ? job.name
 export const runName = (run: number) => `run${String(run).padStart(3, "0")}`;
 
 export function runsOf(job: Job): number {
-  const runs = (job.job as Record<string, unknown> | null)?.["runs"];
+  // Rows of a list say only how far each of their runs is.
+  const runs = job.job?.["runs"] ?? job.progress.runs?.length;
   return typeof runs === "number" ? runs : 1;
 }

@@ -213,7 +213,7 @@ export function RunScreen({ id, number }: { id: string; number: number }) {
   const job = useJson<Job>(`/v1/jobs/${id}`);
   const { dataset, error } = useDataset(id);
   const run = `run${String(number).padStart(3, "0")}`;
-  const asked = job.value?.job["scenario"];
+  const asked = job.value?.job?.["scenario"];
   const card = useJson<{ scenarios?: Record<string, string> }>(Array.isArray(asked) ? `/v1/jobs/${id}/files/dataset.json` : null);
   const place = Array.isArray(asked) ? card.value?.scenarios?.[run] : asked;
   const isShipped = typeof place === "string" && !place.startsWith("generated/");
