@@ -180,6 +180,15 @@ bool Keys::are_needed() const {
   });
 }
 
+bool Keys::is_valid(const Caller& caller) const {
+  if (caller.key_id.empty()) return !are_needed();
+  return file_->with([&](SQLite::Database& database) {
+    SQLite::Statement query(database, "SELECT 1 FROM key WHERE id = ? AND revoked_ms = 0");
+    query.bind(1, caller.key_id);
+    return query.executeStep();
+  });
+}
+
 std::optional<Caller> Keys::caller_of(std::string_view token) const {
   if (!are_needed()) return Caller{"", Scope::admin, 0, 0, kMaxPriority};
   if (!is_made_here(token) && !is_own_key(token)) return std::nullopt;

@@ -76,6 +76,9 @@ class Keys {
   /// The caller with this key; std::nullopt if the key is invalid. If no keys are required, every
   /// caller is an administrator.
   std::optional<Caller> caller_of(std::string_view token) const;
+  /// Whether a caller may still be served: for answers that go on for long. False once the key was
+  /// revoked, and for callers without a key once keys are required.
+  bool is_valid(const Caller& caller) const;
 
  private:
   struct File;

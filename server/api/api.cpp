@@ -49,6 +49,7 @@ constexpr const char* kStudies = "/v1/studies";
 constexpr const char* kScenarios = "/v1/scenarios";
 constexpr const char* kSession = "/v1/session";
 constexpr const char* kJobs = "/v1/jobs";
+constexpr int kMaxRequests = 1'000'000;  // threads limit them
 
 }  // namespace
 
@@ -244,17 +245,30 @@ Caller checked_caller(const Keys& keys, Sessions& sessions, const Request& reque
   return admitted(keys, sessions, request, route.scope);
 }
 
-// Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
-std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& request,
-                           bool loopback) {
-  const Route* route = find_route(request);
-  if (route == nullptr) throw HttpError{404, ""};
-  static_cast<void>(checked_caller(keys, sessions, request, *route, loopback));
-  if (route->method != Method::post) return kMaxTextBytes;
+std::size_t max_body_bytes(const Route& route, const Request& request) {
+  if (route.method != Method::post) return kMaxTextBytes;
   if (request.path == kCalibrations) return kMaxImagesBytes;
   const bool is_bundle =
       request.path == kScenarios || (request.path == kJobs && request.is_multipart_form_data());
   return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
+}
+
+// One key leaves half of the connections to others; administrators end what takes too many.
+std::shared_ptr<void> held_request(KeyLimit& requests, const Caller& caller) {
+  if (caller.scope >= Scope::admin) return nullptr;
+  std::shared_ptr<void> held = requests.hold(caller.key_id);
+  if (held != nullptr) return held;
+  throw HttpError{429, fmt::format("this key has {} requests under way, as many as it may",
+                                   kMaxRequestsOfKey)};
+}
+
+// Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
+BodyAdmission body_admission(const Keys& keys, Sessions& sessions, KeyLimit& requests,
+                             const Request& request, bool loopback) {
+  const Route* route = find_route(request);
+  if (route == nullptr) throw HttpError{404, ""};
+  const Caller caller = checked_caller(keys, sessions, request, *route, loopback);
+  return {max_body_bytes(*route, request), held_request(requests, caller)};
 }
 
 AuditEntry audit_entry(const std::string& key, const Request& request, int status) {
@@ -281,12 +295,17 @@ bool is_audited(const std::string& method, const Route& route) {
 
 bool is_refusal(int status) { return status == 401 || status == 403 || status == 421; }
 
-HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
-                             AuditLog& audit) {
+HttpOptions with_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
+                        AuditLog& audit, KeyLimit& requests) {
   const bool loopback = is_loopback(options.host);
-  options.max_body_bytes = [&keys, &sessions, &audit, loopback](const Request& request) {
+  options.is_urgent = [&keys, &sessions](const Request& request) {
+    if (request.path == "/healthz" || request.path == "/readyz") return true;
+    const auto caller = caller_in(keys, sessions, request);
+    return caller && caller->scope >= Scope::admin;
+  };
+  options.admit_body = [&keys, &sessions, &audit, &requests, loopback](const Request& request) {
     try {
-      return max_body_bytes(keys, sessions, request, loopback);
+      return body_admission(keys, sessions, requests, request, loopback);
     } catch (const HttpError& error) {
       if (error.status != 404) record_refusal(audit, keys, sessions, request, error.status);
       throw;
@@ -308,24 +327,43 @@ const char* content_policy(const Route& route) {
 
 }  // namespace
 
+namespace {
+
+/// Keeps an object until the answer, which a content provider may still write, has been sent.
+void hold_until_sent(Response& response, std::shared_ptr<void> held) {
+  response.content_provider_resource_releaser_ =
+      [held = std::move(held), next = response.content_provider_resource_releaser_](bool success) {
+        if (next) next(success);
+      };
+}
+
+}  // namespace
+
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : audit_(service.folders().data()),
-      server_(with_body_limits(options, keys, sessions_, audit_), &write_library_error) {
+      requests_(kMaxRequests, kMaxRequestsOfKey),
+      server_(with_limits(options, keys, sessions_, audit_, requests_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
     return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
                                                             Response& response) {
       forget_ranges(request);
       std::string key;
+      std::shared_ptr<void> held;
       guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         key = caller.key_id;
+        // Those with a body were counted before it was read.
+        const std::string length = request.get_header_value("Content-Length");
+        const bool has_body = !length.empty() && length != "0";
+        if (!has_body) held = held_request(requests_, caller);
         entry.handler({service.queue(), service.uploads(), service.calibrations(),
                        service.studies(), service.housekeeping(), service.datasets(),
                        service.reports(), service.confined(), service.folders(), hooks,
                        service.live(), service.executor(), keys, sessions_, answers_, caller},
                       request, response);
       });
+      if (held != nullptr) hold_until_sent(response, std::move(held));
       if (is_refusal(response.status)) {
         record_refusal(audit_, keys, sessions_, request, response.status);
       } else if (is_audited(request.method, entry)) {

@@ -14,9 +14,13 @@
 #include "server/api/service.h"
 #include "server/http/answer_budget.h"
 #include "server/http/http_server.h"
+#include "server/http/key_limit.h"
 #include "server/webhooks/webhook_sender.h"
 
 namespace throng::server {
+
+/// Requests of one key that are worked on at once, streams included; half of the server's threads.
+inline constexpr int kMaxRequestsOfKey = 256;
 
 /// All operations of the API.
 std::span<const Route> routes();
@@ -37,6 +41,7 @@ class Api {
   Sessions sessions_;
   AuditLog audit_;
   AnswerBudget answers_;
+  KeyLimit requests_;
   HttpServer server_;
 };
 

@@ -24,7 +24,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int kMaxStreams = 128;  // each holds a thread of the server
 constexpr int kPage = 500;
 constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for its end
 constexpr auto kKeepAlive = 10s;
@@ -48,21 +47,28 @@ std::vector<jobs::EventRow> visible(std::vector<jobs::EventRow> events, const Jo
   return events;
 }
 
+/// Throws HttpError 429.
+std::shared_ptr<void> watch_for(JobQueue& queue, const Caller& caller) {
+  std::shared_ptr<void> watch = queue.begin_watch(caller.key_id);
+  if (watch != nullptr) return watch;
+  throw HttpError{
+      429, fmt::format("this key may have {} event streams and requests that wait for events, and "
+                       "all keys together {}: close some, or ask without ?wait_s=",
+                       kMaxWatchersOfKey, kMaxWatchers)};
+}
+
 class EventStream {
  public:
   /// `folder`: of the job, where its previews are looked for; empty: nowhere.
-  EventStream(JobQueue& queue, Caller caller, std::string job, std::int64_t after,
-              std::filesystem::path folder)
-      : watch_(queue.begin_watch(kMaxStreams)),
+  EventStream(JobQueue& queue, const Keys& keys, Caller caller, std::string job,
+              std::int64_t after, std::filesystem::path folder)
+      : watch_(watch_for(queue, caller)),
         queue_(queue),
+        keys_(keys),
         folder_(std::move(folder)),
         caller_(std::move(caller)),
         job_(std::move(job)),
-        after_(after) {
-    if (watch_ != nullptr) return;
-    throw HttpError{503, fmt::format("{} event streams are open: try again later, or use ?wait_s=",
-                                     kMaxStreams)};
-  }
+        after_(after) {}
 
   /// Writes what there is, or waits a moment for it; false when the client has gone. Past events
   /// come first, in order; progress and previews follow the events that were there before them, and
@@ -70,6 +76,11 @@ class EventStream {
   bool step(httplib::DataSink& sink) {
     // Looked at before the events: what ends the job is among them.
     const auto row = job_.empty() ? std::nullopt : queue_.get(job_);
+    // The key may have been revoked since, or the job be shared no more.
+    if (!keys_.is_valid(caller_) || (row && !is_visible(caller_, *row))) {
+      sink.done();
+      return true;
+    }
     const bool may_go_on = job_.empty() || (row && is_active(row->state));
     const auto events = queue_.events(job_, after_, kPage, 0ms);
     if (!events.empty()) after_ = events.back().seq;
@@ -124,6 +135,7 @@ class EventStream {
 
   std::shared_ptr<void> watch_;
   const JobQueue& queue_;
+  const Keys& keys_;
   std::filesystem::path folder_;
   std::string preview_;
   std::chrono::steady_clock::time_point last_look_;
@@ -153,8 +165,12 @@ void send_page(const RequestContext& context, const Request& request, Response& 
   const auto limit = static_cast<int>(requested_number(request, "limit", 1, kPage, kPage));
   const std::chrono::seconds timeout(requested_number(request, "wait_s", 0, kMaxWaitS, 0));
   json list = json::array();
+  const auto watch = timeout.count() > 0 ? watch_for(context.queue, context.caller) : nullptr;
   const std::vector<jobs::EventRow> events = context.queue.events(job, after, limit, timeout);
   const std::int64_t next = events.empty() ? after : events.back().seq;
+  if (!context.keys.is_valid(context.caller)) {
+    throw HttpError{401, "this key is not known, or was revoked"};
+  }
   for (const jobs::EventRow& event : visible(events, context.queue, context.caller)) {
     list.push_back(event_json(event));
   }
@@ -167,7 +183,7 @@ void send_job_events(const RequestContext& context, const Request& request, Resp
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(context, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(context.queue, context.caller, job,
+  const auto stream = std::make_shared<EventStream>(context.queue, context.keys, context.caller, job,
                                                     last_event_id(request), folder);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back

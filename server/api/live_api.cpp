@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,8 +27,6 @@ using httplib::Response;
 using nlohmann::json;
 
 namespace {
-
-constexpr int kMaxViewers = 32;  // of all flights; each holds a thread of the server
 
 bool is_own(const RequestContext& context, const LiveFlight& flight) {
   return sees_all(context.caller) || flight.owner() == context.caller.key_id;
@@ -138,23 +137,33 @@ void send_live(const RequestContext& context, const Request& request, Response& 
 
 void stream_live(const RequestContext& context, const Request& request, Response& response) {
   const std::shared_ptr<LiveFlight> flight = find_flight(context, request);
-  int viewers = 0;
-  for (const auto& other : context.live.all()) viewers += other->viewers();
-  if (viewers >= kMaxViewers) {
-    throw HttpError{503, fmt::format("{} streams are open: try again later", viewers)};
+  const std::shared_ptr<void> held = context.live.begin_view(context.caller.key_id);
+  if (held == nullptr) {
+    throw HttpError{429, fmt::format("this key may watch live flights {} times at once, and all "
+                                     "keys together {}: close some streams",
+                                     kMaxViewersOfKey, kMaxViewers)};
   }
   const auto viewer = std::make_shared<LiveFlight::Viewer>(flight);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold messages back
-  response.set_chunked_content_provider("application/octet-stream",
-                                        [viewer](std::size_t, httplib::DataSink& sink) {
-                                          const std::string bytes = viewer->next();
-                                          if (bytes.empty()) {
-                                            sink.done();
-                                            return true;
-                                          }
-                                          return sink.write(bytes.data(), bytes.size());
-                                        });
+  response.set_chunked_content_provider(
+      "application/octet-stream",
+      [viewer, held, &keys = context.keys, caller = context.caller,
+       next_check = std::chrono::steady_clock::time_point()](std::size_t,
+                                                             httplib::DataSink& sink) mutable {
+        const std::string bytes = viewer->next();
+        const auto now = std::chrono::steady_clock::now();
+        bool may_go_on = !bytes.empty();
+        if (may_go_on && now >= next_check) {
+          may_go_on = keys.is_valid(caller);  // it may have been revoked since
+          next_check = now + std::chrono::seconds(1);
+        }
+        if (!may_go_on) {
+          sink.done();
+          return true;
+        }
+        return sink.write(bytes.data(), bytes.size());
+      });
 }
 
 void command_live(const RequestContext& context, const Request& request, Response& response) {

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -25,7 +26,9 @@ namespace throng::server {
 
 namespace {
 
-constexpr std::size_t kThreads = 256;  // one per open connection; half of them may be streams
+constexpr int kThreads = 512;  // one per open connection; half of them may be streams
+// For health checks and administrators while all others are busy.
+constexpr int kReserveThreads = 16;
 constexpr int kBacklog = 1024;
 constexpr std::size_t kRequestsPerConnection = 1'000'000;
 constexpr int kIdleStepMs = 100;  // bounds how long stop() takes
@@ -79,18 +82,27 @@ class HttpServer::BoundedServer : public httplib::Server {
   /// memory or files for a moment, and whose sockets are inherited by programs that are started.
   void accept_all() {
     httplib::ThreadPool threads(kThreads);
+    httplib::ThreadPool reserve(kReserveThreads);
     while (svr_sock_ != INVALID_SOCKET) {
       pollfd wait{listener_, POLLIN, 0};
       if (::poll(&wait, 1, -1) <= 0) continue;  // end() shuts the socket down, which wakes this
       const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
       if (socket >= 0) {
-        threads.enqueue([this, socket] { process_and_close_socket(socket); });
+        const bool is_reserve = open_ >= kThreads && in_reserve_ < kReserveThreads;
+        std::atomic<int>& count = is_reserve ? in_reserve_ : open_;
+        ++count;
+        (is_reserve ? reserve : threads).enqueue([this, socket, is_reserve, &count] {
+          is_reserve_ = is_reserve;
+          process_and_close_socket(socket);
+          --count;
+        });
       } else if (errno != EINTR && errno != ECONNABORTED && svr_sock_ != INVALID_SOCKET) {
         spdlog::warn("connections wait: {}", std::strerror(errno));
         std::this_thread::sleep_for(kPauseWithoutFiles);
       }
     }
     threads.shutdown();
+    reserve.shutdown();
   }
 
   /// Makes accept_all() return, now or when it is only about to begin; open connections end.
@@ -113,9 +125,9 @@ class HttpServer::BoundedServer : public httplib::Server {
 
   /// Whether the last request was answered.
   bool serve_all(socket_t socket) {
-    Connection connection(socket, options_.connection);
+    Connection connection(socket, is_reserve_ ? reserve_limits_ : options_.connection);
     bool served = false;
-    for (std::size_t left = kRequestsPerConnection; left > 0 && is_next(connection); --left) {
+    for (std::size_t left = is_reserve_ ? 1 : kRequestsPerConnection; left > 0 && is_next(connection, served); --left) {
       auto head = connection.read_head();
       if (std::holds_alternative<Connection::Ended>(head)) break;
       if (const auto* error = std::get_if<HeadError>(&head)) {
@@ -132,11 +144,15 @@ class HttpServer::BoundedServer : public httplib::Server {
 
   /// False when the connection has to end.
   bool serve(Connection& connection, const RequestHead& head, bool is_last) {
-    if (head.content_length > 0) {
+    std::shared_ptr<void> admission;
+    if (head.content_length > 0 || is_reserve_) {
       httplib::Request request = to_library_request(head);
       connection.get_remote_ip_and_port(request.remote_addr, request.remote_port);
       try {
-        admit_body(request, head.content_length);
+        if (is_reserve_ && !(options_.is_urgent && options_.is_urgent(request))) {
+          throw HttpError{503, "all connections are in use; try again"};
+        }
+        if (head.content_length > 0) admission = admit_body(request, head.content_length);
       } catch (const HttpError& error) {
         refuse(connection, request, error);
         return false;
@@ -159,15 +175,18 @@ class HttpServer::BoundedServer : public httplib::Server {
     connection.write_all(text_of_answer(request, response));
   }
 
-  /// Throws HttpError for a body that is not to be read.
-  void admit_body(const httplib::Request& request, std::size_t bytes) {
-    if (options_.max_body_bytes) {
-      if (const std::size_t max = options_.max_body_bytes(request); bytes > max) {
-        throw HttpError{413, fmt::format("a body may have {} bytes here", max)};
+  /// Throws HttpError for a body that is not to be read. The result is held during the request.
+  std::shared_ptr<void> admit_body(const httplib::Request& request, std::size_t bytes) {
+    BodyAdmission admission;
+    if (options_.admit_body) {
+      admission = options_.admit_body(request);
+      if (bytes > admission.max_bytes) {
+        throw HttpError{413, fmt::format("a body may have {} bytes here", admission.max_bytes)};
       }
     }
     if (!reserve(bytes))
       throw HttpError{503, "other uploads take all the memory there is for them"};
+    return admission.held;
   }
 
   /// Notes the memory that this thread's request will take; false when there is too little left.
@@ -183,10 +202,15 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   /// Waits for another request of this connection.
-  bool is_next(const Connection& connection) const {
+  bool is_next(const Connection& connection, bool was_served) const {
     if (connection.has_pending()) return true;
     const auto end = std::chrono::steady_clock::now() + options_.connection.idle;
+    // Others wait for a thread: a connection that only might be used ends.
+    constexpr auto kFirstRequest = std::chrono::milliseconds(200);
+    const auto end_if_needed =
+        std::chrono::steady_clock::now() + (was_served ? std::chrono::milliseconds(0) : kFirstRequest);
     while (svr_sock_ != INVALID_SOCKET && std::chrono::steady_clock::now() < end) {
+      if (open_ >= kThreads && std::chrono::steady_clock::now() >= end_if_needed) return false;
       pollfd wait{connection.socket(), POLLIN, 0};
       if (::poll(&wait, 1, kIdleStepMs) > 0) return true;
     }
@@ -197,10 +221,18 @@ class HttpServer::BoundedServer : public httplib::Server {
   const HttpOptions options_;
   const ErrorWriter write_error_;
   std::atomic<std::int64_t> body_bytes_ = 0;
+  std::atomic<int> open_ = 0;        ///< connections that have a thread or wait for one
+  std::atomic<int> in_reserve_ = 0;  ///< connections in the reserve
+  /// Of connections in the reserve, which are soon free again.
+  const ConnectionLimits reserve_limits_ = {.head_time = std::chrono::milliseconds(1'000),
+                                            .silence = std::chrono::milliseconds(1'000),
+                                            .idle = std::chrono::milliseconds(1'000)};
   static thread_local std::int64_t reserved_;  ///< by the request that this thread works on
+  static thread_local bool is_reserve_;        ///< whether this thread is one of the reserve
 };
 
 thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
+thread_local bool HttpServer::BoundedServer::is_reserve_ = false;
 
 HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
     : server_(std::make_unique<BoundedServer>(options, write_error)) {

@@ -17,14 +17,23 @@
 
 namespace throng::server {
 
+/// What a request may send.
+struct BodyAdmission {
+  std::size_t max_bytes = 0;
+  std::shared_ptr<void> held = {};  ///< kept as long as the request is worked on
+};
+
 /// Address and limits of a server.
 struct HttpOptions {
   std::string host = "127.0.0.1";
   int port = 0;  ///< 0: any free port
-  /// Returns the max size of a request's body in bytes; a larger body is refused with 413. Called
-  /// after the head was read and before the body; the request has method, path and headers. May
-  /// throw HttpError to refuse the request.
-  std::function<std::size_t(const httplib::Request&)> max_body_bytes = {};
+  /// Decides about a request's body; a larger one is refused with 413. Called after the head was
+  /// read and before the body; the request has method, path, headers and address. May throw
+  /// HttpError to refuse the request.
+  std::function<BodyAdmission(const httplib::Request&)> admit_body = {};
+  /// Whether a request is served while all threads are busy: there are a few in reserve. Others are
+  /// refused with 503 then. Empty: none is.
+  std::function<bool(const httplib::Request&)> is_urgent = {};
   /// Max total size of all bodies above 1 MiB that are being read or handled; a further one is
   /// refused with 503.
   std::int64_t max_all_body_bytes = 512 << 20;

@@ -107,12 +107,6 @@ void JobQueue::require_scenario(const jobs::JobSpec& job) const {
   }
 }
 
-std::shared_ptr<void> JobQueue::begin_watch(int max) {
-  const auto release = [watchers = watchers_](void*) { --*watchers; };
-  std::shared_ptr<void> watch(watchers_.get(), release);
-  return ++*watchers_ > max ? nullptr : std::move(watch);
-}
-
 std::vector<jobs::EventRow> JobQueue::events(const std::string& job, std::int64_t after, int limit,
                                              std::chrono::milliseconds timeout) const {
   const auto end = std::chrono::steady_clock::now() + timeout;

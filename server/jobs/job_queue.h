@@ -1,7 +1,6 @@
 // Operations of clients on jobs, independent of HTTP: submit, list, cancel, retry, watch events.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -21,10 +20,15 @@
 #include "server/catalog/service_folders.h"
 #include "server/catalog/text_cache.h"
 #include "server/catalog/uploads.h"
+#include "server/http/key_limit.h"
 #include "server/jobs/publish_targets.h"
 #include "spec/job/resolved_job.h"
 
 namespace throng::server {
+
+/// Each watcher holds a thread of the server.
+inline constexpr int kMaxWatchers = 192;
+inline constexpr int kMaxWatchersOfKey = 48;
 
 /// A job to be queued.
 struct Submission {
@@ -93,9 +97,10 @@ class JobQueue {
                                      std::chrono::milliseconds timeout) const;
   /// The number of the newest event; 0 for none.
   std::int64_t last_event() const { return store_.last_event(); }
-  /// Registers a watcher of events for the lifetime of the result; null if there are `max` already.
-  std::shared_ptr<void> begin_watch(int max);
-  int watchers() const { return *watchers_; }
+  /// Registers a watcher of events, a stream or a request that waits for some, for the lifetime of
+  /// the result; null if all keys together, or this key, have as many as they may.
+  std::shared_ptr<void> begin_watch(const std::string& key) { return watchers_.hold(key); }
+  int watchers() const { return watchers_.held(); }
 
  private:
   /// The job with calibrations that it names replaced by their cameras.
@@ -109,7 +114,7 @@ class JobQueue {
   const Calibrations& calibrations_;
   const ConfinedChecks& confined_;
   const PublishTargets& publish_to_;
-  std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
+  KeyLimit watchers_{kMaxWatchers, kMaxWatchersOfKey};
   mutable TextCache texts_;
 };
 

@@ -12,10 +12,15 @@
 #include <vector>
 
 #include "base/compute/steady_time.h"
+#include "server/http/key_limit.h"
 #include "server/live/live_flight.h"
 #include "spec/job/resolved_job.h"
 
 namespace throng::server {
+
+/// Each viewer holds a thread of the server.
+inline constexpr int kMaxViewers = 64;
+inline constexpr int kMaxViewersOfKey = 8;
 
 /// Limits on live flights.
 struct LiveLimits {
@@ -50,6 +55,9 @@ class LiveFlights {
   /// The flight with this id; null if there is none.
   std::shared_ptr<LiveFlight> find(const std::string& id) const;
   std::vector<std::shared_ptr<LiveFlight>> all() const;
+  /// Registers a viewer of any flight for the lifetime of the result; null if all keys together, or
+  /// this key, have as many as they may.
+  std::shared_ptr<void> begin_view(const std::string& key) { return viewers_.hold(key); }
   /// Ends and removes a flight; returns false if there is none.
   bool remove(const std::string& id);
 
@@ -59,6 +67,7 @@ class LiveFlights {
 
   std::filesystem::path folder_;
   LiveLimits limits_;
+  KeyLimit viewers_{kMaxViewers, kMaxViewersOfKey};
   mutable std::mutex mutex_;
   std::condition_variable_any begun_;                           ///< a flight was started
   std::map<std::string, std::shared_ptr<LiveFlight>> flights_;  ///< by id; guarded by mutex_

@@ -229,9 +229,11 @@ TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
   Gate gate(executor);
   const std::string id = submit();
   std::vector<std::shared_ptr<void>> watches;
-  while (auto watch = service.queue().begin_watch(128)) watches.push_back(watch);
-  EXPECT_EQ(watches.size(), 128U);
-  expect_problem(get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}}), 503);
+  while (auto watch = service.queue().begin_watch("")) watches.push_back(watch);
+  EXPECT_EQ(watches.size(), 192U);
+  expect_problem(get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}}), 429);
+  expect_problem(get("/v1/jobs/" + id + "/events?wait_s=60&after=1000000"), 429);
+  EXPECT_EQ(get("/v1/jobs/" + id + "/events?after=1000000")->status, 200);
   EXPECT_EQ(get("/v1/jobs/" + id)->status, 200);
   gate.open();
 }

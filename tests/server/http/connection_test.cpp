@@ -89,7 +89,7 @@ TEST_F(HostileClients, RequestsSentTogetherAreAllAnswered) {
 
 TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
   HttpOptions options;
-  options.max_body_bytes = [](const httplib::Request&) { return std::size_t{64} << 20U; };
+  options.admit_body = [](const httplib::Request&) { return BodyAdmission{std::size_t{64} << 20U}; };
   options.max_all_body_bytes = 3 << 20;
   HttpServer small(options, [](const httplib::Request&, httplib::Response& response,
                                const HttpError& error) { response.status = error.status; });
@@ -111,7 +111,7 @@ TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
 
 TEST_F(HostileClients, RequestsThatCannotBeCheckedAreRefused) {
   HttpOptions options;
-  options.max_body_bytes = [](const httplib::Request& request) -> std::size_t {
+  options.admit_body = [](const httplib::Request& request) -> BodyAdmission {
     if (request.path == "/locked") throw EnvironmentError("the database is locked");
     throw HttpError{418, "no tea"};
   };

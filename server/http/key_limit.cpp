@@ -1,0 +1,26 @@
+#include "server/http/key_limit.h"
+
+namespace throng::server {
+
+std::shared_ptr<void> KeyLimit::hold(const std::string& key) {
+  const std::lock_guard lock(counts_->mutex);
+  if (counts_->all >= max_all_) return nullptr;
+  int& of_key = counts_->of_key[key];
+  if (!key.empty() && of_key >= max_of_key_) return nullptr;
+  const auto release = [counts = counts_, key](void*) {
+    const std::lock_guard lock_again(counts->mutex);
+    --counts->all;
+    if (--counts->of_key[key] == 0) counts->of_key.erase(key);
+  };
+  std::shared_ptr<void> held(counts_.get(), release);
+  ++counts_->all;
+  ++of_key;
+  return held;
+}
+
+int KeyLimit::held() const {
+  const std::lock_guard lock(counts_->mutex);
+  return counts_->all;
+}
+
+}  // namespace throng::server

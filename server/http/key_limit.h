@@ -1,0 +1,35 @@
+// Limits what one sender may hold at once, so that others have the rest.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace throng::server {
+
+/// Number of things that are held at once, such as streams: of all senders, and of each key.
+/// Senders without a key (none are required) have only the limit of all. Safe to use from many
+/// threads.
+class KeyLimit {
+ public:
+  KeyLimit(int max_all, int max_of_key) : max_all_(max_all), max_of_key_(max_of_key) {}
+
+  /// Holds one more until the result is destroyed; null if a limit is reached.
+  std::shared_ptr<void> hold(const std::string& key);
+  /// Number that is held.
+  int held() const;
+
+ private:
+  struct Counts {
+    std::mutex mutex;
+    int all = 0;
+    std::map<std::string, int> of_key;
+  };
+
+  const int max_all_;
+  const int max_of_key_;
+  std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();  ///< outlives this object
+};
+
+}  // namespace throng::server
