@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
@@ -25,21 +27,39 @@ Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
   return geometry::clipped(polygon, [&](const Vector2d& p) { return normal.dot(p) - limit; });
 }
 
+/// Sides of the cells that areas are cut into are at least this long.
+constexpr double kMinCellM = 3;
+
 class LayerBuilder {
  public:
   LayerBuilder(const Openness& openness, SceneryMesh& mesh) : openness_(openness), mesh_(mesh) {}
 
   std::uint32_t indices() const { return static_cast<std::uint32_t>(mesh_.indices.size()); }
 
+  /// From now on vertices know how far they are from the outline of an area, if it is not narrow.
+  void set_outline(std::span<const Vector2d> outline) {
+    Eigen::AlignedBox2d bounds;
+    for (const Vector2d& p : outline) bounds.extend(p);
+    const bool is_wide = !outline.empty() && bounds.sizes().minCoeff() > 3 * kMinCellM;
+    outline_ = is_wide ? outline : std::span<const Vector2d>();
+  }
+
   /// A convex polygon, counter-clockwise.
-  void add(const Polygon& polygon, double height_m) {
+  void add(Polygon polygon, double height_m) {
     if (polygon.size() < 3) return;
+    // A fan around the innermost corner: no triangle has all of its corners on the outline.
+    std::rotate(polygon.begin(),
+                std::max_element(polygon.begin(), polygon.end(),
+                                 [&](const Vector2d& a, const Vector2d& b) {
+                                   return inside_m(a) + 1e-9 < inside_m(b);
+                                 }),
+                polygon.end());
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (const Vector2d& p : polygon) {
       mesh_.vertices.push_back(
           {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(height_m)},
            {0, 0, 1},
-           {ground_tone_at(p)},
+           {ground_tone_at(p), outline_.empty() ? 0 : static_cast<float>(1 + inside_m(p))},
            openness_(p),
            kIdGround,
            0});
@@ -51,7 +71,6 @@ class LayerBuilder {
 
   /// The same cut along a grid, so that openness is sampled within it.
   void add_in_cells(const Polygon& polygon, double height_m) {
-    constexpr double kMinCellM = 3;
     constexpr double kMaxCells = 48;
     Eigen::AlignedBox2d bounds;
     for (const Vector2d& p : polygon) bounds.extend(p);
@@ -72,8 +91,13 @@ class LayerBuilder {
   }
 
  private:
+  double inside_m(const Vector2d& point) const {
+    return outline_.empty() ? 0 : std::max(0.0, -geometry::signed_distance_to(outline_, point));
+  }
+
   const Openness& openness_;
   SceneryMesh& mesh_;
+  std::span<const Vector2d> outline_;
 };
 
 void paint(const world::Marking& marking, LayerBuilder& layers) {
@@ -174,11 +198,13 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
     const double height_m =
         kAreaHeightM + kNextAreaM * static_cast<double>(std::min(levels[i], kMaxHeights));
     layer(area.material, [&] {
+      builder.set_outline(area.corners);
       for (const auto& triangle : geometry::triangulate(area.corners)) {
         builder.add_in_cells(
             {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
             height_m);
       }
+      builder.set_outline({});
       for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }
