@@ -147,6 +147,33 @@ std::vector<std::size_t> area_levels(const std::vector<world::GroundArea>& areas
   return levels;
 }
 
+/// A path that leaves the scenario between two points, as a track which becomes narrow and winds.
+/// Its corners are in the order of the street's.
+std::vector<Polygon> winding_track(const Vector2d& first, const Vector2d& second,
+                                   const Vector2d& away) {
+  constexpr double kTrackM = 3;
+  constexpr double kStepM = 26;
+  constexpr int kSteps = 12;
+  std::vector<Polygon> parts;
+  Vector2d left = first;
+  Vector2d right = second;
+  Vector2d middle = 0.5 * (first + second);
+  double heading = std::atan2(away.y(), away.x());
+  for (int step = 0; step < kSteps; ++step) {
+    const double wave = std::sin(0.05 * (middle.x() - 0.7 * middle.y()) + 0.9 * step);
+    heading += step > 0 ? 0.28 * wave : 0;
+    middle += kStepM * Vector2d(std::cos(heading), std::sin(heading));
+    const double whole_m = (second - first).norm();
+    const double width_m =
+        step == 0 ? std::min(whole_m, 0.5 * (whole_m + kTrackM)) : std::min(whole_m, kTrackM);
+    const Vector2d across = 0.5 * width_m * Vector2d(-std::sin(heading), std::cos(heading));
+    parts.push_back({left, right, middle - across, middle + across});
+    left = middle + across;
+    right = middle - across;
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
@@ -168,7 +195,11 @@ std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t
         const bool is_left = geometry::cross(from - to, away) > 0;
         const Vector2d& first = is_left ? to : from;
         const Vector2d& second = is_left ? from : to;
-        parts.push_back({first, second, second + away, first + away});
+        if (street.material == "asphalt") {
+          parts.push_back({first, second, second + away, first + away});
+        } else {
+          for (Polygon& part : winding_track(first, second, away)) parts.push_back(std::move(part));
+        }
       }
     }
   }

@@ -177,6 +177,21 @@ TEST_F(FarLand, IsABackdropThatLabelsDoNotShow) {
   EXPECT_EQ(tallest_m(scenario_), 2.5);
 }
 
+TEST(GroundLayers, PathsGoOnAsNarrowTracksAndRoadsAsTheyAre) {
+  world::Scenario scenario = open_ground();
+  scenario.areas = {{{{-40, -4}, {40, -4}, {40, 4}, {-40, 4}}, "asphalt", false}};
+  EXPECT_EQ(streets_beyond(scenario, 0).size(), 2U);
+  scenario.areas[0].material = "dirt";
+  const auto track = streets_beyond(scenario, 0);
+  ASSERT_GT(track.size(), 4U);
+  for (const auto& part : track) {
+    EXPECT_EQ(part.size(), 4U);
+    EXPECT_GT(geometry::signed_area(part), 0);
+  }
+  EXPECT_NEAR((track.front()[0] - track.front()[1]).norm(), 8, 0.1);
+  EXPECT_NEAR((track[3][2] - track[3][3]).norm(), 3, 0.1);
+}
+
 TEST(GroundLayers, KnowHowFarTheOutlineOfAWideAreaIs) {
   const auto farthest = [](double width_m) {
     world::Scenario scenario = open_ground();
