@@ -33,6 +33,9 @@ class ContactPass {
   static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
                  double reach_m, double strength);
 
+  /// Adds the shade below a tent or stall with these half sizes (m).
+  void add_roof_on_posts(const world::Prop& prop, const Eigen::Vector2d& half);
+
   /// Adds the soft shadows that the lamps around a person cast on the ground.
   void add_lamp_shadows(const PersonInstance& person);
 

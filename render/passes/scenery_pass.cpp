@@ -53,6 +53,11 @@ Program make_scenery_program(std::string_view words, std::string_view surface,
 constexpr std::string_view kWideFilter = "#define WIDE_FILTER\n";
 constexpr std::string_view kTextured = "#define TEXTURED\n";
 constexpr std::string_view kNoPuddles = "#define NO_PUDDLES\n";
+/// Grass and earth follow no grid, so that a second, turned look-up hides how their texture
+/// repeats; at their edges there is bare soil, or grass grows in.
+constexpr std::string_view kGrass =
+    "#define NO_PUDDLES\n#define EDGE_ALBEDO vec3(0.19, 0.155, 0.10)\n";
+constexpr std::string_view kDirt = "#define EDGE_ALBEDO vec3(0.115, 0.155, 0.052)\n";
 constexpr std::string_view kPlain = "surroundings";
 
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
@@ -143,7 +148,9 @@ void SceneryPass::learn(const std::string& material, std::string_view shader,
   if (!quality.textured) {
     look.program = make_corners_program(words, shader);
   } else if (is_baked(material)) {
-    const std::string own = std::string(words).append(material == "grass" ? kNoPuddles : "");
+    const std::string own = std::string(words).append(material == "grass"  ? kGrass
+                                                      : material == "dirt" ? kDirt
+                                                                           : "");
     look.program = make_scenery_program(own, kTextured, embedded::shader_ground_frag);
     look.texture = bake_ground(shader, quality.ground_texels);
   } else {

@@ -21,22 +21,24 @@ struct Foliage {
   double width;      ///< over length
   double outward;    ///< how much they point away from the middle: 0 anywhere, 1 exactly
   double roundness;  ///< exponent of the outline: above 1 for pointed ends
+  int clumps;        ///< that they grow in, with gaps between
+  double clump_size;
 };
 
 Foliage foliage(LeafSprite sprite) {
   switch (sprite) {
     case LeafSprite::small:
-      return {230, 0.075, 0.62, 0.3, 0.8};
+      return {620, 0.042, 0.66, 0.3, 0.8, 12, 0.125};
     case LeafSprite::narrow:
-      return {150, 0.15, 0.27, 0.7, 1.2};
+      return {520, 0.078, 0.3, 0.75, 1.2, 10, 0.14};
     case LeafSprite::needles:
-      return {560, 0.085, 0.13, 0.85, 0.6};
+      return {2400, 0.036, 0.2, 1, 0.6, 0, 0};
     case LeafSprite::crown:
-      return {1500, 0.042, 0.7, 0.4, 0.8};
+      return {1500, 0.042, 0.7, 0.4, 0.8, 13, 0.13};
     case LeafSprite::broad:
       break;
   }
-  return {115, 0.125, 0.6, 0.5, 0.9};
+  return {400, 0.066, 0.68, 0.4, 0.9, 11, 0.14};
 }
 
 /// Draws one leaf over what is there.
@@ -65,17 +67,53 @@ void draw_leaf(const Foliage& leaves, const Vector2d& base, double angle, double
   }
 }
 
-/// A place in one of the clumps of a crown, which give it an uneven outline with gaps.
-Vector2d place_in_clump(int leaf, Random& random) {
-  constexpr int kClumps = 13;
-  constexpr double kClumpSize = 0.13;
-  const int clump = leaf % kClumps;
-  const double away = 0.31 * std::sqrt((clump + 0.5) / kClumps);
+/// A leaf's beginning, direction and brightness.
+struct Placed {
+  Vector2d base;
+  double angle;
+  double shade;
+};
+
+/// In one of the clumps of a twig or crown, which give it an uneven outline with gaps; leaves that
+/// are drawn late are in front and get more light.
+Placed place_in_clump(const Foliage& leaves, int leaf, Random& random) {
+  const int clump = leaf % leaves.clumps;
+  const double away =
+      (0.46 - leaves.clump_size) * std::sqrt((clump + 0.5) / static_cast<double>(leaves.clumps));
   const double turn = clump * std::numbers::pi * (3 - std::sqrt(5.0));
-  const double off = kClumpSize * std::sqrt(random.uniform());
+  const double share = 1 - static_cast<double>(leaf) / leaves.count;
+  const double off = leaves.clump_size * std::sqrt(random.uniform());
   const double angle = random.uniform(0, 2 * std::numbers::pi);
-  return Vector2d(0.5, 0.5) + away * Vector2d(std::cos(turn), std::sin(turn)) +
-         off * Vector2d(std::cos(angle), std::sin(angle));
+  const Vector2d in_clump = off * Vector2d(std::cos(angle), std::sin(angle));
+  const Vector2d base =
+      Vector2d(0.5, 0.5) + away * Vector2d(std::cos(turn), std::sin(turn)) + in_clump;
+  const double freedom = (1 - leaves.outward) * std::numbers::pi;
+  // The side of a clump that is turned downward lies in its shade.
+  const double lit = 1 + 0.22 * in_clump.y() / leaves.clump_size;
+  return {base, angle + random.uniform(-freedom, freedom),
+          random.uniform(95, 160) * (1.12 - 0.42 * share) * lit};
+}
+
+/// On a bough whose axis leads from the left to the right: along it and its side shoots, to both
+/// sides of each.
+Placed place_on_bough(int leaf, Random& random) {
+  constexpr int kShoots = 17;
+  const int shoot = leaf % kShoots;
+  Vector2d from(0.03, 0.5);
+  double heading = 0;
+  double length = 0.9;
+  if (shoot > 0) {
+    const double share = (shoot - 0.5) / kShoots;
+    from.x() += 0.8 * share;
+    heading = shoot % 2 == 0 ? 0.75 : -0.75;
+    length =
+        0.06 + 0.6 * (1 - share) * std::min(1.0, 0.35 + 2.4 * share) * (shoot % 3 == 0 ? 0.75 : 1);
+  }
+  const double along = random.uniform();
+  const Vector2d direction(std::cos(heading), std::sin(heading));
+  const double side = random.uniform() < 0.5 ? 0.8 : -0.8;
+  return {from + along * length * direction, heading + side * random.uniform(0.5, 1.2),
+          random.uniform(85, 150) * (0.6 + 0.6 * along)};
 }
 
 Level draw_finest(LeafSprite sprite) {
@@ -83,22 +121,9 @@ Level draw_finest(LeafSprite sprite) {
   Random random(static_cast<std::uint64_t>(sprite), Stream::environment);
   Level level(static_cast<std::size_t>(kLeafTexels) * kLeafTexels, LeafTexel{0, 128});
   for (int i = 0; i < leaves.count; ++i) {
-    // From the rim inwards: leaves in the middle are in front and get more light.
-    const double share = 1 - static_cast<double>(i) / leaves.count;
-    const double radius = (0.47 - leaves.length) * std::sqrt(share) + 0.03;
-    double around = random.uniform(0, 2 * std::numbers::pi);
-    double turn = (1 - leaves.outward) * random.uniform(-std::numbers::pi, std::numbers::pi);
-    if (sprite == LeafSprite::needles) {
-      // Along twigs, to both sides.
-      constexpr int kTwigs = 9;
-      const auto twig = static_cast<double>(random.below(kTwigs));
-      around = (twig + random.uniform(-0.1, 0.1)) * 2 * std::numbers::pi / kTwigs;
-      turn = random.uniform() < 0.5 ? 0.7 : -0.7;
-    }
-    Vector2d base = Vector2d(0.5, 0.5) + radius * Vector2d(std::cos(around), std::sin(around));
-    if (sprite == LeafSprite::crown) base = place_in_clump(i, random);
-    const double shade = random.uniform(95, 165) * (1.1 - 0.3 * share);
-    draw_leaf(leaves, base, around + turn, shade, level);
+    const Placed leaf =
+        leaves.clumps > 0 ? place_in_clump(leaves, i, random) : place_on_bough(i, random);
+    draw_leaf(leaves, leaf.base, leaf.angle, leaf.shade, level);
   }
   return level;
 }

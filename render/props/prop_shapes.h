@@ -17,7 +17,8 @@ enum class Finish : std::uint8_t {
   lamp = 3,       ///< emits light after sunset
   water = 4,      ///< mirrors sky and sun in waves
   lit_glass = 5,  ///< glossy, and lit from within after sunset
-  screen = 6      ///< a wall of lights that shows moving images
+  screen = 6,     ///< a wall of lights that shows moving images
+  bark = 7        ///< furrowed, or with dark bands if bright
 };
 
 /// A vertex of a prop.

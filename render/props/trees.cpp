@@ -70,7 +70,7 @@ const std::array<Species, 6>& species() {
        .cards_per_m2 = 2.0,
        .card_m = 0.45,
        .greens = {Vector3d(0.11, 0.15, 0.04), Vector3d(0.14, 0.17, 0.045)},
-       .bark = {0.50, 0.48, 0.45}},
+       .bark = {0.55, 0.54, 0.52}},
       {.sprite = LeafSprite::narrow,  // ash
        .height = {5.6, 7.2},
        .radius = {1.5, 2.0},
@@ -95,13 +95,13 @@ const std::array<Species, 6>& species() {
        .bark = {0.13, 0.12, 0.11}},
       {.sprite = LeafSprite::needles,  // spruce
        .height = {5.4, 7.6},
-       .radius = {1.6, 2.1},
-       .base = 0.10,
-       .lobes = 9,
+       .radius = {1.5, 1.9},
+       .base = 0.07,
+       .lobes = 17,  // whorls of boughs
        .lobe_radius = 1,
        .lobe_height = 0,
-       .cards_per_m2 = 1.7,
-       .card_m = 0.5,
+       .cards_per_m2 = 0,
+       .card_m = 0,
        .greens = {Vector3d(0.04, 0.07, 0.036), Vector3d(0.055, 0.085, 0.042)},
        .bark = {0.10, 0.075, 0.055},
        .is_conical = true},
@@ -124,18 +124,6 @@ Vector3d spread_direction(int i, int count) {
   const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
   const double ring = std::sqrt(1 - z * z);
   return {ring * std::cos(angle), ring * std::sin(angle), z};
-}
-
-/// Disks that become smaller toward the top.
-std::vector<Lobe> conical_lobes(const Species& kind, double height, double radius) {
-  std::vector<Lobe> lobes;
-  for (int i = 0; i < kind.lobes; ++i) {
-    const double share = (i + 0.5) / kind.lobes;
-    const double wide = radius * (1.04 - share);
-    const double z = height * (kind.base + (1 - kind.base) * share);
-    lobes.push_back({{0, 0, z}, {wide, wide, 0.65 * height * (1 - kind.base) / kind.lobes}});
-  }
-  return lobes;
 }
 
 /// One lobe on top, the others around it at heights of their own.
@@ -175,17 +163,64 @@ double depth_in(const std::vector<Lobe>& lobes, std::size_t but, const Vector3d&
 void add_wood(PropBuilder& builder, const Species& kind, double height,
               const std::vector<Lobe>& lobes) {
   const double fork = (kind.base + 0.12) * height;
-  const double thick = 0.022 * height + 0.03;
-  builder.tube({0, 0, 0}, 1.25 * thick, {0, 0, 0.12}, thick, kind.bark, Finish::matt, 6);
-  builder.tube({0, 0, 0.12}, thick, {0, 0, fork}, 0.8 * thick, kind.bark, Finish::matt, 6);
-  builder.tube({0, 0, fork}, 0.8 * thick, {0, 0, 0.85 * height}, 0.3 * thick, kind.bark,
-               Finish::matt, 6);
+  const double thick = (kind.is_conical ? 0.7 : 1) * (0.018 * height + 0.025);
+  const auto trunk = [&](double from_m, double from, double to_m, double to) {
+    builder.tube({0, 0, from_m}, from * thick, {0, 0, to_m}, to * thick, kind.bark, Finish::bark,
+                 8);
+  };
+  // Wide at the roots, and thinner all the way up.
+  trunk(0, 1.7, 0.1, 1.25);
+  trunk(0.1, 1.25, 0.45, 1);
+  trunk(0.45, 1, fork, 0.72);
+  trunk(fork, 0.72, 0.85 * height, 0.2);
   if (kind.is_conical) return;
   for (const Lobe& lobe : lobes) {
     if (lobe.middle.head<2>().norm() < 0.1) continue;
     const double from = std::min(fork, 0.75 * lobe.middle.z());
-    builder.tube({0, 0, from}, 0.5 * thick, lobe.middle, 0.15 * thick, kind.bark, Finish::matt, 4);
+    builder.tube({0, 0, from}, 0.5 * thick, lobe.middle, 0.12 * thick, kind.bark, Finish::bark, 4);
   }
+}
+
+/// Boughs around the trunk of a conifer, which hang the more the lower they are.
+void add_boughs(PropBuilder& builder, const Species& kind, double height, double radius,
+                const Vector3d& green) {
+  Random& random = builder.random();
+  for (int whorl = 0; whorl < kind.lobes; ++whorl) {
+    const double share = (whorl + 0.4) / kind.lobes;
+    const double z = height * (kind.base + (0.97 - kind.base) * share);
+    const double length = radius * (1.06 - share) * random.uniform(0.9, 1.1);
+    const int boughs = 9 + static_cast<int>(3 * (1 - share));
+    const double start = random.uniform(0, 2 * std::numbers::pi);
+    for (int i = 0; i < boughs; ++i) {
+      const double angle =
+          start + (i + random.uniform(-0.25, 0.25)) * 2 * std::numbers::pi / boughs;
+      const double reach = std::max(0.4, length * random.uniform(0.8, 1.12));
+      const double hangs = 0.55 - 0.75 * share + random.uniform(-0.12, 0.12);
+      const Vector3d out(std::cos(angle), std::sin(angle), 0);
+      const Vector3d along = std::cos(hangs) * out - std::sin(hangs) * Vector3d::UnitZ();
+      const Vector3d across(-out.y(), out.x(), random.uniform(-0.5, 0.5));
+      const Vector3d up = along.cross(across).normalized();
+      const Vector3d half = std::max(0.33 * reach, 0.2) * across.normalized();
+      const double lowest_m = 0.05 + std::max(0.0, reach * std::sin(hangs)) + std::abs(half.z());
+      const Vector3d from(0, 0, std::max(z, lowest_m));
+      const Vector3d tip = from + reach * along;
+      // The inner ends lie in the shade of the boughs above.
+      const double light = random.uniform(0.85, 1.15) * (0.8 + 0.3 * share);
+      builder.leaves({from - half, tip - half, tip + half, from + half},
+                     (0.6 * out + 0.5 * (up.z() < 0 ? -up : up)).normalized(), light * green,
+                     kind.sprite);
+    }
+  }
+}
+
+/// Directions in which a lobe has no leaves: there one sees through the crown.
+std::array<Vector3d, 2> pick_gaps(Random& random) {
+  std::array<Vector3d, 2> gaps;
+  for (Vector3d& gap : gaps) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    gap = Vector3d(std::cos(angle), std::sin(angle), random.uniform(-0.5, 0.5)).normalized();
+  }
+  return gaps;
 }
 
 }  // namespace
@@ -197,9 +232,10 @@ void grow_tree(PropBuilder& builder) {
   const double radius = pick(random, kind.radius);
   const double hue = random.uniform();
   const Vector3d green = (1 - hue) * kind.greens[0] + hue * kind.greens[1];
-  const std::vector<Lobe> lobes = kind.is_conical ? conical_lobes(kind, height, radius)
-                                                  : round_lobes(kind, height, radius, random);
+  const std::vector<Lobe> lobes =
+      kind.is_conical ? std::vector<Lobe>() : round_lobes(kind, height, radius, random);
   add_wood(builder, kind, height, lobes);
+  if (kind.is_conical) add_boughs(builder, kind, height, radius, green);
   const Vector3d middle(0, 0, 0.5 * (1 + kind.base) * height);
   const Vector3d crown(radius, radius, 0.5 * (1 - kind.base) * height);
   for (std::size_t l = 0; l < lobes.size(); ++l) {
@@ -208,6 +244,7 @@ void grow_tree(PropBuilder& builder) {
     const double surface_m2 =
         4 * std::numbers::pi * lobe.radii.x() * 0.5 * (lobe.radii.x() + lobe.radii.z());
     const int cards = std::max(8, static_cast<int>(kind.cards_per_m2 * surface_m2));
+    const std::array<Vector3d, 2> gaps = pick_gaps(random);
     for (int i = 0; i < cards; ++i) {
       const Vector3d out = spread_direction(i, cards);
       const double depth = random.uniform(0.6, 1.0);
@@ -216,6 +253,7 @@ void grow_tree(PropBuilder& builder) {
       const double brightness = random.uniform(0.85, 1.15);
       const double hidden = depth_in(lobes, l, at);
       if (hidden < 0.55) continue;  // nobody sees it
+      if (std::max(out.dot(gaps[0]), out.dot(gaps[1])) > 0.8) continue;
       const Vector3d from_middle = (at - middle).cwiseQuotient(crown);
       const Vector3d normal =
           (0.55 * out + 0.45 * from_middle.normalized() + 0.2 * jitter).normalized();

@@ -29,6 +29,7 @@ constexpr Paints kTiles = {{{0.21, 0.095, 0.06},
 const Vector3d kPane(0.045, 0.052, 0.06);
 const Vector3d kFlatRoof(0.24, 0.235, 0.23);
 const Vector3d kShade(0.045, 0.055, 0.028);
+const Vector3d kBush(0.045, 0.065, 0.026);
 
 Vector3d choose(const Paints& paints, Random& random) {
   return random.uniform(0.85, 1.12) *
@@ -48,12 +49,12 @@ class HouseBuilder {
     const double eaves_m = kStoryM * house_.stories;
     add_walls(eaves_m);
     house_.has_flat_roof ? add_flat_roof(eaves_m) : add_pitched_roof(eaves_m);
-    if (house_.detail == FarDetail::far) return;
-    add_windows();
-    const Vector2d rim = house_.half_size + Vector2d::Constant(1.3);
+    const Vector2d rim = house_.half_size + Vector2d::Constant(2.2);
     constexpr double kAboveM = 0.04;
     quad({-rim.x(), -rim.y(), kAboveM}, {rim.x(), -rim.y(), kAboveM}, {rim.x(), rim.y(), kAboveM},
          {-rim.x(), rim.y(), kAboveM}, kShade);
+    add_bushes();
+    if (house_.detail != FarDetail::far) add_windows();
   }
 
  private:
@@ -97,9 +98,8 @@ class HouseBuilder {
     constexpr double kFootM = 0.7;  // darker by splashes, bushes and the shade at its foot
     for (int wall = 0; wall < 4; ++wall) {
       const double half = half_length(wall);
-      const double foot_m = house_.detail == FarDetail::near ? kFootM : 0;
-      if (foot_m > 0) panel(wall, -half, half, 0, foot_m, 0, 0.6 * wall_);
-      panel(wall, -half, half, foot_m, eaves_m, 0, wall_);
+      panel(wall, -half, half, 0, kFootM, 0, 0.5 * wall_);
+      panel(wall, -half, half, kFootM, eaves_m, 0, wall_);
     }
   }
 
@@ -124,6 +124,16 @@ class HouseBuilder {
         const double middle = -half + i * apart;
         panel(wall, middle - 0.5, middle + 0.5, 0.7, kStoryM * house_.stories - 0.3, 0.08, wall_);
       }
+    }
+  }
+
+  /// Bushes and fences before the walls: without them houses seem to float over their gardens.
+  void add_bushes() {
+    for (int wall = 0; wall < 4; ++wall) {
+      const double half = half_length(wall) + 1.4;
+      const double from = random_.uniform(-1, 0.1) * half;
+      const double to = from + random_.uniform(0.5, 0.9) * half;
+      panel(wall, from, to, 0, random_.uniform(0.9, 1.8), 1.8, random_.uniform(0.7, 1.3) * kBush);
     }
   }
 
@@ -198,7 +208,9 @@ void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
   const Vector3d green = random.uniform(0.6, 1.05) * Vector3d(0.05 + 0.035 * random.uniform(),
                                                               0.08 + 0.02 * random.uniform(),
                                                               0.024 + 0.01 * random.uniform());
-  const double crown_half = 0.5 * std::max(1.2, 0.82 * tree.height_m);
+  // Crowns without a trunk reach down to the ground.
+  const double crown_share = tree.detail == FarDetail::near ? 0.82 : 0.97;
+  const double crown_half = 0.5 * std::max(1.2, crown_share * tree.height_m);
   const Vector3d heart(tree.middle.x(), tree.middle.y(), tree.height_m - crown_half);
   const double turn = random.uniform(0, std::numbers::pi);
   const auto across = [&](double angle) { return Vector3d(std::cos(angle), std::sin(angle), 0); };
@@ -223,11 +235,12 @@ void add_far_tree(PropBuilder& builder, const FarTree& tree, Random& random) {
     add_round_card(builder, heart + off, u, v, heart, (0.85 + 0.3 * up) * green);
   }
   // The shade below it, and the trunk.
-  if (tree.detail != FarDetail::near) return;
+  if (tree.detail == FarDetail::far) return;
   const Vector3d foot(tree.middle.x(), tree.middle.y(), 0.06);
   builder.leaves({foot - tree.crown_m * across(turn), foot - tree.crown_m * across(turn + 1.57),
                   foot + tree.crown_m * across(turn), foot + tree.crown_m * across(turn + 1.57)},
                  Vector3d::UnitZ(), kShade, LeafSprite::crown);
+  if (tree.detail != FarDetail::near) return;
   const double thick = 0.02 * tree.height_m;
   builder.tube({foot.x(), foot.y(), 0}, thick, {foot.x(), foot.y(), 0.6 * tree.height_m},
                0.5 * thick, {0.09, 0.075, 0.06}, Finish::matt, 4);

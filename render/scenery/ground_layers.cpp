@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "base/geometry/polygon.h"
 #include "base/geometry/triangulate.h"
@@ -25,21 +27,39 @@ Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
   return geometry::clipped(polygon, [&](const Vector2d& p) { return normal.dot(p) - limit; });
 }
 
+/// Sides of the cells that areas are cut into are at least this long.
+constexpr double kMinCellM = 3;
+
 class LayerBuilder {
  public:
   LayerBuilder(const Openness& openness, SceneryMesh& mesh) : openness_(openness), mesh_(mesh) {}
 
   std::uint32_t indices() const { return static_cast<std::uint32_t>(mesh_.indices.size()); }
 
+  /// From now on vertices know how far they are from the outline of an area, if it is not narrow.
+  void set_outline(std::span<const Vector2d> outline) {
+    Eigen::AlignedBox2d bounds;
+    for (const Vector2d& p : outline) bounds.extend(p);
+    const bool is_wide = !outline.empty() && bounds.sizes().minCoeff() > 3 * kMinCellM;
+    outline_ = is_wide ? outline : std::span<const Vector2d>();
+  }
+
   /// A convex polygon, counter-clockwise.
-  void add(const Polygon& polygon, double height_m) {
+  void add(Polygon polygon, double height_m) {
     if (polygon.size() < 3) return;
+    // A fan around the innermost corner: no triangle has all of its corners on the outline.
+    std::rotate(polygon.begin(),
+                std::max_element(polygon.begin(), polygon.end(),
+                                 [&](const Vector2d& a, const Vector2d& b) {
+                                   return inside_m(a) + 1e-9 < inside_m(b);
+                                 }),
+                polygon.end());
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (const Vector2d& p : polygon) {
       mesh_.vertices.push_back(
           {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(height_m)},
            {0, 0, 1},
-           {ground_tone_at(p)},
+           {ground_tone_at(p), outline_.empty() ? 0 : static_cast<float>(1 + inside_m(p))},
            openness_(p),
            kIdGround,
            0});
@@ -51,7 +71,6 @@ class LayerBuilder {
 
   /// The same cut along a grid, so that openness is sampled within it.
   void add_in_cells(const Polygon& polygon, double height_m) {
-    constexpr double kMinCellM = 3;
     constexpr double kMaxCells = 48;
     Eigen::AlignedBox2d bounds;
     for (const Vector2d& p : polygon) bounds.extend(p);
@@ -72,8 +91,13 @@ class LayerBuilder {
   }
 
  private:
+  double inside_m(const Vector2d& point) const {
+    return outline_.empty() ? 0 : std::max(0.0, -geometry::signed_distance_to(outline_, point));
+  }
+
   const Openness& openness_;
   SceneryMesh& mesh_;
+  std::span<const Vector2d> outline_;
 };
 
 void paint(const world::Marking& marking, LayerBuilder& layers) {
@@ -123,6 +147,33 @@ std::vector<std::size_t> area_levels(const std::vector<world::GroundArea>& areas
   return levels;
 }
 
+/// A path that leaves the scenario between two points, as a track which becomes narrow and winds.
+/// Its corners are in the order of the street's.
+std::vector<Polygon> winding_track(const Vector2d& first, const Vector2d& second,
+                                   const Vector2d& away) {
+  constexpr double kTrackM = 3;
+  constexpr double kStepM = 26;
+  constexpr int kSteps = 12;
+  std::vector<Polygon> parts;
+  Vector2d left = first;
+  Vector2d right = second;
+  Vector2d middle = 0.5 * (first + second);
+  double heading = std::atan2(away.y(), away.x());
+  for (int step = 0; step < kSteps; ++step) {
+    const double wave = std::sin(0.05 * (middle.x() - 0.7 * middle.y()) + 0.9 * step);
+    heading += step > 0 ? 0.28 * wave : 0;
+    middle += kStepM * Vector2d(std::cos(heading), std::sin(heading));
+    const double whole_m = (second - first).norm();
+    const double width_m =
+        step == 0 ? std::min(whole_m, 0.5 * (whole_m + kTrackM)) : std::min(whole_m, kTrackM);
+    const Vector2d across = 0.5 * width_m * Vector2d(-std::sin(heading), std::cos(heading));
+    parts.push_back({left, right, middle - across, middle + across});
+    left = middle + across;
+    right = middle - across;
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t area) {
@@ -144,7 +195,11 @@ std::vector<Polygon> streets_beyond(const world::Scenario& scenario, std::size_t
         const bool is_left = geometry::cross(from - to, away) > 0;
         const Vector2d& first = is_left ? to : from;
         const Vector2d& second = is_left ? from : to;
-        parts.push_back({first, second, second + away, first + away});
+        if (street.material == "asphalt") {
+          parts.push_back({first, second, second + away, first + away});
+        } else {
+          for (Polygon& part : winding_track(first, second, away)) parts.push_back(std::move(part));
+        }
       }
     }
   }
@@ -174,11 +229,13 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
     const double height_m =
         kAreaHeightM + kNextAreaM * static_cast<double>(std::min(levels[i], kMaxHeights));
     layer(area.material, [&] {
+      builder.set_outline(area.corners);
       for (const auto& triangle : geometry::triangulate(area.corners)) {
         builder.add_in_cells(
             {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
             height_m);
       }
+      builder.set_outline({});
       for (const Polygon& part : streets_beyond(scenario, i)) builder.add(part, height_m);
     });
   }

@@ -18,7 +18,7 @@ struct SceneryVertex {
   std::array<float, 3> normal{};
   /// Walls: coordinates along the wall and up, length and height of the wall (m). Roofs:
   /// coordinates from the corner of the roof's bounds, and their size (m). Ground:
-  /// ground_tone_at().
+  /// ground_tone_at(), then in wide areas 1 m and the distance to their outline (m), else 0.
   std::array<float, 4> local{};
   float openness = 1;    ///< share of the sky's light that reaches the point, 0 to 1
   std::uint32_t id = 0;  ///< value in the id buffer

@@ -2,7 +2,7 @@
 // ground_albedo comes from a ground_*.glsl.
 in vec3 world;
 in float openness;
-in vec4 local;  // x: how bright the ground is here, compared with the material's mean
+in vec4 local;  // x: how bright the ground is here, compared with the material's mean; y: see SceneryVertex
 flat in uint id;
 
 layout(location = 0) out vec4 color;
@@ -32,6 +32,12 @@ vec3 wet(vec3 radiance, float sky_share) {
   float cosine = clamp(to_eye.z / distance_m + 0.25 * ripple * puddle, 0.0, 1.0);
   float fresnel = 0.02 + 0.98 * pow(1.0 - cosine, 5.0);
   vec3 mirrored = mix(light.haze.rgb, light.zenith.rgb, cosine) * (0.35 + 0.65 * sky_share);
+#ifdef LAMPS
+  // Lamps stand beyond the point where their mirror images lie, drawn out by ripples.
+  vec2 beyond = p - 1.6 * to_eye.xy / max(to_eye.z, 1.0);
+  float shining = texture(lamp_map, (beyond - light.lamp_area.xy) * light.lamp_area.zw).w;
+  mirrored += light.lamps.rgb * (0.35 * shining * shining);
+#endif
   vec3 dark = radiance * mix(0.52, 0.30, puddle);
   return dark + mirrored * fresnel * mix(0.8, 1.8, puddle);
 }
@@ -40,9 +46,22 @@ vec3 wet(vec3 radiance, float sky_share) {
 #ifdef TEXTURED
 layout(binding = 3) uniform sampler2D material;
 
+const float kGroundTileM = 14.4;
+
 vec3 ground_albedo(vec2 p, vec2 width) {
-  vec3 root = texture(material, p * (1.0 / 14.4)).rgb;  // kGroundTileM
+  vec3 root = texture(material, p * (1.0 / kGroundTileM)).rgb;
+#ifdef EDGE_ALBEDO
+  // The same texture in another size and direction, in patches that the brighter of both win.
+  const mat2 kTurned = 1.37 * mat2(0.7986, 0.6018, -0.6018, 0.7986);
+  vec3 other = texture(material, kTurned * p * (1.0 / kGroundTileM) + 0.37).rgb;
+  float share = smoothstep(0.93, 1.07, local.x + 0.7 * (other.g - root.g));
+  float ragged_m = noise(p * 1.3) * noise(p * 0.37 + 9.0) + 0.8 * (other.g - root.g);
+  float edge = step(0.5, local.y) * smoothstep(0.08, -0.08, local.y - 1.05 - 1.3 * ragged_m);
+  root = mix(root, other, share);
+  return mix(root * root, EDGE_ALBEDO * (0.6 + root.g), 0.9 * edge);
+#else
   return root * root;
+#endif
 }
 #endif
 

@@ -8,8 +8,14 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   vec2 at = p * vec2(kRepairs) / kTileM;
   ivec2 cell = ivec2(floor(at));
   vec2 room = kTileM / vec2(kRepairs);
-  vec2 half_size = room * (0.12 + 0.3 * vec2(pick(cell, kRepairs, 11), pick(cell, kRepairs, 12)));
-  vec2 from_middle = abs(fract(at) - 0.5) * room;
+  vec2 chosen = vec2(pick(cell, kRepairs, 11), pick(cell, kRepairs, 12));
+  vec2 half_size = room * (0.06 + 0.3 * chosen * chosen);
+  // Anywhere in their cells, and not quite straight.
+  vec2 place = vec2(pick(cell, kRepairs, 17), pick(cell, kRepairs, 18)) - 0.5;
+  vec2 middle = 0.5 * room + 1.8 * place * (0.46 * room - half_size);
+  vec2 off = fract(at) * room - middle;
+  float lean = 0.16 * (pick(cell, kRepairs, 19) - 0.5);
+  vec2 from_middle = abs(off + lean * vec2(-off.y, off.x)) + 0.025 * clouds(p, 2.0, 28);
   float inside = min(half_size.x - from_middle.x, half_size.y - from_middle.y);
   float there = step(pick(cell, kRepairs, 13), 0.42);
   float tone = pick(cell, kRepairs, 14) < 0.6 ? -0.20 : 0.14;

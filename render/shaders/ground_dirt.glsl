@@ -7,5 +7,5 @@ vec3 ground_albedo(vec2 p, vec2 width) {
   float stones = step(0.2, spot(p, 5.0, 0.3, 0.024, 10)) * fade;
   albedo = mix(albedo, vec3(0.30, 0.28, 0.25) * (0.7 + 0.6 * grain(p, 9.0, 14)), 0.7 * stones);
   float weeds = smoothstep(0.62, 0.8, grain(p, 0.8, 15) + 0.3 * clouds(p, 5.0, 16));
-  return mix(albedo, vec3(0.11, 0.14, 0.05), 0.7 * weeds);
+  return mix(albedo, vec3(0.11, 0.14, 0.05), 0.5 * weeds);
 }

@@ -142,6 +142,14 @@ float lamp_light(vec3 world, vec3 normal) {
                  0.16 * seen.w;
   return facing * clamp(2.6 - 0.5 * world.z, 0.0, 1.0);
 }
+
+// The same among leaves, which throw light at each other: more of it from below, and higher up.
+float lamp_light_in_leaves(vec3 world, vec3 normal) {
+  vec4 seen = texture(lamp_map, (world.xy - light.lamp_area.xy) * light.lamp_area.zw);
+  float facing = 0.4 * max(dot(seen.xyz, normal), 0.0) + (0.12 - 0.06 * normal.z) * seen.w;
+  float height = clamp(1.9 - 0.32 * world.z, 0.0, 1.0);
+  return facing * (0.06 + 1.1 * height * height);
+}
 #endif
 
 #ifdef FIRES

@@ -18,6 +18,8 @@ const float kLamp = 3.0;
 const float kWater = 4.0;
 const float kLitGlass = 5.0;
 const float kScreen = 6.0;
+const float kBark = 7.0;
+const float kSkyGlow = 3.0e-4;  // in units of lamp light
 
 vec3 sky_in(vec3 direction) {
   vec3 sky = mix(light.haze.rgb, light.zenith.rgb, sqrt(max(direction.z, 0.0)));
@@ -40,18 +42,38 @@ vec2 wave_slope(vec2 p, float time_s, float distance_m) {
                0.10 * drifting_slope(p, 1.1, 1.3, time_s * vec2(-0.5, 0.4));
   // Those finer than a pixel blur what they mirror.
   float seen = clamp(60.0 / distance_m, 0.0, 1.0);
-  return slope + 0.10 * seen * drifting_slope(p, 3.3, 2.5, time_s * vec2(0.9, -0.8));
+  slope += 0.10 * seen * drifting_slope(p, 3.3, 2.5, time_s * vec2(0.9, -0.8));
+  // Gusts roughen some parts, and leave others smooth.
+  float gust = noise(vec2(0.05, 0.11) * p + time_s * vec2(0.05, 0.02)) + 0.5 * noise(0.21 * p.yx + 9.0);
+  return slope * (0.4 + 0.7 * gust);
+}
+#endif
+
+#ifndef LEAVES
+// Furrows along a trunk; dark bands around a birch's, which is bright.
+vec3 bark(vec3 albedo, vec3 n) {
+  float around = abs(n.x) > abs(n.y) ? world.y : world.x;
+  bool is_birch = albedo.r > 0.35;
+  vec2 fine = vec2(around, world.z) * (is_birch ? vec2(5.0, 15.0) : vec2(34.0, 4.0));
+  float furrows = noise(fine + 3.0) + 0.4 * noise(2.3 * fine);
+  if (is_birch) {
+    float band = smoothstep(0.88, 0.98, furrows + 0.25 * exp(-world.z));
+    return mix(albedo, vec3(0.05, 0.045, 0.04), 0.85 * band);
+  }
+  return albedo * (0.45 + 0.8 * furrows);
 }
 #endif
 
 void main() {
   vec3 albedo = paint.rgb;
-#ifdef WET
-  albedo *= 0.75;
-#endif
   vec3 n = normalize(normal);
 #ifndef LEAVES
   if (!gl_FrontFacing) n = -n;
+  float finish = round(paint.a * 255.0);
+  if (finish == kBark) albedo = bark(albedo, n);
+#endif
+#ifdef WET
+  albedo *= 0.75;
 #endif
 #ifdef LEAVES
   vec2 leaf = texture(leaf_sprites, card).rg;
@@ -73,9 +95,11 @@ void main() {
   vec3 received = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z) +
                   light.sun.rgb * (facing * shadow);
 #ifdef LAMPS
-  received += light.lamps.rgb * lamp_light(world, n);
 #ifdef LEAVES
-  received += light.lamps.rgb * (0.6 * lamp_light(world, -n));  // through leaves
+  // The sky above a lit place is not black.
+  received += light.lamps.rgb * (lamp_light_in_leaves(world, n) + kSkyGlow * (0.7 + 0.3 * n.z));
+#else
+  received += light.lamps.rgb * lamp_light(world, n);
 #endif
 #endif
 #ifdef FIRES
@@ -83,7 +107,6 @@ void main() {
   received += fire_light(world, n);
 #endif
   vec3 radiance = albedo * received;
-  float finish = round(paint.a * 255.0);
 #ifndef LEAVES
   if (finish == kGlossy || finish == kLitGlass) {
     vec3 to_eye = normalize(light.eye.xyz - world);
@@ -110,7 +133,12 @@ void main() {
 #ifdef LAMPS
     inside += albedo * light.lamps.rgb * lamp_light(world, n);
 #endif
-    radiance = (1.0 - fresnel) * inside + fresnel * sky_in(mirrored) +
+    // The banks are mirrored below the sky, torn by the waves.
+    vec3 banks = vec3(0.10, 0.12, 0.08) * (light.sky.rgb + 0.3 * light.sun.rgb);
+    float bank_edge = 0.10 + 0.04 * sin(3.0 * atan(mirrored.y, mirrored.x));
+    float above_banks = max(smoothstep(0.0, 2.0 * bank_edge, mirrored.z), smoothstep(0.12, 0.3, to_eye.z));
+    vec3 beyond = mix(banks, sky_in(mirrored), 0.35 + 0.65 * above_banks);
+    radiance = (1.0 - fresnel) * inside + fresnel * beyond +
                light.sun.rgb * (6.0 * glint * fresnel * shadow);
   }
 #endif
@@ -124,7 +152,7 @@ void main() {
 #endif
   }
 #endif
-#ifdef LAMPS
+#if defined(LAMPS) && !defined(LEAVES)
   if (finish == kLitGlass) radiance += light.lamps.rgb * vec3(2.2e-4, 1.9e-4, 1.4e-4);
   if (finish == kLamp) radiance += light.lamps.rgb * 2.5e-3;
 #endif

@@ -5,6 +5,7 @@ layout(location = 2) in float kind;  // HazardMatter
 
 out vec3 world;
 out vec2 on_disc;  // -1 to 1
+out vec3 off_middle;  // the same in the world
 flat out vec4 puff;
 flat out vec3 matter;  // 1 in the channel of its kind
 flat out vec2 shift;  // no two puffs are torn alike
@@ -16,6 +17,7 @@ void main() {
   shift = place.xy * 3.0 + vec2(gl_InstanceID);
   // Tongues are higher than wide, seen from the side.
   float stretch = look.a > 1.5 ? 1.0 + 0.9 * abs(view.down.z) : 1.0;
-  world = place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * (stretch * on_disc.y));
+  off_middle = view.right.xyz * on_disc.x + view.down.xyz * (stretch * on_disc.y);
+  world = place.xyz + place.w * off_middle;
   gl_Position = project(world);
 }

@@ -42,6 +42,22 @@ vec3 brick_color(vec2 p, vec2 width) {
   return mix(albedo, vec3(0.42, 0.40, 0.36), mortar);
 }
 
+// Goods on the shelves behind a shop's window, by shop; empty above the highest shelf.
+vec3 shop_display(ivec2 cell, vec2 p, vec2 width) {
+  const float kShelfM = 0.46;
+  float fade = clamp(1.4 - 5.0 * max(width.x, width.y), 0.0, 1.0);
+  vec2 at = vec2(p.x / (0.1 + 0.16 * hash(cell + 401 + int(floor(p.y / kShelfM)))), p.y / kShelfM);
+  ivec2 item = ivec2(floor(at)) + 31 * cell;
+  float kind = hash(item);
+  vec2 in_item = fract(at);
+  float goods = step(in_item.y, 0.45 + 0.4 * hash(item + 7)) * step(0.12, in_item.x) * step(0.18, kind);
+  vec3 paint = mix(vec3(0.04 + 0.2 * fract(kind * 5.1)), vec3(0.24, 0.15, 0.08) * fract(kind * 9.7), 0.6);
+  paint = mix(paint, vec3(0.2, 0.04, 0.03), step(0.93, fract(kind * 23.0)));
+  float board = band(in_item.y, 0.92, 1.0, width.y / kShelfM);
+  vec3 shelves = mix(vec3(0.045, 0.04, 0.035), mix(vec3(0.11), paint, fade), mix(0.5, goods, fade));
+  return mix(shelves, vec3(0.13, 0.12, 0.10), board) * step(p.y, 1.75);
+}
+
 // Window panes with a light frame; `cell` names the window, `p` is relative to its middle bottom.
 void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width) {
   const float kFrame = 0.09;
@@ -54,6 +70,12 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   float pick = hash(cell);
   float curtain = step(0.55, pick) * band(p.y, 2.0 * half_size.y * (1.1 - pick), 9.0, width.y);
   vec3 inside = mix(vec3(0.025, 0.03, 0.035), vec3(0.30, 0.28, 0.25) * pick, 0.8 * curtain);
+  // Some panes show the room: a light ceiling, and what stands on the floor.
+  float up = clamp(p.y / (2.0 * half_size.y), 0.0, 1.0);
+  float room = step(hash(cell + 307), 0.4) * (1.0 - curtain);
+  inside += room * vec3(0.10, 0.085, 0.065) * (smoothstep(0.55, 1.0, up) + 0.5 * step(p.x, 0.0) * (1.0 - up));
+  bool is_shop = half_size.x > 0.8;
+  if (is_shop) inside = shop_display(cell, p, width);
   // The lintel shades the top of the opening.
   float shade = 1.0 - 0.6 * band(p.y, 2.0 * half_size.y - kReveal, 9.0, width.y);
   s.albedo = mix(s.albedo, vec3(0.50, 0.49, 0.46) * shade, opening);
@@ -62,7 +84,11 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   // Somebody is at home behind every third pane, behind more of them than not in warm light.
   float home = hash(cell + 211);
   vec3 warm = mix(vec3(1.0, 0.72, 0.42), vec3(0.85, 0.92, 1.0), step(0.8, fract(home * 17.0)));
-  s.glow += warm * (pane * shade * step(home, 0.36) * (0.35 + 1.6 * home) * (1.0 - 0.6 * curtain));
+  float lit = step(home, is_shop ? 0.6 : 0.36) * (0.35 + 1.6 * min(home, 0.36)) * (1.0 - 0.6 * curtain);
+  // Ceilings are bright, and furniture is before the lower parts.
+  lit *= mix(0.35, 1.35, up);
+  vec3 lit_room = is_shop ? 0.3 + 6.0 * inside : vec3(1.0);
+  s.glow += warm * lit_room * (pane * shade * lit);
 #endif
   s.shine += pane * shade * vec3(1.0);  // double glazing
   s.tilt = 0.08 * (hash(cell + 101) - 0.5);
@@ -85,6 +111,12 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   Surface s = dull();
   float tone = hash(cell);
   s.albedo = mix(vec3(0.03, 0.04, 0.045) * (0.7 + 0.6 * tone), vec3(0.10, 0.12, 0.13), spandrel);
+  // Blinds, each let down in its own way, and rooms with light ceilings.
+  float up = fract(at.y);
+  float drawn = hash(cell + 53);
+  float blind = step(drawn, 0.24) * step(1.0 - 3.0 * drawn, up) * (1.0 - spandrel);
+  s.albedo = mix(s.albedo, vec3(0.20, 0.197, 0.18) * (0.8 + 0.4 * tone), 0.75 * blind);
+  s.albedo += step(0.7, drawn) * vec3(0.075, 0.07, 0.055) * smoothstep(0.5, 1.0, up) * (1.0 - spandrel);
   s.shine = vec3(0.85, 0.97, 1.0);
   s.mirror = 0.30;
   s.tilt = 0.03 * (hash(cell + 101) - 0.5);
@@ -92,7 +124,10 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   s.albedo = mix(s.albedo, vec3(0.30, 0.31, 0.32), metal);
   s.shine *= 1.0 - metal;
 #ifdef LAMPS
-  s.glow = vec3(0.95, 0.92, 0.8) * (step(tone, 0.4) * (0.3 + tone) * (1.0 - metal) * (1.0 - spandrel));
+  // Rows of lamps on the ceilings, desks below.
+  float lit = step(tone, 0.4) * (0.3 + tone) * (1.0 - metal) * (1.0 - spandrel) * (1.0 - 0.5 * blind);
+  float lamps = smoothstep(0.72, 0.8, up) * step(0.3, fract(at.x)) * step(fract(at.x), 0.7);
+  s.glow = vec3(0.95, 0.92, 0.8) * (lit * (0.25 + 0.75 * up + 0.7 * lamps));
 #endif
   return s;
 }
@@ -140,6 +175,14 @@ vec3 mirrored_in_glass(float plain, float tilt) {
   float along = there.x * -normal.y + there.y * normal.x;
   float block = hash(ivec2(int(floor(along / 13.0)), int(floor(dot(world, normal) / 30.0))));
   vec3 seen = there.z < 7.0 + 9.0 * block ? opposite_house(vec2(along, there.z), block, sky) : sky;
+  // Trees before them, in rows with gaps.
+  const float kApartM = 6.5;
+  float shift = along / kApartM + 0.7 * block;
+  vec2 from_heart = vec2((fract(shift) - 0.5) * kApartM, there.z - 4.2 - block);
+  float bumps = 0.2 * sin(5.1 * there.z + 2.0 * along) + 0.2 * sin(4.3 * along) * sin(2.3 * there.z);
+  float crown = 0.8 * smoothstep(1.1, 0.85, length(from_heart * vec2(0.5, 0.42)) + 0.5 * bumps);
+  vec3 leaves = vec3(0.07, 0.095, 0.04) * (light.sky.rgb + 0.5 * light.sun.rgb);
+  seen = mix(seen, leaves * (1.0 + 1.2 * bumps), crown * step(hash(ivec2(int(floor(shift)), 77)), 0.6));
   seen = there.z < 0.0 ? 0.8 * light.bounce.rgb : seen;
   return seen * (plain + (1.0 - plain) * pow(1.0 - max(dot(to_eye, normal), 0.0), 5.0));
 }

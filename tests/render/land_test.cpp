@@ -177,6 +177,44 @@ TEST_F(FarLand, IsABackdropThatLabelsDoNotShow) {
   EXPECT_EQ(tallest_m(scenario_), 2.5);
 }
 
+TEST(GroundLayers, PathsGoOnAsNarrowTracksAndRoadsAsTheyAre) {
+  world::Scenario scenario = open_ground();
+  scenario.areas = {{{{-40, -4}, {40, -4}, {40, 4}, {-40, 4}}, "asphalt", false}};
+  EXPECT_EQ(streets_beyond(scenario, 0).size(), 2U);
+  scenario.areas[0].material = "dirt";
+  const auto track = streets_beyond(scenario, 0);
+  ASSERT_GT(track.size(), 4U);
+  for (const auto& part : track) {
+    EXPECT_EQ(part.size(), 4U);
+    EXPECT_GT(geometry::signed_area(part), 0);
+  }
+  EXPECT_NEAR((track.front()[0] - track.front()[1]).norm(), 8, 0.1);
+  EXPECT_NEAR((track[3][2] - track[3][3]).norm(), 3, 0.1);
+}
+
+TEST(GroundLayers, KnowHowFarTheOutlineOfAWideAreaIs) {
+  const auto farthest = [](double width_m) {
+    world::Scenario scenario = open_ground();
+    scenario.areas = {{{{-10, 0}, {10, 0}, {10, width_m}, {-10, width_m}}, "grass", false}};
+    SceneryMesh mesh;
+    add_ground_layers(
+        scenario, [](const Vector2d&) { return 1.0F; }, mesh);
+    float most = 0;
+    for (const SceneryVertex& vertex : mesh.vertices) most = std::max(most, vertex.local[1]);
+    // No triangle lies on the outline with all of its corners.
+    for (std::size_t i = 0; i < mesh.indices.size() && most > 0; i += 3) {
+      float inside = 0;
+      for (std::size_t k = i; k < i + 3; ++k) {
+        inside = std::max(inside, mesh.vertices[mesh.indices[k]].local[1]);
+      }
+      EXPECT_GT(inside, 1.01F) << i;
+    }
+    return most;
+  };
+  EXPECT_GT(farthest(20), 8);
+  EXPECT_EQ(farthest(4), 0) << "narrow";
+}
+
 TEST(GroundLayers, ThatMeetHaveHeightsOfTheirOwn) {
   world::Scenario scenario = open_ground();
   for (int i = 0; i < 9; ++i) {

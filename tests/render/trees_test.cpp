@@ -101,6 +101,24 @@ TEST(Trees, LightFallsThroughTheirCrowns) {
   EXPECT_GT(static_cast<double>(changes) / rows, 6);
 }
 
+TEST(Trees, AreNotBlackAtNight) {
+  Environment night;
+  night.sun_elevation_rad = -30 * kDegree;
+  Stage stage(with_props({tree(4)}), night);
+  const Frame frame = stage.draw(camera_at({-9, 0, 5}, 0, -10, 320, 240));
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (frame.id[pixel_index(frame, x, y)] != kIdProp) continue;
+      sum += brightness(frame, x, y) / 3.0;
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 500);
+  EXPECT_GT(sum / count, 8);
+}
+
 /// Standard deviation of the brightness in some rows of an image.
 double deviation(const Frame& frame, int first_row, int rows) {
   double sum = 0;
