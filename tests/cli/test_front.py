@@ -411,6 +411,45 @@ class Front(unittest.TestCase):
             self.bare.request(f"/v1/jobs/{job}/cancel", method="POST")
             hostile.wait_until(lambda: self.watched(front, greedy) == 200, what="free places")
 
+    def test_every_answer_over_tls_says_that_there_is_tls(self):
+        front = self.through_nginx()
+        key = {"Authorization": f"Bearer {front.key}"}
+        asked = {
+            ("GET", "/healthz"): 200,
+            ("GET", "/"): 200,
+            ("GET", "/v1/jobs"): 401,
+            ("POST", "/v1/jobs"): 401,
+            ("GET", "/v1/nothing", "Authorization"): 404,
+            ("GET", "/v1/nothing", "Content-Length"): 400,
+            ("POST", "/v1/jobs", "Content-Encoding"): 415,
+            ("POST", "/v1/schema", "Authorization", "Content-Length"): 413,
+            ("BREW", "/v1/jobs", "Range"): 501,
+            ("GET", "/%"): 400,
+        }
+        more = {**key, "Content-Length": 2 << 20, "Content-Encoding": "gzip", "Range": "x"}
+        client = self.client(Http1, front)
+
+        def assert_secure(method, path, status, headers):
+            exchange = client.decided(client.begin(method, path, headers))
+            self.assertEqual(exchange.status, status, (method, path, headers))
+            self.assertEqual(exchange.fields.get("strict-transport-security"), "max-age=31536000", (method, path))
+
+        for (method, path, *names), status in asked.items():
+            assert_secure(method, path, status, {name: more[name] for name in names})
+        reader = {"Authorization": f"Bearer {self.key('reader', 'read')}"}
+        assert_secure("POST", "/v1/jobs", 403, reader)
+        self.throng.stop()
+        assert_secure("GET", "/v1/version", 503, {})
+        command = ["curl", "-sS", "-o", "/dev/null", "-D", "-"]
+        secure = [*command, "--http2", "--cacert", f"{self.folder}/tls/tls.crt", f"https://localhost:{front.port}/x"]
+        answer = subprocess.run(secure, check=True, capture_output=True, text=True).stdout.lower()
+        self.assertTrue(answer.startswith("http/2 503"), answer)
+        self.assertEqual(answer.count("strict-transport-security: max-age=31536000\n"), 1, answer)
+        plain = [*command, f"http://127.0.0.1:{self.plain_port}/x"]
+        answer = subprocess.run(plain, check=True, capture_output=True, text=True).stdout.lower()
+        self.assertIn(" 308 ", answer.splitlines()[0])
+        self.assertNotIn("strict-transport-security", answer)
+
 
 if __name__ == "__main__":
     unittest.main()
