@@ -63,10 +63,11 @@ class Throng:
 
 
 class Nginx:
-    """docker/nginx.conf as it is, on other ports and with a certificate for this test."""
+    """docker/nginx.conf as it is, on other ports and with a certificate for this test. `changes` are (before, after)."""
 
-    def __init__(self, folder, throng_port):
+    def __init__(self, folder, throng_port, changes=()):
         folder = pathlib.Path(folder)
+        self.changes = changes
         tls = folder / "tls"
         subprocess.run(
             [ROOT / "docker" / "make_certificate.sh", tls, "localhost"], check=True, stdout=subprocess.DEVNULL
@@ -84,16 +85,17 @@ class Nginx:
                     raise
 
     def start(self, folder, tls, throng_port):
-        self.port, plain_port = free_ports(2)
+        self.port, self.plain_port = free_ports(2)
         text = (ROOT / "docker" / "nginx.conf").read_text()
         for before, after in (
-            ("listen 8080;", f"listen 127.0.0.1:{plain_port};"),
+            ("listen 8080;", f"listen 127.0.0.1:{self.plain_port};"),
             ("listen 8443 ssl", f"listen 127.0.0.1:{self.port} ssl"),
-            ("server throng:8080;", f"server 127.0.0.1:{throng_port};"),
+            ("server throng:8080", f"server 127.0.0.1:{throng_port}"),
             ("/etc/throng-tls", str(tls)),
             ("/tmp/nginx", str(folder / "nginx")),
             ("access_log /dev/stdout", f"access_log {folder}/access.log"),
             ("error_log stderr", f"error_log {folder}/error.log"),
+            *self.changes,
         ):
             if before not in text:
                 raise RuntimeError(f"docker/nginx.conf has no {before}")

@@ -4,12 +4,14 @@ folder is made as the strictest file system that POSIX allows would leave it, an
 
 usage: test_power_loss.py THRONG [unittest's arguments]
 """
+import contextlib
 import io
 import json
 import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import urllib.request
@@ -18,6 +20,53 @@ import zipfile
 import test_crash as crash
 
 HERE = pathlib.Path(__file__).resolve().parent
+
+# Appends to a file from two threads and asks of the copy, each time, whether it has what was synced.
+APPENDS = """
+import os, pathlib, sys, threading
+path, copies = sys.argv[1], pathlib.Path(sys.argv[2])
+
+def append():
+    file = os.open(path, os.O_RDWR | os.O_APPEND)
+    for _ in range(50):
+        os.write(file, b"x" * 100)
+        end = os.lseek(file, 0, os.SEEK_CUR)
+        os.fsync(file)
+        [copy] = [entry for entry in copies.iterdir() if entry.suffix != ".part"]
+        if copy.stat().st_size < end:
+            os._exit(3)
+
+threads = [threading.Thread(target=append) for _ in range(2)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+"""
+
+
+def below(pid):
+    """A process and all that it has started, and they have."""
+    return [pid] + [process for child, _ in crash.children_of(pid) for process in below(child)]
+
+
+def runs(pid):
+    """Whether a thread of the process still does something: it stops only after the system call that it is in."""
+    for stat in pathlib.Path(f"/proc/{pid}/task").glob("*/stat"):
+        with contextlib.suppress(OSError):
+            if stat.read_text().rpartition(")")[2].split()[0] not in "TZX":
+                return True
+    return False
+
+
+def stop_all(pid):
+    """Stops a process and all below it; returns when nothing of them runs."""
+    stopped = set()
+    while begun := set(below(pid)) - stopped:
+        for process in begun:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, crash.signal.SIGSTOP)
+        crash.wait_until(lambda: not any(map(runs, begun)), what="processes to stop")
+        stopped |= begun
 
 
 def ids_below(folder):
@@ -105,9 +154,7 @@ class PowerLoss(unittest.TestCase):
 
     def lose_power(self):
         """The server's successor, on what is left."""
-        os.kill(self.server.process.pid, crash.signal.SIGSTOP)  # nothing is written while the image is made
-        for pid, _ in crash.children_of(self.server.process.pid):
-            os.kill(pid, crash.signal.SIGSTOP)
+        stop_all(self.server.process.pid)  # nothing is written while the image is made
         image = self.base / "image"
         try:
             lost = self.disk.image_after_power_loss(image)
@@ -118,6 +165,19 @@ class PowerLoss(unittest.TestCase):
         after.start()
         self.addCleanup(after.stop)
         return after, lost
+
+    def test_a_copy_is_whole_and_has_all_that_was_synced(self):
+        file = self.disk.root / "x.sqlite"
+        file.write_bytes(b"x" * 4_000_000)
+        command = [sys.executable, "-c", APPENDS, file, self.disk.copies]
+        environment = {**os.environ, **self.disk.environment}
+        writers = [subprocess.Popen(command, env=environment) for _ in range(2)]
+        sizes = [0]
+        while any(writer.poll() is None for writer in writers):
+            sizes += [path.stat().st_size for path in self.disk.copies.iterdir() if path.suffix != ".part"]
+        self.assertEqual([writer.returncode for writer in writers], [0, 0])
+        self.assertEqual(sizes, sorted(sizes), "the copy was whole at any time, and never an older one")
+        self.assertEqual(sizes[-1], file.stat().st_size)
 
     def test_a_finished_dataset_is_there_afterwards(self):
         self.start()

@@ -63,7 +63,7 @@ class Compose(ImageTest):
         for before, after in (
             ("listen 8080;", f"listen 127.0.0.1:{plain_port};"),
             ("listen 8443 ssl", f"listen 127.0.0.1:{port} ssl"),
-            ("server throng:8080;", f"server 127.0.0.1:{self.port};"),
+            ("server throng:8080", f"server 127.0.0.1:{self.port}"),
             ("/etc/throng-tls", str(tls)),
         ):
             self.assertIn(before, text)
