@@ -258,8 +258,8 @@ std::shared_ptr<void> held_request(KeyLimit& requests, const Caller& caller) {
   if (caller.scope >= Scope::admin) return nullptr;
   std::shared_ptr<void> held = requests.hold(caller.key_id);
   if (held != nullptr) return held;
-  throw HttpError{429, fmt::format("this key has {} requests under way, as many as it may",
-                                   kMaxRequestsOfKey)};
+  throw HttpError{
+      429, fmt::format("this key has {} requests under way, as many as it may", kMaxRequestsOfKey)};
 }
 
 // Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
@@ -295,8 +295,8 @@ bool is_audited(const std::string& method, const Route& route) {
 
 bool is_refusal(int status) { return status == 401 || status == 403 || status == 421; }
 
-HttpOptions with_limits(HttpOptions options, const Keys& keys, Sessions& sessions,
-                        AuditLog& audit, KeyLimit& requests) {
+HttpOptions with_limits(HttpOptions options, const Keys& keys, Sessions& sessions, AuditLog& audit,
+                        KeyLimit& requests) {
   const bool loopback = is_loopback(options.host);
   options.is_urgent = [&keys, &sessions](const Request& request) {
     if (request.path == "/healthz" || request.path == "/readyz") return true;
@@ -340,7 +340,8 @@ void hold_until_sent(Response& response, std::shared_ptr<void> held) {
 }  // namespace
 
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
-    : audit_(service.folders().data()),
+    : queue_(service.queue()),
+      audit_(service.folders().data()),
       requests_(kMaxRequests, kMaxRequestsOfKey),
       server_(with_limits(options, keys, sessions_, audit_, requests_), &write_library_error) {
   const bool loopback = is_loopback(options.host);

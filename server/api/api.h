@@ -35,9 +35,13 @@ class Api {
   int port() const { return server_.port(); }
   /// Serves until stop().
   void run() { server_.run(); }
-  void stop() { server_.stop(); }
+  void stop() {
+    server_.stop();
+    queue_.end_waits();
+  }
 
  private:
+  JobQueue& queue_;
   Sessions sessions_;
   AuditLog audit_;
   AnswerBudget answers_;

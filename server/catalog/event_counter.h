@@ -24,16 +24,29 @@ class EventCounter {
   /// not miss an event in between.
   std::uint64_t count() const { return count_; }
 
-  /// Waits until the count differs from `before`; returns false if it does not until `end`.
+  /// Waits until the count differs from `before`; returns false if it does not until `end`, or once
+  /// close() was called.
   bool wait(std::uint64_t before, std::chrono::steady_clock::time_point end) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_until(lock, end, [&] { return count_ != before; });
+    const bool is_done =
+        changed_.wait_until(lock, end, [&] { return is_closed_ || count_ != before; });
+    return is_done && !is_closed_;
+  }
+
+  /// Ends all waits, now and later.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_closed_ = true;
+    }
+    changed_.notify_all();
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<std::uint64_t> count_ = 0;  ///< written under mutex_
+  bool is_closed_ = false;                ///< guarded by mutex_
 };
 
 }  // namespace throng::server

@@ -47,6 +47,14 @@ void read_name(socket_t socket, NameOf to_string, std::string& ip, int& port) {
 
 }  // namespace
 
+Connection::~Connection() {
+  if (is_dropped_) {
+    ::close(socket_);
+  } else {
+    close_gently(socket_, limits_->linger);
+  }
+}
+
 bool Connection::receive(milliseconds timeout) {
   if (next_ == end_) next_ = end_ = 0;
   if (end_ == buffer_.size()) {
@@ -67,7 +75,7 @@ bool Connection::receive(milliseconds timeout) {
 std::variant<RequestHead, HeadError, Connection::Ended> Connection::read_head() {
   constexpr std::string_view kEmptyLine = "\r\n";
   constexpr std::string_view kHeadEnd = "\r\n\r\n";
-  const auto end = Clock::now() + limits_.head_time;
+  const auto end = Clock::now() + limits_->head_time;
   bool may_skip = true;  // old clients end a body with an empty line that is not of it
   std::size_t searched = 0;
   while (true) {
@@ -87,7 +95,7 @@ std::variant<RequestHead, HeadError, Connection::Ended> Connection::read_head() 
     }
     searched = bytes.size() - std::min(bytes.size(), kHeadEnd.size() - 1);
     const auto left = std::chrono::ceil<milliseconds>(end - Clock::now());
-    if (!receive(std::min(left, limits_.silence))) {
+    if (!receive(std::min(left, limits_->silence))) {
       if (Clock::now() < end || pending().empty()) return Ended{};
       return HeadError{408, "the request's head took too long"};
     }
@@ -104,8 +112,8 @@ void Connection::begin_request(const RequestHead& head) {
 }
 
 bool Connection::is_body_in_time() const {
-  const std::chrono::duration<double> slow = Clock::now() - began_ - limits_.body_timeout;
-  return static_cast<double>(body_bytes_) >= slow.count() * limits_.body_bytes_per_s;
+  const std::chrono::duration<double> slow = Clock::now() - began_ - limits_->body_timeout;
+  return static_cast<double>(body_bytes_) >= slow.count() * limits_->body_bytes_per_s;
 }
 
 ssize_t Connection::read(char* bytes, std::size_t size) {
@@ -120,7 +128,7 @@ ssize_t Connection::read(char* bytes, std::size_t size) {
     // The library reads the body only once nothing speaks against it.
     constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
     if (std::exchange(awaits_continue_, false) && !write_all(kContinue)) return -1;
-    if (!receive(limits_.silence)) return -1;
+    if (!receive(limits_->silence)) return -1;
   }
   const std::size_t given = std::min({size, end_ - next_, body_left_});
   std::memcpy(bytes, buffer_.data() + next_, given);
@@ -140,11 +148,11 @@ bool Connection::write_all(std::string_view bytes) {
 }
 
 bool Connection::is_readable() const {
-  return has_pending() || waits_for(socket_, POLLIN, limits_.silence);
+  return has_pending() || waits_for(socket_, POLLIN, limits_->silence);
 }
 
 bool Connection::is_writable() const {
-  if (!waits_for(socket_, POLLOUT, limits_.stalled)) return false;
+  if (!waits_for(socket_, POLLOUT, limits_->stalled)) return false;
   if (!waits_for(socket_, POLLIN, milliseconds(0))) return true;
   char byte = 0;
   const ssize_t count = ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
@@ -152,7 +160,7 @@ bool Connection::is_writable() const {
 }
 
 ssize_t Connection::write(const char* bytes, std::size_t size) {
-  if (!waits_for(socket_, POLLOUT, limits_.stalled)) return -1;
+  if (!waits_for(socket_, POLLOUT, limits_->stalled)) return -1;
   ssize_t count = 0;
   do {
     count = ::send(socket_, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -168,12 +176,11 @@ void Connection::get_local_ip_and_port(std::string& ip, int& port) const {
   read_name(socket_, &::getsockname, ip, port);
 }
 
-void close_gently(socket_t socket) {
+void close_gently(socket_t socket, milliseconds linger) {
   constexpr std::size_t kMaxBytes = 8 << 20;
-  constexpr milliseconds kMaxDrainTime(2'000);
   ::shutdown(socket, SHUT_WR);
   std::array<char, 16 << 10> block{};
-  const auto end = std::chrono::steady_clock::now() + kMaxDrainTime;
+  const auto end = std::chrono::steady_clock::now() + linger;
   for (std::size_t seen = 0; seen < kMaxBytes;) {
     const auto left =
         std::chrono::duration_cast<milliseconds>(end - std::chrono::steady_clock::now());

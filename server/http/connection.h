@@ -16,10 +16,20 @@
 
 namespace throng::server {
 
-/// One client's connection. The limits must outlive it; it does not own the socket.
+/// One client's connection, whose socket it owns: its destructor closes it by close_gently(). The
+/// limits must outlive it.
 class Connection : public httplib::Stream {
  public:
-  Connection(socket_t socket, const ConnectionLimits& limits) : socket_(socket), limits_(limits) {}
+  Connection(socket_t socket, const ConnectionLimits& limits) : socket_(socket), limits_(&limits) {}
+  ~Connection() override;
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// Makes the destructor close the socket at once: nothing has been received that was not
+  /// answered.
+  void drop() { is_dropped_ = true; }
+  /// Sets the limits from now on; they must outlive this object.
+  void use_limits(const ConnectionLimits& limits) { limits_ = &limits; }
 
   /// The connection is closed or broken.
   struct Ended {};
@@ -52,7 +62,7 @@ class Connection : public httplib::Stream {
   bool is_body_in_time() const;
 
   socket_t socket_;
-  const ConnectionLimits& limits_;
+  const ConnectionLimits* limits_;
   std::array<char, kMaxHeadBytes> buffer_{};  ///< received bytes; [next_, end_) are unread
   std::size_t next_ = 0;
   std::size_t end_ = 0;
@@ -61,11 +71,12 @@ class Connection : public httplib::Stream {
   std::size_t body_left_ = 0;   ///< bytes of the body that the library has not read yet
   std::size_t body_bytes_ = 0;  ///< bytes of the body that it has read
   bool awaits_continue_ = false;
+  bool is_dropped_ = false;
   Clock::time_point began_;  ///< start of the head, then of the body
 };
 
 /// Closes a connection so that the last response arrives even if the client still sends: a close
 /// with unread bytes resets the connection, and the client's system would discard the response.
-void close_gently(socket_t socket);
+void close_gently(socket_t socket, std::chrono::milliseconds linger);
 
 }  // namespace throng::server

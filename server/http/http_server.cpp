@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
@@ -14,8 +15,10 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "base/error.h"
 #include "server/http/connection.h"
@@ -29,6 +32,11 @@ namespace {
 constexpr int kThreads = 512;  // one per open connection; half of them may be streams
 // For health checks and administrators while all others are busy.
 constexpr int kReserveThreads = 16;
+constexpr int kMaxQueued = 128;  // connections whose request waits for a thread
+const ConnectionLimits kReserveLimits = {.head_time = std::chrono::milliseconds(250),
+                                         .silence = std::chrono::milliseconds(250),
+                                         .linger = std::chrono::milliseconds(50)};
+constexpr int kSilentS = 5;  // until the system gives up a new connection without a byte
 constexpr int kBacklog = 1024;
 constexpr std::size_t kRequestsPerConnection = 1'000'000;
 constexpr int kIdleStepMs = 100;  // bounds how long stop() takes
@@ -88,21 +96,14 @@ class HttpServer::BoundedServer : public httplib::Server {
       if (::poll(&wait, 1, -1) <= 0) continue;  // end() shuts the socket down, which wakes this
       const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
       if (socket >= 0) {
-        const bool is_reserve = open_ >= kThreads && in_reserve_ < kReserveThreads;
-        std::atomic<int>& count = is_reserve ? in_reserve_ : open_;
-        ++count;
-        (is_reserve ? reserve : threads).enqueue([this, socket, is_reserve, &count] {
-          is_reserve_ = is_reserve;
-          process_and_close_socket(socket);
-          --count;
-        });
+        begin(socket, threads, reserve);
       } else if (errno != EINTR && errno != ECONNABORTED && svr_sock_ != INVALID_SOCKET) {
         spdlog::warn("connections wait: {}", std::strerror(errno));
         std::this_thread::sleep_for(kPauseWithoutFiles);
       }
     }
+    reserve.shutdown();  // it hands connections over to the others
     threads.shutdown();
-    reserve.shutdown();
   }
 
   /// Makes accept_all() return, now or when it is only about to begin; open connections end.
@@ -111,24 +112,67 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
  private:
-  bool process_and_close_socket(socket_t socket) override {
-    bool served = false;
+  using SharedConnection = std::shared_ptr<Connection>;
+
+  /// While all threads are busy, the reserve looks at what the client wants.
+  void begin(int socket, httplib::ThreadPool& threads, httplib::ThreadPool& reserve) {
+    if (open_ < kThreads) {
+      return queue(std::make_shared<Connection>(socket, options_.connection), {}, threads);
+    }
+    const auto connection = std::make_shared<Connection>(socket, kReserveLimits);
+    reserve.enqueue(
+        [this, connection, &threads] { attend([&] { serve_in_reserve(connection, threads); }); });
+  }
+
+  /// Has a thread serve a connection, from `first` on if its head was read already. The connection
+  /// closes when nobody holds it.
+  void queue(const SharedConnection& connection, const std::optional<RequestHead>& first,
+             httplib::ThreadPool& threads) {
+    ++open_;
+    threads.enqueue([this, connection = SharedConnection(connection), first]() mutable {
+      attend([&] { serve_all(*connection, first); });
+      connection.reset();
+      --open_;
+    });
+  }
+
+  template <typename Serve>
+  void attend(const Serve& serve) {
     try {
-      served = serve_all(socket);
+      serve();
     } catch (const std::exception& error) {  // nothing above this catches
       spdlog::error("a connection: {}", error.what());
     }
     body_bytes_ -= std::exchange(reserved_, 0);
-    close_gently(socket);
-    return served;
   }
 
-  /// Whether the last request was answered.
-  bool serve_all(socket_t socket) {
-    Connection connection(socket, is_reserve_ ? reserve_limits_ : options_.connection);
-    bool served = false;
-    for (std::size_t left = is_reserve_ ? 1 : kRequestsPerConnection; left > 0 && is_next(connection, served); --left) {
-      auto head = connection.read_head();
+  /// Serves an urgent request; others wait for a thread, if not too many do.
+  void serve_in_reserve(const SharedConnection& connection, httplib::ThreadPool& threads) {
+    auto head = connection->read_head();
+    if (std::holds_alternative<Connection::Ended>(head)) return;
+    if (const auto* error = std::get_if<HeadError>(&head)) {
+      return refuse(*connection, {}, {error->status, error->detail});
+    }
+    const RequestHead& request = std::get<RequestHead>(head);
+    httplib::Request asked = to_library_request(request);
+    connection->get_remote_ip_and_port(asked.remote_addr, asked.remote_port);
+    if (options_.is_urgent && options_.is_urgent(asked)) {
+      serve(*connection, request, true);
+    } else if (open_ < kThreads + kMaxQueued) {
+      connection->use_limits(options_.connection);
+      queue(connection, request, threads);
+    } else {
+      refuse(*connection, asked, {503, "all connections are in use; try again"});
+    }
+  }
+
+  void serve_all(Connection& connection, std::optional<RequestHead> first) {
+    bool was_served = false;
+    for (std::size_t left = kRequestsPerConnection;
+         left > 0 && (first || is_next(connection, was_served)); --left) {
+      auto head = first ? std::variant<RequestHead, HeadError, Connection::Ended>(*first)
+                        : connection.read_head();
+      first.reset();
       if (std::holds_alternative<Connection::Ended>(head)) break;
       if (const auto* error = std::get_if<HeadError>(&head)) {
         refuse(connection, {}, {error->status, error->detail});
@@ -136,23 +180,19 @@ class HttpServer::BoundedServer : public httplib::Server {
       }
       const RequestHead& request = std::get<RequestHead>(head);
       const bool is_last = left == 1 || !request.keeps_connection;
-      served = serve(connection, request, is_last);
-      if (!served || is_last || !connection.is_consumed()) break;
+      was_served = serve(connection, request, is_last);
+      if (!was_served || is_last || !connection.is_consumed()) break;
     }
-    return served;
   }
 
   /// False when the connection has to end.
   bool serve(Connection& connection, const RequestHead& head, bool is_last) {
     std::shared_ptr<void> admission;
-    if (head.content_length > 0 || is_reserve_) {
+    if (head.content_length > 0) {
       httplib::Request request = to_library_request(head);
       connection.get_remote_ip_and_port(request.remote_addr, request.remote_port);
       try {
-        if (is_reserve_ && !(options_.is_urgent && options_.is_urgent(request))) {
-          throw HttpError{503, "all connections are in use; try again"};
-        }
-        if (head.content_length > 0) admission = admit_body(request, head.content_length);
+        admission = admit_body(request, head.content_length);
       } catch (const HttpError& error) {
         refuse(connection, request, error);
         return false;
@@ -202,15 +242,18 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   /// Waits for another request of this connection.
-  bool is_next(const Connection& connection, bool was_served) const {
+  bool is_next(Connection& connection, bool was_served) const {
     if (connection.has_pending()) return true;
     const auto end = std::chrono::steady_clock::now() + options_.connection.idle;
     // Others wait for a thread: a connection that only might be used ends.
     constexpr auto kFirstRequest = std::chrono::milliseconds(200);
-    const auto end_if_needed =
-        std::chrono::steady_clock::now() + (was_served ? std::chrono::milliseconds(0) : kFirstRequest);
+    const auto end_if_needed = std::chrono::steady_clock::now() +
+                               (was_served ? std::chrono::milliseconds(0) : kFirstRequest);
     while (svr_sock_ != INVALID_SOCKET && std::chrono::steady_clock::now() < end) {
-      if (open_ >= kThreads && std::chrono::steady_clock::now() >= end_if_needed) return false;
+      if (open_ >= kThreads && std::chrono::steady_clock::now() >= end_if_needed) {
+        connection.drop();
+        return false;
+      }
       pollfd wait{connection.socket(), POLLIN, 0};
       if (::poll(&wait, 1, kIdleStepMs) > 0) return true;
     }
@@ -221,18 +264,11 @@ class HttpServer::BoundedServer : public httplib::Server {
   const HttpOptions options_;
   const ErrorWriter write_error_;
   std::atomic<std::int64_t> body_bytes_ = 0;
-  std::atomic<int> open_ = 0;        ///< connections that have a thread or wait for one
-  std::atomic<int> in_reserve_ = 0;  ///< connections in the reserve
-  /// Of connections in the reserve, which are soon free again.
-  const ConnectionLimits reserve_limits_ = {.head_time = std::chrono::milliseconds(1'000),
-                                            .silence = std::chrono::milliseconds(1'000),
-                                            .idle = std::chrono::milliseconds(1'000)};
+  std::atomic<int> open_ = 0;                  ///< connections that have a thread or wait for one
   static thread_local std::int64_t reserved_;  ///< by the request that this thread works on
-  static thread_local bool is_reserve_;        ///< whether this thread is one of the reserve
 };
 
 thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
-thread_local bool HttpServer::BoundedServer::is_reserve_ = false;
 
 HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
     : server_(std::make_unique<BoundedServer>(options, write_error)) {
@@ -264,6 +300,8 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
         fmt::format("cannot listen on {} port {}: is the port taken?", options.host, options.port));
   }
   server_->own(listener);
+  // A connection takes a thread when its first bytes are there.
+  ::setsockopt(listener, IPPROTO_TCP, TCP_DEFER_ACCEPT, &kSilentS, sizeof(kSilentS));
   // The library's backlog is fixed at 5; a second listen() changes it.
   ::listen(listener, kBacklog);
 }

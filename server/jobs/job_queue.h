@@ -95,6 +95,8 @@ class JobQueue {
   /// `timeout` for the first one.
   std::vector<jobs::EventRow> events(const std::string& job, std::int64_t after, int limit,
                                      std::chrono::milliseconds timeout) const;
+  /// Ends all waits of events(), now and later: the service is about to end.
+  void end_waits() { state_.event_counter().close(); }
   /// The number of the newest event; 0 for none.
   std::int64_t last_event() const { return store_.last_event(); }
   /// Registers a watcher of events, a stream or a request that waits for some, for the lifetime of
