@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -188,6 +189,11 @@ int serve(const ServeOptions& options) {
   const bool logs_json = options.log_json || (is_container && ::isatty(STDOUT_FILENO) == 0);
   set_up_log(logs_json, is_container);
   std::signal(SIGPIPE, SIG_IGN);
+  rlimit files{};  // each connection is one, and each file that is sent
+  if (::getrlimit(RLIMIT_NOFILE, &files) == 0) {
+    files.rlim_cur = files.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &files);
+  }
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   set_environment(options.data, database);

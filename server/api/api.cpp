@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "jobs/queue/confine/confined_task.h"
 #include "server/api/calibration_api.h"
 #include "server/api/downloads_api.h"
 #include "server/api/events_api.h"
@@ -358,6 +359,7 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         const std::string length = request.get_header_value("Content-Length");
         const bool has_body = !length.empty() && length != "0";
         if (!has_body) held = held_request(requests_, caller);
+        const jobs::TaskSender sender(key);
         entry.handler({service.queue(), service.uploads(), service.calibrations(),
                        service.studies(), service.housekeeping(), service.datasets(),
                        service.reports(), service.confined(), service.folders(), hooks,

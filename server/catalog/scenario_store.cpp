@@ -11,6 +11,7 @@
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
 #include "server/catalog/api_json.h"
+#include "server/catalog/service_errors.h"
 #include "server/catalog/unix_time.h"
 #include "world/scenario.h"
 
@@ -243,8 +244,21 @@ ScenarioUpload ScenarioStore::publish(Staged& staged) {
   if (known_.contains(upload.name) || fs::exists(fs::symlink_status(links_ / upload.name))) {
     throw NameTaken(fmt::format("there are scenarios named \"{}\" already", upload.name));
   }
+  constexpr std::int64_t kMaxPartOfKey = 5;
   std::int64_t bytes = upload.bytes;
-  for (const auto& [name, other] : known_) bytes += other.bytes;
+  std::int64_t own_bytes = upload.bytes;
+  std::size_t own_uploads = 1;
+  for (const auto& [name, other] : known_) {
+    bytes += other.bytes;
+    if (other.owner != upload.owner) continue;
+    own_bytes += other.bytes;
+    ++own_uploads;
+  }
+  if (!upload.owner.empty() &&
+      (own_uploads > limits_.max_uploads_of_key || own_bytes > limits_.max_bytes / kMaxPartOfKey)) {
+    throw QuotaError(fmt::format("a key may have {} uploads of {} bytes together: remove some",
+                                 limits_.max_uploads_of_key, limits_.max_bytes / kMaxPartOfKey));
+  }
   if (known_.size() >= limits_.max_uploads || bytes > limits_.max_bytes) {
     throw UploadsFull(
         fmt::format("uploads may be {} of {} bytes together, and there is no space for this one",

@@ -27,6 +27,7 @@ namespace throng::server {
 /// Max size of all uploads together.
 struct UploadLimits {
   std::size_t max_uploads = 500;
+  std::size_t max_uploads_of_key = 100;  ///< of one owner; not without keys
   std::int64_t max_bytes = 8LL << 30U;  ///< unpacked
   UnpackLimits each = {};
 };
@@ -87,7 +88,8 @@ class ScenarioStore {
   /// Checks a blueprint as the scenario NAME/place. Throws as stage().
   Staged stage_blueprint(const std::string& name, const nlohmann::json& blueprint,
                          const std::string& owner) const;
-  /// Publishes a staged bundle; durable when this returns. Throws NameTaken and UploadsFull.
+  /// Publishes a staged bundle; durable when this returns. Throws NameTaken, UploadsFull, and
+  /// QuotaError if the owner has a fifth of the uploads or of their bytes.
   ScenarioUpload publish(Staged& staged);
 
   std::optional<ScenarioUpload> find(const std::string& name) const;

@@ -366,8 +366,10 @@ TEST_F(CalibrationApi, BelongToTheKeyThatSentThem) {
   EXPECT_EQ(client().Delete(path, as(other))->status, 404);
   EXPECT_EQ(client().Get(path, as(owner))->status, 200);
   const json job = {{"scenario", "yard"},
-                    {"drones", {{{"id", "d1"}, {"start", {0, 0, 12}},
-                                 {"camera", {{"calibration", path.substr(path.rfind('/') + 1)}}}}}}};
+                    {"drones",
+                     {{{"id", "d1"},
+                       {"start", {0, 0, 12}},
+                       {"camera", {{"calibration", path.substr(path.rfind('/') + 1)}}}}}}};
   for (const char* query : {"?dry_run", ""}) {
     const std::string route = std::string("/v1/jobs") + query;
     EXPECT_EQ(client().Post(route, as(other), job.dump(), "application/json")->status, 400);

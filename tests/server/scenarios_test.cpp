@@ -317,6 +317,28 @@ TEST_F(Uploads, HaveABoundTogether) {
   EXPECT_EQ(store.publish(second).name, "two");
 }
 
+TEST_F(Uploads, OneKeyLeavesRoomForOthers) {
+  UploadLimits limits;
+  limits.max_uploads_of_key = 2;
+  ScenarioStore store(data.path() / "small", scenarios.path(), service.confined(), limits);
+  const auto publish = [&](const std::string& name, const std::string& owner) {
+    ScenarioStore::Staged staged = store.stage(name, yard_bundle(), owner);
+    store.publish(staged);
+  };
+  publish("one", "a");
+  publish("two", "a");
+  EXPECT_THROW(publish("three", "a"), QuotaError);
+  publish("three", "b");
+  EXPECT_TRUE(store.remove("one"));
+  publish("four", "a");
+  limits.max_bytes = 5 * store.find("two")->bytes;
+  ScenarioStore narrow(data.path() / "narrow", scenarios.path(), service.confined(), limits);
+  ScenarioStore::Staged first = narrow.stage("one", yard_bundle(), "a");
+  narrow.publish(first);
+  ScenarioStore::Staged second = narrow.stage("two", yard_bundle(), "a");
+  EXPECT_THROW(narrow.publish(second), QuotaError);
+}
+
 TEST_F(Uploads, ABundleThatComesWithAJobLivesAsLongAsItsJobs) {
   const std::string bundle = yard_bundle();
   const std::string name = bundle_name(bundle);

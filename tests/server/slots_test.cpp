@@ -1,5 +1,6 @@
 // One sender does not keep others from being served: connections, streams, checks and uploads.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <memory>
 #include <vector>
@@ -14,6 +15,14 @@ constexpr int kThreads = 512;
 
 class SlotsTest : public ApiTest {
  protected:
+  // Both ends of each connection are in this process.
+  SlotsTest() {
+    rlimit files{};
+    ::getrlimit(RLIMIT_NOFILE, &files);
+    files.rlim_cur = files.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &files);
+  }
+
   std::string request(const std::string& path, const std::string& key) const {
     const std::string authorization = key.empty() ? "" : "Authorization: Bearer " + key + "\r\n";
     return "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + authorization + "\r\n";

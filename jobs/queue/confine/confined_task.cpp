@@ -11,11 +11,14 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files/files.h"
@@ -57,26 +60,34 @@ std::int64_t max_memory_mib() {
 }
 
 /// Children that may run at once: so many that each finds its memory, though all take it at once.
+/// Of those who wait, the sender with the fewest running children is next, then the one who came
+/// first. A sender has at most half of the children, whose checks may take minutes.
 class Slots {
  public:
   explicit Slots(int max) : max_(max) {}
 
-  void acquire() {
+  void acquire(const std::string& sender) {
     std::unique_lock lock(mutex_);
     const auto end = std::chrono::steady_clock::now() + kMaxWait;
-    while (!has_room()) {
+    const auto own = waiting_.insert(waiting_.end(), sender);
+    while (!has_room() || next() != own || has_its_part(sender)) {
       if (std::chrono::steady_clock::now() > end) {
+        waiting_.erase(own);
         throw EnvironmentError("too many checks are under way; try again later");
       }
       changed_.wait_for(lock, kMemoryInterval);
     }
+    waiting_.erase(own);
     ++running_;
+    ++running_of_[sender];
+    changed_.notify_all();
   }
 
-  void release() {
+  void release(const std::string& sender) {
     {
       const std::lock_guard lock(mutex_);
       --running_;
+      if (--running_of_[sender] == 0) running_of_.erase(sender);
     }
     changed_.notify_all();
   }
@@ -91,8 +102,26 @@ class Slots {
     return total_memory_mib() == 0 || available_memory_mib() >= (running_ + 1) * max_memory_mib();
   }
 
+  int running_of(const std::string& sender) const {
+    const auto found = running_of_.find(sender);
+    return found == running_of_.end() ? 0 : found->second;
+  }
+
+  bool has_its_part(const std::string& sender) const {
+    return !sender.empty() && running_of(sender) >= std::max(1, max_ / 2);
+  }
+
+  std::list<std::string>::const_iterator next() const {
+    return std::min_element(
+        waiting_.begin(), waiting_.end(),
+        [&](const std::string& a, const std::string& b) { return running_of(a) < running_of(b); });
+  }
+
   int max_;
-  int running_ = 0;  ///< guarded by mutex_
+  // Guarded by mutex_:
+  int running_ = 0;
+  std::map<std::string, int> running_of_;  ///< by sender
+  std::list<std::string> waiting_;         ///< their senders, in the order in which they came
   std::mutex mutex_;
   std::condition_variable changed_;
 };
@@ -100,14 +129,19 @@ class Slots {
 /// One of the children that may run at once.
 class Slot {
  public:
-  explicit Slot(Slots& slots) : slots_(slots) { slots_.acquire(); }
-  ~Slot() { slots_.release(); }
+  Slot(Slots& slots, std::string sender) : slots_(slots), sender_(std::move(sender)) {
+    slots_.acquire(sender_);
+  }
+  ~Slot() { slots_.release(sender_); }
   Slot(const Slot&) = delete;
   Slot& operator=(const Slot&) = delete;
 
  private:
   Slots& slots_;
+  std::string sender_;
 };
+
+thread_local std::string sender_of_this_thread;
 
 void limit(decltype(RLIMIT_AS) what, rlim_t max) {
   const rlimit value{max, max};
@@ -176,7 +210,7 @@ ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   const auto slots = std::make_shared<Slots>(std::clamp(cores, kMinAtOnce, kMaxAtOnce));
   return [run = std::move(run), slots](const json& request, const fs::path& work) {
-    const Slot slot(*slots);
+    const Slot slot(*slots, sender_of_this_thread);
     // The request may hold any bytes that a client sent.
     write_temporary_file(work / kRequestName,
                          request.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -185,6 +219,11 @@ ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
 }
 
 }  // namespace
+
+TaskSender::TaskSender(std::string sender)
+    : before_(std::exchange(sender_of_this_thread, std::move(sender))) {}
+
+TaskSender::~TaskSender() { sender_of_this_thread = std::move(before_); }
 
 ConfinedTask confined_task_in_child(std::vector<std::string> command) {
   return task_by([command = std::move(command)](const fs::path& work) {

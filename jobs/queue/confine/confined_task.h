@@ -19,6 +19,19 @@ namespace throng::jobs {
 using ConfinedTask =
     std::function<nlohmann::json(const nlohmann::json& request, const std::filesystem::path& work)>;
 
+/// Names the sender, such as a key's id, of the requests that this thread makes during the lifetime
+/// of the object. Requests of senders take turns; one sender has at most half of the children.
+class TaskSender {
+ public:
+  explicit TaskSender(std::string sender);
+  ~TaskSender();
+  TaskSender(const TaskSender&) = delete;
+  TaskSender& operator=(const TaskSender&) = delete;
+
+ private:
+  std::string before_;
+};
+
 /// A task that starts `command` with the work folder appended for each request. One child per core
 /// runs at once, but 4 to 64, and fewer if memory is short; a request that waits for more than a
 /// minute fails with EnvironmentError. A child is killed after two minutes.

@@ -9,6 +9,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "base/error.h"
 #include "jobs/queue/confine/file_fence.h"
@@ -39,6 +41,27 @@ std::string script_error(const std::string& script) {
 
 TEST(ConfinedTask, TheAnswerOfTheChildComesBack) {
   EXPECT_EQ(run_script(R"(cp "$0/request.json" "$0/answer.json")"), (json{{"task", "x"}}));
+}
+
+TEST(ConfinedTask, OneSenderLeavesRoomForOthers) {
+  const TemporaryFolder folder;
+  const std::string gate = (folder.path() / "gate").string();
+  const ConfinedTask task =
+      confined_task_in_child({"sh", "-c",
+                              R"(case "$0" in *held*) while [ ! -e )" + gate +
+                                  R"( ]; do sleep 0.01; done;; esac; echo 1 > "$0/answer.json")"});
+  const auto run = [&](const std::string& sender, const std::string& name) {
+    const TaskSender this_sender(sender);
+    const std::filesystem::path work = folder.path() / name;
+    std::filesystem::create_directories(work);
+    return task({{"task", "x"}}, work);
+  };
+  std::vector<std::jthread> held;
+  for (int i = 0; i < 70; ++i) {  // more than there are children
+    held.emplace_back([&run, i] { run("a", "held" + std::to_string(i)); });
+  }
+  EXPECT_EQ(run("b", "quick"), 1) << "while all that the other may have are held";
+  write_file_atomically(gate, "");
 }
 
 TEST(ConfinedTask, FailuresAreToldApart) {
