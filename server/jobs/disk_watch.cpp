@@ -18,7 +18,6 @@ namespace {
 
 // Without a limit: with less, not even a log can be written.
 constexpr std::int64_t kMinBytes = 1 << 20;
-constexpr const char* kFull = "the disk is full";
 
 }  // namespace
 
@@ -33,7 +32,7 @@ std::string DiskWatch::look() {
   constexpr std::int64_t kSlackShare = 4;
   const DiskState disk = look_();
   const std::lock_guard lock(mutex_);
-  const bool was_full = reason_.starts_with(kFull);
+  const bool was_full = reason_.starts_with(kDiskIsFull);
   const bool is_full = disk.free_bytes < min_bytes_ + (was_full ? min_bytes_ / kSlackShare : 0);
   std::string reason;
   if (disk.is_read_only) {
@@ -41,7 +40,7 @@ std::string DiskWatch::look() {
   } else if (is_full) {
     // The free space changes all the time, and each new reason is an event: the first one stays.
     reason = was_full ? reason_
-                      : fmt::format("{}: {} MiB are free, {} MiB are needed", kFull,
+                      : fmt::format("{}: {} MiB are free, {} MiB are needed", kDiskIsFull,
                                     disk.free_bytes / kMib, min_bytes_ / kMib);
   }
   if (reason == reason_) return reason_;

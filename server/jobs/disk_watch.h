@@ -10,6 +10,9 @@
 
 namespace throng::server {
 
+/// Beginning of the reason that a full disk is.
+inline constexpr const char* kDiskIsFull = "the disk is full";
+
 struct DiskState {
   std::int64_t free_bytes = 0;
   bool is_read_only = false;

@@ -11,6 +11,7 @@
 #include "server/catalog/api_json.h"
 #include "server/jobs/report_maker.h"
 #include "spec/calibration/calibrations.h"
+#include "spec/estimates/job_cost.h"
 #include "spec/job/scenario_mix.h"
 #include "spec/job/spec.h"
 #include "world/scenario.h"
@@ -33,9 +34,8 @@ JobQueue::JobQueue(const ServiceFolders& folders, jobs::Store& store, QueueState
       publish_to_(publish_to) {}
 
 std::string JobQueue::with_cameras(std::string_view job_json, const Viewer& viewer) const {
-  return jobs::with_calibrations(job_json, [&](const std::string& id) {
-    return calibrations_.image_camera(id, viewer);
-  });
+  return jobs::with_calibrations(
+      job_json, [&](const std::string& id) { return calibrations_.image_camera(id, viewer); });
 }
 
 jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& viewer) const {
@@ -54,6 +54,7 @@ jobs::Added JobQueue::submit(const Submission& submission) {
   const jobs::ResolvedJob resolved = resolve(submission.job_json, submission.viewer);
   const jobs::JobSpec& job = resolved.spec();
   publish_to_.require(job.outputs.publish);
+  const std::int64_t planned_bytes = jobs::estimate_cost(job, resolved.people()).disk_bytes;
   const auto lock = uploads_.hold();
   require_scenario(job);
   const std::string spec_json = dump_text(to_json(job));
@@ -69,7 +70,8 @@ jobs::Added JobQueue::submit(const Submission& submission) {
                                         .hash = sha256_hex(dump_text(sent)),
                                         .limits = {submission.max_active, submission.max_bytes},
                                         .people = resolved.people(),
-                                        .sources_json = sources});
+                                        .sources_json = sources,
+                                        .planned_bytes = planned_bytes});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -54,8 +55,8 @@ bool may_begin(const JobRow& row, const std::vector<JobRow>& active, int max_act
 }  // namespace
 
 JobRunner::JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-                     const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
-                     const PublishTargets& publish_to)
+                     const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk,
+                     int max_active, const PublishTargets& publish_to)
     : folders_(folders),
       store_(store),
       state_(state),
@@ -165,7 +166,8 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     // By cancel() or remove(), which have noted it; or because the service ends or rests, and then
     // the job stays "running" to be resumed.
     spdlog::info("job {} stopped", row.id);
-    return save_bytes(row);
+    save_bytes(row);
+    return fail_if_too_large(row);
   } catch (const InputError& failure) {
     error = dump_text(error_json("input", folders_.without_paths(failure.what()),
                                  folders_.without_paths(failure.problems())));
@@ -173,13 +175,49 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     if (is_resource_exhaustion(failure)) throw;  // it is still "running", and taken up again
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
-      return;  // still "running": it is resumed when there is free space
+      save_bytes(row);
+      return fail_if_too_large(row);  // else it is resumed when there is free space
     }
     error = dump_text(error_json("environment", folders_.without_paths(failure.what()), {}));
   }
   store_.set_bytes(row.id, measure_disk_bytes(folders_.ground_truth_folder(row)));
   const std::optional<JobRow> ended = state_.apply(row, event, error);
   spdlog::info("job {} {}", row.id, ended ? to_string(ended->state) : "was cancelled meanwhile");
+}
+
+// A job that does not fit would fill the disk again and again, and stop the tasks of all others
+// each time. It is the one that has written most; once may be the fault of others.
+void JobRunner::fail_if_too_large(const JobRow& row) {
+  constexpr int kMaxStops = 2;
+  constexpr double kGib = 1 << 30;
+  const std::string reason = state_.paused();
+  if (!reason.starts_with(kDiskIsFull)) return;
+  const std::vector<JobRow> active = state_.active_jobs();
+  std::map<std::string, std::int64_t> bytes;
+  for (const JobRow& job : active) {
+    const auto stored = store_.get(job.id);
+    bytes[job.id] = stored ? stored->bytes : 0;
+  }
+  const std::int64_t own = bytes[row.id];
+  const bool is_largest = std::all_of(bytes.begin(), bytes.end(),
+                                      [&](const auto& other) { return other.second <= own; });
+  {
+    const std::lock_guard lock(stops_mutex_);
+    if (!is_largest || ++stops_by_full_disk_[row.id] < kMaxStops) return;
+    stops_by_full_disk_.erase(row.id);
+  }
+  const std::string message = fmt::format(
+      "the disk is too small for this job: it has filled it {} times, and has written {:.2f} GiB "
+      "of "
+      "an estimated {:.2f} GiB ({}). What it had not finished was removed; free some space or ask "
+      "for less, and retry",
+      kMaxStops, static_cast<double>(own) / kGib, static_cast<double>(row.planned_bytes) / kGib,
+      reason);
+  if (!state_.apply(row, JobEvent::fail, dump_text(error_json("environment", message, {})))) return;
+  spdlog::warn("job {} failed: {}", row.id, message);
+  std::error_code ignored;
+  fs::remove_all(folders_.ground_truth_folder(row) / "work", ignored);
+  save_bytes(row);
 }
 
 jobs::Share JobRunner::share_of(const JobRow& row) const {

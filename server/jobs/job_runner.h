@@ -5,6 +5,8 @@
 #include <atomic>
 #include <functional>
 #include <list>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -17,6 +19,7 @@
 #include "server/catalog/queue_state.h"
 #include "server/catalog/service_folders.h"
 #include "server/catalog/uploads.h"
+#include "server/jobs/disk_watch.h"
 #include "server/jobs/publish_targets.h"
 
 namespace throng::server {
@@ -31,8 +34,8 @@ class JobRunner {
   /// a further one only for an owner without active jobs, or with a priority above all active ones.
   /// All references must outlive this object.
   JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-            const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk, int max_active,
-            const PublishTargets& publish_to);
+            const Uploads& uploads, jobs::Executor& executor, LookAtDisk look_at_disk,
+            int max_active, const PublishTargets& publish_to);
   /// Ends the workers; active jobs stay "running" in the store and are resumed at the next start.
   ~JobRunner() = default;
   JobRunner(const JobRunner&) = delete;
@@ -58,6 +61,7 @@ class JobRunner {
   void require_target(const jobs::JobSpec& job, const jobs::JobFolder& folder,
                       const std::stop_token& stop) const;
   jobs::Share share_of(const jobs::JobRow& row) const;
+  void fail_if_too_large(const jobs::JobRow& row);
   void save_progress(const jobs::JobRow& row);
   void save_bytes(const jobs::JobRow& row);
 
@@ -69,8 +73,10 @@ class JobRunner {
   LookAtDisk look_at_disk_;
   int max_active_;
   const PublishTargets& publish_to_;
-  std::list<Supervisor> supervisors_;  ///< used by the dispatching thread only
-  std::jthread thread_;                ///< last member: joined before the others end
+  std::mutex stops_mutex_;
+  std::map<std::string, int> stops_by_full_disk_;  ///< by job; guarded by stops_mutex_
+  std::list<Supervisor> supervisors_;              ///< used by the dispatching thread only
+  std::jthread thread_;                            ///< last member: joined before the others end
 };
 
 }  // namespace throng::server

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -57,7 +58,7 @@ Added Store::add(const NewJob& job) {
         return;
       }
     }
-    added.over_quota = over_quota(connections_->writer, job.owner, job.limits);
+    added.over_quota = over_quota(connections_->writer, job.owner, job.limits, job.planned_bytes);
     if (!added.over_quota.empty()) return;
     std::random_device random;
     JobRow row;
@@ -71,6 +72,7 @@ Added Store::add(const NewJob& job) {
     row.owner = job.owner;
     row.people = job.people;
     row.sources_json = job.sources_json;
+    row.planned_bytes = job.planned_bytes;
     insert_job(connections_->writer, row, job);
     write_event(connections_->writer, row.id, row.created_ms, "submitted", "{}");
     connections_->last_id = row.id;
@@ -104,7 +106,8 @@ Retried Store::retry(const JobRow& row, const OwnerLimits& limits) {
   Retried retried;
   if (!next) return retried;
   connections_->write([&] {
-    retried.over_quota = over_quota(connections_->writer, row.owner, limits);
+    retried.over_quota = over_quota(connections_->writer, row.owner, limits,
+                                    std::max<std::int64_t>(0, row.planned_bytes - row.bytes));
     if (!retried.over_quota.empty()) return;
     retried.row =
         move_to(connections_->writer, *next, row, JobEvent::retry, "", {service_ms(), clock_()});

@@ -47,7 +47,8 @@ struct JobRow {
   /// Hashes of the scenarios that it was resolved from, by the first parts of their ids; "{}" for
   /// none.
   std::string sources_json = "{}";
-  std::string waiting_for = {};  ///< not stored: why no task of it runs although it is its turn
+  std::int64_t planned_bytes = 0;  ///< estimated size of its files when it is done
+  std::string waiting_for = {};    ///< not stored: why no task of it runs although it is its turn
   /// Not stored: the state in the file is not a known one. The job counts as failed and can only be
   /// removed.
   bool is_damaged = false;
@@ -62,8 +63,9 @@ struct JobChange {
 
 /// Limits on all jobs of an owner together; another job is refused once one is reached.
 struct OwnerLimits {
-  int max_active = 0;          ///< number of queued and running jobs; 0: unlimited
-  std::int64_t max_bytes = 0;  ///< total JobRow::bytes; 0: unlimited
+  int max_active = 0;  ///< number of queued and running jobs; 0: unlimited
+  /// Total JobRow::bytes, of queued and running jobs at least JobRow::planned_bytes; 0: unlimited.
+  std::int64_t max_bytes = 0;
 };
 
 /// A job to be queued.
@@ -82,6 +84,7 @@ struct NewJob {
   OwnerLimits limits = {};          ///< checked against the owner's jobs without this one
   int people = 0;                   ///< ResolvedJob::people()
   std::string sources_json = "{}";  ///< JobRow::sources_json
+  std::int64_t planned_bytes = 0;   ///< JobRow::planned_bytes
 };
 
 /// Result of Store::retry().

@@ -51,6 +51,7 @@ JobRow read_row(SQLite::Statement& query) {
   row.kept_from_ms = query.getColumn(16);
   row.people = query.getColumn(17);
   row.sources_json = query.getColumn(18).getString();
+  row.planned_bytes = query.getColumn(19);
   if (row.is_damaged) {
     const nlohmann::json error = {
         {"kind", "environment"},
@@ -153,8 +154,8 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   SQLite::Statement insert(
       database,
       "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash, owner, people, sources) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?, "
-      "?, ?)");
+      "submission_hash, owner, people, sources, planned_bytes) VALUES (?, ?, 'queued', ?, ?, ?, ?, "
+      "?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, row.id);
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
@@ -167,15 +168,17 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.bind(10, row.owner);
   insert.bind(11, row.people);
   insert.bind(12, row.sources_json);
+  insert.bind(13, row.planned_bytes);
   insert.exec();
 }
 
 std::string over_quota(SQLite::Database& database, const std::string& owner,
-                       const OwnerLimits& limits) {
+                       const OwnerLimits& limits, std::int64_t added_bytes) {
   if (limits.max_active <= 0 && limits.max_bytes <= 0) return "";
   SQLite::Statement query(database,
                           "SELECT coalesce(sum(state IN ('queued', 'running')), 0), "
-                          "coalesce(sum(bytes), 0) FROM job WHERE owner = ?");
+                          "coalesce(sum(CASE WHEN state IN ('queued', 'running') THEN max(bytes, "
+                          "planned_bytes) ELSE bytes END), 0) FROM job WHERE owner = ?");
   query.bind(1, owner);
   query.executeStep();
   const std::int64_t active = query.getColumn(0);
@@ -184,10 +187,13 @@ std::string over_quota(SQLite::Database& database, const std::string& owner,
     return fmt::format("{} of your jobs wait or run, which is as many as this key may have",
                        limits.max_active);
   }
-  if (limits.max_bytes > 0 && bytes >= limits.max_bytes) {
+  if (limits.max_bytes > 0 &&
+      (bytes >= limits.max_bytes || bytes + added_bytes > limits.max_bytes)) {
     return fmt::format(
-        "your jobs take {} bytes of disk, which is as many as this key may have ({}): remove some",
-        bytes, limits.max_bytes);
+        "your jobs take {} bytes of disk, those that wait or run as they are estimated, and this "
+        "one "
+        "about {} more; this key may have {}: remove some, or ask for less",
+        bytes, added_bytes, limits.max_bytes);
   }
   return "";
 }

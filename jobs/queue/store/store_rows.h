@@ -17,7 +17,8 @@ namespace throng::jobs {
 inline constexpr const char* kColumns =
     "job.id, job.name, job.state, job.attempt, job.spec, job.progress, job.error, job.created_ms, "
     "job.started_ms, job.ended_ms, job.kind, job.priority, job.labels, job.owner, job.bytes, "
-    "job.keep, job.kept_from_ms, job.people, job.sources";
+    "job.keep, job.kept_from_ms, job.people, job.sources, "
+    "job.planned_bytes";
 
 /// The job in the query's current row.
 JobRow read_row(SQLite::Statement& query);
@@ -53,9 +54,10 @@ void write_event(SQLite::Database& database, const std::string& job, std::int64_
 std::optional<ClockMark> clock_mark(SQLite::Database& database);
 void save_mark(SQLite::Database& database, const ClockMark& mark);
 
-/// The limit that keeps an owner from having another active job, as a sentence; "" if none does.
+/// The limit that keeps an owner from having another active job that adds so many bytes, as a
+/// sentence; "" if none does.
 std::string over_quota(SQLite::Database& database, const std::string& owner,
-                       const OwnerLimits& limits);
+                       const OwnerLimits& limits, std::int64_t added_bytes);
 
 /// The stored NewJob::hash of a job.
 std::string hash_of_submission(SQLite::Database& database, const std::string& id);

@@ -141,7 +141,9 @@ CREATE TRIGGER job_removed AFTER DELETE ON job BEGIN
 END;
 )",
     // Hashes of the scenarios that a job was resolved from.
-    "ALTER TABLE job ADD COLUMN sources TEXT NOT NULL DEFAULT '{}'"};
+    "ALTER TABLE job ADD COLUMN sources TEXT NOT NULL DEFAULT '{}'",
+    // Estimated size of a job's files.
+    "ALTER TABLE job ADD COLUMN planned_bytes INTEGER NOT NULL DEFAULT 0"};
 
 }  // namespace
 

@@ -238,6 +238,46 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   EXPECT_EQ(service.queue().get(id)->waiting_for, "");
 }
 
+TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
+  std::atomic<std::int64_t> free = 1000;
+  ServiceOptions limited = options();
+  limited.housekeeping.disk = [&] { return DiskState{free.load()}; };
+  limited.housekeeping.min_free_bytes = 100;
+  executor.before = [&](const Task& task) {
+    if (task.kind == Task::Kind::render) free = 50;
+    return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
+                      : TaskResult{};
+  };
+  Service service(limited, executor);
+  const std::string large = service.queue().submit({kJob}).row.id;
+  const auto is_resting = [&] { return !service.queue().paused().empty(); };
+  ASSERT_TRUE(wait_until(is_resting));
+  free = 1000;
+  ASSERT_TRUE(wait_until([&] { return !is_resting(); }));
+  ASSERT_TRUE(wait_until([&] { return service.queue().get(large)->state == JobState::failed; }));
+  const std::string error = service.queue().get(large)->error_json;
+  EXPECT_THAT(error, HasSubstr("too small for this job"));
+  EXPECT_THAT(error, HasSubstr("GiB of an estimated"));
+  EXPECT_FALSE(std::filesystem::exists(service.folders().job_folder(large) / "work"));
+  executor.before = [](const Task&) { return TaskResult{}; };
+  free = 1000;
+  ASSERT_TRUE(reaches(service, service.queue().submit({kJob}).row.id, JobState::succeeded));
+}
+
+TEST_F(ServiceTest, EstimatesCountAmongTheBytesOfAKey) {
+  Gate gate(executor);
+  Service service(options(), executor);
+  const auto submit = [&](std::int64_t max_bytes) {
+    return service.queue().submit({.job_json = kJob, .owner = "me", .max_bytes = max_bytes}).row;
+  };
+  const std::int64_t planned = submit(1LL << 40U).planned_bytes;
+  EXPECT_GT(planned, 0);
+  EXPECT_THROW(submit(planned), QuotaError);
+  EXPECT_THROW(submit(2 * planned - 1), QuotaError);
+  submit(2 * planned);
+  gate.open();
+}
+
 TEST_F(ServiceTest, AReadOnlyOrFullDiskLetsTheQueueRestWithoutALimitToo) {
   std::atomic<bool> is_read_only = false;
   std::atomic<std::int64_t> free = 1LL << 30;
