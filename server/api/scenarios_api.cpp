@@ -103,6 +103,7 @@ void upload_scenarios(const RequestContext& context, const Request& request, Res
   if (uploads.is_taken(name)) {
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
   }
+  context.uploads.require_rate(context.caller.key_id);
   try {
     ScenarioStore::Staged staged =
         from_blueprint

@@ -164,6 +164,12 @@ Uploads::Pinned::~Pinned() {
   }
 }
 
+void Uploads::require_rate(const std::string& owner) {
+  if (rate_.take(owner)) return;
+  throw QuotaError(fmt::format(
+      "a key may send {} uploads at once, and then one each second: wait a little", kUploadBurst));
+}
+
 bool Uploads::remove(const std::string& name) {
   const std::unique_lock lock(mutex_);
   const auto users = jobs_that_name(name, {jobs::JobState::queued, jobs::JobState::running});

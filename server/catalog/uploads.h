@@ -11,8 +11,12 @@
 #include "server/catalog/confined_checks.h"
 #include "server/catalog/scenario_store.h"
 #include "server/catalog/service_folders.h"
+#include "server/http/key_limit.h"
 
 namespace throng::server {
+
+/// Uploads that a key may send at once; then it may send one each second.
+inline constexpr int kUploadBurst = 60;
 
 /// Safe to use from many threads.
 class Uploads {
@@ -23,6 +27,10 @@ class Uploads {
 
   ScenarioStore& scenarios() { return scenarios_; }
   const ScenarioStore& scenarios() const { return scenarios_; }
+
+  /// Throws QuotaError if the owner has sent too many uploads in a short time: each is unpacked and
+  /// checked.
+  void require_rate(const std::string& owner);
 
   /// Removes an upload. Returns false if there is none. Throws ConflictError if an active job uses
   /// it.
@@ -67,6 +75,7 @@ class Uploads {
 
   jobs::Store& jobs_;
   ScenarioStore scenarios_;
+  KeyRate rate_{kUploadBurst, std::chrono::seconds(1)};
   /// Shared while a job that may name an upload is added, exclusive while uploads are removed.
   mutable std::shared_mutex mutex_;
   std::multiset<std::string> pinned_;  ///< bundles of current requests; guarded by mutex_

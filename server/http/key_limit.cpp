@@ -1,5 +1,7 @@
 #include "server/http/key_limit.h"
 
+#include <utility>
+
 namespace throng::server {
 
 std::shared_ptr<void> KeyLimit::hold(const std::string& key) {
@@ -16,6 +18,20 @@ std::shared_ptr<void> KeyLimit::hold(const std::string& key) {
   ++counts_->all;
   ++of_key;
   return held;
+}
+
+KeyRate::KeyRate(int burst, std::chrono::milliseconds interval, SteadyNow now)
+    : burst_(burst), interval_(interval), now_(std::move(now)) {}
+
+bool KeyRate::take(const std::string& key) {
+  if (key.empty()) return true;
+  const SteadyTime now = now_();
+  const std::lock_guard lock(mutex_);
+  std::erase_if(free_from_, [&](const auto& entry) { return entry.second <= now; });
+  SteadyTime& free_from = free_from_.try_emplace(key, now).first->second;
+  if (free_from - now > (burst_ - 1) * interval_) return false;
+  free_from += interval_;
+  return true;
 }
 
 int KeyLimit::held() const {

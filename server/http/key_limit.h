@@ -1,10 +1,13 @@
 // Limits what one sender may hold at once, so that others have the rest.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+
+#include "base/compute/steady_time.h"
 
 namespace throng::server {
 
@@ -30,6 +33,23 @@ class KeyLimit {
   const int max_all_;
   const int max_of_key_;
   std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();  ///< outlives this object
+};
+
+/// Number of requests of each key per time: `burst` at once and one more each `interval`. Senders
+/// without a key have no limit. Safe to use from many threads.
+class KeyRate {
+ public:
+  KeyRate(int burst, std::chrono::milliseconds interval, SteadyNow now = &steady_now);
+
+  /// Whether the key may send one more now.
+  bool take(const std::string& key);
+
+ private:
+  const int burst_;
+  const std::chrono::milliseconds interval_;
+  SteadyNow now_;
+  std::mutex mutex_;
+  std::map<std::string, SteadyTime> free_from_;  ///< when all of a key's requests are free again
 };
 
 }  // namespace throng::server

@@ -125,5 +125,22 @@ TEST(KeyLimit, BoundsAllAndEachKey) {
   EXPECT_EQ(limit.held(), 2);
 }
 
+TEST(KeyRate, AllowsABurstAndThenOneEachInterval) {
+  SteadyTime now = {};
+  KeyRate rate(3, std::chrono::milliseconds(1000), [&now] { return now; });
+  const auto taken = [&](const std::string& key) {
+    int count = 0;
+    while (count < 10 && rate.take(key)) ++count;
+    return count;
+  };
+  EXPECT_EQ(taken("a"), 3);
+  EXPECT_EQ(taken("b"), 3);
+  EXPECT_EQ(taken(""), 10) << "no keys are required";
+  now += std::chrono::milliseconds(2000);
+  EXPECT_EQ(taken("a"), 2);
+  now += std::chrono::milliseconds(60'000);
+  EXPECT_EQ(taken("a"), 3);
+}
+
 }  // namespace
 }  // namespace throng::server
