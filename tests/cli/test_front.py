@@ -280,10 +280,10 @@ class Front(unittest.TestCase):
             return exchange.status or 100
 
         self.assertEqual(upload(cookies[0]), 100)
-        self.assertEqual(upload(f"a=b; throng_session=x;  {cookies[0]}; c=d", Authorization="Basic x"), 100)
+        self.assertEqual(upload(f"a=b; __Host-throng_session=x;  {cookies[0]}; c=d", Authorization="Basic x"), 100)
         for number in range(3):
             self.assertEqual(upload(cookies[0], Authorization=f"Basic {number}"), 429)
-            self.assertEqual(upload(f"{'; ' * 200}{number}=1; throng_session_1={number}; {cookies[0]}"), 429)
+            self.assertEqual(upload(f"{'; ' * 200}{number}=1; __Host-throng_session_1={number}; {cookies[0]}"), 429)
         self.assertEqual(upload(cookies[1]), 100)
         text = "".join((pathlib.Path(self.folder) / name).read_text() for name in ("access.log", "error.log"))
         for cookie in cookies:
@@ -295,7 +295,7 @@ class Front(unittest.TestCase):
         client = self.client(Http1, front)
         self.assertEqual([self.upload(client, secrets[0]) for _ in range(3)], [100, 100, 429])
         self.assertEqual(self.upload(client, secrets[1]), 401)
-        headers = {"Authorization": f"Bearer {secrets[1]}", "Cookie": f"throng_session_{front.port}={'c' * 300}"}
+        headers = {"Authorization": f"Bearer {secrets[1]}", "Cookie": f"__Host-throng_session_{front.port}={'c' * 300}"}
         self.assertEqual(client.ended(client.begin("GET", "/v1/events", headers)).status, 401)
         client.close()
         access, errors = (pathlib.Path(self.folder) / name for name in ("access.log", "error.log"))
