@@ -60,8 +60,8 @@ std::shared_ptr<void> watch_for(JobQueue& queue, const Caller& caller) {
 class EventStream {
  public:
   /// `folder`: of the job, where its previews are looked for; empty: nowhere.
-  EventStream(JobQueue& queue, const Keys& keys, Caller caller, std::string job,
-              std::int64_t after, std::filesystem::path folder)
+  EventStream(JobQueue& queue, const Keys& keys, Caller caller, std::string job, std::int64_t after,
+              std::filesystem::path folder)
       : watch_(watch_for(queue, caller)),
         queue_(queue),
         keys_(keys),
@@ -183,8 +183,8 @@ void send_job_events(const RequestContext& context, const Request& request, Resp
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(context, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(context.queue, context.keys, context.caller, job,
-                                                    last_event_id(request), folder);
+  const auto stream = std::make_shared<EventStream>(context.queue, context.keys, context.caller,
+                                                    job, last_event_id(request), folder);
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(

@@ -147,10 +147,9 @@ void stream_live(const RequestContext& context, const Request& request, Response
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold messages back
   response.set_chunked_content_provider(
-      "application/octet-stream",
-      [viewer, held, &keys = context.keys, caller = context.caller,
-       next_check = std::chrono::steady_clock::time_point()](std::size_t,
-                                                             httplib::DataSink& sink) mutable {
+      "application/octet-stream", [viewer, held, &keys = context.keys, caller = context.caller,
+                                   next_check = std::chrono::steady_clock::time_point()](
+                                      std::size_t, httplib::DataSink& sink) mutable {
         const std::string bytes = viewer->next();
         const auto now = std::chrono::steady_clock::now();
         bool may_go_on = !bytes.empty();

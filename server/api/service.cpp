@@ -32,7 +32,7 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
       reports_(executor),
       live_(options.data, options.live),
       runner_(
-          folders_, store_, state_, uploads_, executor, [this] { return housekeeping_.look_at_disk(); },
-          options.max_active_jobs, publish_to_) {}
+          folders_, store_, state_, uploads_, executor,
+          [this] { return housekeeping_.look_at_disk(); }, options.max_active_jobs, publish_to_) {}
 
 }  // namespace throng::server

@@ -28,7 +28,7 @@ namespace throng::server {
 struct UploadLimits {
   std::size_t max_uploads = 500;
   std::size_t max_uploads_of_key = 100;  ///< of one owner; not without keys
-  std::int64_t max_bytes = 8LL << 30U;  ///< unpacked
+  std::int64_t max_bytes = 8LL << 30U;   ///< unpacked
   UnpackLimits each = {};
 };
 
@@ -119,8 +119,8 @@ class ScenarioStore {
   const ConfinedChecks& confined_;
   UploadLimits limits_;
   mutable std::mutex mutex_;
-  std::map<std::string, ScenarioUpload> known_;       ///< guarded by mutex_
-  std::uint64_t publications_ = 0;                    ///< guarded by mutex_
+  std::map<std::string, ScenarioUpload> known_;        ///< guarded by mutex_
+  std::uint64_t publications_ = 0;                     ///< guarded by mutex_
   mutable std::map<std::string, std::string> hashes_;  ///< content_hash(); guarded by mutex_
 };
 

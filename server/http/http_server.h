@@ -17,7 +17,7 @@
 
 namespace throng::server {
 
-/// What a request may send.
+/// Decision about the body of a request.
 struct BodyAdmission {
   std::size_t max_bytes = 0;
   std::shared_ptr<void> held = {};  ///< kept as long as the request is worked on

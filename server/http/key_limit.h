@@ -11,7 +11,7 @@
 
 namespace throng::server {
 
-/// Number of things that are held at once, such as streams: of all senders, and of each key.
+/// Number of streams or requests that are held at once: of all senders, and of each key.
 /// Senders without a key (none are required) have only the limit of all. Safe to use from many
 /// threads.
 class KeyLimit {

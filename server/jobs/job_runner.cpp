@@ -209,8 +209,8 @@ void JobRunner::fail_if_too_large(const JobRow& row) {
   const std::string message = fmt::format(
       "the disk is too small for this job: it has filled it {} times, and has written {:.2f} GiB "
       "of "
-      "an estimated {:.2f} GiB ({}). What it had not finished was removed; free some space or ask "
-      "for less, and retry",
+      "about {:.2f} GiB ({}). Its unfinished parts were removed; free some space or ask for less, "
+      "and retry",
       kMaxStops, static_cast<double>(own) / kGib, static_cast<double>(row.planned_bytes) / kGib,
       reason);
   if (!state_.apply(row, JobEvent::fail, dump_text(error_json("environment", message, {})))) return;

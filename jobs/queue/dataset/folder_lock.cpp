@@ -16,7 +16,7 @@ namespace throng::jobs {
 FolderLock::FolderLock(const std::filesystem::path& folder, const char* name,
                        const std::string& what)
     : file_(folder / name) {
-  // Whoever may open the file may hold its lock.
+  // A process that may open the file may hold its lock.
   constexpr mode_t kOwnerOnly = 0600;
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
   if (descriptor_ < 0) {

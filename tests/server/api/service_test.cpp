@@ -257,7 +257,7 @@ TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   ASSERT_TRUE(wait_until([&] { return service.queue().get(large)->state == JobState::failed; }));
   const std::string error = service.queue().get(large)->error_json;
   EXPECT_THAT(error, HasSubstr("too small for this job"));
-  EXPECT_THAT(error, HasSubstr("GiB of an estimated"));
+  EXPECT_THAT(error, HasSubstr("GiB of about"));
   EXPECT_FALSE(std::filesystem::exists(service.folders().job_folder(large) / "work"));
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 1000;
