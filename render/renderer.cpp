@@ -85,7 +85,8 @@ struct Renderer::State {
                    Frame& frame);
   void upload_view(const camera::Camera& camera) const;
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
-                 PeoplePass::Purpose purpose);
+                 PeoplePass::Purpose purpose, Target* kept);
+  void draw_backdrop(const camera::Camera& camera, Target* kept) const;
   void draw_truth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NeighborFrame* next, const NeighborFrame* previous,
                      const std::vector<Seen>& seen, Frame& frame);
@@ -224,7 +225,7 @@ const Frame& Renderer::State::draw_metered(const Scene& scene, const camera::Cam
   draw_light(scenery_only, camera, 1, metering_shadows);
   resize(metering_target, camera.intrinsics.width, camera.intrinsics.height);
   metering_target->begin(Eigen::Vector3f::Zero());
-  draw_view(scenery_only, camera, {}, PeoplePass::Purpose::image);
+  draw_view(scenery_only, camera, {}, PeoplePass::Purpose::image, &*metering_target);
   metering_target->read(true, metered);
   lap("metering");
   return metered;
@@ -243,7 +244,7 @@ void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camer
   if (choice.truth && color_apart) {
     draw_truth(scene, camera, seen);
   } else {
-    draw_view(scene, camera, seen, choice.truth ? Purpose::truth : Purpose::image);
+    draw_view(scene, camera, seen, choice.truth ? Purpose::truth : Purpose::image, &*target);
   }
   lap("draw");
 }
@@ -255,7 +256,7 @@ void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& came
     const camera::Camera fine = scaled(camera, quality.supersampling);
     resize(fine_target, fine.intrinsics.width, fine.intrinsics.height);
     fine_target->begin(Eigen::Vector3f::Zero());
-    draw_view(scene, fine, seen, PeoplePass::Purpose::image);
+    draw_view(scene, fine, seen, PeoplePass::Purpose::image, nullptr);
     lap("draw");
     fine_target->read_light(quality.supersampling, frame);
     lap("read back");
@@ -263,7 +264,7 @@ void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& came
   if (multisample) {
     resize(multisample_target, camera.intrinsics.width, camera.intrinsics.height, kSamples);
     multisample_target->begin();
-    draw_view(scene, camera, seen, PeoplePass::Purpose::image);
+    draw_view(scene, camera, seen, PeoplePass::Purpose::image, nullptr);
     lap("draw");
     multisample_target->read(frame);
     lap("read back");
@@ -278,7 +279,8 @@ void Renderer::State::upload_view(const camera::Camera& camera) const {
 }
 
 void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
-                                const std::vector<Seen>& seen, PeoplePass::Purpose purpose) {
+                                const std::vector<Seen>& seen, PeoplePass::Purpose purpose,
+                                Target* kept) {
   upload_view(camera);
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(purpose, scene.people, make_draws(seen));
@@ -287,9 +289,18 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);
   sky.draw_sky(camera);
-  props.draw_backdrop(clip_planes(camera));
+  draw_backdrop(camera, kept);
   smoke.draw(scene, camera);
   sky.draw_rain(camera, scene.index);
+}
+
+/// The land beyond shows in colors only: the depth of `kept`, if there is one, stays.
+void Renderer::State::draw_backdrop(const camera::Camera& camera, Target* kept) const {
+  const ClipPlanes planes = clip_planes(camera);
+  if (!props.sees_backdrop(planes)) return;
+  if (kept != nullptr) kept->keep_depth();
+  props.draw_backdrop(planes);
+  if (kept != nullptr) kept->restore_depth();
 }
 
 /// Ids, depth and silhouettes without colors.

@@ -40,6 +40,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kMaxTaskS = 6 * 3600;  // a task is a simulation or a part of its frames
+
 sigset_t ending_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -114,12 +116,12 @@ std::unique_ptr<jobs::Executor> made_executor(const ServeOptions& options) {
                                .local = {.workers = options.workers,
                                          .memory_mib = memory_for_workers_mib(options),
                                          .waits_for_memory = true,
-                                         .max_task_s = options.max_task_s,
+                                         .max_task_s = options.max_task_s.value_or(kMaxTaskS),
                                          .worker_memory_mib = options.worker_memory_mib,
                                          .limits_by_need = true},
                                .slurm = options.slurm};
   wanted.slurm.at_once = options.workers;
-  wanted.slurm.max_task_s = options.max_task_s;
+  wanted.slurm.max_task_s = options.max_task_s.value_or(0);
   wanted.slurm.worker_memory_mib = options.worker_memory_mib;
   wanted.slurm.limits_by_need = true;
   const jobs::ExecutorKind& kind = jobs::executor_kind(options.executor);

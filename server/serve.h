@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,9 @@ struct ServeOptions {
   int workers = 0;                      ///< max number of workers; 0: one per core
   int max_active_jobs = 16;             ///< max number of running jobs
   double live_timeout_s = 30;           ///< a live flight without viewers ends after this time
-  double max_task_s = 0;                ///< max duration of an attempt at a task; 0: unlimited
+  /// Max duration of an attempt at a task; 0: unlimited. Default: six hours on this machine, and on
+  /// a cluster what Slurm's partition allows.
+  std::optional<double> max_task_s;
   int worker_memory_mib = 0;            ///< max address space of a worker; 0: by its task's need
   std::int64_t memory_mib = 0;          ///< max memory of all workers; 0: 7/8 of the machine's
   std::int64_t keep_days = 0;           ///< time until an ended job is removed; 0: unlimited

@@ -43,8 +43,10 @@ void add_limit_options(CLI::App& command, server::ServeOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(1.0, 3600.0));
   command
-      .add_option("--task-timeout", options.max_task_s,
-                  "Seconds after which a worker counts as hung (0: no limit)")
+      .add_option(
+          "--task-timeout", options.max_task_s,
+          "Seconds after which a worker counts as hung (0: no limit; default: six hours, with "
+          "Slurm that of the partition)")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--worker-memory", options.worker_memory_mib,

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <string_view>
+
 #include "base/error.h"
 #include "base/files/files.h"
 
@@ -29,6 +31,27 @@ void pin_library(const JobFolder& folder, const std::string& content_hash) {
       fmt::format("the people have changed since the job began: it was begun with {} ({}), and the "
                   "character library is {}; build the former again or submit the job again",
                   pinned, note.string(), content_hash));
+}
+
+void heal_library_pin(const JobFolder& folder) {
+  const fs::path note = pin_file(folder);
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(note, error))) return;
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr std::size_t kHashDigits = 64;
+  try {
+    const std::string hash = read_file(note);
+    if (hash.size() == kHashDigits && hash.find_first_not_of(kDigits) == hash.npos) return;
+  } catch (const EnvironmentError&) {  // a folder or a link
+  }
+  for (const auto& run : fs::directory_iterator(note.parent_path(), error)) {
+    if (!run.is_directory(error) || run.is_symlink(error)) continue;
+    for (const auto& output : fs::directory_iterator(run.path(), error)) {
+      if (output.path().filename().string().starts_with("shard"))
+        fs::remove_all(output.path(), error);
+    }
+  }
+  fs::remove_all(note, error);
 }
 
 std::string pinned_library(const JobFolder& folder) {

@@ -13,6 +13,10 @@ namespace throng::jobs {
 /// both hashes if they differ.
 void pin_library(const JobFolder& folder, const std::string& content_hash);
 
+/// Removes a record that is no hash, and the job's rendered frames with it: nobody knows which
+/// characters they show.
+void heal_library_pin(const JobFolder& folder);
+
 /// The recorded hash; "" if no worker has recorded one yet.
 std::string pinned_library(const JobFolder& folder);
 

@@ -68,6 +68,22 @@ Target::Target(int width, int height)
   framebuffer_ = make_framebuffer({color_.name(), id_.name()}, depth_.name());
 }
 
+namespace {
+
+void copy_image(const Texture& from, const Texture& to, int width, int height) {
+  glCopyImageSubData(from.name(), GL_TEXTURE_2D, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                     width, height, 1);
+}
+
+}  // namespace
+
+void Target::keep_depth() {
+  if (!kept_depth_) kept_depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, width_, height_);
+  copy_image(depth_, *kept_depth_, width_, height_);
+}
+
+void Target::restore_depth() const { copy_image(*kept_depth_, depth_, width_, height_); }
+
 void Target::begin(const Eigen::Vector3f& sky) const {
   const GLuint name = framebuffer_.name();
   glBindFramebuffer(GL_FRAMEBUFFER, name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/frame.h"
@@ -31,6 +32,11 @@ class Target {
   /// pixel is the mean of its samples in linear light.
   void read_light(int samples, Frame& frame);
 
+  /// Keeps the depth as it is now, and brings it back: for draws that need depth of their own but
+  /// are no part of the ground truth.
+  void keep_depth();
+  void restore_depth() const;
+
   GLuint depth_texture() const { return depth_.name(); }
 
  private:
@@ -39,6 +45,7 @@ class Target {
   Texture color_;
   Texture id_;
   Texture depth_;
+  std::optional<Texture> kept_depth_;
   Framebuffer framebuffer_;
   std::vector<std::uint32_t> rgba_;  ///< buffer for reading, kept between frames
 };

@@ -208,7 +208,12 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   draw_ranges(leaves, closed, &Item::leaves);
 }
 
-// The farthest part first, since it leaves no depth.
+bool PropPass::sees_backdrop(const ClipPlanes& planes) const {
+  return std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
+    return item.is_backdrop && !is_outside(planes, item.box);
+  });
+}
+
 void PropPass::draw_backdrop(const ClipPlanes& planes) const {
   std::vector<const Item*> parts;
   for (const Item& item : items_) {
@@ -217,17 +222,16 @@ void PropPass::draw_backdrop(const ClipPlanes& planes) const {
   if (parts.empty()) return;
   const Eigen::Vector4d& near = planes.back();
   std::stable_sort(parts.begin(), parts.end(), [&](const Item* a, const Item* b) {
-    return near.head<3>().dot(a->middle) > near.head<3>().dot(b->middle);
+    return near.head<3>().dot(a->middle) < near.head<3>().dot(b->middle);
   });
   const ColorOnly guard;
+  glDepthMask(GL_TRUE);  // its houses and trees hide each other
   glBindVertexArray(array_.name());
+  glEnable(GL_CULL_FACE);
+  draw_ranges(solid_, parts, &Item::solid);
+  glDisable(GL_CULL_FACE);
   glBindTextureUnit(kLeafUnit, leaf_sprites_.name());
-  for (const Item* part : parts) {
-    glEnable(GL_CULL_FACE);
-    draw_ranges(solid_, {part}, &Item::solid);
-    glDisable(GL_CULL_FACE);
-    draw_ranges(leaves_, {part}, &Item::leaves);
-  }
+  draw_ranges(leaves_, parts, &Item::leaves);
 }
 
 void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,

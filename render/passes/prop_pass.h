@@ -36,6 +36,8 @@ class PropPass {
   /// Draws the houses and trees on the land beyond into the color buffer, behind all else: like the
   /// hills on the horizon they change neither ids nor depth. Expects sky and ground to be drawn.
   void draw_backdrop(const ClipPlanes& planes) const;
+  /// Whether any of the backdrop may be in view.
+  bool sees_backdrop(const ClipPlanes& planes) const;
 
   /// Draws the props whose shadows touch `area` of the ground into the shadow map; `slope` is
   /// shadow_slope().

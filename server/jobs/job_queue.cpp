@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "jobs/queue/pinned_library.h"
 #include "server/catalog/api_json.h"
 #include "server/jobs/report_maker.h"
 #include "spec/calibration/calibrations.h"
@@ -188,6 +189,9 @@ std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLi
     const jobs::Retried retried = state_.retry(*row, limits);
     if (!retried.over_quota.empty()) throw QuotaError(retried.over_quota);
     if (!retried.row) continue;
+    if (row->kind == jobs::JobKind::dataset) {
+      jobs::heal_library_pin(jobs::JobFolder(folders_.job_folder(id)));
+    }
     ReportMaker::forget(folders_.ground_truth_folder(*row));
     spdlog::info("job {} queued again", id);
     state_.notify_queued();

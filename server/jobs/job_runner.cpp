@@ -172,7 +172,9 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     error = dump_text(error_json("input", folders_.without_paths(failure.what()),
                                  folders_.without_paths(failure.problems())));
   } catch (const std::exception& failure) {
-    if (is_resource_exhaustion(failure)) throw;  // it is still "running", and taken up again
+    const bool may_pass = is_resource_exhaustion(failure) ||
+                          dynamic_cast<const jobs::StoreUnavailable*>(&failure) != nullptr;
+    if (may_pass) throw;  // it is still "running", and taken up again
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
       save_bytes(row);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "jobs/queue/store/state.h"
 
 namespace throng::jobs {
@@ -129,6 +130,12 @@ struct EventRow {
   std::int64_t at_ms = 0;  ///< Unix time
   std::string type;  ///< "submitted", to_string(JobEvent), "changed", "removed" or record_event()'s
   std::string data_json;
+};
+
+/// The store cannot be written now: its files were removed or are locked. It may pass.
+class StoreUnavailable : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
 };
 
 /// Safe to use from many threads.

@@ -66,7 +66,7 @@ Store::Connections::Connections(const fs::path& folder, const Clock& wall, Clock
 
 void Store::Connections::require_files() const {
   if (file_identity(file) == identity && lock.is_in_place()) return;
-  throw EnvironmentError(
+  throw StoreUnavailable(
       "job store: its file or its lock was removed while the service ran; nothing is accepted "
       "until they are put back and the service is started again");
 }
@@ -76,7 +76,7 @@ void Store::Connections::write(const std::function<void()>& change) {
   try {
     commits.run(change);
   } catch (const SQLite::Exception& error) {
-    throw EnvironmentError(fmt::format("job store: {}", error.what()));
+    throw StoreUnavailable(fmt::format("job store: {}", error.what()));
   }
 }
 

@@ -253,8 +253,7 @@ TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   const auto is_resting = [&] { return !service.queue().paused().empty(); };
   ASSERT_TRUE(wait_until(is_resting));
   free = 1000;
-  ASSERT_TRUE(wait_until([&] { return !is_resting(); }));
-  ASSERT_TRUE(wait_until([&] { return service.queue().get(large)->state == JobState::failed; }));
+  ASSERT_TRUE(reaches(service, large, JobState::failed));
   const std::string error = service.queue().get(large)->error_json;
   EXPECT_THAT(error, HasSubstr("too small for this job"));
   EXPECT_THAT(error, HasSubstr("GiB of about"));
@@ -262,6 +261,47 @@ TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 1000;
   ASSERT_TRUE(reaches(service, service.queue().submit({kJob}).row.id, JobState::succeeded));
+}
+
+TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
+  const std::filesystem::path lock = data.path() / "lock";
+  const std::filesystem::path away = data.path() / "lock.away";
+  std::atomic<bool> was_lost = false;
+  executor.before = [&](const Task& task) {
+    // What the task reports then cannot be stored.
+    if (task.kind == Task::Kind::render && !was_lost.exchange(true)) {
+      std::filesystem::rename(lock, away);
+    }
+    return TaskResult{};
+  };
+  Service service(options(), executor);
+  const std::string id = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(wait_until([&] { return was_lost.load(); }));
+  EXPECT_THROW(service.queue().submit({kJob}), EnvironmentError);
+  std::filesystem::rename(away, lock);
+  EXPECT_TRUE(reaches(service, id, JobState::succeeded));
+}
+
+TEST_F(ServiceTest, RetryHealsTheNoteOfTheCharacters) {
+  std::atomic<bool> is_broken = true;
+  executor.before_in = [&](const jobs::JobFolder& folder, const Task& task) {
+    if (task.kind == Task::Kind::collect && is_broken.exchange(false)) {
+      write_file_atomically(folder.path() / "work/people", "damaged");
+      return TaskResult{Outcome::input_error, 1, "boom", {}};
+    }
+    return TaskResult{};
+  };
+  Service service(options(), executor);
+  const std::string id = service.queue().submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, id, JobState::failed));
+  const std::filesystem::path work = service.folders().job_folder(id) / "work";
+  ASSERT_TRUE(std::filesystem::exists(work / "run000/shard0000"));
+  Gate gate(executor);
+  ASSERT_TRUE(service.queue().retry(id));
+  EXPECT_FALSE(std::filesystem::exists(work / "people"));
+  EXPECT_FALSE(std::filesystem::exists(work / "run000/shard0000")) << "nobody knows its characters";
+  gate.open();
+  EXPECT_TRUE(reaches(service, id, JobState::succeeded));
 }
 
 TEST_F(ServiceTest, EstimatesCountAmongTheBytesOfAKey) {
