@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
 #include <shared_mutex>
 #include <utility>
 #include <vector>
