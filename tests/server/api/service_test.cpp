@@ -268,7 +268,7 @@ TEST_F(ServiceTest, AJobThatRunsSurvivesTheLossOfTheLock) {
   const std::filesystem::path away = data.path() / "lock.away";
   std::atomic<bool> was_lost = false;
   executor.before = [&](const Task& task) {
-    // What the task reports then cannot be stored.
+    // The reports of the task cannot be stored then.
     if (task.kind == Task::Kind::render && !was_lost.exchange(true)) {
       std::filesystem::rename(lock, away);
     }
