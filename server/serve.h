@@ -13,18 +13,18 @@ namespace throng::server {
 
 /// Options of the service.
 struct ServeOptions {
-  std::filesystem::path data;           ///< data folder
-  std::filesystem::path database;       ///< folder of jobs, keys and webhooks; "": `data`
-  std::filesystem::path scenarios;      ///< folder of the scenarios that all jobs may use
-  std::string host = "127.0.0.1";       ///< address to listen on
-  int port = 8080;                      ///< 0: any free port
-  std::filesystem::path port_file;      ///< file that receives the number of the port; "": none
-  bool insecure = false;                ///< permits addresses other than loopback without keys
-  std::string executor = "local";       ///< name in executor_kinds() (jobs/queue/executors.h)
-  jobs::SlurmOptions slurm;             ///< options of the executor "slurm"
-  int workers = 0;                      ///< max number of workers; 0: one per core
-  int max_active_jobs = 16;             ///< max number of running jobs
-  double live_timeout_s = 30;           ///< a live flight without viewers ends after this time
+  std::filesystem::path data;       ///< data folder
+  std::filesystem::path database;   ///< folder of jobs, keys and webhooks; "": `data`
+  std::filesystem::path scenarios;  ///< folder of the scenarios that all jobs may use
+  std::string host = "127.0.0.1";   ///< address to listen on
+  int port = 8080;                  ///< 0: any free port
+  std::filesystem::path port_file;  ///< file that receives the number of the port; "": none
+  bool insecure = false;            ///< permits addresses other than loopback without keys
+  std::string executor = "local";   ///< name in executor_kinds() (jobs/queue/executors.h)
+  jobs::SlurmOptions slurm;         ///< options of the executor "slurm"
+  int workers = 0;                  ///< max number of workers; 0: one per core
+  int max_active_jobs = 16;         ///< max number of running jobs
+  double live_timeout_s = 30;       ///< a live flight without viewers ends after this time
   /// Max duration of an attempt at a task; 0: unlimited. Default: six hours on this machine, and on
   /// a cluster what Slurm's partition allows.
   std::optional<double> max_task_s;

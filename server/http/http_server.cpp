@@ -277,6 +277,10 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
                                 {"Cross-Origin-Resource-Policy", "same-origin"}});
   server_->set_payload_max_length(std::numeric_limits<std::size_t>::max());
   server_->set_tcp_nodelay(true);
+  // Answers tell clients for how long an idle connection stays, so that they do not use it as it
+  // ends.
+  server_->set_keep_alive_timeout(
+      std::chrono::duration_cast<std::chrono::seconds>(options.connection.idle).count());
   int listener = -1;
   // Without SO_REUSEPORT, which the library sets by default: two servers must not share a port.
   server_->set_socket_options([&listener](socket_t socket) {
