@@ -39,8 +39,9 @@ fs::path normal(const fs::path& path) {
 
 /// The area of a path and the path from there; both empty for a path that is trusted.
 std::pair<fs::path, fs::path> split_at_area(const fs::path& path) {
-  const fs::path whole = normal(path);
   const std::shared_lock lock(areas().mutex);
+  if (areas().paths.empty()) return {};
+  const fs::path whole = normal(path);
   for (const fs::path& area : areas().paths) {
     if (whole != area && is_within(whole, area)) return {area, whole.lexically_relative(area)};
   }

@@ -48,6 +48,11 @@ class LightTable {
   std::array<std::uint8_t, kMaxCode + 1> value_{};
 };
 
+void copy_image(const Texture& from, const Texture& to, int width, int height) {
+  glCopyImageSubData(from.name(), GL_TEXTURE_2D, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                     width, height, 1);
+}
+
 }  // namespace
 
 int max_target_px() {
@@ -67,15 +72,6 @@ Target::Target(int width, int height)
   check_gl("making the image buffers");
   framebuffer_ = make_framebuffer({color_.name(), id_.name()}, depth_.name());
 }
-
-namespace {
-
-void copy_image(const Texture& from, const Texture& to, int width, int height) {
-  glCopyImageSubData(from.name(), GL_TEXTURE_2D, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                     width, height, 1);
-}
-
-}  // namespace
 
 void Target::keep_depth() {
   if (!kept_depth_) kept_depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, width_, height_);

@@ -208,17 +208,16 @@ void PropPass::draw_with(const Program& solid, const Program& leaves, const Clip
   draw_ranges(leaves, closed, &Item::leaves);
 }
 
-bool PropPass::sees_backdrop(const ClipPlanes& planes) const {
-  return std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
-    return item.is_backdrop && !is_outside(planes, item.box);
-  });
-}
-
-void PropPass::draw_backdrop(const ClipPlanes& planes) const {
+std::vector<const PropPass::Item*> PropPass::backdrop_in(const ClipPlanes& planes) const {
   std::vector<const Item*> parts;
   for (const Item& item : items_) {
     if (item.is_backdrop && !is_outside(planes, item.box)) parts.push_back(&item);
   }
+  return parts;
+}
+
+void PropPass::draw_backdrop(const ClipPlanes& planes) const {
+  std::vector<const Item*> parts = backdrop_in(planes);
   if (parts.empty()) return;
   const Eigen::Vector4d& near = planes.back();
   std::stable_sort(parts.begin(), parts.end(), [&](const Item* a, const Item* b) {

@@ -37,7 +37,7 @@ class PropPass {
   /// hills on the horizon they change neither ids nor depth. Expects sky and ground to be drawn.
   void draw_backdrop(const ClipPlanes& planes) const;
   /// Whether any of the backdrop may be in view.
-  bool sees_backdrop(const ClipPlanes& planes) const;
+  bool sees_backdrop(const ClipPlanes& planes) const { return !backdrop_in(planes).empty(); }
 
   /// Draws the props whose shadows touch `area` of the ground into the shadow map; `slope` is
   /// shadow_slope().
@@ -66,6 +66,8 @@ class PropPass {
   /// shadows nobody sees.
   void add_dressing(const world::Scenario& scenario, bool semantic,
                     std::vector<PropVertex>& vertices, std::vector<std::uint32_t>& indices);
+  /// Parts of the backdrop that may be in view.
+  std::vector<const Item*> backdrop_in(const ClipPlanes& planes) const;
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,
                    Range Item::*range) const;
 

@@ -41,6 +41,8 @@ namespace {
 void write_problem(Response& response, const HttpError& error) {
   response.status = error.status;
   if (error.status == 401) response.set_header("WWW-Authenticate", "Bearer");
+  const bool may_pass = error.status == 429 || error.status == 503;
+  if (may_pass && !response.has_header("Retry-After")) response.set_header("Retry-After", "5");
   response.set_content(dump_text(problem_document(error.status, error.detail, error.problems)),
                        "application/problem+json");
 }
@@ -50,7 +52,6 @@ constexpr const char* kStudies = "/v1/studies";
 constexpr const char* kScenarios = "/v1/scenarios";
 constexpr const char* kSession = "/v1/session";
 constexpr const char* kJobs = "/v1/jobs";
-constexpr int kMaxRequests = 1'000'000;  // threads limit them
 
 }  // namespace
 
@@ -145,7 +146,6 @@ namespace {
 // The library answers 404 for a method that a path does not know.
 void write_library_error(const Request& request, Response& response, const HttpError& error) {
   forget_ranges(request);
-  if (error.status == 503) response.set_header("Retry-After", "5");
   if (error.status == 404 && error.detail.empty()) {
     std::string methods = allowed_methods(routes(), request.path);
     if (methods.empty()) methods = allowed_methods(studio_routes(), request.path);
@@ -302,7 +302,8 @@ HttpOptions with_limits(HttpOptions options, const Keys& keys, Sessions& session
   options.is_urgent = [&keys, &sessions](const Request& request) {
     if (request.path == "/healthz" || request.path == "/readyz") return true;
     const auto caller = caller_in(keys, sessions, request);
-    return caller && caller->scope >= Scope::admin;
+    // Without keys everybody is an administrator: then all wait.
+    return caller && caller->scope >= Scope::admin && !caller->key_id.empty();
   };
   options.admit_body = [&keys, &sessions, &audit, &requests, loopback](const Request& request) {
     try {
@@ -326,10 +327,6 @@ const char* content_policy(const Route& route) {
                      "frame-ancestors 'none'";
 }
 
-}  // namespace
-
-namespace {
-
 /// Keeps an object until the answer, which a content provider may still write, has been sent.
 void hold_until_sent(Response& response, std::shared_ptr<void> held) {
   response.content_provider_resource_releaser_ =
@@ -343,7 +340,6 @@ void hold_until_sent(Response& response, std::shared_ptr<void> held) {
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : queue_(service.queue()),
       audit_(service.folders().data()),
-      requests_(kMaxRequests, kMaxRequestsOfKey),
       server_(with_limits(options, keys, sessions_, audit_, requests_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {

@@ -45,7 +45,7 @@ class Api {
   Sessions sessions_;
   AuditLog audit_;
   AnswerBudget answers_;
-  KeyLimit requests_;
+  KeyLimit requests_{kMaxRequestsOfKey};
   HttpServer server_;
 };
 

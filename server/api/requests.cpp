@@ -126,19 +126,16 @@ void send_rows(const RequestContext& context, httplib::Response& response, const
                const json& more) {
   ListAnswer answer(context.answers, name);
   filter.max_text_bytes = kMaxPageBytes;
-  std::vector<jobs::JobRow> rows = context.queue.list(filter);
+  const std::vector<jobs::JobRow> rows = context.queue.list(filter);
   std::size_t bytes = 0;
-  std::string last;
-  for (jobs::JobRow& row : rows) {
-    if (answer.is_full()) break;
-    answer.add(to_json(row));
-    bytes += text_bytes(row);
-    last = row.id;
-    row = {};
+  std::size_t sent = 0;
+  for (; sent < rows.size() && !answer.is_full(); ++sent) {
+    answer.add(to_json(rows[sent]));
+    bytes += text_bytes(rows[sent]);
   }
-  const bool has_more = static_cast<int>(rows.size()) == filter.limit || bytes >= kMaxPageBytes ||
-                        (!rows.empty() && !rows.back().id.empty());
-  answer.send(response, has_more ? last : "", more);
+  const bool has_more =
+      sent < rows.size() || static_cast<int>(sent) == filter.limit || bytes >= kMaxPageBytes;
+  answer.send(response, has_more ? rows[sent - 1].id : "", more);
 }
 
 void require_own(const RequestContext& context, const jobs::JobRow& row) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "base/json/json_text.h"
 #include "server/http/reason_phrase.h"
@@ -195,7 +194,6 @@ json study_json(const jobs::JobRow& row, const Retention& retention) {
 json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
   json value = row_json(row, retention);
-  if (!row.spec_json.empty()) value["job"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}};
   if (has_dataset(row.state)) {
     value["links"]["archive"] = self + "/archive";
@@ -204,12 +202,11 @@ json job_json(const jobs::JobRow& row, const Retention& retention) {
   return value;
 }
 
-std::string job_text(jobs::JobRow row, const Retention& retention) {
-  const std::string spec = std::exchange(row.spec_json, {});
+std::string job_text(const jobs::JobRow& row, const Retention& retention) {
   std::string text = dump_text(job_json(row, retention));
   text.pop_back();
   // As it is: a job of many values takes dozens of times its text's size when it is parsed.
-  return text + ",\"job\":" + (is_own_json(spec) ? spec : "null") + "}";
+  return text + ",\"job\":" + (is_own_json(row.spec_json) ? row.spec_json : "null") + "}";
 }
 
 json problem_document(int status, const std::string& detail, const std::vector<Problem>& problems) {

@@ -42,10 +42,10 @@ nlohmann::json calibration_json(const jobs::JobRow& row, const Retention& retent
 /// A study as in GET /v1/studies.
 nlohmann::json study_json(const jobs::JobRow& row, const Retention& retention);
 
-/// A job as in GET /v1/jobs/{id}.
+/// A job as in lists: without what was asked for.
 nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
-/// The text of job_json() with the job. Throws nothing if the job is damaged: it is null.
-std::string job_text(jobs::JobRow row, const Retention& retention);
+/// The text of a job as in GET /v1/jobs/{id}; "job" is null if the row is damaged.
+std::string job_text(const jobs::JobRow& row, const Retention& retention);
 
 /// A problem document (RFC 9457).
 nlohmann::json problem_document(int status, const std::string& detail,

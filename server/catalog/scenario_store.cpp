@@ -300,7 +300,7 @@ bool ScenarioStore::is_published_after(const std::string& name, std::uint64_t pu
 }
 
 std::string ScenarioStore::content_hash(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(hashes_mutex_);
   const auto found = hashes_.find(name);
   if (found != hashes_.end()) return found->second;
   try {
@@ -321,7 +321,10 @@ bool ScenarioStore::is_taken(const std::string& name) const {
 bool ScenarioStore::remove(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (known_.erase(name) == 0) return false;
-  hashes_.erase(name);
+  {
+    const std::lock_guard hashes_lock(hashes_mutex_);
+    hashes_.erase(name);
+  }
   std::error_code error;
   fs::remove(links_ / name, error);
   const fs::path trash = data_ / "trash";

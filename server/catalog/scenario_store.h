@@ -121,7 +121,8 @@ class ScenarioStore {
   mutable std::mutex mutex_;
   std::map<std::string, ScenarioUpload> known_;        ///< guarded by mutex_
   std::uint64_t publications_ = 0;                     ///< guarded by mutex_
-  mutable std::map<std::string, std::string> hashes_;  ///< content_hash(); guarded by mutex_
+  mutable std::mutex hashes_mutex_;                    ///< another one: files are read for long
+  mutable std::map<std::string, std::string> hashes_;  ///< content_hash(); guarded by hashes_mutex_
 };
 
 }  // namespace throng::server

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,7 +17,8 @@ namespace throng::server {
 /// threads.
 class KeyLimit {
  public:
-  KeyLimit(int max_all, int max_of_key) : max_all_(max_all), max_of_key_(max_of_key) {}
+  explicit KeyLimit(int max_of_key, int max_all = std::numeric_limits<int>::max())
+      : max_of_key_(max_of_key), max_all_(max_all) {}
 
   /// Holds one more until the result is destroyed; null if a limit is reached.
   std::shared_ptr<void> hold(const std::string& key);
@@ -30,8 +32,8 @@ class KeyLimit {
     std::map<std::string, int> of_key;
   };
 
-  const int max_all_;
   const int max_of_key_;
+  const int max_all_;
   std::shared_ptr<Counts> counts_ = std::make_shared<Counts>();  ///< outlives this object
 };
 

@@ -116,7 +116,7 @@ class JobQueue {
   const Calibrations& calibrations_;
   const ConfinedChecks& confined_;
   const PublishTargets& publish_to_;
-  KeyLimit watchers_{kMaxWatchers, kMaxWatchersOfKey};
+  KeyLimit watchers_{kMaxWatchersOfKey, kMaxWatchers};
   mutable TextCache texts_;
 };
 

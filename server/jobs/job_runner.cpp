@@ -184,6 +184,10 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
   }
   store_.set_bytes(row.id, measure_disk_bytes(folders_.ground_truth_folder(row)));
   const std::optional<JobRow> ended = state_.apply(row, event, error);
+  {
+    const std::lock_guard lock(stops_mutex_);
+    stops_by_full_disk_.erase(row.id);
+  }
   spdlog::info("job {} {}", row.id, ended ? to_string(ended->state) : "was cancelled meanwhile");
 }
 
@@ -211,8 +215,7 @@ void JobRunner::fail_if_too_large(const JobRow& row) {
   const std::string message = fmt::format(
       "the disk is too small for this job: it has filled it {} times, and has written {:.2f} GiB "
       "of "
-      "about {:.2f} GiB ({}). Its unfinished parts were removed; free some space or ask for less, "
-      "and retry",
+      "about {:.2f} GiB ({}). Free some space or ask for less, and retry",
       kMaxStops, static_cast<double>(own) / kGib, static_cast<double>(row.planned_bytes) / kGib,
       reason);
   if (!state_.apply(row, JobEvent::fail, dump_text(error_json("environment", message, {})))) return;

@@ -67,7 +67,7 @@ class LiveFlights {
 
   std::filesystem::path folder_;
   LiveLimits limits_;
-  KeyLimit viewers_{kMaxViewers, kMaxViewersOfKey};
+  KeyLimit viewers_{kMaxViewersOfKey, kMaxViewers};
   mutable std::mutex mutex_;
   std::condition_variable_any begun_;                           ///< a flight was started
   std::map<std::string, std::shared_ptr<LiveFlight>> flights_;  ///< by id; guarded by mutex_

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -175,6 +176,79 @@ TEST_F(FarLand, IsABackdropThatLabelsDoNotShow) {
   }
   EXPECT_GT(dark, 300);
   EXPECT_EQ(tallest_m(scenario_), 2.5);
+}
+
+/// A triangle of the land beyond, and how it looks.
+struct FarTriangle {
+  std::array<Eigen::Vector3d, 3> corners;
+  bool is_green = false;
+  bool is_leaf = false;
+};
+
+std::vector<FarTriangle> triangles_of(const std::vector<PropMesh>& meshes) {
+  std::vector<FarTriangle> all;
+  for (const PropMesh& mesh : meshes) {
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      FarTriangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const PropVertex& vertex = mesh.vertices[mesh.indices[i + k]];
+        triangle.corners[k] = Eigen::Vector3f(vertex.position.data()).cast<double>();
+        triangle.is_green = vertex.paint[1] > 1.1 * vertex.paint[0];
+        triangle.is_leaf = vertex.paint[3] == static_cast<std::uint8_t>(Finish::leaves);
+      }
+      all.push_back(triangle);
+    }
+  }
+  return all;
+}
+
+/// Distance along a ray to a triangle (Moeller and Trumbore, 1997); infinite if it misses.
+double distance_to(const FarTriangle& triangle, const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d a = triangle.corners[1] - triangle.corners[0];
+  const Eigen::Vector3d b = triangle.corners[2] - triangle.corners[0];
+  const Eigen::Vector3d p = direction.cross(b);
+  const double scale = a.dot(p);
+  if (std::abs(scale) < 1e-12) return INFINITY;
+  const Eigen::Vector3d off = from - triangle.corners[0];
+  const double u = off.dot(p) / scale;
+  const double v = direction.dot(off.cross(a)) / scale;
+  const double distance = b.dot(off.cross(a)) / scale;
+  return u < 0 || v < 0 || u + v > 1 || distance <= 0 ? INFINITY : distance;
+}
+
+TEST_F(FarLand, HousesHideWhatIsBehindThem) {
+  for (int i = 0; i < 4; ++i) {
+    scenario_.buildings.push_back(block(9.0 * i - 20, 9.0 * i - 14, 0, 6, 12));
+  }
+  const Eigen::Vector3d eye(0, 0, 45);
+  const camera::Camera camera = camera_at(eye, 30, -14, 480, 320);
+  const std::vector<FarTriangle> triangles = triangles_of(far_land(scenario_, {}));
+  Stage stage(scenario_);
+  const Frame frame = stage.draw(camera);
+  int walls = 0;
+  int green_walls = 0;
+  for (int y = 0; y < frame.height(); y += 6) {
+    for (int x = 0; x < frame.width(); x += 6) {
+      const Eigen::Vector3d direction = camera.unproject({x + 0.0, y + 0.0}, 1) - eye;
+      double wall_m = INFINITY;
+      double green_m = INFINITY;
+      double leaf_m = INFINITY;
+      for (const FarTriangle& triangle : triangles) {
+        const double distance = distance_to(triangle, eye, direction);
+        double& nearest = triangle.is_leaf ? leaf_m : triangle.is_green ? green_m : wall_m;
+        nearest = std::min(nearest, distance);
+      }
+      // Only where the wrong one of two could be seen.
+      if (leaf_m < wall_m || !std::isfinite(green_m) || wall_m > green_m - 0.5) continue;
+      const std::size_t i = 3 * pixel_index(frame, x, y);
+      if (frame.id[i / 3] != kIdNothing && frame.id[i / 3] < kIdGround) continue;
+      ++walls;
+      green_walls += frame.rgb[i + 1] > frame.rgb[i] + 6 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(walls, 50);
+  EXPECT_LT(green_walls, walls / 20);
 }
 
 TEST(GroundLayers, PathsGoOnAsNarrowTracksAndRoadsAsTheyAre) {

@@ -20,15 +20,20 @@ constexpr int kNoteBytes = 700'000;
 
 class LargeRows : public ApiTest {
  protected:
-  /// Makes the texts of queued rows as large as clients could make them.
-  void enlarge_queued(const std::string& kind) const {
-    ASSERT_TRUE(wait_until([&] { return get_json("/v1/jobs?state=running")["jobs"].size() == 1; }));
+  /// Submits jobs, newest first, of which one runs. The texts of the others become as large as
+  /// clients could make them, and they become of this kind.
+  std::vector<std::string> submit_large(const std::string& kind) const {
+    std::vector<std::string> ids(20);
+    for (std::string& id : ids) id = submit();
+    std::reverse(ids.begin(), ids.end());
+    EXPECT_TRUE(wait_until([&] { return get_json("/v1/jobs?state=running")["jobs"].size() == 1; }));
     SQLite::Database database(data.path() / "jobs.sqlite", SQLite::OPEN_READWRITE, 60'000);
     database.exec(fmt::format(
         "UPDATE job SET kind = '{0}', spec = json_object('note', replace(hex(zeroblob({1} / 2)), "
         "'0', 'x')), progress = json_object('note', replace(hex(zeroblob({1} / 2)), '0', 'y')) "
         "WHERE state = 'queued'",
         kind, kNoteBytes));
+    return ids;
   }
 
   /// Ids of all rows of a list, and the size of its largest page.
@@ -51,29 +56,21 @@ class LargeRows : public ApiTest {
 
 TEST_F(LargeRows, ListsHoldNoJobsAndPagesEndByTheirSize) {
   Gate gate(executor);
-  std::vector<std::string> ids(20);
-  for (std::string& id : ids) id = submit();
-  std::reverse(ids.begin(), ids.end());
-  enlarge_queued("dataset");
+  const std::vector<std::string> ids = submit_large("dataset");
   const auto [listed, largest] = all_pages("/v1/jobs?limit=500", "jobs");
   EXPECT_EQ(listed, ids);
   EXPECT_LT(largest, 6U << 20U);
   EXPECT_FALSE(get_json("/v1/jobs?limit=1")["jobs"][0].contains("job"));
   EXPECT_EQ(get_json("/v1/jobs/" + ids[0])["job"]["note"], std::string(kNoteBytes, 'x'));
-  gate.open();
 }
 
 TEST_F(LargeRows, CalibrationsAreListedByTheirSizeToo) {
   Gate gate(executor);
-  std::vector<std::string> ids(20);
-  for (std::string& id : ids) id = submit();
-  std::reverse(ids.begin(), ids.end());
-  enlarge_queued("calibration");
+  std::vector<std::string> ids = submit_large("calibration");
   const auto [listed, largest] = all_pages("/v1/calibrations?limit=500", "calibrations");
   ids.pop_back();  // the one that runs is still a job
   EXPECT_EQ(listed, ids);
   EXPECT_LT(largest, 6U << 20U);
-  gate.open();
 }
 
 TEST_F(LargeRows, TextsOfScenariosAreBounded) {

@@ -112,7 +112,7 @@ TEST_F(SlotsTest, StreamsEndWithTheirKeyAndWithTheSharingOfTheirJob) {
 }
 
 TEST(KeyLimit, BoundsAllAndEachKey) {
-  KeyLimit limit(3, 2);
+  KeyLimit limit(2, 3);
   auto a = limit.hold("a");
   const auto b = limit.hold("a");
   EXPECT_NE(a, nullptr);

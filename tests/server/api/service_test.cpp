@@ -23,7 +23,27 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class ServiceTest : public ServiceFixture {};
+class ServiceTest : public ServiceFixture {
+ protected:
+  /// Options of a service on a disk that has `free` bytes, of which 100 have to stay free.
+  /// Rendering fills it: tasks fail then as those of workers that cannot write.
+  ServiceOptions on_small_disk(std::atomic<std::int64_t>& free) {
+    ServiceOptions limited = options();
+    limited.housekeeping.disk = [&] {
+      ++looks;
+      return DiskState{free.load()};
+    };
+    limited.housekeeping.min_free_bytes = 100;
+    executor.before = [&](const Task& task) {
+      if (task.kind == Task::Kind::render) free = 50;
+      return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
+                        : TaskResult{};
+    };
+    return limited;
+  }
+
+  std::atomic<int> looks = 0;  ///< at that disk
+};
 
 TEST_F(ServiceTest, AJobRunsToItsDataset) {
   Service service(options(), executor);
@@ -206,20 +226,7 @@ TEST_F(ServiceTest, AJobMayEndWithSomeOfItsRuns) {
 
 TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
-  std::atomic<int> looks = 0;
-  ServiceOptions limited = options();
-  limited.housekeeping.disk = [&] {
-    ++looks;
-    return DiskState{free.load()};
-  };
-  limited.housekeeping.min_free_bytes = 100;
-  // Fails like a worker that cannot write, once there is no free space.
-  executor.before = [&](const Task& task) {
-    if (task.kind == Task::Kind::render) free = 50;
-    return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
-                      : TaskResult{};
-  };
-  Service service(limited, executor);
+  Service service(on_small_disk(free), executor);
   const std::string id = service.queue().submit({kJob}).row.id;
   ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
   EXPECT_EQ(service.queue().get(id)->state, JobState::running) << "nothing has failed";
@@ -240,18 +247,9 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
 
 TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   std::atomic<std::int64_t> free = 1000;
-  ServiceOptions limited = options();
-  limited.housekeeping.disk = [&] { return DiskState{free.load()}; };
-  limited.housekeeping.min_free_bytes = 100;
-  executor.before = [&](const Task& task) {
-    if (task.kind == Task::Kind::render) free = 50;
-    return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
-                      : TaskResult{};
-  };
-  Service service(limited, executor);
+  Service service(on_small_disk(free), executor);
   const std::string large = service.queue().submit({kJob}).row.id;
-  const auto is_resting = [&] { return !service.queue().paused().empty(); };
-  ASSERT_TRUE(wait_until(is_resting));
+  ASSERT_TRUE(wait_until([&] { return !service.queue().paused().empty(); }));
   free = 1000;
   ASSERT_TRUE(reaches(service, large, JobState::failed));
   const std::string error = service.queue().get(large)->error_json;

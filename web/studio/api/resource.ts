@@ -2,6 +2,7 @@
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { type ApiError, asApiError, getJson } from "./client";
 import { useSession } from "./session";
+import type { Scenario, ScenarioList } from "./types";
 
 export interface Resource<T> {
   value: T | null;
@@ -10,7 +11,10 @@ export interface Resource<T> {
 }
 
 /** A JSON answer; the last one stays while another is fetched. `null` as path: nothing is fetched. */
-export function useJson<T>(path: string | null): Resource<T> {
+export const useJson = <T>(path: string | null): Resource<T> => useFetched<T>(path, getJson);
+
+/** As useJson(), with a function that fetches the value of a path; always the same function. */
+function useFetched<T>(path: string | null, fetchAll: (path: string, signal: AbortSignal) => Promise<T>): Resource<T> {
   const [value, setValue] = useState<{ path: string | null; value: T | null }>({ path: null, value: null });
   const [error, setError] = useState<ApiError | null>(null);
   const [round, setRound] = useState(0);
@@ -18,7 +22,7 @@ export function useJson<T>(path: string | null): Resource<T> {
   useEffect(() => {
     if (path === null) return;
     const controller = new AbortController();
-    getJson<T>(path, controller.signal).then(
+    fetchAll(path, controller.signal).then(
       (answer) => {
         setValue({ path, value: answer });
         setError(null);
@@ -32,6 +36,20 @@ export function useJson<T>(path: string | null): Resource<T> {
   const reload = useCallback(() => setRound((count) => count + 1), []);
   return { value: value.path === path ? value.value : null, error, reload };
 }
+
+async function allScenarios(path: string, signal: AbortSignal): Promise<Scenario[]> {
+  const all: Scenario[] = [];
+  for (let next: string | null = ""; next !== null; ) {
+    const query: string = next === "" ? "" : `?after=${encodeURIComponent(next)}`;
+    const page: ScenarioList = await getJson<ScenarioList>(path + query, signal);
+    all.push(...page.scenarios);
+    next = page.next;
+  }
+  return all;
+}
+
+/** The scenarios that jobs can name, from all pages of their list. */
+export const useScenarios = (): Resource<Scenario[]> => useFetched("/v1/scenarios", allScenarios);
 
 /** Calls `action` every `periodMs` while the page is visible; 0: never. */
 export function useInterval(action: () => void, periodMs: number): void {

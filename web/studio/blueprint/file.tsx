@@ -1,8 +1,8 @@
 // Sources and destinations of blueprints: files, blueprints of the service, an upload.
 import { useState } from "preact/hooks";
 import { type ApiError, asApiError, getJson, request, sendJson } from "../api/client";
-import { useJson } from "../api/resource";
-import type { Scenario, ScenarioList, Upload } from "../api/types";
+import { useScenarios } from "../api/resource";
+import type { Scenario, Upload } from "../api/types";
 import { isObject, type Json, type JsonObject, textOf } from "../form/json";
 import { ErrorBox, FileButton } from "../parts/elements";
 import { kFirstBlueprint } from "./kinds";
@@ -36,9 +36,9 @@ const isShipped = (scenario: Scenario) => !scenario.error && !scenario.uploaded;
 
 /** Opens a file, a blueprint of the service, or the first one again. */
 export function OpenBar({ document, onOpen }: { document: JsonObject; onOpen: (document: JsonObject) => void }) {
-  const list = useJson<ScenarioList>("/v1/scenarios");
+  const list = useScenarios();
   const [error, setError] = useState<string | null>(null);
-  const scenarios = list.value?.scenarios ?? [];
+  const scenarios = list.value ?? [];
   const open = async (id: string) => {
     try {
       onOpen(id ? await getJson<JsonObject>(`/v1/scenarios/${id}?format=blueprint`) : kFirstBlueprint);

@@ -1,6 +1,6 @@
 // The fields that most jobs need.
-import { useJson } from "../api/resource";
-import type { Scenario, ScenarioList } from "../api/types";
+import { useJson, useScenarios } from "../api/resource";
+import type { Scenario } from "../api/types";
 import type { Form } from "./draft";
 import { Field } from "./field";
 import { isObject, type Path, valueAt } from "./json";
@@ -110,9 +110,9 @@ function Drones({ form, schema, scenario }: BasicProps & { scenario: Scenario | 
 }
 
 export function Basic({ form, schema }: BasicProps) {
-  const list = useJson<ScenarioList>("/v1/scenarios");
+  const list = useScenarios();
   const formats = useJson<{ formats: { name: string }[] }>("/v1/formats");
-  const scenarios = list.value?.scenarios ?? [];
+  const scenarios = list.value ?? [];
   const scenario = scenarios.find((entry) => entry.id === form.value["scenario"]);
   return (
     <div class="basic">

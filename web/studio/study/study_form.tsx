@@ -1,7 +1,7 @@
 // A study as fields: its runs, its cases, and its policies with their drones.
 import type { ComponentChildren } from "preact";
-import { useJson } from "../api/resource";
-import type { Scenario, ScenarioList } from "../api/types";
+import { useScenarios } from "../api/resource";
+import type { Scenario } from "../api/types";
 import { Members } from "../form/all_fields";
 import type { Form } from "../form/draft";
 import { Field } from "../form/field";
@@ -236,8 +236,8 @@ function Policies({ form, schema, scenario }: PartProps & { scenario: Scenario |
 
 /** `schema` with the job's parts (study_schema.ts). */
 export function StudyForm({ form, schema }: PartProps) {
-  const list = useJson<ScenarioList>("/v1/scenarios");
-  const scenarios = list.value?.scenarios ?? [];
+  const list = useScenarios();
+  const scenarios = list.value ?? [];
   const first = textAt(listAt(form, ["cases"])[0], "scenario");
   const choices: Record<string, string[]> = { baseline: idsOf(listAt(form, ["policies"])), baseline_case: idsOf(listAt(form, ["cases"])) };
   return (
