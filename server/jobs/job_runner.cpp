@@ -7,7 +7,6 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -198,31 +197,32 @@ void JobRunner::fail_if_too_large(const JobRow& row) {
   constexpr double kGib = 1 << 30;
   const std::string reason = state_.paused();
   if (!reason.starts_with(kDiskIsFull)) return;
-  const std::vector<JobRow> active = state_.active_jobs();
-  std::map<std::string, std::int64_t> bytes;
-  for (const JobRow& job : active) {
+  const auto bytes_of = [this](const JobRow& job) {
     const auto stored = store_.get(job.id);
-    bytes[job.id] = stored ? stored->bytes : 0;
-  }
-  const std::int64_t own = bytes[row.id];
-  const bool is_largest = std::all_of(bytes.begin(), bytes.end(),
-                                      [&](const auto& other) { return other.second <= own; });
+    return stored ? stored->bytes : 0;
+  };
+  const std::int64_t own = bytes_of(row);
+  const std::vector<JobRow> active = state_.active_jobs();
+  const bool is_largest = std::none_of(active.begin(), active.end(),
+                                       [&](const JobRow& job) { return bytes_of(job) > own; });
   {
     const std::lock_guard lock(stops_mutex_);
     if (!is_largest || ++stops_by_full_disk_[row.id] < kMaxStops) return;
     stops_by_full_disk_.erase(row.id);
   }
   const std::string message = fmt::format(
-      "the disk is too small for this job: it has filled it {} times, and has written {:.2f} GiB "
-      "of "
-      "about {:.2f} GiB ({}). Free some space or ask for less, and retry",
+      "the disk is too small for this job: it has filled it {} times, and has written {:.2f} GiB, "
+      "estimated at {:.2f} GiB ({}). Free some space or ask for less, and retry",
       kMaxStops, static_cast<double>(own) / kGib, static_cast<double>(row.planned_bytes) / kGib,
       reason);
-  if (!state_.apply(row, JobEvent::fail, dump_text(error_json("environment", message, {})))) return;
-  spdlog::warn("job {} failed: {}", row.id, message);
+  const auto now = store_.get(row.id);
+  if (!now || now->state != JobState::running) return;
+  // Before the job may be tried again.
   std::error_code ignored;
   fs::remove_all(folders_.ground_truth_folder(row) / "work", ignored);
   save_bytes(row);
+  spdlog::warn("job {} failed: {}", row.id, message);
+  state_.apply(row, JobEvent::fail, dump_text(error_json("environment", message, {})));
 }
 
 jobs::Share JobRunner::share_of(const JobRow& row) const {

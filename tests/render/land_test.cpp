@@ -185,7 +185,7 @@ struct FarTriangle {
   bool is_leaf = false;
 };
 
-std::vector<FarTriangle> triangles_of(const std::vector<PropMesh>& meshes) {
+std::vector<FarTriangle> list_triangles(const std::vector<PropMesh>& meshes) {
   std::vector<FarTriangle> all;
   for (const PropMesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -223,7 +223,7 @@ TEST_F(FarLand, HousesHideWhatIsBehindThem) {
   }
   const Eigen::Vector3d eye(0, 0, 45);
   const camera::Camera camera = camera_at(eye, 30, -14, 480, 320);
-  const std::vector<FarTriangle> triangles = triangles_of(far_land(scenario_, {}));
+  const std::vector<FarTriangle> triangles = list_triangles(far_land(scenario_, {}));
   Stage stage(scenario_);
   const Frame frame = stage.draw(camera);
   int walls = 0;

@@ -254,7 +254,7 @@ TEST_F(ServiceTest, AJobThatFillsTheDiskAgainAndAgainFails) {
   ASSERT_TRUE(reaches(service, large, JobState::failed));
   const std::string error = service.queue().get(large)->error_json;
   EXPECT_THAT(error, HasSubstr("too small for this job"));
-  EXPECT_THAT(error, HasSubstr("GiB of about"));
+  EXPECT_THAT(error, HasSubstr("estimated at"));
   EXPECT_FALSE(std::filesystem::exists(service.folders().job_folder(large) / "work"));
   executor.before = [](const Task&) { return TaskResult{}; };
   free = 1000;
