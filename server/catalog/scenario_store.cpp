@@ -27,6 +27,7 @@ constexpr const char* kFilesName = "files";
 constexpr const char* kPlaceId = "place";  // of a scenario that is sent as a blueprint
 constexpr std::size_t kMaxNameLength = 40;
 constexpr std::size_t kBundleDigits = 16;
+constexpr std::size_t kMaxNoteBytes = 256 << 10;
 
 bool is_upload_name(std::string_view name) {
   return !name.empty() && name.size() <= kMaxNameLength &&
@@ -42,32 +43,6 @@ std::string upload_note(const ScenarioUpload& upload) {
                     {"files", upload.files},
                     {"ids", upload.ids},
                     {"summaries", upload.summaries}});
-}
-
-/// The summary, unless it is larger than any that a scenario's texts, exits and drones need: lists
-/// hold those of all uploads.
-json bounded_summary(json summary) {
-  constexpr std::size_t kMaxBytes = 32 << 10;
-  if (dump_text(summary).size() <= kMaxBytes) return summary;
-  return {{"error",
-           "its name, description, exits and drones are larger than lists can hold; upload "
-           "it again with shorter ones"}};
-}
-
-/// Throws InputError for scenarios whose summaries are too large for lists.
-void require_bounded(const jobs::CheckedScenarios& checked) {
-  constexpr std::size_t kMaxBytes = 256 << 10;
-  std::size_t bytes = 0;
-  for (std::size_t i = 0; i < checked.summaries.size(); ++i) {
-    bytes += dump_text(checked.summaries[i]).size();
-    const bool is_large = bounded_summary(checked.summaries[i]).contains("error") &&
-                          !checked.summaries[i].contains("error");
-    if (!is_large && bytes <= kMaxBytes) continue;
-    throw InputError(
-        Problem{checked.ids.at(i), "", "texts, exits and drones that are too large for lists",
-                "a name, a description, exits and drones of 32 KiB in a scenario, and 256 KiB in "
-                "all scenarios of an upload"});
-  }
 }
 
 ScenarioUpload read_note(const fs::path& folder) {
@@ -148,8 +123,8 @@ void ScenarioStore::find_uploads() {
     try {
       if (!is_upload_name(name)) continue;
       ScenarioUpload upload = read_note(entry.path());
-      if (upload.summaries.size() != upload.ids.size()) describe(upload);
-      for (json& summary : upload.summaries) summary = bounded_summary(std::move(summary));
+      const bool is_large = fs::file_size(entry.path() / kNoteName) > kMaxNoteBytes;
+      if (is_large || upload.summaries.size() != upload.ids.size()) describe(upload);
       known_[name] = std::move(upload);
     } catch (const std::exception& error) {
       spdlog::warn("upload {}: cannot be read and is left aside: {}", name, error.what());
@@ -157,8 +132,10 @@ void ScenarioStore::find_uploads() {
   }
 }
 
-/// An upload of an earlier version, whose record lacks the scenarios' summaries.
+/// An upload of an earlier version, whose record lacks the scenarios' summaries or has too large
+/// ones.
 void ScenarioStore::describe(ScenarioUpload& upload) const {
+  upload.summaries.clear();
   const fs::path folder = uploads_ / upload.name;
   try {
     jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
@@ -204,11 +181,16 @@ void ScenarioStore::finish_staging(Staged& staged) const {
   const fs::path& folder = staged.folder->path();
   ScenarioUpload& upload = staged.upload;
   jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
-  require_bounded(checked);
   for (const std::string& id : checked.ids) upload.ids.push_back(upload.name + "/" + id);
   upload.summaries = std::move(checked.summaries);
   staged.findings = std::move(checked.findings);
-  write_file_atomically(folder / kNoteName, upload_note(upload));
+  const std::string note = upload_note(upload);
+  // Notes of all uploads are in memory.
+  if (note.size() > kMaxNoteBytes) {
+    throw InputError(Problem{"", "", fmt::format("summaries of scenarios of {} bytes", note.size()),
+                             fmt::format("at most {}: fewer or simpler scenarios", kMaxNoteBytes)});
+  }
+  write_file_atomically(folder / kNoteName, note);
 }
 
 ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_view bytes,

@@ -1,8 +1,11 @@
 #include "spec/scenarios/scenario_summary.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/geometry/angle.h"
 
 namespace throng::jobs {
@@ -21,7 +24,7 @@ json scenario_summary(const world::Scenario& scenario) {
                       {"yaw_deg", std::round(drone.yaw_rad / kDegree * 1e6) / 1e6}});
   }
   const world::Rectangle& ground = scenario.ground;
-  return {
+  json summary = {
       {"name", scenario.name},
       {"description", scenario.description},
       {"crowd_model", scenario.crowd_model.empty() ? json(nullptr) : json(scenario.crowd_model)},
@@ -30,6 +33,13 @@ json scenario_summary(const world::Scenario& scenario) {
       {"drones", std::move(drones)},
       {"buildings", scenario.buildings.size()},
       {"props", scenario.props.size()}};
+  constexpr std::size_t kMaxBytes = 32 << 10;
+  const std::size_t bytes = summary.dump(-1, ' ', false, json::error_handler_t::replace).size();
+  if (bytes <= kMaxBytes) return summary;
+  throw InputError(
+      Problem{scenario.id, "",
+              fmt::format("a name, a description, exits and drones of {} bytes together", bytes),
+              fmt::format("at most {}: lists of scenarios hold them", kMaxBytes)});
 }
 
 }  // namespace throng::jobs

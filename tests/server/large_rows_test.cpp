@@ -83,7 +83,7 @@ TEST_F(LargeRows, TextsOfScenariosAreBounded) {
   };
   const httplib::Result refused = upload();
   expect_problem(refused, 400);
-  EXPECT_THAT(refused->body, HasSubstr("32 KiB"));
+  EXPECT_THAT(refused->body, HasSubstr("at most 32768"));
   yard.scenario["description"] = std::string(8 << 10, 'x');
   EXPECT_EQ(upload()->status, 201);
   const json list = get_json("/v1/scenarios");

@@ -88,7 +88,7 @@ CheckedScenarios check_scenarios(const fs::path& folder) {
                                     std::move(finding.problem), std::move(finding.remedy)});
       }
     }
-    checked.summaries.push_back(scenario_summary(scenario));
+    findings.has_done([&] { checked.summaries.push_back(scenario_summary(scenario)); });
     for (const world::PlacedMesh& mesh : scenario.meshes) {
       findings.has_done([&] { static_cast<void>(render::mesh_from_file(mesh, 0)); });
     }

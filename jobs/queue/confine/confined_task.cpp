@@ -199,7 +199,16 @@ json parse_answer(const ExitStatus& status, const json& request, const fs::path&
         fmt::format("{} at which the reader was ended by signal {}", subject, status.signal),
         fmt::format("ones that load within {} MiB of memory and two minutes", max_memory_mib())});
   }
-  const auto answer = [&] { return parse_own_json(read_file(work / kAnswerName), kAnswerName); };
+  constexpr std::uintmax_t kMaxAnswerBytes = 16 << 20;  // each takes many times of it in memory
+  const auto answer = [&] {
+    std::error_code error;
+    const auto bytes = fs::file_size(work / kAnswerName, error);
+    if (!error && bytes > kMaxAnswerBytes) {
+      throw InputError(Problem{"", "", fmt::format("{} whose check has {} bytes", subject, bytes),
+                               fmt::format("ones of at most {}", kMaxAnswerBytes)});
+    }
+    return parse_own_json(read_file(work / kAnswerName), kAnswerName);
+  };
   if (status.code == 0) return answer();
   if (status.code == kRefusedExit) throw InputError(answer().get<std::vector<Problem>>());
   throw EnvironmentError("the check failed: the server's log says why");

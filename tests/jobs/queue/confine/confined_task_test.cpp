@@ -74,6 +74,13 @@ TEST(ConfinedTask, FailuresAreToldApart) {
   EXPECT_NE(script_error<EnvironmentError>("exit 0"), "");  // without an answer
 }
 
+TEST(ConfinedTask, AnAnswerThatWouldFillTheMemoryIsNotRead) {
+  const char* script =
+      R"(printf '"' > "$0/answer.json"; head -c 20000000 /dev/zero | tr '\0' x >> )"
+      R"("$0/answer.json"; printf '"' >> "$0/answer.json")";
+  EXPECT_THAT(script_error<InputError>(script), HasSubstr("at most 16777216"));
+}
+
 TEST(ConfinedTask, TheChildAnswersOrReportsMistakes) {
   EXPECT_EQ(performed_in_child(
                 [](const json& request) {
