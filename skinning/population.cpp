@@ -56,7 +56,7 @@ Population load_population(const fs::path& folder) {
   TextureLayers layers(population);
   std::vector<Joints> joints;
   for (const Character& entry : index.characters) {
-    const fs::path file = folder / (entry.name + ".glb");
+    const fs::path file = folder / (entry.name + kMeshExtension);
     if (!fs::is_regular_file(file)) {
       throw InputError({file.string(), "", "no such file",
                         "the character that population.json lists (run `throng people build`)"});

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/hash.h"
 #include "base/json/json_text.h"
+#include "skinning/glb.h"
 #include "skinning/items.h"
 #include "skinning/packed.h"
 #include "skinning/skeleton.h"
@@ -88,6 +91,7 @@ PopulationIndex parse_index(const json& document) {
   index.content_hash = document.at("content_hash").get<std::string>();
   index.license = document.at("licence").get<std::string>();
   index.texture_size = document.at("texture_size").get<int>();
+  index.textures = document.value("textures", std::int64_t{0});
   for (const json& entry : document.at("characters")) {
     index.characters.push_back(parse_character(entry));
   }
@@ -128,7 +132,8 @@ Character read_character(const fs::path& path) {
 std::string encode_index(const PopulationIndex& index) {
   json document = {{"format", kPopulationFormat}, {"content_hash", index.content_hash},
                    {"licence", index.license},    {"texture_size", index.texture_size},
-                   {"characters", json::array()}, {"clips", json::array()}};
+                   {"textures", index.textures},  {"characters", json::array()},
+                   {"clips", json::array()}};
   for (const Character& character : index.characters) {
     document["characters"].push_back(character_json(character));
   }
@@ -141,6 +146,16 @@ std::string encode_index(const PopulationIndex& index) {
                                  {"cyclic", clip.cyclic}});
   }
   return document.dump(1) + "\n";
+}
+
+std::int64_t count_textures(const fs::path& folder, const std::vector<Character>& characters) {
+  std::set<std::string> hashes;
+  for (const Character& character : characters) {
+    for (const std::string& png : read_glb(folder / (character.name + kMeshExtension)).images) {
+      hashes.insert(sha256_hex(png));
+    }
+  }
+  return static_cast<std::int64_t>(hashes.size());
 }
 
 PopulationIndex read_index(const fs::path& folder) {

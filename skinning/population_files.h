@@ -1,6 +1,7 @@
 // The files of a character library except its GLBs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,18 +16,25 @@ namespace throng::skinning {
 inline constexpr int kPopulationFormat = 4;
 inline constexpr const char* kIndexFile = "population.json";
 inline constexpr const char* kPalettesFile = "palettes.bin";
+inline constexpr const char* kMeshExtension = ".glb";
 
 /// The content of population.json.
 struct PopulationIndex {
   std::string content_hash;  ///< SHA-256 of all inputs of the build
   std::string license;       ///< SPDX expression
   int texture_size = 0;
+  /// Number of different textures of all characters; 0: unknown, as in libraries of before.
+  std::int64_t textures = 0;
   std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
   std::vector<Clip> clips;
   std::uint32_t palettes_per_character = 0;
 };
 
 std::string encode_index(const PopulationIndex& index);
+
+/// Number of different textures in the files of characters, read for PopulationIndex::textures.
+std::int64_t count_textures(const std::filesystem::path& folder,
+                            const std::vector<Character>& characters);
 
 /// Reads population.json. Throws InputError naming the missing or malformed member.
 PopulationIndex read_index(const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -11,10 +12,13 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 #include "base/resource_exhaustion.h"
 #include "base/text/words.h"
 
@@ -256,7 +260,81 @@ class Unpacking {
   std::vector<char> block_ = std::vector<char>(64 << 10);
 };
 
+/// Returns the number of bytes. `bytes_before` is that of the files before it.
+std::int64_t copy_plain_file(const fs::path& from, const std::string& name, const fs::path& to,
+                             const UnpackLimits& limits, std::int64_t bytes_before) {
+  const int descriptor = open_for_reading(from);
+  if (descriptor < 0) {
+    if (errno == ELOOP || errno == EACCES) refuse(name, "no plain file", "files and folders");
+    throw_environment_error("cannot read " + from.string(), errno);
+  }
+  const std::unique_ptr<const int, void (*)(const int*)> closed(
+      &descriptor, [](const int* open) { ::close(*open); });
+  std::ofstream file(to, std::ios::binary | std::ios::trunc);
+  std::vector<char> block(64 << 10);
+  std::int64_t bytes = 0;
+  while (true) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count < 0) throw_environment_error("cannot read " + from.string(), errno);
+    if (count == 0) break;
+    bytes += count;
+    if (bytes > limits.max_file_bytes || bytes_before + bytes > limits.max_bytes) {
+      refuse(name, "a larger file",
+             fmt::format("at most {} bytes, and {} in all files together", limits.max_file_bytes,
+                         limits.max_bytes));
+    }
+    errno = 0;
+    file.write(block.data(), count);
+  }
+  file.close();
+  if (!file) throw_write_error(to, errno);
+  return bytes;
+}
+
 }  // namespace
+
+void to_json(nlohmann::json& value, const UnpackLimits& limits) {
+  value = {{"max_entries", limits.max_entries},       {"max_file_bytes", limits.max_file_bytes},
+           {"max_bytes", limits.max_bytes},           {"max_ratio", limits.max_ratio},
+           {"max_path_bytes", limits.max_path_bytes}, {"max_depth", limits.max_depth},
+           {"max_folders", limits.max_folders}};
+}
+
+void from_json(const nlohmann::json& value, UnpackLimits& limits) {
+  value.at("max_entries").get_to(limits.max_entries);
+  value.at("max_file_bytes").get_to(limits.max_file_bytes);
+  value.at("max_bytes").get_to(limits.max_bytes);
+  value.at("max_ratio").get_to(limits.max_ratio);
+  value.at("max_path_bytes").get_to(limits.max_path_bytes);
+  value.at("max_depth").get_to(limits.max_depth);
+  value.at("max_folders").get_to(limits.max_folders);
+}
+
+Unpacked copy_unpacked(const fs::path& from, const fs::path& to, const UnpackLimits& limits) {
+  Unpacked copied;
+  Names names;
+  std::size_t entries = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
+    const std::string name = entry.path().lexically_relative(from).generic_string();
+    const std::vector<std::string> parts = split_path(name, limits);
+    const bool is_folder = entry.symlink_status().type() == fs::file_type::directory;
+    names.add(name, parts, is_folder);
+    if (++entries > limits.max_entries + limits.max_folders ||
+        names.folders() > limits.max_folders) {
+      refuse(name, "more files or folders",
+             fmt::format("at most {} and {}", limits.max_entries, limits.max_folders));
+    }
+    if (is_folder) {
+      fs::create_directories(to / name);
+      continue;
+    }
+    fs::create_directories((to / name).parent_path());
+    copied.bytes += copy_plain_file(entry.path(), name, to / name, limits, copied.bytes);
+    ++copied.files;
+  }
+  if (copied.files == 0) refuse("", "no file", "a zip, tar or tar.gz file with files");
+  return copied;
+}
 
 Unpacked unpack_archive(std::string_view bytes, const fs::path& folder,
                         const UnpackLimits& limits) {

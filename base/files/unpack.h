@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace throng {
@@ -21,6 +22,9 @@ struct UnpackLimits {
   std::size_t max_folders = 1000;    ///< folders of all entries together
 };
 
+void to_json(nlohmann::json& value, const UnpackLimits& limits);
+void from_json(const nlohmann::json& value, UnpackLimits& limits);
+
 /// Number and total size of unpacked files.
 struct Unpacked {
   std::size_t files = 0;
@@ -34,5 +38,11 @@ struct Unpacked {
 /// the folder then holds a part of the files.
 Unpacked unpack_archive(std::string_view bytes, const std::filesystem::path& folder,
                         const UnpackLimits& limits = {});
+
+/// Copies what a process that is not trusted has unpacked from a folder that is not trusted
+/// (base/files/untrusted_folders.h) into an empty one, by the rules of unpack_archive() except
+/// max_ratio. Throws InputError with the name of the file, and EnvironmentError.
+Unpacked copy_unpacked(const std::filesystem::path& from, const std::filesystem::path& to,
+                       const UnpackLimits& limits = {});
 
 }  // namespace throng

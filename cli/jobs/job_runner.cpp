@@ -76,7 +76,7 @@ std::unique_ptr<jobs::Executor> made_executor(const JobArguments& arguments) {
 /// Needs of tasks by estimate, and what they wait for.
 jobs::Share job_share(const jobs::ResolvedJob& job) {
   jobs::Share share;
-  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), job.people())](const jobs::Task& task) {
+  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), job.load())](const jobs::Task& task) {
     return memory.mib_of(task);
   };
   share.on_wait = [](const std::string& reason) {
@@ -151,7 +151,7 @@ jobs::ResolvedJob with_target(const jobs::ResolvedJob& resolved, const JobArgume
   if (!job.outputs.publish.empty() && !has_dataset) {
     bucket::check_target(bucket::parse_address(job.outputs.publish, "", "/outputs/publish"));
   }
-  return jobs::ResolvedJob(std::move(job), resolved.people());
+  return jobs::ResolvedJob(std::move(job), resolved.load());
 }
 
 void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,

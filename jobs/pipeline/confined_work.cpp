@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/files.h"
+#include "base/files/unpack.h"
 #include "base/graphics/drawing/drawing.h"
 #include "camera/calibration/request.h"
 #include "jobs/pipeline/checks/catalog.h"
@@ -38,9 +40,15 @@ std::string text_at(const json& request, const char* key) {
 
 json check_bundle(const json& request) { return check_scenarios(text_at(request, "folder")); }
 
+json unpack_bundle(const json& request) {
+  const std::string bytes = read_file(text_at(request, "bundle"));
+  unpack_archive(bytes, text_at(request, "unpacked"), request.at("limits").get<UnpackLimits>());
+  return json::object();
+}
+
 json resolve_text(const json& request) {
   const ResolvedJob job = resolve_job(text_at(request, "job"), "", text_at(request, "scenarios"));
-  return {{"job", to_json(job.spec())}, {"people", job.people()}};
+  return {{"job", to_json(job.spec())}, {"load", job.load()}};
 }
 
 json dry_run(const json& request) {
@@ -89,6 +97,7 @@ json check_calibration(const json& request) {
 
 using Work = std::pair<const char*, json (*)(const json&)>;
 constexpr std::array kWork = {
+    Work{"unpack", &unpack_bundle},
     Work{"scenarios", &check_bundle},
     Work{"job", &resolve_text},
     Work{"dry_run", &dry_run},

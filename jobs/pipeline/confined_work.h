@@ -10,8 +10,9 @@
 namespace throng::jobs {
 
 /// Performs a request according to its member "task". "scenarios" and "files" are paths of folders.
+///   unpack         unpacks the file "bundle" into the folder "unpacked" within "limits"
 ///   scenarios      checks the scenarios in "folder": CheckedScenarios
-///   job            resolves the job text "job" with "scenarios": {"job", "people"}
+///   job            resolves the job text "job" with "scenarios": {"job", "load"}
 ///   dry_run        checks the job text "job" with "scenarios" (checks/job_check.h)
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg"}
 ///   job_plan       draws that of the resolved job "job", with its drones' paths: {"svg"}

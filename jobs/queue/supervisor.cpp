@@ -1,4 +1,5 @@
 #include "jobs/queue/supervisor.h"
+#include "jobs/queue/workers/attempts.h"
 
 #include <fmt/core.h>
 
@@ -79,6 +80,7 @@ class Supervision {
     progress_.shards.clear();
     progress_.pace = {};
     if (!job_.outputs.publish.empty()) publish();
+    end_all_attempts(folder_);
     finish_runs(Stage::finished);
     report();
     return std::move(failures_);

@@ -34,8 +34,8 @@ std::int64_t estimate_memory_mib(const Study& study) {
       // The first run stands for the others: no value that takes memory is sampled.
       jobs::JobSpec one = job;
       one.runs = 1;
-      most =
-          std::max(most, jobs::TaskMemory(one, study.people).mib_of({jobs::Task::Kind::simulate}));
+      most = std::max(most,
+                      jobs::TaskMemory(one, {study.people}).mib_of({jobs::Task::Kind::simulate}));
     }
   }
   return most;

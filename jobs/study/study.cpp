@@ -245,7 +245,8 @@ class StudyReader {
     try {
       const jobs::ResolvedJob resolved =
           jobs::resolve_job(job.dump(), source_, scenarios_, default_drones);
-      study_.people = std::max(study_.people, resolved.spec().agents.value_or(resolved.people()));
+      study_.people =
+          std::max(study_.people, resolved.spec().agents.value_or(resolved.load().people));
       return resolved.spec();
     } catch (const InputError& error) {
       for (Problem problem : error.problems()) {

@@ -24,10 +24,14 @@ ConfinedChecks::ConfinedChecks(jobs::ConfinedTask task, const fs::path& data,
 
 json ConfinedChecks::answer_to(const json& request) const {
   const StagingFolder work(data_ / "check");
+  return answer_in(work.path(), request);
+}
+
+json ConfinedChecks::answer_in(const fs::path& work, const json& request) const {
   try {
-    return task_(request, work.path());
+    return task_(request, work);
   } catch (const EnvironmentError&) {
-    const fs::path log = work.path() / "log.txt";
+    const fs::path log = work / "log.txt";
     if (fs::exists(log)) spdlog::error("{}: {}", request.at("task").dump(), read_file(log));
     throw;
   }
@@ -45,8 +49,8 @@ jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path&
                                  {"job", job_json},
                                  {"scenarios", scenarios.string()}});
   const jobs::ResolvedJob resolved(jobs::read_resolved_job(answer.at("job").dump(), "").spec(),
-                                   answer.value("people", 0));
-  require_memory(jobs::TaskMemory(resolved.spec(), resolved.people()).max_mib(), "/drones");
+                                   answer.at("load").get<jobs::SceneLoad>());
+  require_memory(jobs::TaskMemory(resolved.spec(), resolved.load()).max_mib(), "/drones");
   return resolved;
 }
 
@@ -109,6 +113,21 @@ void ConfinedChecks::require_memory(std::int64_t mib, const char* pointer, const
 const json& ConfinedChecks::catalog() const {
   std::call_once(catalog_once_, [&] { catalog_ = answer_to({{"task", "catalog"}}); });
   return catalog_;
+}
+
+Unpacked ConfinedChecks::unpack(std::string_view bytes, const fs::path& folder,
+                                const UnpackLimits& limits) const {
+  const StagingFolder work(data_ / "check");
+  const fs::path bundle = work.path() / "bundle";
+  const fs::path unpacked = work.path() / "unpacked";
+  write_temporary_file(bundle, bytes);
+  fs::create_directory(unpacked);
+  answer_in(work.path(), {{"task", "unpack"},
+                          {"subject", "a bundle"},
+                          {"bundle", bundle.string()},
+                          {"unpacked", unpacked.string()},
+                          {"limits", limits}});
+  return copy_unpacked(unpacked, folder, limits);
 }
 
 json ConfinedChecks::people() const { return answer_to({{"task", "people"}}); }

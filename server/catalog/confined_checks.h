@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/unpack.h"
 #include "jobs/queue/confine/checked_scenarios.h"
 #include "jobs/queue/confine/confined_task.h"
 #include "spec/job/resolved_job.h"
@@ -55,8 +56,13 @@ class ConfinedChecks {
   /// The character library (jobs/pipeline/checks/catalog.h), or null.
   nlohmann::json people() const;
 
+  /// unpack_archive() by a child; what it has written is copied by copy_unpacked().
+  Unpacked unpack(std::string_view bytes, const std::filesystem::path& folder,
+                  const UnpackLimits& limits) const;
+
  private:
   nlohmann::json answer_to(const nlohmann::json& request) const;
+  nlohmann::json answer_in(const std::filesystem::path& work, const nlohmann::json& request) const;
   void require_memory(std::int64_t mib, const char* pointer, const char* what = "images") const;
 
   jobs::ConfinedTask task_;

@@ -199,7 +199,7 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   const fs::path& folder = staged.folder->path();
   const fs::path unpacked = folder / "unpacked";
   fs::create_directories(unpacked);
-  const Unpacked found = unpack_archive(bytes, unpacked, limits_.each);
+  const Unpacked found = confined_.unpack(bytes, unpacked, limits_.each);
   staged.upload.bytes = found.bytes;
   staged.upload.files = found.files;
   fs::rename(find_root(unpacked), folder / kFilesName);

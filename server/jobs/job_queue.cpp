@@ -55,7 +55,7 @@ jobs::Added JobQueue::submit(const Submission& submission) {
   const jobs::ResolvedJob resolved = resolve(submission.job_json, submission.viewer);
   const jobs::JobSpec& job = resolved.spec();
   publish_to_.require(job.outputs.publish);
-  const std::int64_t planned_bytes = jobs::estimate_cost(job, resolved.people()).disk_bytes;
+  const std::int64_t planned_bytes = jobs::estimate_cost(job, resolved.load()).disk_bytes;
   const auto lock = uploads_.hold();
   require_scenario(job);
   const std::string spec_json = dump_text(to_json(job));
@@ -70,7 +70,7 @@ jobs::Added JobQueue::submit(const Submission& submission) {
                                         .key = submission.key,
                                         .hash = sha256_hex(dump_text(sent)),
                                         .limits = {submission.max_active, submission.max_bytes},
-                                        .people = resolved.people(),
+                                        .load = resolved.load(),
                                         .sources_json = sources,
                                         .planned_bytes = planned_bytes});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);

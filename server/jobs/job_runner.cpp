@@ -14,6 +14,7 @@
 #include "base/resource_exhaustion.h"
 #include "jobs/bucket/publish.h"
 #include "jobs/queue/dataset/folder.h"
+#include "jobs/queue/workers/attempts.h"
 #include "server/catalog/api_json.h"
 #include "server/catalog/calibrations.h"
 #include "server/catalog/data_folder.h"
@@ -270,7 +271,7 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
     next_bytes = now + std::max<Clock::duration>(kMinBytesInterval, kMaxPartOfTime * took);
   };
   jobs::Share share = share_of(row);
-  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), row.people)](const jobs::Task& task) {
+  share.memory_mib = [memory = jobs::TaskMemory(job.spec(), row.load)](const jobs::Task& task) {
     return memory.mib_of(task);
   };
   return jobs::run_job(folder, job, executor_, on_progress, stop, share);
@@ -299,6 +300,7 @@ void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop)
     }
     if (result.outcome != jobs::Outcome::succeeded) throw EnvironmentError(result.message);
   }
+  jobs::end_all_attempts(folder);
   set_progress(1, "finished");
 }
 

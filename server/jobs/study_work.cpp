@@ -16,6 +16,7 @@
 #include "base/json/json_text.h"
 #include "base/version.h"
 #include "jobs/queue/dataset/folder.h"
+#include "jobs/queue/workers/attempts.h"
 #include "spec/estimates/task_memory.h"
 #include "spec/study/study_files.h"
 
@@ -64,6 +65,7 @@ class StudyWork {
     }
     for (auto& policies : cells_) std::fill(policies.begin(), policies.end(), size_.runs);
     done_ = size_.count();
+    jobs::end_all_attempts(folder_);
     report("finished");
   }
 

@@ -33,7 +33,7 @@ std::int64_t flight_memory_mib(const jobs::ResolvedJob& job) {
     drone.camera.width = 640;
     drone.camera.height = 360;
   }
-  return jobs::TaskMemory(small, job.people()).max_mib();
+  return jobs::TaskMemory(small, job.load()).max_mib();
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ bool Workbench::has(const std::string& name) const {
 
 void Workbench::keep(const BakedPerson& person) const {
   const std::string& name = person.character.name;
-  write_file_atomically(file(name, ".glb"), person.glb);
+  write_file_atomically(file(name, kMeshExtension), person.glb);
   write_file_atomically(file(name, kMotionExtension), person.motion);
   write_file_atomically(file(name, kCharacterExtension), encode_character(person.character));
 }
@@ -62,11 +62,13 @@ void Workbench::finish(const std::vector<PersonSpec>& people, PopulationIndex in
   StagedFile palettes(staging.path() / kPalettesFile);
   for (const PersonSpec& person : people) {
     // Not written twice: the finished folder shares them with the workbench.
-    link_or_copy(file(person.name, ".glb"), staging.path() / (person.name + ".glb"));
+    link_or_copy(file(person.name, kMeshExtension),
+                 staging.path() / (person.name + kMeshExtension));
     palettes.write(read_file(file(person.name, kMotionExtension)));
     index.characters.push_back(read_character(file(person.name, kCharacterExtension)));
   }
   palettes.commit();
+  index.textures = count_textures(staging.path(), index.characters);
   link_or_copy(folder_ / kNoticeFile, staging.path() / kNoticeFile);
   write_file_atomically(staging.path() / kIndexFile, encode_index(index));
   staging.commit_replacing();

@@ -112,7 +112,8 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   std::string content = base.index.content_hash;
   if (!options.with.empty()) {
     for (const Character& entry : base.index.characters) {
-      copy_over(options.with / (entry.name + ".glb"), staging.path() / (entry.name + ".glb"));
+      copy_over(options.with / (entry.name + kMeshExtension),
+                staging.path() / (entry.name + kMeshExtension));
     }
     palettes.write(read_file(options.with / kPalettesFile));
   }
@@ -121,12 +122,13 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
     if (progress) progress(i, count);
     const BakedPerson baked =
         import_character(described[static_cast<std::size_t>(i)], base.index.texture_size);
-    write_file_atomically(staging.path() / (baked.character.name + ".glb"), baked.glb);
+    write_file_atomically(staging.path() / (baked.character.name + kMeshExtension), baked.glb);
     palettes.write(baked.motion);
     content += sha256_hex(baked.glb + baked.motion + encode_character(baked.character));
     base.index.characters.push_back(baked.character);
   }
   palettes.commit();
+  base.index.textures = count_textures(staging.path(), base.index.characters);
   base.index.content_hash = sha256_hex(content);
   base.index.license = joined_license(base.index.license, described);
   if (!base.notice.empty()) base.notice += "\n";

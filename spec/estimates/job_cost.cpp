@@ -140,7 +140,8 @@ void add_run(const JobSpec& job, const RunPlan& run, const ExpectedRun& expected
 
 }  // namespace
 
-JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected) {
+JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected,
+                      std::int64_t models_mib) {
   JobCost cost;
   cost.runs = job.runs;
   cost.cpu_s = kDatasetS;
@@ -150,18 +151,18 @@ JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expect
     add_run(job_of_run(job, run.index), run, of_run, cost);
     max_people = std::max(max_people, of_run.people);
   }
-  cost.memory_mib = TaskMemory(job, static_cast<int>(max_people)).max_mib();
+  cost.memory_mib = TaskMemory(job, {static_cast<int>(max_people), models_mib}).max_mib();
   return cost;
 }
 
-JobCost estimate_cost(const JobSpec& job, std::int64_t people) {
+JobCost estimate_cost(const JobSpec& job, SceneLoad load) {
   std::vector<ExpectedRun> of_runs;
   for (int run = 0; run < job.runs; ++run) {
-    const std::int64_t all = job_of_run(job, run).agents.value_or(static_cast<int>(people));
+    const std::int64_t all = job_of_run(job, run).agents.value_or(load.people);
     const auto count = static_cast<double>(all);
     of_runs.push_back({all, count, std::vector<std::optional<double>>(job.drones.size())});
   }
-  return estimate_cost(job, of_runs);
+  return estimate_cost(job, of_runs, load.models_mib);
 }
 
 nlohmann::json estimate_json(const JobCost& cost) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spec/job/job_spec.h"
+#include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 
@@ -32,11 +33,12 @@ struct ExpectedRun {
   bool is_fled = false;  ///< people flee from a hazard: their positions compress less well
 };
 
-/// Estimates the cost as if all people were present all the time and half of them in view. `people`
-/// is the number of people in runs for which the job does not set `agents`.
-JobCost estimate_cost(const JobSpec& job, std::int64_t people);
-/// Estimates the cost from `expected`, which has one element per run.
-JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected);
+/// Estimates the cost as if all people were present all the time and half of them in view. `load`
+/// is ResolvedJob::load().
+JobCost estimate_cost(const JobSpec& job, SceneLoad load);
+/// Estimates the cost from `expected`, which has one element per run, and SceneLoad::models_mib.
+JobCost estimate_cost(const JobSpec& job, const std::vector<ExpectedRun>& expected,
+                      std::int64_t models_mib);
 
 /// The members that are estimates, as {"cpu_s", "disk_bytes", "memory_mib"}. The other members are
 /// exact, so answers state them separately.

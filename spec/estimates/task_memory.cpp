@@ -14,12 +14,17 @@ namespace {
 
 constexpr double kMibPerPerson = 0.006;
 constexpr double kSimulateMib = 192;
-constexpr double kRenderMib = 512;
-constexpr double kPeopleMib = 256;  // of the character library
+constexpr double kRenderMib = 290;       // beside models, textures of the place and images
+constexpr double kGroundTextures = 5;    // one per material of the ground
+constexpr double kTexelBytes = 16. / 3;  // with mipmaps
+constexpr double kShadowTexelBytes = 4;
+// The actions of people are measured with the poses of their characters; their textures, which take
+// most of the library, are in memory once instead of twice with mipmaps.
+constexpr double kMeasuredShare = 0.5;
 // MiB per million pixels, that is bytes per pixel.
 constexpr double kImageBytes = 42;
 constexpr double kSampleBytes = 28;  // each further sample of color
-constexpr double kTruthBytes = 48;   // ground truth per pixel
+constexpr double kTruthBytes = 52;   // ground truth per pixel
 constexpr double kMegapixel = 1e6;
 
 bool has_pixel_truth(const OutputSpec& outputs) {
@@ -49,6 +54,13 @@ double rendered_megapixels(const camera::CameraSpec& camera) {
   return std::max(image, size.prod() / kMegapixel);
 }
 
+/// Textures of the ground and the shadow map.
+double place_mib(const render::QualitySettings& quality) {
+  const double ground = 1.0 * quality.ground_texels * quality.ground_texels * kGroundTextures;
+  const double shadow = 1.0 * quality.shadow_texels * quality.shadow_texels;
+  return (ground * kTexelBytes + shadow * kShadowTexelBytes) / kMegapixel;
+}
+
 double render_mib(const JobSpec& job, std::uint64_t run_seed) {
   double megapixels = 0;
   double kept = 0;  // images that wait for what follows them
@@ -57,26 +69,28 @@ double render_mib(const JobSpec& job, std::uint64_t run_seed) {
     megapixels = std::max(megapixels, rendered_megapixels(camera));
     kept += static_cast<double>(camera.width) * camera.height / kMegapixel;
   }
-  const int side = render::quality_settings(job.quality).supersampling;
+  const render::QualitySettings& quality = render::quality_settings(job.quality);
+  const int side = quality.supersampling;
   const double bytes = kImageBytes + (side * side - 1) * kSampleBytes +
                        (has_pixel_truth(job.outputs) ? kTruthBytes : 0);
   const bool keeps =
       annotate::holds(job.outputs.annotations, annotate::GroundTruth::flow_occlusion);
-  return kRenderMib + megapixels * bytes + (keeps ? kept * kTruthBytes : 0);
+  return kRenderMib + place_mib(quality) + megapixels * bytes + (keeps ? kept * kTruthBytes : 0);
 }
 
 }  // namespace
 
-TaskMemory::TaskMemory(const JobSpec& job, int people_of_scenario) {
+TaskMemory::TaskMemory(const JobSpec& job, SceneLoad load) {
+  const auto models = static_cast<double>(load.models_mib);
   for (const RunPlan& run : plan_runs(job)) {
     const JobSpec of_run = job_of_run(job, run.index);
-    const double people = of_run.agents.value_or(people_of_scenario) * kMibPerPerson;
+    const double people = of_run.agents.value_or(load.people) * kMibPerPerson;
     const bool has_actions =
         annotate::holds(job.outputs.annotations, annotate::GroundTruth::actions);
-    runs_.push_back(
-        {static_cast<std::int64_t>(kSimulateMib + people),
-         static_cast<std::int64_t>(kSimulateMib + people + (has_actions ? kPeopleMib : 0)),
-         static_cast<std::int64_t>(render_mib(of_run, run.seed) + people)});
+    runs_.push_back({static_cast<std::int64_t>(kSimulateMib + people),
+                     static_cast<std::int64_t>(kSimulateMib + people +
+                                               (has_actions ? kMeasuredShare * models : 0)),
+                     static_cast<std::int64_t>(render_mib(of_run, run.seed) + people + models)});
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "spec/job/job_spec.h"
 #include "spec/job/plan.h"
+#include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 
@@ -15,8 +16,8 @@ namespace throng::jobs {
 /// KiB.
 class TaskMemory {
  public:
-  /// `people` is the number of people in runs for which the job does not set `agents`.
-  explicit TaskMemory(const JobSpec& job, int people = 0);
+  /// `load` is ResolvedJob::load().
+  explicit TaskMemory(const JobSpec& job, SceneLoad load = {});
 
   /// Memory of a task of the job.
   std::int64_t mib_of(const Task& task) const;

@@ -110,6 +110,15 @@ void check_job_schema(std::string_view text, const std::string& source) {
   static_cast<void>(parse_with_schema(text, source));
 }
 
+void to_json(json& value, const SceneLoad& load) {
+  value = {{"people", load.people}, {"models_mib", load.models_mib}};
+}
+
+void from_json(const json& value, SceneLoad& load) {
+  value.at("people").get_to(load.people);
+  value.at("models_mib").get_to(load.models_mib);
+}
+
 ResolvedJob read_resolved_job(std::string_view text, const std::string& source) {
   std::vector<Problem> problems;
   try {

@@ -12,10 +12,13 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files/files.h"
 #include "base/files/resources.h"
+#include "base/files/unpack.h"
 #include "jobs/queue/confine/checked_scenarios.h"
 #include "jobs/queue/confine/confined_task.h"
 #include "spec/estimates/job_cost.h"
+#include "spec/job/resolved_job.h"
 #include "spec/job/spec.h"
 #include "spec/scenarios/scenario_summary.h"
 #include "world/scenario.h"
@@ -60,7 +63,7 @@ inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
     }
   }
   if (job.crowd.model.empty()) job.crowd.model = "weidmann";
-  return {{"job", to_json(job)}};
+  return {{"job", to_json(job)}, {"load", jobs::SceneLoad{}}};
 }
 
 /// A dry run without views and warnings.
@@ -68,7 +71,7 @@ inline nlohmann::json dry_run_lightly(const nlohmann::json& request) {
   nlohmann::json answer = resolve_lightly(request);
   constexpr int kPeople = 2;
   const jobs::JobCost cost =
-      jobs::estimate_cost(jobs::parse_job(answer.at("job").dump(), ""), kPeople);
+      jobs::estimate_cost(jobs::parse_job(answer.at("job").dump(), ""), {kPeople});
   answer.update({{"runs", cost.runs},
                  {"shards", cost.shards},
                  {"frames", cost.images},
@@ -87,6 +90,12 @@ inline nlohmann::json check_lightly(const nlohmann::json& request) {
     return {{"airframes", nlohmann::json::array()},
             {"formats", nlohmann::json::array()},
             {"policies", nlohmann::json::array()}};
+  }
+  if (task == "unpack") {
+    unpack_archive(read_file(request.at("bundle").get<std::string>()),
+                   request.at("unpacked").get<std::string>(),
+                   request.at("limits").get<UnpackLimits>());
+    return nlohmann::json::object();
   }
   if (task == "people") return nullptr;
   if (task == "calibration") return nlohmann::json::object();

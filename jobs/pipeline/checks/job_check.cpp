@@ -143,7 +143,7 @@ CheckedJob check_job(std::string_view text, const std::string& source,
   std::vector<ExpectedRun> of_runs;
   of_runs.reserve(shares.size());
   for (const std::size_t share : shares) of_runs.push_back(of_shares[share]);
-  checked.cost = estimate_cost(job, of_runs);
+  checked.cost = estimate_cost(job, of_runs, checked.job.load().models_mib);
   for (Problem& warning : checked.warnings) warning.source = source;
   return checked;
 }

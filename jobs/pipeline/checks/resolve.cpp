@@ -13,6 +13,7 @@
 #include "formats/export/exporter.h"
 #include "jobs/pipeline/checks/ground_check.h"
 #include "jobs/pipeline/checks/lens_check.h"
+#include "jobs/pipeline/checks/models_memory.h"
 #include "jobs/pipeline/frames/recording.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
@@ -359,7 +360,7 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
     if (problem.source.empty()) problem.source = source;
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  return ResolvedJob(std::move(job), people);
+  return ResolvedJob(std::move(job), SceneLoad{people});
 }
 
 }  // namespace
@@ -396,7 +397,10 @@ ResolvedJob resolve_sound(std::string_view text, const std::string& source,
     problems.insert(problems.end(), of_places.begin(), of_places.end());
     throw InputError(std::move(problems));
   }
-  return resolved(std::move(job), places, source, std::move(problems), default_drones);
+  const ResolvedJob job_without_models =
+      resolved(std::move(job), places, source, std::move(problems), default_drones);
+  return ResolvedJob(job_without_models.spec(),
+                     {job_without_models.load().people, models_memory_mib(places)});
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/unpack.h"
 #include "base/json/json_text.h"
 #include "base/json/problem_json.h"
 #include "jobs/queue/confine/child_process.h"
@@ -151,7 +152,7 @@ void limit(decltype(RLIMIT_AS) what, rlim_t max) {
 void confine_this_process() {
   constexpr rlim_t kMib = 1 << 20;
   constexpr rlim_t kMaxCpuSeconds = 110;
-  constexpr rlim_t kMaxFileBytes = 64ULL << 20U;
+  constexpr rlim_t kMaxFileBytes = UnpackLimits{}.max_file_bytes;
   constexpr rlim_t kMaxFiles = 256;
   if (kMayLimitMemory) limit(RLIMIT_AS, static_cast<rlim_t>(max_memory_mib()) * kMib);
   limit(RLIMIT_CPU, kMaxCpuSeconds);

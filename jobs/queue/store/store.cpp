@@ -70,7 +70,7 @@ Added Store::add(const NewJob& job) {
     row.priority = job.priority;
     row.labels = job.labels;
     row.owner = job.owner;
-    row.people = job.people;
+    row.load = job.load;
     row.sources_json = job.sources_json;
     row.planned_bytes = job.planned_bytes;
     insert_job(connections_->writer, row, job);

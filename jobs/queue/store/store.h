@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "jobs/queue/store/state.h"
+#include "spec/job/resolved_job.h"
 
 namespace throng::jobs {
 
@@ -44,7 +45,7 @@ struct JobRow {
   std::int64_t bytes = 0;         ///< size of its files on disk, as last measured
   bool keep = false;              ///< excluded from retention
   std::int64_t kept_from_ms = 0;  ///< when it ended, by Store::service_ms(); 0: not yet
-  int people = 0;                 ///< ResolvedJob::people()
+  SceneLoad load = {};            ///< ResolvedJob::load()
   /// Hashes of the scenarios that it was resolved from, by the first parts of their ids; "{}" for
   /// none.
   std::string sources_json = "{}";
@@ -83,7 +84,7 @@ struct NewJob {
   /// Hash of the request; it distinguishes a repeated submission from a key that is used twice.
   std::string hash = {};
   OwnerLimits limits = {};          ///< checked against the owner's jobs without this one
-  int people = 0;                   ///< ResolvedJob::people()
+  SceneLoad load = {};              ///< ResolvedJob::load()
   std::string sources_json = "{}";  ///< JobRow::sources_json
   std::int64_t planned_bytes = 0;   ///< JobRow::planned_bytes
 };

@@ -49,9 +49,10 @@ JobRow read_row(SQLite::Statement& query) {
   row.bytes = query.getColumn(14);
   row.keep = query.getColumn(15).getInt() != 0;
   row.kept_from_ms = query.getColumn(16);
-  row.people = query.getColumn(17);
+  row.load.people = query.getColumn(17);
   row.sources_json = query.getColumn(18).getString();
   row.planned_bytes = query.getColumn(19);
+  row.load.models_mib = query.getColumn(20);
   if (row.is_damaged) {
     const nlohmann::json error = {
         {"kind", "environment"},
@@ -154,8 +155,8 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   SQLite::Statement insert(
       database,
       "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash, owner, people, sources, planned_bytes) VALUES (?, ?, 'queued', ?, ?, ?, ?, "
-      "?, ?, ?, ?, ?, ?, ?)");
+      "submission_hash, owner, people, sources, planned_bytes, models_mib) VALUES (?, ?, 'queued', "
+      "?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, row.id);
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
@@ -166,9 +167,10 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   if (!job.key.empty()) insert.bind(8, job.key);
   insert.bind(9, job.hash);
   insert.bind(10, row.owner);
-  insert.bind(11, row.people);
+  insert.bind(11, row.load.people);
   insert.bind(12, row.sources_json);
   insert.bind(13, row.planned_bytes);
+  insert.bind(14, row.load.models_mib);
   insert.exec();
 }
 

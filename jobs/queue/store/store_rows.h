@@ -18,7 +18,7 @@ inline constexpr const char* kColumns =
     "job.id, job.name, job.state, job.attempt, job.spec, job.progress, job.error, job.created_ms, "
     "job.started_ms, job.ended_ms, job.kind, job.priority, job.labels, job.owner, job.bytes, "
     "job.keep, job.kept_from_ms, job.people, job.sources, "
-    "job.planned_bytes";
+    "job.planned_bytes, job.models_mib";
 
 /// The job in the query's current row.
 JobRow read_row(SQLite::Statement& query);

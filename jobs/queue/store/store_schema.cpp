@@ -143,7 +143,9 @@ END;
     // Hashes of the scenarios that a job was resolved from.
     "ALTER TABLE job ADD COLUMN sources TEXT NOT NULL DEFAULT '{}'",
     // Estimated size of a job's files.
-    "ALTER TABLE job ADD COLUMN planned_bytes INTEGER NOT NULL DEFAULT 0"};
+    "ALTER TABLE job ADD COLUMN planned_bytes INTEGER NOT NULL DEFAULT 0",
+    // Jobs of before load the shipped characters.
+    "ALTER TABLE job ADD COLUMN models_mib INTEGER NOT NULL DEFAULT 500"};
 
 }  // namespace
 

@@ -102,6 +102,11 @@ std::vector<AttemptArray> read_attempts(const JobFolder& folder) {
   return arrays;
 }
 
+void end_all_attempts(const JobFolder& folder) {
+  std::error_code none;
+  if (fs::exists(attempts_folder(folder), none)) remove_for_good(attempts_folder(folder));
+}
+
 void note_array_job(const JobFolder& folder, const std::string& array, const std::string& number) {
   write_file_atomically(array_folder(folder, array) / kNumberName, number + "\n");
 }

@@ -51,6 +51,10 @@ void create_attempts(const JobFolder& folder, AttemptArray& array);
 /// creation was interrupted.
 std::vector<AttemptArray> read_attempts(const JobFolder& folder);
 
+/// Removes what a process that was killed has left of the arrays of a job that is done. Their tasks
+/// in a queue find nothing to do. Throws EnvironmentError.
+void end_all_attempts(const JobFolder& folder);
+
 /// Write and read the number of the array job; "" if it is not known yet.
 void note_array_job(const JobFolder& folder, const std::string& array, const std::string& number);
 std::string noted_array_job(const JobFolder& folder, const std::string& array);

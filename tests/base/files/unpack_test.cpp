@@ -1,12 +1,14 @@
 #include "base/files/unpack.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <fstream>
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "base/files/untrusted_folders.h"
 #include "tests/base/packed.h"
 
 namespace throng {
@@ -47,6 +49,55 @@ class Unpacking : public ::testing::Test {
   fs::path outer;
   fs::path folder;
 };
+
+// As a process may leave them that was taken over.
+TEST_F(Unpacking, ACopyTakesPlainFilesAndFoldersOnly) {
+  const fs::path theirs = outer / "theirs";
+  distrust_folders_in(outer);
+  const auto refusal = [&](const UnpackLimits& limits = {}) -> std::string {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    try {
+      copy_unpacked(theirs, folder, limits);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto begin = [&] {
+    fs::remove_all(theirs);
+    fs::create_directories(theirs / "a/b");
+    std::ofstream(theirs / "a/b/one.txt") << "one";
+    std::ofstream(theirs / "two.txt") << "two";
+  };
+  begin();
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(read_file(folder / "a/b/one.txt"), "one");
+  const Unpacked copied = copy_unpacked(theirs, folder);
+  EXPECT_EQ(copied.files, 2U);
+  EXPECT_EQ(copied.bytes, 6);
+  EXPECT_THAT(refusal({.max_file_bytes = 2}), HasSubstr("at most 2 bytes"));
+  EXPECT_THAT(refusal({.max_bytes = 5}), HasSubstr("a larger file"));
+  EXPECT_THAT(refusal({.max_folders = 1}), HasSubstr("more files or folders"));
+  EXPECT_THAT(refusal({.max_depth = 2}), HasSubstr("a path of 3 levels"));
+  fs::create_symlink("/etc/hostname", theirs / "link");
+  EXPECT_THAT(refusal(), HasSubstr("\"link\": found no plain file"));
+  begin();
+  fs::create_symlink("/etc", theirs / "folder");
+  EXPECT_THAT(refusal(), HasSubstr("\"folder\": found no plain file"));
+  begin();
+  ASSERT_EQ(::mkfifo((theirs / "pipe").c_str(), 0644), 0);
+  EXPECT_THAT(refusal(), HasSubstr("\"pipe\": found no plain file"));
+  begin();
+  std::ofstream(theirs / "line\nbreak") << "x";
+  EXPECT_THAT(refusal(), HasSubstr("this path"));
+  begin();
+  std::ofstream(theirs / "TWO.txt") << "x";
+  EXPECT_THAT(refusal(), HasSubstr("differ in more than their case"));
+  fs::remove_all(theirs);
+  fs::create_directories(theirs / "only");
+  EXPECT_THAT(refusal(), HasSubstr("no file"));
+}
 
 std::string gzipped(const std::string& text) {
   z_stream stream{};

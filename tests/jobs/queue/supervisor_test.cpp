@@ -1,4 +1,5 @@
 #include "jobs/queue/supervisor.h"
+#include "jobs/queue/workers/attempts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,6 +54,17 @@ TEST_F(SupervisorTest, TakesUpWhereAnEarlierOneStopped) {
   FakeExecutor third;
   run_job(folder(), job, third);
   EXPECT_TRUE(third.done().empty());
+}
+
+// A server that is killed after the last task has ended, and before it has removed the attempts.
+TEST_F(SupervisorTest, AJobThatIsDoneKeepsNoAttempts) {
+  run_job(folder(), job, executor);
+  AttemptArray left{"", {{"dataset", 1}}};
+  create_attempts(folder(), left);
+  FakeExecutor second;
+  run_job(folder(), job, second);
+  EXPECT_TRUE(second.done().empty());
+  EXPECT_FALSE(std::filesystem::exists(attempts_folder(folder())));
 }
 
 ResolvedJob published_to(const ResolvedJob& job, const std::string& address) {

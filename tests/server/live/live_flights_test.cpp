@@ -34,7 +34,7 @@ while read -r line; do
 done
 )";
 
-jobs::ResolvedJob resolved() { return jobs::ResolvedJob(jobs::parse_job(kJobText, ""), 10); }
+jobs::ResolvedJob resolved() { return jobs::ResolvedJob(jobs::parse_job(kJobText, ""), {10}); }
 
 TEST(LiveFlights, CommandsGoInAndMessagesComeOut) {
   const jobs::TemporaryFolder folder;

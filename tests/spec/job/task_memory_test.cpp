@@ -32,15 +32,18 @@ TEST(TaskMemory, IsAboveTheMeasuredOneByAtMostHalf) {
     int measured_mib;
   };
   for (const Case& item : {
-           Case{R"({"width": 1920, "height": 1080})", "", 481},
-           Case{R"({"width": 3840, "height": 2160})", "", 732},
-           Case{R"({"width": 7680, "height": 4320})", "", 1740},
-           Case{R"({"width": 1920, "height": 1080})", R"(, "quality": "high")", 719},
-           Case{R"({"width": 3840, "height": 2160})", R"(, "quality": "high")", 1333},
-           Case{R"({"width": 3840, "height": 2160})", kAllTruth, 1129},
-           Case{R"({"width": 7680, "height": 4320})", kAllTruth, 3201},
+           Case{R"({"width": 320, "height": 180})", "", 745},
+           Case{R"({"width": 320, "height": 180})", R"(, "quality": "draft")", 686},
+           Case{R"({"width": 320, "height": 180})", R"(, "quality": "high")", 860},
+           Case{R"({"width": 1920, "height": 1080})", "", 816},
+           Case{R"({"width": 3840, "height": 2160})", "", 1041},
+           Case{R"({"width": 7680, "height": 4320})", "", 1935},
+           Case{R"({"width": 1920, "height": 1080})", R"(, "quality": "high")", 1041},
+           Case{R"({"width": 3840, "height": 2160})", R"(, "quality": "high")", 1596},
+           Case{R"({"width": 3840, "height": 2160})", kAllTruth, 1499},
+           Case{R"({"width": 7680, "height": 4320})", kAllTruth, 3730},
            Case{R"({"width": 3840, "height": 2160, "model": "fisheye", "hfov_deg": 120})", "",
-                1814},
+                2230},
        }) {
     const std::int64_t mib = shard_mib(item.camera, item.rest);
     EXPECT_GE(mib, item.measured_mib) << item.camera << item.rest;
@@ -55,18 +58,18 @@ TEST(TaskMemory, RunsThatAreSampledCountAsTheyAre) {
   const TaskMemory memory(job);
   for (int run = 0; run < job.runs; ++run) {
     const bool is_high = job_of_run(job, run).quality == render::Quality::high;
-    EXPECT_EQ(memory.mib_of({Task::Kind::render, run}) > 1333, is_high) << run;
+    EXPECT_EQ(memory.mib_of({Task::Kind::render, run}) > 1596, is_high) << run;
   }
-  EXPECT_GT(memory.max_mib(), 1333);
+  EXPECT_GT(memory.max_mib(), 1596);
 }
 
 TEST(TaskMemory, PeopleCount) {
   const std::string job_text = R"(, "seed": 1)";
-  EXPECT_GT(TaskMemory(make_job("{}", job_text), 20'000).max_mib(),
+  EXPECT_GT(TaskMemory(make_job("{}", job_text), {20'000}).max_mib(),
             TaskMemory(make_job("{}", job_text)).max_mib() + 100);
   // A dry run announces the memory by which submission and admission decide.
   const JobSpec large = make_job("{}", job_text);
-  EXPECT_EQ(estimate_cost(large, 20'000).memory_mib, TaskMemory(large, 20'000).max_mib());
+  EXPECT_EQ(estimate_cost(large, {20'000}).memory_mib, TaskMemory(large, {20'000}).max_mib());
   const std::int64_t few = TaskMemory(make_job("{}", R"(, "crowd": {"agents": 10})")).max_mib();
   const TaskMemory many(make_job("{}", R"(, "crowd": {"agents": 1000000})"));
   EXPECT_GT(many.max_mib(), few + 5000);
