@@ -53,6 +53,11 @@ find_path(IGNITION_UTILS_INCLUDE ignition/utils/ImplPtr.hh PATH_SUFFIXES ignitio
 target_include_directories(throng_sdformat SYSTEM INTERFACE
   "${SDFORMAT_INCLUDE}" "${IGNITION_MATH_INCLUDE}" "${IGNITION_UTILS_INCLUDE}")
 
+# Camera files of ROS, OpenCV and Kalibr.
+find_package(yaml-cpp 0.7 REQUIRED)
+add_library(throng_yaml INTERFACE)
+target_link_libraries(throng_yaml INTERFACE yaml-cpp)
+
 # Headers only; OSM's XML is read by Expat.
 find_package(EXPAT REQUIRED)
 add_library(throng_osmium INTERFACE)

@@ -90,6 +90,9 @@ inline constexpr std::size_t kCarryCount = 5;
 struct Character {
   std::string name;
   float stature_m = 0;  ///< sole of the shoes to crown, standing
+  /// Stature of people of usual proportions with legs of this character's length, whose strides are
+  /// its own; 0: its stature.
+  float legs_stature_m = 0;
   float age_years = 35;
   bool male = true;
   Carry carries = Carry::nothing;
@@ -99,6 +102,9 @@ struct Character {
   std::array<Eigen::Vector3f, kBoneCount> joints{};
   /// Colors that suit this character, by Tint, from which sample_appearance() chooses.
   std::array<std::vector<Rgb>, kTintCount> tints;
+
+  /// The stature by which strides and speeds of running are chosen.
+  float gait_stature_m() const { return legs_stature_m > 0 ? legs_stature_m : stature_m; }
 };
 
 /// Whether a part is a separate object instead of a part of the person: an open umbrella, which

@@ -56,6 +56,7 @@ Character parse_character(const json& entry) {
   Character character;
   character.name = entry.at("name").get<std::string>();
   character.stature_m = entry.at("stature_m").get<float>();
+  character.legs_stature_m = entry.value("legs_stature_m", 0.0F);
   character.age_years = entry.at("age_years").get<float>();
   character.male = entry.at("male").get<bool>();
   character.wears = entry.at("wears").get<std::string>();
@@ -77,13 +78,15 @@ json character_json(const Character& character) {
       tints[std::string(kTintNames[tint])].push_back(encode_hex(color));
     }
   }
-  return {{"name", character.name},
-          {"stature_m", character.stature_m},
-          {"age_years", character.age_years},
-          {"male", character.male},
-          {"wears", character.wears},
-          {"carries", kCarryNames[static_cast<std::size_t>(character.carries)]},
-          {"tints", tints}};
+  json entry = {{"name", character.name},
+                {"stature_m", character.stature_m},
+                {"age_years", character.age_years},
+                {"male", character.male},
+                {"wears", character.wears},
+                {"carries", kCarryNames[static_cast<std::size_t>(character.carries)]},
+                {"tints", tints}};
+  if (character.legs_stature_m > 0) entry["legs_stature_m"] = character.legs_stature_m;
+  return entry;
 }
 
 PopulationIndex parse_index(const json& document) {

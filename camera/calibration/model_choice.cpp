@@ -1,5 +1,6 @@
 #include "camera/calibration/model_choice.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +49,24 @@ ModelScore score_model(const Calibration& calibration) {
   return score;
 }
 
+/// Whether a rational lens maps the whole image one to one, out to the corners that no point may
+/// show: polynomials with large coefficients that cancel each other do not. Others are simple
+/// enough not to follow the noise, and a fisheye may well see beyond the valid range.
+bool is_lens_of_image(const Calibration& calibration) {
+  if (calibration.lens != Lens::brown8) return true;
+  const camera::Intrinsics lens = to_intrinsics(calibration.lens, calibration.parameters,
+                                                calibration.size.width, calibration.size.height);
+  if (!lens.distortion) return true;
+  const double right = calibration.size.width - 1;
+  const double bottom = calibration.size.height - 1;
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0), Eigen::Vector2d(0, bottom),
+        Eigen::Vector2d(right, bottom)}) {
+    if (!lens.direction_of(corner)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double bic(double sum_of_squares, std::size_t numbers, std::size_t unknowns) {
@@ -73,7 +92,7 @@ Calibration calibrate_with_best_lens(const Correspondences& all, const Intrinsic
     try {
       const Calibration tried = calibrate(used, lens);
       const bool open = tried.covariance.size() == 0 && !tried.places.empty();
-      if (!open) scores.push_back(score_model(tried));
+      if (!open && tried.converged && is_lens_of_image(tried)) scores.push_back(score_model(tried));
     } catch (const InputError&) {
       continue;  // this lens explains nothing of it
     }
@@ -81,7 +100,12 @@ Calibration calibrate_with_best_lens(const Correspondences& all, const Intrinsic
   std::stable_sort(scores.begin(), scores.end(),
                    [](const ModelScore& a, const ModelScore& b) { return a.bic < b.bic; });
   with.fit.reject = options.fit.reject;
+  // With all points, outliers among them, another lens may fail to converge.
   Calibration best = calibrate(all, scores.empty() ? Lens::brown5 : scores.front().lens);
+  while (!best.converged && scores.size() > 1) {
+    scores.erase(scores.begin());
+    best = calibrate(all, scores.front().lens);
+  }
   best.models = std::move(scores);
   return best;
 }

@@ -11,8 +11,9 @@ namespace throng::calibrate {
 double bic(double sum_of_squares, std::size_t numbers, std::size_t unknowns);
 
 /// Fits every lens model to the same points, the inliers of brown5, and calibrates with the one of
-/// smallest BIC; Calibration::models holds the scores. Models that the data do not determine are
-/// skipped. Throws as calibrate_intrinsics().
+/// smallest BIC; Calibration::models holds the scores. Models that the data do not determine, whose
+/// fit does not converge or (brown8) folds within the image are skipped. Throws as
+/// calibrate_intrinsics().
 Calibration calibrate_with_best_lens(const Correspondences& all, const IntrinsicsOptions& options);
 
 }  // namespace throng::calibrate

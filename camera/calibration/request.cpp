@@ -15,7 +15,7 @@
 #include "camera/calibration/pose.h"
 #include "camera/calibration/residual_plot.h"
 #include "camera/calibration/result.h"
-#include "spec/calibration/camera_file.h"
+#include "spec/calibration/foreign/read_camera_file.h"
 
 namespace throng::calibrate {
 
@@ -213,6 +213,22 @@ void require_inputs(const Request& request, const std::string& source) {
   require(!request.camera.empty(), "a camera (a JSON file of throng calibrate)");
 }
 
+/// A board that is found in a few images only was probably described wrongly, and what was found is
+/// a part of it. Films may have it in a small part of many images.
+void require_enough_boards(const Correspondences& all, std::size_t images,
+                           const std::string& source) {
+  constexpr std::size_t kEnoughViews = 10;
+  const std::size_t views = all.views.size();
+  if (2 * views >= images || views >= kEnoughViews) return;
+  std::vector<Problem> problems = {
+      {source, "", fmt::format("the board in {} of {} images", views, images),
+       fmt::format("it in at least half of them or in {}: check its kind, columns and rows, or "
+                   "leave the other images out",
+                   kEnoughViews)}};
+  problems.insert(problems.end(), all.left_out.begin(), all.left_out.end());
+  throw InputError(std::move(problems));
+}
+
 Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress,
                                  const OnFound& on_found) {
   const auto warn = [&](double share, const std::string& what) {
@@ -231,6 +247,9 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
     });
   }
   if (on_found) on_found(all);
+  if (!request.images.empty()) {
+    require_enough_boards(all, request.images.size(), request.options.source);
+  }
   warn(0.9, "solving");
   return calibrate_intrinsics(all, request.options);
 }

@@ -20,6 +20,23 @@ namespace {
 // A byte-order mark, as spreadsheets write it.
 constexpr std::string_view kMark = "\xEF\xBB\xBF";
 
+/// Spreadsheets of countries with decimal commas separate cells by semicolons.
+char find_separator(std::string_view header) {
+  for (const char separator : {';', '\t'}) {
+    if (header.find(separator) != std::string_view::npos) return separator;
+  }
+  return ',';
+}
+
+/// "12,5" as "12.5"; other texts are left as they are.
+void replace_decimal_comma(std::string& cell) {
+  const auto comma = cell.find(',');
+  if (comma == std::string::npos || cell.find(',', comma + 1) != std::string::npos) return;
+  std::string number = cell;
+  number[comma] = '.';
+  if (number_in(number)) cell = number;
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
@@ -38,12 +55,17 @@ Table read_table(const std::filesystem::path& file, const std::vector<std::strin
   Table table;
   std::vector<std::size_t> places;
   int number = 0;
+  char separator = ',';
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const std::string_view content = trimmed(line);
     if (content.empty() || content.starts_with('#')) continue;
-    std::vector<std::string> cells = csv_cells(content);
-    for (std::string& cell : cells) cell = std::string(trimmed(cell));
+    if (places.empty()) separator = find_separator(content);
+    std::vector<std::string> cells = csv_cells(content, separator);
+    for (std::string& cell : cells) {
+      cell = std::string(trimmed(cell));
+      if (separator != ',') replace_decimal_comma(cell);
+    }
     if (places.empty()) {
       std::vector<std::string> wanted = columns;
       wanted.insert(wanted.end(), optional_columns.begin(), optional_columns.end());

@@ -17,6 +17,7 @@
 #include "cli/shell/input_file.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress_bar.h"
+#include "spec/calibration/foreign/read_camera_file.h"
 
 namespace throng::cli {
 
@@ -232,6 +233,31 @@ CLI::App* add_with_control_points(CLI::App& app, const char* name, const char* t
   return command;
 }
 
+/// Other programs' files as throng's, which jobs, the service and the Python package take.
+void add_camera(CLI::App& app) {
+  struct Arguments {
+    std::string file;
+    std::string output;
+  };
+  auto* command = app.add_subcommand(
+      "camera", "Convert a camera file of ROS, OpenCV, Kalibr or COLMAP to throng's JSON");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("file", arguments->file, "The file; FILE#NAME is one camera of several")
+      ->required();
+  command->add_option("-o,--output", arguments->output,
+                      "Camera JSON to write; default: standard output");
+  command->callback([arguments] {
+    check_output_file("--output", arguments->output, {arguments->file});
+    const std::string json =
+        calibrate::to_json(calibrate::read_camera_file(arguments->file)).dump(2) + "\n";
+    if (arguments->output.empty()) {
+      fmt::print("{}", json);
+    } else {
+      write_file_atomically(arguments->output, json);
+    }
+  });
+}
+
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
@@ -248,6 +274,7 @@ void add_calibrate(CLI::App& app) {
   adjust->add_flag("--fix-lens", bundle->request.fix_lens, "Keep the camera's lens fixed");
   add_lens(*adjust, *bundle);
   adjust->callback([bundle] { run(*bundle, "bundle"); });
+  add_camera(*command);
   add_calibrate_selftest(*command);
 }
 

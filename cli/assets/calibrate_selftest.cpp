@@ -25,6 +25,7 @@
 #include "render/lens/lens.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
+#include "spec/calibration/foreign/read_camera_file.h"
 
 namespace throng::cli {
 

@@ -25,7 +25,7 @@
 #include "jobs/queue/supervisor.h"
 #include "spec/bucket/address.h"
 #include "spec/calibration/calibrations.h"
-#include "spec/calibration/camera_file.h"
+#include "spec/calibration/foreign/read_camera_file.h"
 #include "spec/estimates/task_memory.h"
 #include "world/scenario.h"
 

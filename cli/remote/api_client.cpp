@@ -58,7 +58,7 @@ std::vector<Problem> read_problems(const json& list) {
 }
 
 struct ApiClient::Connection {
-  explicit Connection(const std::string& url) : client(url) {
+  Connection(const std::string& server, std::string path) : client(server), base(std::move(path)) {
     client.set_connection_timeout(kConnectS);
     client.set_read_timeout(kReadS);
     client.set_keep_alive(true);
@@ -68,17 +68,20 @@ struct ApiClient::Connection {
   }
 
   httplib::Client client;
+  std::string base;  ///< path of a proxy below which the service lies, or ""
   httplib::Headers headers;
 };
 
 ApiClient::ApiClient() : url_(variable("THRONG_URL", kUsualUrl)) {
   while (url_.ends_with('/')) url_.pop_back();
-  static const std::regex kUrl(R"(https?://[^/\s]+)");
-  if (!std::regex_match(url_, kUrl)) {
-    throw InputError(Problem{"environment variable THRONG_URL", "", '"' + url_ + '"',
-                             fmt::format("an http or https URL such as {}", kUsualUrl)});
+  static const std::regex kUrl(R"((https?://[^/?#\s]+)((?:/[^?#\s]*)?))");
+  std::smatch parts;
+  if (!std::regex_match(url_, parts, kUrl)) {
+    throw InputError(Problem{
+        "environment variable THRONG_URL", "", '"' + url_ + '"',
+        fmt::format("an http or https URL such as {} or https://example.org/throng", kUsualUrl)});
   }
-  connection_ = std::make_unique<Connection>(url_);
+  connection_ = std::make_unique<Connection>(parts[1].str(), parts[2].str());
 }
 
 ApiClient::~ApiClient() = default;
@@ -125,15 +128,17 @@ json answer_json(const std::string& body, const std::string& path) {
 json ApiClient::get(const std::string& path) { return answer_json(get_text(path), path); }
 
 std::string ApiClient::get_text(const std::string& path) {
-  return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
+  return checked(connection_->client.Get(connection_->base + path, connection_->headers), url_,
+                 path)
+      .body;
 }
 
 std::string ApiClient::wait_for_text(const std::string& path,
                                      const std::function<bool()>& should_continue) {
   constexpr int kAccepted = 202;
   while (true) {
-    const httplib::Response answer =
-        checked(connection_->client.Get(path, connection_->headers), url_, path);
+    const httplib::Response answer = checked(
+        connection_->client.Get(connection_->base + path, connection_->headers), url_, path);
     if (answer.status != kAccepted) return answer.body;
     if (!should_continue()) throw Cancelled();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -145,13 +150,17 @@ json ApiClient::post(const std::string& path, const std::string& body,
   httplib::Headers headers = connection_->headers;
   if (!header.first.empty()) headers.insert(header);
   return answer_json(
-      checked(connection_->client.Post(path, headers, body, "application/json"), url_, path).body,
+      checked(connection_->client.Post(connection_->base + path, headers, body, "application/json"),
+              url_, path)
+          .body,
       path);
 }
 
 json ApiClient::upload(const std::string& path, const std::string& bytes, const std::string& type) {
   return answer_json(
-      checked(connection_->client.Post(path, connection_->headers, bytes, type), url_, path).body,
+      checked(connection_->client.Post(connection_->base + path, connection_->headers, bytes, type),
+              url_, path)
+          .body,
       path);
 }
 
@@ -164,12 +173,13 @@ json ApiClient::post_form(const std::string& path, const std::vector<Part>& part
   for (const Part& part : parts) {
     items.push_back({part.name, part.bytes, part.file_name, part.type});
   }
-  return answer_json(checked(connection_->client.Post(path, headers, items), url_, path).body,
-                     path);
+  return answer_json(
+      checked(connection_->client.Post(connection_->base + path, headers, items), url_, path).body,
+      path);
 }
 
 void ApiClient::remove(const std::string& path) {
-  checked(connection_->client.Delete(path, connection_->headers), url_, path);
+  checked(connection_->client.Delete(connection_->base + path, connection_->headers), url_, path);
 }
 
 void ApiClient::cancel(const std::string& path) {
@@ -215,7 +225,7 @@ bool ApiClient::download(const std::string& path, const fs::path& file, const On
     goes_on = on_bytes(done, total);
     return goes_on;
   };
-  httplib::Result result = connection_->client.Get(path, headers, begin, add);
+  httplib::Result result = connection_->client.Get(connection_->base + path, headers, begin, add);
   if (out.is_open()) {
     out.close();
     if (!out) throw_write_error(part, errno);

@@ -79,6 +79,9 @@ std::string calibration(const Image& image) {
     append(name, image.camera_matrix, Eigen::Vector3d::Zero());
   }
   text += "R0_rect: 1 0 0 0 1 0 0 0 1\n";
+  // Readers want a laser scanner and an inertial unit: both are at the camera, x ahead and z up.
+  text += "Tr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\n";
+  text += "Tr_imu_to_velo: 1 0 0 0 0 1 0 0 0 0 1 0\n";
   append("Tr_world_to_cam:", image.R, image.t);
   return text + distortion_line(image);
 }

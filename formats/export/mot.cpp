@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,7 +43,9 @@ class SequenceExporter : public Exporter {
     const std::string folder = fmt::format("{}/{}", to_string(image.split), image.sequence());
     bool is_new = false;
     OutputStream& text = texts_.of(image.run, folder + "/gt/gt.txt", is_new);
-    if (is_new) output_.write(folder + "/seqinfo.ini", sequence_info(info_, image));
+    if (is_new && maps_[image.split].insert(image.sequence()).second) {
+      output_.write(folder + "/seqinfo.ini", sequence_info(info_, image));
+    }
     output_.link(fmt::format("{}/img1/{:06}.jpg", folder, image.frame + 1),
                  info_.root / image.file);
     lines_.clear();
@@ -50,7 +54,15 @@ class SequenceExporter : public Exporter {
     add_files(image, folder);
   }
 
-  void finish() override { texts_.close(); }
+  /// TrackEval's lists of sequences.
+  void finish() override {
+    texts_.close();
+    for (const auto& [split, sequences] : maps_) {
+      std::string text = "name\n";
+      for (const std::string& sequence : sequences) text += sequence + "\n";
+      output_.write(fmt::format("seqmaps/{}.txt", to_string(split)), text);
+    }
+  }
 
  protected:
   virtual void append(std::string& lines, const Image& image) const = 0;
@@ -64,6 +76,7 @@ class SequenceExporter : public Exporter {
   const DatasetInfo& info_;
   Output output_;
   SequenceTexts texts_;
+  std::map<Split, std::set<std::string>> maps_;  ///< names of sequences
   std::string lines_;
 };
 

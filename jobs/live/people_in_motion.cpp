@@ -63,7 +63,7 @@ skinning::PoseBlend PeopleInMotion::pose_of(std::size_t agent, double meters, do
     return skinning::blend_frame(
         idle, (look.phase_offset + time_s / skinning::kIdlePeriod) * idle.frames);
   }
-  const double stature_m = character.stature_m;
+  const double stature_m = character.gait_stature_m();
   const double stride_m = skinning::stride_length_m(speed_mps, stature_m, character.age_years) *
                           look.amplitude / look.cadence;
   const bool runs = speed_mps > skinning::running_speed_mps(stature_m);

@@ -40,7 +40,7 @@ from ._live import LiveFlight, LiveMessage, LiveImage, LiveState
 from ._trajectories import Trajectories
 from .frame import Frame
 from .plotting import animate, show, show_labels
-from .program import find_program, metrics, run, simulate, study, validate_crowd
+from .program import find_program, metrics, read_camera, run, simulate, study, validate_crowd
 from .real_sets import REAL_SETS, open_real_set
 from .scenario import Scenario
 from .tables import Table
@@ -93,6 +93,7 @@ __all__ = [
     "collate",
     "engine",
     "find_program",
+    "read_camera",
     "job",
     "merge",
     "metrics",

@@ -104,6 +104,14 @@ def simulate(
     return Trace(trace)
 
 
+def read_camera(file: PathLike, *, name: str = "", program: PathLike | None = None) -> dict[str, Any]:
+    """The camera in a file of ROS (camera_info), OpenCV, Kalibr or COLMAP as a job takes it for a drone's
+    `camera.calibration`: `throng calibrate camera`. name chooses one of several, such as "cam1"."""
+    whole = os.path.abspath(os.fspath(file)) + (f"#{name}" if name else "")
+    camera: dict[str, Any] = json.loads(call(["calibrate", "camera", whole], program=program))
+    return camera
+
+
 def metrics(
     trace: Trace | PathLike,
     *,

@@ -196,9 +196,10 @@ void send_archive(const RequestContext& context, const Request& request, Respons
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
   const std::string manifest = context.datasets.manifest_of(dataset)->itself.sha256;
-  settle_range(request, response,
-               fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen)),
-               archive->size());
+  const std::string etag =
+      fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen));
+  if (is_current(request, response, etag)) return;
+  settle_range(request, response, etag, archive->size());
   const bool zip = format == jobs::ArchiveFormat::zip;
   response.set_header("Content-Disposition",
                       fmt::format("attachment; filename=\"{}.{}\"", name, zip ? "zip" : "tar"));

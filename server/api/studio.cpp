@@ -1,5 +1,7 @@
 #include "server/api/studio.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -87,7 +89,11 @@ bool is_for_studio(const Request& request) {
 void write_studio(const Request& request, Response& response) {
   response.set_header("Content-Security-Policy", kContentPolicy);
   response.set_header("Cross-Origin-Opener-Policy", "same-origin");
-  send_bytes(request, response, *find_file("index.html"), "no-cache");
+  // Its files are named relative to it: the service may lie below a path of a proxy.
+  constexpr std::ptrdiff_t kMaxDepth = 7;
+  const auto slashes = std::count(request.path.begin(), request.path.end(), '/');
+  const auto depth = std::clamp<std::ptrdiff_t>(slashes - 1, 0, kMaxDepth);
+  send_bytes(request, response, *find_file(fmt::format("index.{}.html", depth)), "no-cache");
 }
 
 void send_studio(const RequestContext&, const Request& request, Response& response) {
@@ -96,7 +102,7 @@ void send_studio(const RequestContext&, const Request& request, Response& respon
 
 void send_studio_asset(const RequestContext&, const Request& request, Response& response) {
   const StudioFile* file = find_file(std::string(request.matches[1]));
-  if (file == nullptr || file->name == "index.html") {
+  if (file == nullptr || file->name.ends_with(".html")) {
     throw HttpError{404, "the page has no such file; it may be of another version: reload"};
   }
   // Names hold a hash of the content, but for that of the licenses.

@@ -14,7 +14,7 @@ namespace throng::server {
 
 /// A file of the page.
 struct StudioFile {
-  std::string_view name;  ///< "index.html", or with a hash of its content: "main-4K2VXQ7A.js"
+  std::string_view name;  ///< "index.DEPTH.html", or with a hash of its content: "main-4K2VXQ7A.js"
   std::string_view type;  ///< media type
   std::string_view etag;  ///< including its quotes
   std::string_view bytes;

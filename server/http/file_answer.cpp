@@ -25,11 +25,7 @@ namespace {
 void answer_with(const Request& request, Response& response,
                  std::shared_ptr<const ReadOnlyFile> file, const std::string& type,
                  const std::string& etag) {
-  if (request.get_header_value("If-None-Match") == etag) {
-    response.set_header("ETag", etag);
-    response.status = 304;
-    return;
-  }
+  if (is_current(request, response, etag)) return;
   settle_range(request, response, etag, file->size());
   const auto size = static_cast<std::size_t>(file->size());
   if (size == 0) return response.set_content("", type);
@@ -57,6 +53,26 @@ httplib::Ranges& requested_ranges(const Request& request) {
 }  // namespace
 
 void forget_ranges(const Request& request) { requested_ranges(request).clear(); }
+
+bool is_current(const Request& request, Response& response, const std::string& etag) {
+  const std::string known = request.get_header_value("If-None-Match");
+  constexpr std::string_view kWeak = "W/";
+  bool is_known = known == "*";
+  for (std::string_view rest = known; !rest.empty() && !is_known;) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    std::string_view tag = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    tag.remove_prefix(std::min(tag.find_first_not_of(" \t"), tag.size()));
+    tag = tag.substr(0, tag.find_last_not_of(" \t") + 1);
+    if (tag.starts_with(kWeak)) tag.remove_prefix(kWeak.size());
+    is_known = tag == etag;
+  }
+  if (!is_known) return false;
+  forget_ranges(request);
+  response.set_header("ETag", etag);
+  response.status = 304;
+  return true;
+}
 
 void settle_range(const Request& request, Response& response, const std::string& etag,
                   std::int64_t size) {

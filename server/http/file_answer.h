@@ -13,6 +13,11 @@ namespace throng::server {
 /// body, even that of an error.
 void forget_ranges(const httplib::Request& request);
 
+/// Whether the client has the content with this ETag (If-None-Match: a list of ETags, or *); the
+/// response is then 304. `etag` includes its quotes.
+bool is_current(const httplib::Request& request, httplib::Response& response,
+                const std::string& etag);
+
 /// Replaces the ranges of the request by the one that the client gets (range_answer()), because the
 /// library accepts several ranges and ranges past the end and ignores If-Range. Sets ETag and
 /// Accept-Ranges. `etag` includes its quotes. Throws HttpError 416.

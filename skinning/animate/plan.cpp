@@ -210,7 +210,7 @@ MotionPlan::MotionPlan(const Population& population, const Appearance& appearanc
   check(appearance.character < population.characters.size(), "the population has the character");
   const Character& character = population.characters[appearance.character];
   const ClipSet clips(population);
-  const Pedestrian pedestrian{character.stature_m, character.age_years,
+  const Pedestrian pedestrian{character.gait_stature_m(), character.age_years,
                               static_cast<double>(appearance.amplitude) / appearance.cadence,
                               appearance.phase_offset};
   Trajectory trajectory(moments, dt_s);

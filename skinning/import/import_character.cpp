@@ -33,6 +33,18 @@ struct Extent {
   float height() const { return high - low; }
 };
 
+float leg_length(const Joints& joints) {
+  return (joints[index_from(Bone::left_shin)] - joints[index_from(Bone::left_thigh)]).norm() +
+         (joints[index_from(Bone::left_foot)] - joints[index_from(Bone::left_shin)]).norm();
+}
+
+/// Character::legs_stature_m. The legs of 96 built characters, from hip to ankle, have 0.45 to 0.50
+/// of their statures, 0.48 on the average.
+float legs_stature_m(const Joints& joints) {
+  constexpr float kLegShare = 0.48F;
+  return leg_length(joints) / kLegShare;
+}
+
 class Import {
  public:
   Import(const CharacterDescription& description, int texture_size)
@@ -56,7 +68,8 @@ class Import {
     character.age_years = static_cast<float>(description_->age_years);
     character.male = description_->male;
     character.wears = description_->wears;
-    Walker walker = make_walker(asset.joints, character.stature_m, asset.levels.front());
+    character.legs_stature_m = legs_stature_m(asset.joints);
+    Walker walker = make_walker(asset.joints, character.legs_stature_m, asset.levels.front());
     check_soles(walker);
     walker.manner = choose_manner(character);
     const OwnMotion own = own_motion(walker);
@@ -242,11 +255,7 @@ class Import {
       if (there) overrides[ours] = theirs;
     }
     const Rig rig = fit_rig(other, map_bones(other, overrides, description_->file.string()));
-    const auto leg = [](const Joints& joints) {
-      return (joints[index_from(Bone::left_shin)] - joints[index_from(Bone::left_thigh)]).norm() +
-             (joints[index_from(Bone::left_foot)] - joints[index_from(Bone::left_shin)]).norm();
-    };
-    return sample_clip(other, rig, leg(walker.joints) / leg(rig.rest), clip, key);
+    return sample_clip(other, rig, leg_length(walker.joints) / leg_length(rig.rest), clip, key);
   }
 
   Sampled sample_clip(const RiggedModel& model, const Rig& rig, float scale,

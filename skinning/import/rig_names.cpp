@@ -151,6 +151,28 @@ std::string listed_names(const std::vector<std::string>& names) {
   return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
+/// The beginning that most of many names share, such as "Hero_Rig:": it says nothing of a bone.
+std::string common_prefix(const std::vector<std::string>& names) {
+  constexpr std::size_t kMany = 8;
+  constexpr double kMinShare = 0.8;
+  if (names.size() < kMany) return "";
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& name : names) {
+    for (std::size_t length = 1; length < name.size(); ++length) ++counts[name.substr(0, length)];
+  }
+  std::string longest;
+  for (const auto& [prefix, count] : counts) {
+    const bool is_common = static_cast<double>(count) >= kMinShare * static_cast<double>(names.size());
+    if (is_common && prefix.size() > longest.size()) longest = prefix;
+  }
+  return longest;
+}
+
+std::string without_prefix(const std::string& name, const std::string& prefix) {
+  const bool has_it = name.size() > prefix.size() && name.starts_with(prefix);
+  return has_it ? name.substr(prefix.size()) : name;
+}
+
 class Mapper {
  public:
   Mapper(const RiggedModel& model, const std::map<std::string, std::string>& overrides,
@@ -225,7 +247,10 @@ class Mapper {
 
   void guess() {
     std::vector<std::optional<Meaning>> meanings;
-    for (const ModelNode& node : model_->nodes) meanings.push_back(parse_bone_name(node.name));
+    const std::string prefix = common_prefix(names());
+    for (const ModelNode& node : model_->nodes) {
+      meanings.push_back(parse_bone_name(without_prefix(node.name, prefix)));
+    }
     const bool thigh = names_a(meanings, {"upleg", "thigh", "upperleg", "hip", "legupper"});
     const bool collar = names_a(meanings, {"clavicle", "collar", "collarbone"});
     BoneNodes best;
@@ -298,7 +323,8 @@ class Mapper {
       const ModelNode& node = model_->nodes[i];
       if (!taken_[i] && (node.deforms || !any_deforms())) unknown.push_back(node.name);
     }
-    std::string listed = "; not recognized: " + listed_names(unknown);  // once is enough
+    std::string listed =  // once is enough
+        unknown.empty() ? "" : "; not recognized: " + listed_names(unknown);
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       if (nodes_[bone] >= 0 || !is_needed(static_cast<Bone>(bone))) continue;
       const std::string ours(kBoneNames[bone]);
@@ -361,8 +387,12 @@ BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::s
 }
 
 std::string most_similar(const std::string& name, const std::vector<std::string>& names) {
+  const std::string prefix = common_prefix(names);
+  const auto distance_to = [&](const std::string& other) {
+    return distance(name, without_prefix(other, prefix));
+  };
   const auto best = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-    return distance(name, a) < distance(name, b);
+    return distance_to(a) < distance_to(b);
   });
   return best == names.end() ? std::string() : *best;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <map>
+#include <utility>
 
 #include "base/compute/srgb.h"
 #include "base/error.h"
@@ -50,6 +51,7 @@ class ModelReader {
     mark_bones();
     rest_ = model_.rest();
     add_meshes(*scene_->mRootNode);
+    turn_outwards();
     return std::move(model_);
   }
 
@@ -243,6 +245,34 @@ class ModelReader {
       uv = {mesh.mTextureCoords[0][i].x, 1 - mesh.mTextureCoords[0][i].y};
     }
     part.uvs.push_back(uv.allFinite() ? uv : Eigen::Vector2f(0.5F, 0.5F));
+  }
+
+  // Mirrored models have their triangles inside out, and some exporters store normals that point
+  // inwards. The volume says which side is out, and the triangles say it of the normals.
+  void turn_outwards() {
+    double volume = 0;  // six times that of the model
+    for (const ModelPart& part : model_.parts) {
+      for (std::size_t at = 0; at + 2 < part.indices.size(); at += 3) {
+        const auto corner = [&](std::size_t k) -> const Eigen::Vector3f& {
+          return part.positions[part.indices[at + k]];
+        };
+        volume += corner(0).dot(corner(1).cross(corner(2)));
+      }
+    }
+    for (ModelPart& part : model_.parts) {
+      double agreement = 0;  // of normals and triangles, by area
+      for (std::size_t at = 0; at + 2 < part.indices.size(); at += 3) {
+        if (volume < 0) std::swap(part.indices[at + 1], part.indices[at + 2]);
+        const std::uint32_t* const corner = &part.indices[at];
+        const Eigen::Vector3f& a = part.positions[corner[0]];
+        const Eigen::Vector3f turn =
+            (part.positions[corner[1]] - a).cross(part.positions[corner[2]] - a);
+        agreement +=
+            turn.dot(part.normals[corner[0]] + part.normals[corner[1]] + part.normals[corner[2]]);
+      }
+      if (agreement >= 0) continue;
+      for (Eigen::Vector3f& normal : part.normals) normal = -normal;
+    }
   }
 
   fs::path path_;

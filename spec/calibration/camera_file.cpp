@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files/files.h"
-#include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
 
 namespace throng::calibrate {
@@ -80,10 +78,6 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
   schemas::add_schema_problems(schemas::Kind::camera, value, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return camera;
-}
-
-CameraFile read_camera_file(const std::filesystem::path& file) {
-  return camera_from_json(parse_json(read_file(file), file.string()), file.string());
 }
 
 }  // namespace throng::calibrate

@@ -1,4 +1,5 @@
-// The JSON file of a camera, which a calibration writes and a job refers to.
+// The JSON file of a camera, which a calibration writes and a job refers to. read_camera_file()
+// (spec/calibration/foreign/read_camera_file.h) also reads files of other programs.
 //
 //   {"type": "throng-camera", "version": 1, "width": 640, "height": 480, "lens": "brown5",
 //    "fx": 533.9, "fy": 534.0, "cx": 342.9, "cy": 234.4, "skew": 0,
@@ -9,7 +10,6 @@
 // (camera/calibration/result.h).
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -31,9 +31,5 @@ nlohmann::json to_json(const CameraFile& camera);
 
 /// Reads a camera. Throws InputError naming `source` if `value` is not a valid camera.
 CameraFile camera_from_json(const nlohmann::json& value, const std::string& source);
-
-/// Reads a camera's file. Throws InputError if it does not hold a valid camera, and
-/// EnvironmentError if it cannot be read.
-CameraFile read_camera_file(const std::filesystem::path& file);
 
 }  // namespace throng::calibrate

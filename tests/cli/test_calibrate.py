@@ -8,7 +8,13 @@ import tempfile
 import unittest
 import urllib.request
 
+import cv2
+import numpy
+
 from service import start_service, wait_until
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+import throng as throng_package  # noqa: E402
 
 THRONG = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -110,6 +116,58 @@ class Calibrate(unittest.TestCase):
         done = throng("calibrate", "intrinsics", bad)
         self.assertEqual(done.returncode, 2)
         self.assertIn("bad.jpg", done.stderr)
+
+    def board_image(self, name, columns, rows, tilt):
+        """A chessboard with so many inner corners, seen obliquely; without corners a gray image."""
+        picture = numpy.full((480, 640), 128, numpy.uint8)
+        if columns:
+            squares = numpy.indices((rows + 1, columns + 1)).sum(axis=0) % 2 * 255
+            board = cv2.copyMakeBorder(
+                numpy.kron(squares, numpy.ones((40, 40))), *[40] * 4, cv2.BORDER_CONSTANT, value=255
+            )
+            height, width = board.shape
+            corners = numpy.float32([[0, 0], [width, 0], [width, height], [0, height]])
+            seen = numpy.float32([[60 + tilt, 60], [540, 40 + tilt], [560 - tilt, 420], [80, 400 - tilt]])
+            matrix = cv2.getPerspectiveTransform(corners, seen)
+            picture = cv2.warpPerspective(board.astype(numpy.uint8), matrix, (640, 480), borderValue=128)
+        cv2.imwrite(str(self.base / name), picture)
+        return self.base / name
+
+    def test_a_board_that_is_found_in_few_images_is_refused(self):
+        images = [self.board_image(f"{i}.png", 9 if i < 4 else 0, 6, 8 * i) for i in range(13)]
+        done = throng("calibrate", "intrinsics", *images, "--columns", 9, "--rows", 6)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("found the board in 4 of 13 images, expected it in at least half of them", done.stderr)
+        done = throng("calibrate", "intrinsics", *images[:4], "--columns", 9, "--rows", 6)
+        self.assertNotIn("expected it in at least half", done.stderr)
+
+    def test_cameras_of_other_programs(self):
+        chain = self.base / "chain.yaml"
+        one = """cam{}:
+  camera_model: pinhole
+  distortion_coeffs: [-0.1, 0.02, 0.0003, 0.0001]
+  distortion_model: radtan
+  intrinsics: [{}, 801, 321, 238]
+  resolution: [640, 480]
+"""
+        chain.write_text(one.format(0, 800) + one.format(1, 700))
+        camera = throng_package.read_camera(chain, name="cam1", program=THRONG)
+        self.assertEqual((camera["fx"], camera["lens"], camera["k1"]), (700, "brown4", -0.1))
+        job = {
+            "scenario": "city_square/nearest_exit",
+            "drones": [{"id": "d1", "start": [0, 0, 20], "camera": {"calibration": "chain.yaml#cam1"}}],
+            "capture": {"from_s": 1, "to_s": 2},
+        }
+        file = self.base / "job.json"
+        file.write_text(json.dumps(job))
+        done = throng("check", file, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["job"]["drones"][0]["camera"]["calibration"]["fx"], 700)
+        job["drones"][0]["camera"]["calibration"] = "chain.yaml"
+        file.write_text(json.dumps(job))
+        done = throng("check", file)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("FILE#NAME with one of: cam0, cam1", done.stderr)
 
     def test_pictures_of_a_real_board(self):
         if not SHARED.exists():

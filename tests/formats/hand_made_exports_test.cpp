@@ -69,6 +69,15 @@ TEST(HandMadeYolo, HasCentersAndSizesAsShares) {
             "0 0.030000 0.625000 0.060000 0.250000\n");
   EXPECT_EQ(out.text("data.yaml"), "train: images/train\nnc: 1\nnames:\n  0: \"person\"\n");
   EXPECT_TRUE(out.has("images/train/run002-d1-000004.jpg"));
+  // The same for readers that take paths relative to their own folder.
+  EXPECT_THAT(out.text("data.yolov5.yaml"),
+              ::testing::EndsWith("path: \"../datasets/hand__made_\"\n" + out.text("data.yaml")));
+}
+
+TEST(HandMadeMot, ListsItsSequencesForTrackEval) {
+  Export out;
+  out.run("mot", {crossing()});
+  EXPECT_EQ(out.text("seqmaps/train.txt"), "name\nrun002-d1\n");
 }
 
 TEST(HandMadeYolo, CountsDronesAfterPeoplesClasses) {
@@ -206,11 +215,11 @@ TEST(HandMadeKitti, PutsPeopleIntoTheCamerasFrame) {
             "-1.5708\n"
             "DontCare -1 -1 -10 60.00 10.00 64.00 16.00 -1 -1 -1 -1000 -1000 -1000 -10\n");
   const auto calib = read_lines(out.root() / "out/train/calib/run002-d1-000004.txt");
-  ASSERT_EQ(calib.size(), 6);
+  ASSERT_EQ(calib.size(), 8);
   EXPECT_THAT(parse_numbers(calib[2].substr(3)),
               ::testing::ElementsAre(50, 0, 49.5, 0, 0, 50, 39.5, 0, 0, 0, 1, 0));
   EXPECT_EQ(calib[4], "R0_rect: 1 0 0 0 1 0 0 0 1");
-  EXPECT_THAT(parse_numbers(calib[5].substr(calib[5].find(':') + 1)),
+  EXPECT_THAT(parse_numbers(calib[7].substr(calib[7].find(':') + 1)),
               ::testing::ElementsAre(1, 0, 0, 0, 0, 0, -1, 10, 0, 1, 0, 0));
 }
 

@@ -59,6 +59,28 @@ TEST(HandMadeVoc, HasCornersFromOneAndFlags) {
   EXPECT_EQ(out.text("ImageSets/Main/train.txt"), "run002-d1-000004\n");
 }
 
+// Readers stop at boxes whose ends are equal, which one pixel has.
+TEST(HandMadeVoc, SinglePixelsAreTwoWide) {
+  Export out;
+  Image image = hand_made::image();
+  image.people = {hand_made::person(3, {10, 20, 1, 1}, {10, 20, 1, 1}, 0.5),
+                  hand_made::person(4, {99, 79, 1, 1}, {99, 79, 1, 1}, 0.5),
+                  hand_made::person(5, {0, 30, 1, 9}, {0, 30, 1, 9}, 0.5)};
+  out.run("voc", {image});
+  tinyxml2::XMLDocument xml;
+  ASSERT_EQ(xml.Parse(out.text("Annotations/run002-d1-000004.xml").c_str()), tinyxml2::XML_SUCCESS);
+  std::vector<std::vector<int>> boxes;
+  for (const auto* object = xml.RootElement()->FirstChildElement("object"); object != nullptr;
+       object = object->NextSiblingElement("object")) {
+    auto& row = boxes.emplace_back();
+    for (const char* key : {"xmin", "ymin", "xmax", "ymax"}) {
+      row.push_back(object->FirstChildElement("bndbox")->FirstChildElement(key)->IntText());
+    }
+  }
+  EXPECT_EQ(boxes,
+            (std::vector<std::vector<int>>{{11, 21, 12, 22}, {99, 79, 100, 80}, {1, 31, 2, 39}}));
+}
+
 TEST(HandMadeCvat, HasBoxesWithAttributes) {
   Export out;
   out.run("cvat", {crossing()});

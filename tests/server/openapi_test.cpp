@@ -263,6 +263,15 @@ TEST_F(OpenApi, FilesAreThoseOfTheManifestInParts) {
   EXPECT_EQ(file->body, R"({"runs":[]})");
   const std::string tag = file->get_header_value("ETag");
   EXPECT_EQ(get(self + "/files/metrics.json", {{"If-None-Match", tag}})->status, 304);
+  for (const std::string& known : {"\"other\", " + tag, "W/" + tag, std::string("*")}) {
+    EXPECT_EQ(get(self + "/files/metrics.json", {{"If-None-Match", known}})->status, 304) << known;
+  }
+  EXPECT_EQ(get(self + "/files/metrics.json", {{"If-None-Match", "\"other\""}})->status, 200);
+  // RFC 9110, 14.2: a unit that is not understood is ignored.
+  for (const char* range : {"lines=1-2", "bytes", "bytes=", "bytes=a-b", "items=0-0,bytes=0-0"}) {
+    EXPECT_EQ(get(self + "/files/metrics.json", {{"Range", range}})->status, 200) << range;
+    EXPECT_EQ(get("/openapi.json", {{"Range", range}})->status, 200) << range;
+  }
   const httplib::Result part = get(self + "/files/metrics.json", {{"Range", "bytes=2-5"}});
   EXPECT_EQ(part->status, 206);
   EXPECT_EQ(part->body, "runs");

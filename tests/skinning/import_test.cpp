@@ -237,6 +237,53 @@ TEST_F(ImportTest, FeetDoNotSkateInTheOwnWalkAtAnySpeed) {
   }
 }
 
+// The made-up figure's legs are shorter than usual ones of its height, and so are its strides.
+TEST_F(ImportTest, StridesFollowTheLengthOfTheLegs) {
+  write_model();
+  const Character character = import(describe()).characters.front();
+  const auto joint = [&](Bone bone) { return character.joints[index_from(bone)]; };
+  const float leg_m = (joint(Bone::left_shin) - joint(Bone::left_thigh)).norm() +
+                      (joint(Bone::left_foot) - joint(Bone::left_shin)).norm();
+  EXPECT_NEAR(character.gait_stature_m(), leg_m / 0.48F, 1e-4);
+  EXPECT_NEAR(character.stature_m, 1.62, 1e-4);
+}
+
+TEST_F(ImportTest, NormalsAndTrianglesAreTurnedOutwards) {
+  const auto levels = [&](bool are_normals_turned, bool are_triangles_turned) {
+    const auto scene = rigged_scene(rig);
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+      aiMesh& mesh = *scene->mMeshes[i];
+      for (unsigned k = 0; are_normals_turned && k < mesh.mNumVertices; ++k) {
+        mesh.mNormals[k] = -mesh.mNormals[k];
+      }
+      for (unsigned k = 0; are_triangles_turned && k < mesh.mNumFaces; ++k) {
+        std::swap(mesh.mFaces[k].mIndices[1], mesh.mFaces[k].mIndices[2]);
+      }
+    }
+    write_scene(*scene, "glb2", folder / "model.glb");
+    fs::remove_all(folder / "out");
+    return import(describe()).characters.front().levels;
+  };
+  for (const auto& [normals, triangles] :
+       {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
+    const Mesh mesh = levels(normals, triangles).front();
+    double agreement = 0;
+    double volume = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) {
+        const Vertex& vertex = mesh.vertices[mesh.indices[i + k]];
+        return Eigen::Vector3f(vertex.position[0], vertex.position[1], vertex.position[2]);
+      };
+      const Eigen::Vector3f turn = (at(1) - at(0)).cross(at(2) - at(0));
+      const Vertex& first = mesh.vertices[mesh.indices[i]];
+      agreement += turn.dot(Eigen::Vector3f(first.normal[0], first.normal[1], first.normal[2]));
+      volume += at(0).dot(at(1).cross(at(2)));
+    }
+    EXPECT_GT(agreement, 0) << normals << triangles;
+    EXPECT_GT(volume, 0) << normals << triangles;
+  }
+}
+
 TEST_F(ImportTest, ClipsMayComeFromAnotherFile) {
   write_model();
   rig.walks = true;

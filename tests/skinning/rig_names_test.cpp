@@ -109,7 +109,40 @@ TEST(RigNames, TheUsersNamesComeFirst) {
   EXPECT_EQ(nodes[index_from(Bone::head)], static_cast<int>(model.nodes.size()) - 1);
 }
 
+// Exporters write the name of the character before each bone, with or without a sign between them.
+TEST(RigNames, AnyCommonPrefixIsPassedOver) {
+  for (const char* prefix : {"Hero_Rig:", "Granny", "npc07.", "Left Behind "}) {
+    RiggedModel model = make_model(kRigs[1]);
+    for (std::size_t i = 1; i < model.nodes.size(); ++i) {
+      model.nodes[i].name = prefix + model.nodes[i].name;
+    }
+    model.nodes.push_back({"Tail", 1, Eigen::Matrix4f::Identity(), true});
+    const BoneNodes nodes = map_bones(model, {}, "x.json");
+    for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+      EXPECT_EQ(nodes[bone], static_cast<int>(bone) + 1) << prefix << kBoneNames[bone];
+    }
+  }
+}
+
+TEST(RigNames, NothingIsListedWhereNoBoneIsLeft) {
+  NamedRig rig = kRigs[0];
+  RiggedModel model = make_model(rig);
+  const std::size_t foot = index_from(Bone::left_foot);
+  model.nodes[foot + 1].name = "mixamorig:LeftUpLeg_end";
+  model.nodes[foot + 1].deforms = false;
+  try {
+    map_bones(model, {}, "x.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("/bones/left_foot"));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("not recognized")));
+  }
+}
+
 TEST(RigNames, SimilarNamesAreFound) {
+  EXPECT_EQ(most_similar("head", {"tf_hood_a", "tf_hood_b", "tf_hood_c", "tf_haed", "tf_arm_x",
+                                  "tf_arm_y", "tf_leg_x", "tf_leg_y"}),
+            "tf_haed");
   EXPECT_EQ(most_similar("left_thigh", {"Head", "thigh_left", "Left-Tigh", "Tail"}), "Left-Tigh");
   EXPECT_EQ(most_similar("left_thigh", {}), "");
 }

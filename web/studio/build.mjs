@@ -102,16 +102,19 @@ function notice(metafile) {
   return parts.join("\n");
 }
 
-function page(metafile) {
+/// The page for addresses of `depth` levels ("/jobs/ID" has 1): its files are named relative to it, since the service may lie
+/// below a path of a proxy.
+function page(metafile, depth) {
+  const assets = `${"../".repeat(depth) || "./"}assets`;
   const outputs = Object.entries(metafile.outputs);
   const nameOf = (test) => path.basename(outputs.find(([, value]) => test(value))[0]);
   const [, main] = outputs.find(([, value]) => value.entryPoint === "main.tsx");
   const chunks = main.imports.filter((entry) => entry.kind === "import-statement").map((entry) => path.basename(entry.path));
   return readFileSync(path.join(here, "index.html"), "utf8")
-    .replace("ICON", `/assets/${nameOf((value) => value.entryPoint === "icon.svg")}`)
-    .replace("STYLE", `/assets/${path.basename(main.cssBundle)}`)
-    .replace("MAIN", `/assets/${nameOf((value) => value.entryPoint === "main.tsx")}`)
-    .replace("<!--CHUNKS-->", chunks.map((name) => `<link rel="modulepreload" href="/assets/${name}">`).join("\n"));
+    .replace("ICON", `${assets}/${nameOf((value) => value.entryPoint === "icon.svg")}`)
+    .replace("STYLE", `${assets}/${path.basename(main.cssBundle)}`)
+    .replace("MAIN", `${assets}/${nameOf((value) => value.entryPoint === "main.tsx")}`)
+    .replace("<!--CHUNKS-->", chunks.map((name) => `<link rel="modulepreload" href="${assets}/${name}">`).join("\n"));
 }
 
 /// studio_bytes.S holds the bytes, studio_files.cpp the table of server/api/studio.h.
@@ -174,7 +177,8 @@ const std::span<const StudioFile> kStudio = kFiles;
 
 function finish(result) {
   writeFileSync(path.join(files, "notice.txt"), notice(result.metafile));
-  writeFileSync(path.join(files, "index.html"), page(result.metafile));
+  // server/api/studio.cpp chooses by the depth of the address.
+  for (let depth = 0; depth < 8; ++depth) writeFileSync(path.join(files, `index.${depth}.html`), page(result.metafile, depth));
   writeFileSync(path.join(output, "metafile.json"), JSON.stringify(result.metafile));
   writeSources();
 }

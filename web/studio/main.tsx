@@ -1,6 +1,7 @@
 // Studio, the web page of the service.
 import { render } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { addBaseToElements } from "./parts/addresses";
 import { Empty } from "./parts/elements";
 import { Lazy } from "./parts/lazy";
 import { followLinks, useAddress } from "./parts/router";
@@ -81,6 +82,7 @@ function Studio() {
   );
 }
 
+addBaseToElements();
 applyTheme();
 document.addEventListener("click", followLinks);
 render(<Studio />, document.getElementById("studio")!);

@@ -90,6 +90,21 @@ TEST(JsonText, NumbersFitADouble) {
   }
 }
 
+// JSON Schema, draft 6 and later: a number without a fraction is an integer.
+TEST(JsonText, NumbersWithoutAFractionAreIntegers) {
+  for (const char* text : {"2.0", "20e-1", "0.2E1", "2"}) {
+    EXPECT_TRUE(parse_json(text, "").is_number_unsigned()) << text;
+    EXPECT_EQ(parse_json(text, ""), 2) << text;
+  }
+  EXPECT_TRUE(parse_json("-7.0", "").is_number_integer());
+  EXPECT_EQ(parse_json("9007199254740992.0", "").get<std::int64_t>(), 9007199254740992);
+  for (const char* text : {"2.5", "1e300", "-0.0", "18014398509481984.0"}) {
+    EXPECT_TRUE(parse_json(text, "").is_number_float()) << text;
+  }
+  // Own documents are printed again as they were.
+  EXPECT_EQ(parse_own_json("[2.0]", "text").dump(), "[2.0]");
+}
+
 TEST(JsonText, RefusesOtherTexts) {
   for (const std::string& text :
        {std::string("\"\xff\""), std::string("\"\xc0\x80\""), std::string("\"\xed\xa0\x80\""),

@@ -13,7 +13,7 @@
 #include "camera/calibration/request.h"
 #include "camera/calibration/residual_plot.h"
 #include "camera/calibration/result.h"
-#include "spec/calibration/camera_file.h"
+#include "spec/calibration/foreign/read_camera_file.h"
 #include "tests/camera/calibration/boards.h"
 
 namespace throng::calibrate {
@@ -95,6 +95,23 @@ TEST_F(Files, TablesThatAreNoneAreRefused) {
               HasSubstr("2 of 2 images have points outside"));
   EXPECT_THROW(read_correspondences(base_ / "none.csv", {9, 9}), EnvironmentError);
   EXPECT_THAT(error_of([&] { parse_image_size("640", "--size"); }), HasSubstr("WIDTHxHEIGHT"));
+}
+
+// As spreadsheets write them where the comma is the decimal sign.
+TEST_F(Files, TablesMayHaveSemicolonsAndDecimalCommas) {
+  std::string text = table(6);
+  std::replace(text.begin(), text.end(), ',', ';');
+  std::replace(text.begin(), text.end(), '.', ',');
+  const Correspondences expected = read_correspondences(write("a.csv", table(6)), {1920, 1080});
+  const Correspondences all = read_correspondences(write("b.csv", text), {1920, 1080});
+  ASSERT_EQ(all.views.size(), expected.views.size());
+  for (std::size_t i = 0; i < all.views.size(); ++i) {
+    ASSERT_EQ(all.views[i].pixels.size(), expected.views[i].pixels.size());
+    for (std::size_t k = 0; k < all.views[i].pixels.size(); ++k) {
+      EXPECT_EQ(all.views[i].pixels[k], expected.views[i].pixels[k]);
+      EXPECT_EQ(all.views[i].points[k], expected.views[i].points[k]);
+    }
+  }
 }
 
 TEST_F(Files, ACameraNeedsOnlyItsParameters) {

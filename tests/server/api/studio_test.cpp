@@ -32,10 +32,10 @@ class StudioTest : public ApiTest {
  protected:
   /// Addresses that a page or script names.
   static std::set<std::string> assets_in(const std::string& text) {
-    static const std::regex kAddress(R"(/assets/[A-Za-z0-9._-]+)");
+    static const std::regex kAddress(R"(\.?/(?:\.\./)*(assets/[A-Za-z0-9._-]+))");
     std::set<std::string> found;
     for (std::sregex_iterator at(text.begin(), text.end(), kAddress), end; at != end; ++at) {
-      found.insert(at->str());
+      found.insert("/" + at->str(1));
     }
     return found;
   }
@@ -116,7 +116,7 @@ TEST_F(StudioTest, ApiKeepsItsProblemDocuments) {
   expect_problem(get("/v1/nothing", browser), 404);
   expect_problem(get("/v1/jobs/j0000000000000000", browser), 404);
   expect_problem(get("/assets/main-00000000.js", browser), 404);
-  expect_problem(get("/assets/index.html", browser), 404);
+  expect_problem(get("/assets/index.0.html", browser), 404);
   expect_problem(get("/nothing"), 404);
   const auto page = get("/nothing", browser);
   EXPECT_EQ(page->status, 404);

@@ -1,4 +1,5 @@
 // Requests to the service.
+import { browserAddress } from "./base";
 import { noteUnreachable } from "./reach";
 import { demandKey } from "./session";
 import type { Mistake, Problem } from "./types";
@@ -23,7 +24,7 @@ async function errorOf(response: Response): Promise<ApiError> {
 export async function request(path: string, init: RequestInit = {}): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(path, init);
+    response = await fetch(browserAddress(path), init);
   } catch (error) {
     if ((error as Error).name === "AbortError") throw error;
     noteUnreachable();

@@ -1,6 +1,7 @@
 // Whether the service can be reached. While it cannot, it is asked again and again; once it answers, whatever failed is fetched
 // once more.
 import { useEffect, useState } from "preact/hooks";
+import { browserAddress } from "./base";
 
 const kFirstPauseMs = 500;
 const kMaxPauseMs = 5000;
@@ -17,7 +18,7 @@ function change(value: boolean): void {
 async function waitForReturn(): Promise<void> {
   for (let pause = kFirstPauseMs; ; pause = Math.min(2 * pause, kMaxPauseMs)) {
     await new Promise((resolve) => setTimeout(resolve, pause));
-    const answer = await fetch("/healthz", { cache: "no-store" }).catch(() => null);
+    const answer = await fetch(browserAddress("/healthz"), { cache: "no-store" }).catch(() => null);
     if (answer?.ok) break;
   }
   change(false);

@@ -1,5 +1,6 @@
 // The images of a dataset: a grid by pages, and one image with its labels.
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { servicePath } from "../api/base";
 import { request } from "../api/client";
 import { useJson } from "../api/resource";
 import type { ImageList, Job } from "../api/types";
@@ -186,7 +187,7 @@ function FilteredGrid({ id, query }: GridProps) {
     <>
       <section class="card facets" aria-label="Filters">
         <div class="row wrap">
-          <a class="button small" href={location.pathname}>
+          <a class="button small" href={servicePath(location.pathname)}>
             No filters
           </a>
           <span class="quiet-text" role="status">

@@ -1,5 +1,6 @@
 // Histograms of a dataset's images; each bar is a filter.
 import { useEffect, useMemo, useState } from "preact/hooks";
+import { servicePath } from "../api/base";
 import { type ApiError, asApiError } from "../api/client";
 import { useSession } from "../api/session";
 import { Progress } from "../parts/elements";
@@ -87,7 +88,7 @@ export function Filters({ state, facets, choice, query }: FiltersProps) {
     next.delete(facet.name);
     const kept = labels.includes(label) ? labels.filter((other) => other !== label) : [...labels, label];
     kept.forEach((other) => next.append(facet.name, other));
-    navigate(`${location.pathname}?${next}`, { replace: true });
+    navigate(`${servicePath(location.pathname)}?${next}`, { replace: true });
   };
   if (error)
     return error.status === 401 ? null : (

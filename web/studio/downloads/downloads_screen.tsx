@@ -1,5 +1,6 @@
 // Downloads of a dataset: what it holds, the part that is wanted and its size, and the formats with code that reads them.
 import { useState } from "preact/hooks";
+import { servicePath, serviceUrl } from "../api/base";
 import { hasDataset } from "../api/jobs";
 import { useJson } from "../api/resource";
 import { useSession } from "../api/session";
@@ -128,9 +129,9 @@ function Content({ job, card, formats }: { job: Job; card: Card; formats: Format
   const size = useArchiveSize(archiveOf(job.id, selection));
   const change = (next: Selection) => {
     const text = new URLSearchParams(queryOf(next)).toString();
-    navigate(location.pathname + (text ? `?${text}` : ""), { replace: true });
+    navigate(servicePath(location.pathname) + (text ? `?${text}` : ""), { replace: true });
   };
-  const snippets = downloadSnippets(job.id, selection, { host: location.origin, needsKey });
+  const snippets = downloadSnippets(job.id, selection, { host: serviceUrl(), needsKey });
   const shown = snippets.find((snippet) => snippet.name === tool)!;
   return (
     <>

@@ -1,5 +1,6 @@
 // Addresses are the state of the screens: every view can be linked, reloaded and left by the back button.
 import { useEffect, useState } from "preact/hooks";
+import { browserAddress, servicePath } from "../api/base";
 
 const listeners = new Set<() => void>();
 
@@ -10,9 +11,10 @@ function notify(): void {
 addEventListener("popstate", notify);
 
 export function navigate(address: string, options: { replace?: boolean } = {}): void {
-  if (options.replace) history.replaceState(null, "", address);
+  const shown = browserAddress(address);
+  if (options.replace) history.replaceState(null, "", shown);
   else {
-    history.pushState(null, "", address);
+    history.pushState(null, "", shown);
     scrollTo(0, 0);
   }
   notify();
@@ -23,9 +25,10 @@ export function followLinks(event: MouseEvent): void {
   if (event.defaultPrevented || event.button !== 0 || event.metaKey || event.ctrlKey || event.shiftKey) return;
   const link = (event.target as Element).closest("a");
   if (!link || link.target || link.hasAttribute("download") || link.origin !== location.origin) return;
-  if (link.pathname.startsWith("/v1/") || link.pathname.startsWith("/assets/") || link.pathname === "/openapi.json") return;
+  const path = servicePath(link.pathname);
+  if (path.startsWith("/v1/") || path.startsWith("/assets/") || path === "/openapi.json") return;
   event.preventDefault();
-  navigate(link.pathname + link.search);
+  navigate(path + link.search);
 }
 
 export interface Address {
@@ -34,7 +37,7 @@ export interface Address {
 }
 
 export function useAddress(): Address {
-  const read = () => location.pathname + location.search;
+  const read = () => servicePath(location.pathname) + location.search;
   const [address, setAddress] = useState(read);
   useEffect(() => {
     const listener = () => setAddress(read());
@@ -53,5 +56,5 @@ export function withQuery(query: URLSearchParams, changes: Record<string, string
     else next.set(name, String(value));
   }
   const text = next.toString();
-  return location.pathname + (text ? `?${text}` : "");
+  return servicePath(location.pathname) + (text ? `?${text}` : "");
 }

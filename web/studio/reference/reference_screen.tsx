@@ -1,5 +1,6 @@
 // The HTTP API, from the service's own description; what only reads can be tried here.
 import { useState } from "preact/hooks";
+import { serviceUrl } from "../api/base";
 import { asApiError, request } from "../api/client";
 import { useJson } from "../api/resource";
 import { useSession } from "../api/session";
@@ -142,7 +143,7 @@ function OperationBody({ operation, document }: { operation: Operation; document
   return (
     <div class="stack operation-body">
       {operation.parameters && <Parameters operation={operation} values={values} onChange={setValues} />}
-      <CodeBlock text={curlOf(operation, shown, location.origin, needsKey)} label={`${operation.id} by curl`} />
+      <CodeBlock text={curlOf(operation, shown, serviceUrl(), needsKey)} label={`${operation.id} by curl`} />
       {operation.method === "get" && !operation.path.endsWith("events") && <Trial address={address} isReady={isReady} />}
       {operation.requestBody && (
         <section aria-label="Body">

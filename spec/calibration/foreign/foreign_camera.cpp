@@ -1,0 +1,250 @@
+#include "spec/calibration/foreign/foreign_camera.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text/words.h"
+#include "spec/calibration/foreign/colmap.h"
+
+namespace throng::calibrate {
+
+using nlohmann::json;
+
+namespace {
+
+/// Names without case and underscores: OpenCV's samples write Camera_Matrix and cameraMatrix.
+std::string plain_name(std::string_view name) {
+  std::string plain = lower_case(name);
+  std::erase(plain, '_');
+  return plain;
+}
+
+/// A member under the first of several names, and its own name.
+struct Member {
+  std::string name;
+  const json* value = nullptr;
+};
+
+Member member(const json& object, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    for (const auto& [key, value] : object.items()) {
+      if (plain_name(key) == name && !value.is_null()) return {key, &value};
+    }
+  }
+  return {};
+}
+
+/// The numbers of a list, of OpenCV's or ROS' matrix, or of rows of lists.
+std::vector<double> numbers(const Member& of, const std::string& source) {
+  std::vector<double> list;
+  const json* value = of.value;
+  std::string pointer = "/" + of.name;
+  if (value->is_object()) {
+    if (!value->contains("data")) {
+      throw InputError(Problem{source, pointer, "no member \"data\"", "a matrix with its data"});
+    }
+    value = &value->at("data");
+    pointer += "/data";
+  }
+  const auto add = [&](const auto& self, const json& one) -> void {
+    if (one.is_number()) {
+      list.push_back(one);
+    } else if (one.is_array()) {
+      for (const json& element : one) self(self, element);
+    } else {
+      throw InputError(Problem{source, pointer, one.dump(), "numbers"});
+    }
+  };
+  add(add, *value);
+  return list;
+}
+
+int side(const json& object, std::initializer_list<std::string_view> names, const char* usual,
+         const std::string& source) {
+  const Member found = member(object, names);
+  if (found.value == nullptr) {
+    throw InputError(Problem{source, "", fmt::format("no {}", usual),
+                             fmt::format("the image's size in pixels: add {}", usual)});
+  }
+  if (!found.value->is_number()) {
+    throw InputError(Problem{source, "/" + found.name, found.value->dump(), "a number of pixels"});
+  }
+  return found.value->get<int>();
+}
+
+/// The values that all kinds of files have.
+struct Found {
+  int width = 0;
+  int height = 0;
+  double fx = 0;
+  double fy = 0;
+  double cx = 0;
+  double cy = 0;
+  double skew = 0;
+  bool is_fisheye = false;
+  std::vector<double> coefficients = {};  ///< OpenCV's order
+};
+
+Lens choose_lens(const Found& found, const std::string& source) {
+  const std::size_t count = found.coefficients.size();
+  if (found.is_fisheye) {
+    constexpr std::size_t kFisheye = 4;
+    if (count == kFisheye) return Lens::fisheye;
+    throw InputError(Problem{source, "", fmt::format("{} coefficients of a fisheye", count),
+                             "k1, k2, k3 and k4"});
+  }
+  for (const auto& [lens, needed] : {std::pair<Lens, std::size_t>{Lens::pinhole, 0},
+                                     {Lens::brown2, 2},
+                                     {Lens::brown4, 4},
+                                     {Lens::brown5, 5},
+                                     {Lens::brown8, 8}}) {
+    if (count <= needed) return lens;
+  }
+  // Thin prism and tilt; calibrations that did not estimate them write zeros.
+  constexpr std::ptrdiff_t kRational = 8;
+  if (std::all_of(found.coefficients.begin() + kRational, found.coefficients.end(),
+                  [](double value) { return value == 0; })) {
+    return Lens::brown8;
+  }
+  throw InputError(Problem{source, "", fmt::format("{} coefficients of a lens", count),
+                           "at most 8 (k1, k2, p1, p2, k3, k4, k5, k6): throng has no thin prism "
+                           "and no tilted sensor; calibrate without them"});
+}
+
+CameraFile make_camera(const Found& found, const std::string& source) {
+  const Lens lens = choose_lens(found, source);
+  json camera = {{"width", found.width}, {"height", found.height}, {"lens", to_string(lens)},
+                 {"fx", found.fx},       {"fy", found.fy},         {"cx", found.cx},
+                 {"cy", found.cy},       {"skew", found.skew}};
+  for (std::size_t i = kCoefficients; i < kParameters; ++i) {
+    const std::string name = parameter_name(lens, i);
+    const std::size_t at = i - kCoefficients;
+    if (name.empty()) continue;
+    camera[name] = at < found.coefficients.size() ? found.coefficients[at] : 0;
+  }
+  return camera_from_json(camera, source);
+}
+
+/// Words for models of a lens that ROS, OpenCV and Kalibr use.
+bool is_fisheye_model(const Member& model, const std::string& source) {
+  if (model.value == nullptr || !model.value->is_string()) return false;
+  const std::string word = plain_name(model.value->get<std::string>());
+  for (const char* name : {"equidistant", "fisheye", "equi", "kannalabrandt"}) {
+    if (word == name) return true;
+  }
+  for (const char* name :
+       {"plumbbob", "rationalpolynomial", "radtan", "none", "", "brownconrady", "pinhole"}) {
+    if (word == name) return false;
+  }
+  throw InputError(Problem{source, "/" + model.name, model.value->dump(),
+                           "plumb_bob, rational_polynomial, radtan, equidistant or none"});
+}
+
+void take_matrix(const std::vector<double>& k, const std::string& name, Found& found,
+                 const std::string& source) {
+  constexpr std::size_t kNine = 9;
+  if (k.size() != kNine) {
+    throw InputError(Problem{source, "/" + name, fmt::format("{} numbers", k.size()),
+                             "a matrix of 3 x 3 numbers"});
+  }
+  found.fx = k[0];
+  found.skew = k[1];
+  found.cx = k[2];
+  found.fy = k[4];
+  found.cy = k[5];
+}
+
+/// ROS' camera_info (from a file or a message), and OpenCV's files.
+CameraFile matrix_camera(const json& document, const Member& matrix, const std::string& source) {
+  Found found;
+  found.width = side(document, {"imagewidth", "width"}, "image_width", source);
+  found.height = side(document, {"imageheight", "height"}, "image_height", source);
+  take_matrix(numbers(matrix, source), matrix.name, found, source);
+  const Member model = member(document, {"distortionmodel", "cameramodel"});
+  const Member fisheye = member(document, {"fisheyemodel", "fisheye"});
+  found.is_fisheye =
+      is_fisheye_model(model, source) || (fisheye.value != nullptr && *fisheye.value != 0 &&
+                                          *fisheye.value != false && *fisheye.value != "0");
+  const Member distortion =
+      member(document, {"distortioncoefficients", "distcoeffs", "distortioncoeffs", "distcoef",
+                        "distortion", "dist", "d", "d1"});
+  if (distortion.value != nullptr) found.coefficients = numbers(distortion, source);
+  return make_camera(found, source);
+}
+
+CameraFile kalibr_camera(const json& camera, const std::string& source) {
+  const Member model = member(camera, {"cameramodel"});
+  if (model.value != nullptr && *model.value != "pinhole") {
+    throw InputError(Problem{source, "/camera_model", model.value->dump(),
+                             "\"pinhole\": calibrate with pinhole-radtan or pinhole-equi"});
+  }
+  Found found;
+  const std::vector<double> focal = numbers(member(camera, {"intrinsics"}), source);
+  constexpr std::size_t kFour = 4;
+  if (focal.size() != kFour) {
+    throw InputError(Problem{source, "/intrinsics", fmt::format("{} numbers", focal.size()),
+                             "fx, fy, cx and cy"});
+  }
+  found.fx = focal[0];
+  found.fy = focal[1];
+  found.cx = focal[2];
+  found.cy = focal[3];
+  const Member resolution = member(camera, {"resolution"});
+  const std::vector<double> size =
+      resolution.value == nullptr ? std::vector<double>{} : numbers(resolution, source);
+  if (size.size() != 2) {
+    throw InputError(Problem{source, "/resolution", fmt::format("{} numbers", size.size()),
+                             "the width and the height of the image"});
+  }
+  found.width = static_cast<int>(size[0]);
+  found.height = static_cast<int>(size[1]);
+  found.is_fisheye = is_fisheye_model(member(camera, {"distortionmodel"}), source);
+  const Member distortion = member(camera, {"distortioncoeffs"});
+  if (distortion.value != nullptr) found.coefficients = numbers(distortion, source);
+  return make_camera(found, source);
+}
+
+bool is_kalibr(const json& value) {
+  return value.is_object() && member(value, {"intrinsics"}).value != nullptr &&
+         member(value, {"cameramodel", "resolution"}).value != nullptr;
+}
+
+}  // namespace
+
+std::optional<CameraFile> foreign_camera(const json& document, const std::string& name,
+                                         const std::string& source) {
+  if (!document.is_object()) return std::nullopt;
+  std::vector<std::string> chain;
+  for (const auto& [key, value] : document.items()) {
+    if (is_kalibr(value)) chain.push_back(key);
+  }
+  if (!chain.empty()) {
+    const bool has_name = std::find(chain.begin(), chain.end(), name) != chain.end();
+    if (has_name || (name.empty() && chain.size() == 1)) {
+      const std::string& chosen = has_name ? name : chain.front();
+      return kalibr_camera(document.at(chosen), fmt::format("{}#{}", source, chosen));
+    }
+    throw InputError(Problem{
+        source, "", name.empty() ? counted(std::ssize(chain), "camera") : fmt::format("#{}", name),
+        fmt::format("FILE#NAME with one of: {}", fmt::join(chain, ", "))});
+  }
+  if (is_kalibr(document)) return kalibr_camera(document, source);
+  if (document.contains("model") && document.contains("params")) {
+    return colmap_camera(document, source);
+  }
+  const Member matrix = member(document, {"cameramatrix", "intrinsicmatrix", "k", "k1", "m1"});
+  if (matrix.value != nullptr && (matrix.value->is_object() || matrix.value->is_array())) {
+    return matrix_camera(document, matrix, source);
+  }
+  return std::nullopt;
+}
+
+}  // namespace throng::calibrate

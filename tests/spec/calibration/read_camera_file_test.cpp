@@ -1,0 +1,252 @@
+#include "spec/calibration/foreign/read_camera_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/files.h"
+#include "camera/files.h"
+
+namespace throng::calibrate {
+namespace {
+
+using testing::HasSubstr;
+
+class ReadCameraFile : public testing::Test {
+ protected:
+  CameraFile read(const std::string& content, const std::string& name = "camera") const {
+    write_file_atomically(folder.path() / "camera", content);
+    return read_camera_file(folder.path() / name);
+  }
+
+  std::string refusal_of(const std::string& content, const std::string& name = "camera") const {
+    try {
+      read(content, name);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  StagingFolder folder{std::filesystem::temp_directory_path() / "throng-camera"};
+};
+
+/// fx, fy, cx, cy, skew and the coefficients.
+void expect_camera(const CameraFile& camera, Lens lens, int width, int height,
+                   const std::vector<double>& parameters) {
+  EXPECT_EQ(to_string(camera.lens), to_string(lens));
+  EXPECT_EQ(camera.size.width, width);
+  EXPECT_EQ(camera.size.height, height);
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    EXPECT_DOUBLE_EQ(camera.parameters.at(i), i < parameters.size() ? parameters[i] : 0) << i;
+  }
+}
+
+constexpr const char* kRos = R"(image_width: 1280
+image_height: 960
+camera_name: narrow
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [1138.5,   -0.67, 635.5,
+            0.     , 1139.5, 508.5,
+            0.     ,    0.     ,    1.     ]
+distortion_model: )";
+
+TEST_F(ReadCameraFile, CameraInfoOfRosInAllOfItsModels) {
+  const auto ros = [&](const std::string& model, const std::string& data) {
+    return read(kRos + model + "\ndistortion_coefficients:\n  rows: 1\n  cols: 4\n  data: " + data +
+                "\n");
+  };
+  const std::vector<double> k = {1138.5, 1139.5, 635.5, 508.5, -0.67};
+  const auto with = [&](std::vector<double> coefficients) {
+    coefficients.insert(coefficients.begin(), k.begin(), k.end());
+    return coefficients;
+  };
+  expect_camera(ros("equidistant", "[0.03, 0.009, -0.01, 1e-3]"), Lens::fisheye, 1280, 960,
+                with({0.03, 0.009, -0.01, 1e-3}));
+  expect_camera(ros("plumb_bob", "[-0.3, .1, 0, 0.001, 0.0]"), Lens::brown5, 1280, 960,
+                with({-0.3, 0.1, 0, 0.001, 0}));
+  expect_camera(ros("plumb_bob", "[-0.3, .1, 0, 0.001]"), Lens::brown4, 1280, 960,
+                with({-0.3, 0.1, 0, 0.001}));
+  expect_camera(ros("rational_polynomial", "[1, 2, 3, 4, 5, 6, 7, 8]"), Lens::brown8, 1280, 960,
+                with({1, 2, 3, 4, 5, 6, 7, 8}));
+  expect_camera(ros("\"\"", "[]"), Lens::pinhole, 1280, 960, k);
+  EXPECT_THAT(refusal_of(std::string(kRos) + "scaramuzza\n"),
+              HasSubstr("/distortion_model: found \"scaramuzza\", expected plumb_bob"));
+}
+
+// As `ros2 topic echo` prints it.
+TEST_F(ReadCameraFile, AMessageOfRos) {
+  expect_camera(read("header:\n  frame_id: cam\nheight: 480\nwidth: 640\n"
+                     "distortion_model: plumb_bob\nd:\n- -0.1\n- 0.2\n- 0.0\n- 0.0\n- 0.0\n"
+                     "k: [500.0, 0.0, 320.0, 0.0, 501.0, 240.0, 0.0, 0.0, 1.0]\n---\n"),
+                Lens::brown5, 640, 480, {500, 501, 320, 240, 0, -0.1, 0.2});
+}
+
+TEST_F(ReadCameraFile, OpenCvAsYamlXmlAndJson) {
+  const std::vector<double> expected = {535.5,  536.5,   342.5,  235.5,    0,
+                                        -0.266, -0.0386, 0.0017, -0.00028, 0.238};
+  const char* const matrix = "535.5, 0., 342.5, 0., 536.5, 235.5, 0., 0., 1.";
+  const char* const lens = "-0.266, -3.86e-02, 0.0017, -0.00028, 0.238";
+  expect_camera(
+      read(std::string("%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
+                       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+                       "   data: [ ") +
+           matrix + " ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n" +
+           "   dt: d\n   data: [ " + lens + " ]\n"),
+      Lens::brown5, 640, 480, expected);
+  const auto blanks = [](std::string list) {
+    std::erase(list, ',');
+    return list;
+  };
+  expect_camera(read("<?xml version=\"1.0\"?>\n<opencv_storage>\n<image_Width>640</image_Width>\n"
+                     "<image_Height>480</image_Height>\n<Camera_Matrix type_id=\"opencv-matrix\">\n"
+                     "  <rows>3</rows><cols>3</cols><dt>d</dt>\n  <data>\n    " +
+                     blanks(matrix) +
+                     "</data></Camera_Matrix>\n<Distortion_Coefficients "
+                     "type_id=\"opencv-matrix\"><rows>5</rows><cols>1</cols><dt>d</dt>"
+                     "<data>" +
+                     blanks(lens) + "</data></Distortion_Coefficients>\n</opencv_storage>\n"),
+                Lens::brown5, 640, 480, expected);
+  expect_camera(read(R"({"image_width": 640, "image_height": 480, "cameraMatrix": {"type_id":
+ "opencv-matrix", "rows": 3, "cols": 3, "dt": "d", "data": [535.5, 0, 342.5, 0, 536.5, 235.5, 0, 0,
+ 1]}, "distCoeffs": [[-0.266, -0.0386, 0.0017, -0.00028, 0.238]]})"),
+                Lens::brown5, 640, 480, expected);
+  // The sample program's word for fisheyes.
+  expect_camera(read("image_width: 64\nimage_height: 48\nfisheye_model: 1\n"
+                     "K: [[50, 0, 32], [0, 51, 24], [0, 0, 1]]\nD: [0.1, 0.2, 0.3, 0.4]\n"),
+                Lens::fisheye, 64, 48, {50, 51, 32, 24, 0, 0.1, 0.2, 0.3, 0.4});
+}
+
+TEST_F(ReadCameraFile, CoefficientsThatThrongDoesNotHaveMustBeZero) {
+  const std::string start =
+      "image_width: 64\nimage_height: 48\ncamera_matrix: [50, 0, 32, 0, 51, 24, 0, 0, 1]\n"
+      "distortion_coefficients: [1, 2, 3, 4, 5, 6, 7, 8, ";
+  EXPECT_EQ(to_string(read(start + "0, 0, 0, 0, 0, 0]\n").lens), "brown8");
+  EXPECT_THAT(refusal_of(start + "0, 0.1, 0, 0]\n"), HasSubstr("no thin prism"));
+}
+
+TEST_F(ReadCameraFile, MissingMembersAreNamed) {
+  EXPECT_THAT(refusal_of("camera_matrix: [50, 0, 32, 0, 51, 24, 0, 0, 1]\n"),
+              HasSubstr("add image_width"));
+  EXPECT_THAT(refusal_of("image_width: 9\nimage_height: 8\ncamera_matrix: {rows: 3}\n"),
+              HasSubstr("/camera_matrix: found no member \"data\""));
+  EXPECT_THAT(refusal_of("image_width: wide\nimage_height: 8\ncamera_matrix: [1]\n"),
+              HasSubstr("/image_width: found \"wide\""));
+  EXPECT_THAT(refusal_of(R"({"width": 64, "height": 48, "lens": "pinhole", "fx": null})"),
+              HasSubstr("/fx: found null"));
+  EXPECT_THAT(refusal_of("a: [1, 2\n"), HasSubstr("line "));
+  EXPECT_THAT(refusal_of("<a><b></a>"), HasSubstr("XML"));
+  EXPECT_NE(refusal_of(std::string(100'000, '[')), "");
+  EXPECT_NE(refusal_of("just words"), "");
+  std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 12; ++i) {
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
+    for (int k = 0; k < 10; ++k) bomb += (k > 0 ? ", *a" : "*a") + std::to_string(i - 1);
+    bomb += "]\n";
+  }
+  EXPECT_THAT(refusal_of(bomb), HasSubstr("too many values"));
+}
+
+constexpr const char* kCam0 = R"(cam0:
+  cam_overlaps: []
+  camera_model: pinhole
+  distortion_coeffs: [-0.4, 0.15, -0.001, 0.0002]
+  distortion_model: radtan
+  intrinsics: [1073.5, 1074.5, 639.5, 350.5]
+  resolution: [1280, 800]
+  rostopic: /cam0/image_raw
+)";
+constexpr const char* kCam1 = R"(cam1:
+  T_cn_cnm1:
+  - [1.0, 0.0, 0.0, 0.1]
+  camera_model: pinhole
+  distortion_coeffs: [0.1, 0.2, 0.3, 0.4]
+  distortion_model: equidistant
+  intrinsics: [400, 401, 320, 240]
+  resolution: [640, 480]
+)";
+
+TEST_F(ReadCameraFile, KalibrsChains) {
+  expect_camera(read(kCam0), Lens::brown4, 1280, 800,
+                {1073.5, 1074.5, 639.5, 350.5, 0, -0.4, 0.15, -0.001, 0.0002});
+  const std::string both = std::string(kCam0) + kCam1;
+  expect_camera(read(both, "camera#cam1"), Lens::fisheye, 640, 480,
+                {400, 401, 320, 240, 0, 0.1, 0.2, 0.3, 0.4});
+  EXPECT_THAT(refusal_of(both), HasSubstr("FILE#NAME with one of: cam0, cam1"));
+  EXPECT_THAT(refusal_of(both, "camera#cam2"), HasSubstr("one of: cam0, cam1"));
+  std::string omni = kCam0;
+  omni.replace(omni.find("pinhole"), 7, "omni");
+  EXPECT_THAT(refusal_of(omni), HasSubstr("pinhole-radtan or pinhole-equi"));
+}
+
+template <typename Value>
+void append(std::string& bytes, Value value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+// COLMAP counts pixels from the corner of the image, throng from the middle of the first pixel.
+TEST_F(ReadCameraFile, ColmapsTextBinaryAndJson) {
+  const std::vector<double> expected = {1400, 1402, 959.5, 539.5, 0, -0.1, 0.02, 0.0003, 0.0001};
+  const std::string line = "7 OPENCV 1920 1080 1400 1402 960 540 -0.1 0.02 0.0003 0.0001\n";
+  const std::string head = "# Camera list with one line of data per camera:\n";
+  expect_camera(read(head + line), Lens::brown4, 1920, 1080, expected);
+  const std::string two = head + "3 SIMPLE_RADIAL 640 480 500 320 240 -0.1\n" + line;
+  expect_camera(read(two, "camera#7"), Lens::brown4, 1920, 1080, expected);
+  expect_camera(read(two, "camera#3"), Lens::brown2, 640, 480, {500, 500, 319.5, 239.5, 0, -0.1});
+  EXPECT_THAT(refusal_of(two), HasSubstr("FILE#CAMERA_ID with one of: 3, 7"));
+  EXPECT_THAT(refusal_of("1 FOV 640 480 1 2 3 4 5\n"), HasSubstr("\"FOV\", expected one of"));
+  EXPECT_THAT(refusal_of("1 PINHOLE 640 480 1 2 3\n"), HasSubstr("found 3 parameters"));
+  expect_camera(read(R"({"model": "OPENCV", "width": 1920, "height": 1080, "params":
+ [1400, 1402, 960, 540, -0.1, 0.02, 0.0003, 0.0001]})"),
+                Lens::brown4, 1920, 1080, expected);
+  std::string binary;
+  append<std::uint64_t>(binary, 1);
+  append<std::uint32_t>(binary, 7);
+  append<std::int32_t>(binary, 4);
+  append<std::uint64_t>(binary, 1920);
+  append<std::uint64_t>(binary, 1080);
+  for (const double value : {1400., 1402., 960., 540., -0.1, 0.02, 0.0003, 0.0001}) {
+    append(binary, value);
+  }
+  expect_camera(read(binary), Lens::brown4, 1920, 1080, expected);
+  EXPECT_NE(refusal_of(binary.substr(0, binary.size() - 3)), "");
+}
+
+TEST_F(ReadCameraFile, OwnFilesForOthersAreReadBack) {
+  for (const Lens lens : {Lens::pinhole, Lens::brown5, Lens::brown8, Lens::fisheye}) {
+    CameraFile camera;
+    camera.lens = lens;
+    camera.size = {640, 480};
+    for (std::size_t i = 0; i < kParameters; ++i) {
+      if (!parameter_name(lens, i).empty()) camera.parameters.at(i) = 0.01 * (1. + i);
+    }
+    camera.parameters[kSkew] = 0;
+    camera.parameters[kFx] = 500.25;
+    camera.parameters[kFy] = 501.5;
+    const camera::Intrinsics lens_of = camera.intrinsics();
+    for (const std::string& text :
+         {camera::opencv_yaml(lens_of), camera::ros_yaml(lens_of, "front")}) {
+      const camera::Intrinsics back = read(text).intrinsics();
+      EXPECT_NEAR(back.fx_px, 500.25, 1e-9) << text;
+      EXPECT_NEAR(back.fy_px, 501.5, 1e-9) << text;
+      if (!lens_of.distortion) continue;
+      ASSERT_TRUE(back.distortion) << text;
+      EXPECT_EQ(back.distortion->model(), lens_of.distortion->model());
+      for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_NEAR(back.distortion->coefficients().at(i), lens_of.distortion->coefficients().at(i),
+                    1e-12);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace throng::calibrate
