@@ -93,13 +93,12 @@ std::optional<double> take_number(std::string_view& text) {
 
 /// Meters of a unit, or nothing.
 std::optional<double> unit_m(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 25> kUnits = {
-      {{"", 1},          {"m", 1},           {"meter", 1},   {"meters", 1},
-       {"metre", 1},     {"metres", 1},      {"metro", 1},   {"metros", 1},
-       {"mtr", 1},       {"mtrs", 1},        {"mts", 1},     {"km", 1000},
-       {"cm", 0.01},     {"mm", 0.001},      {"'", kFootM},  {"ft", kFootM},
-       {"feet", kFootM}, {"foot", kFootM},   {"\"", kInchM}, {"in", kInchM},
-       {"inch", kInchM}, {"inches", kInchM}, {"yd", 0.9144}, {"yards", 0.9144},
+  constexpr std::array<std::pair<std::string_view, double>, 26> kUnits = {
+      {{"", 1},         {"m", 1},         {"meter", 1},       {"meters", 1},    {"metre", 1},
+       {"metres", 1},   {"metro", 1},     {"metros", 1},      {"mtr", 1},       {"mtrs", 1},
+       {"mts", 1},      {"mt", 1},        {"km", 1000},       {"cm", 0.01},     {"mm", 0.001},
+       {"'", kFootM},   {"ft", kFootM},   {"feet", kFootM},   {"foot", kFootM}, {"\"", kInchM},
+       {"in", kInchM},  {"inch", kInchM}, {"inches", kInchM}, {"yd", 0.9144},   {"yards", 0.9144},
        {"mi", 1609.344}}};
   if (unit.ends_with('.')) unit.remove_suffix(1);
   const auto found = std::find_if(kUnits.begin(), kUnits.end(),

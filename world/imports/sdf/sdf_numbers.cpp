@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 
 namespace throng::imports {
@@ -45,6 +46,27 @@ std::string with_points(const std::string& text) {
     points[at] = '.';
   }
   return points;
+}
+
+/// Whether a text consists of numbers with blanks between; infinite ones are refused later.
+bool is_numbers(std::string_view text) {
+  for (std::size_t at = text.find_first_not_of(kBlanks); at < text.size();
+       at = text.find_first_not_of(kBlanks, at)) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    std::string_view token = text.substr(at, end - at);
+    if (token.starts_with('+')) token.remove_prefix(1);
+    double value = 0;
+    const auto [rest, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (error == std::errc::invalid_argument || rest != token.data() + token.size()) return false;
+    at = end;
+  }
+  return true;
+}
+
+bool holds_meters(std::string_view name) {
+  constexpr std::array<std::string_view, 9> kNames = {"pose",  "size",  "radius", "length", "scale",
+                                                      "radii", "point", "normal", "height"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
 bool holds_words(std::string_view name) {
@@ -95,6 +117,21 @@ void find_number_commas(const tinyxml2::XMLElement& element, const std::string& 
        child = child->NextSiblingElement()) {
     find_number_commas(*child, file, problems);
   }
+}
+
+OddNumber find_odd_number(const tinyxml2::XMLElement& element) {
+  if (holds_words(element.Name())) return {};
+  const char* const text = element.GetText();
+  const bool is_leaf = element.FirstChildElement() == nullptr;
+  if (is_leaf && text != nullptr && holds_meters(element.Name()) && !is_numbers(text)) {
+    return {element.GetLineNum(), fmt::format("<{}>", element.Name()), one_line(text)};
+  }
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    OddNumber found = find_odd_number(*child);
+    if (found.line > 0) return found;
+  }
+  return {};
 }
 
 }  // namespace throng::imports

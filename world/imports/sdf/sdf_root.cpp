@@ -1,6 +1,7 @@
 #include "world/imports/sdf/sdf_root.h"
 
 #include <fmt/core.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <sdf/sdf.hh>
@@ -14,6 +15,7 @@
 #include "world/imports/sdf/model_finder.h"
 #include "world/imports/sdf/sdf_complaints.h"
 #include "world/imports/sdf/sdf_names.h"
+#include "world/imports/sdf/sdf_numbers.h"
 
 namespace throng::imports {
 
@@ -58,6 +60,7 @@ class RootLoader {
 
   SdfText load(sdf::Root& root) {
     sdf::Console::Instance()->SetQuiet(true);
+    take_out_odd_numbers();
     sdf::Errors errors = load_once(root);
     for (int i = 0; i < kMaxTakenOut && !is_loaded(root); ++i) {
       if (!take_out_first(errors)) break;
@@ -76,6 +79,21 @@ class RootLoader {
     } catch (const std::exception&) {
       throw InputError(
           {file_.string(), "", "a value that libsdformat cannot take", "a world of SDF"});
+    }
+  }
+
+  void take_out_odd_numbers() {
+    for (int i = 0; i < kMaxTakenOut; ++i) {
+      tinyxml2::XMLDocument document;
+      const std::string& text = text_.text();
+      if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return;
+      const OddNumber odd = find_odd_number(*document.RootElement());
+      const int line = text_.line_of(odd.line);
+      const auto part = odd.line > 0 ? text_.take_out(odd.line) : std::nullopt;
+      if (!part) return;
+      skipped_.push_back({file_.string(), line, part->name,
+                          fmt::format("{} is \"{}\"; expected numbers, in meters without unit",
+                                      odd.element, odd.value)});
     }
   }
 

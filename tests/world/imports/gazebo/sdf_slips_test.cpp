@@ -97,12 +97,23 @@ TEST(Messages, AreNotThoseOfLibraries) {
   EXPECT_EQ(scenario.buildings.size(), 1);
   EXPECT_TRUE(is_listed(scenario,
                         "w.world:5: model b/link l/visual v: <size> is \"5 x 1\"; "
-                        "expected 2 or 3 numbers"));
+                        "expected numbers"));
   EXPECT_TRUE(is_listed(scenario, "no file for \"model://nowhere\""));
   for (const Skipped& skipped : scenario.skipped) {
     EXPECT_THAT(skipped.text(), Not(HasSubstr("Error reading element")));
     EXPECT_THAT(skipped.text(), Not(HasSubstr("Unable to")));
   }
+}
+
+TEST(Messages, NameSizesWithUnits) {
+  const ImportedScenario scenario = read_world_text(
+      box_model("a", 4, 4, 3) + box_model("b", 4, 4, 3, "20m 0 0 0 0 0") +
+      "<model name='c'><link name='l'><visual name='v'><geometry>\n<sphere><radius>3m</radius>"
+      "</sphere></geometry></visual></link></model>");
+  EXPECT_EQ(scenario.buildings.size(), 1);
+  EXPECT_TRUE(scenario.objects.empty());
+  EXPECT_TRUE(is_listed(scenario, "w.world:4: model b: <pose> is \"20m 0 0 0 0 0\""));
+  EXPECT_TRUE(is_listed(scenario, "w.world:6: model c/link l/visual v: <radius> is \"3m\""));
 }
 
 TEST(Messages, SayWhyAMeshCannotBeRead) {
