@@ -47,6 +47,7 @@ class MapReader {
   }
   void add_surface(const Area& area, const std::string& material,
                    std::vector<world::GroundArea>& to);
+  void note_outside();
   void add_buildings();
   void add_water(const OsmArea& found);
   void add_area(const OsmArea& found);
@@ -229,6 +230,20 @@ void MapReader::add_line(const OsmLine& line) {
   }
 }
 
+// Extracts hold whole ways, also where these reach beyond the bounds.
+void MapReader::note_outside() {
+  const geometry::Rectangle ground{ground_.min, ground_.max};
+  const auto outside =
+      std::count_if(file_.areas.begin(), file_.areas.end(),
+                    [&](const OsmArea& area) {
+                      return !geometry::bounding_box(area.area.outline).meets(ground);
+                    }) +
+      std::count_if(file_.lines.begin(), file_.lines.end(), [&](const OsmLine& line) {
+        return !geometry::bounding_box(line.points).meets(ground);
+      });
+  if (outside > 0) skip("edge", fmt::format("{} areas and ways are outside of it", outside));
+}
+
 ImportedScenario MapReader::read() {
   constexpr double kGateM = 2.4;
   for (const OsmPoint& point : file_.points) {
@@ -239,6 +254,7 @@ ImportedScenario MapReader::read() {
     }
     if (tag_value(point.tags, "highway") == "crossing") crossings_.insert(point.id);
   }
+  note_outside();
   add_buildings();
   for (const OsmArea& area : file_.areas) add_area(area);
   for (const OsmLine& line : file_.lines) add_line(line);

@@ -197,12 +197,15 @@ TEST(MapSkipped, HasALineForEachKindOfNode) {
   map.tagged_node(20, 0, "barrier=gate");
   map.tagged_node(20, 9, "name=nothing");
   map.tagged_node(500, 9, "natural=tree");
+  map.way(map.box(500, 0, 510, 10), "building=yes");
+  map.way({map.node(500, 0), map.node(510, 0)}, "highway=footway");
   const ImportedScenario scenario = map.read();
   EXPECT_TRUE(mentions(scenario.skipped,
                        fmt::format("nodes {}, {}: amenity=cafe is not drawn", first, second)));
   EXPECT_TRUE(mentions(scenario.skipped, "building=yes is not drawn"));
   EXPECT_TRUE(mentions(scenario.skipped, "1 trees, lamps and other props are outside"));
-  EXPECT_EQ(scenario.skipped.size(), 3);
+  EXPECT_TRUE(mentions(scenario.skipped, "edge: 2 areas and ways are outside of it"));
+  EXPECT_EQ(scenario.skipped.size(), 4);
 }
 
 TEST(MapSkipped, NamesBridgesTinyBuildingsAndRelationsOfOtherTypes) {
