@@ -43,7 +43,7 @@ target_include_directories(throng_recast SYSTEM INTERFACE "${RECAST_INCLUDE}")
 
 # The file for CMake asks for Ignition's own, the one for pkg-config for C++17.
 add_library(throng_sdformat INTERFACE)
-foreach(library IN ITEMS sdformat12 ignition-math6)
+foreach(library IN ITEMS sdformat12 ignition-math6 console_bridge)
   find_library(LIBRARY_${library} ${library} REQUIRED)
   target_link_libraries(throng_sdformat INTERFACE "${LIBRARY_${library}}")
 endforeach()

@@ -162,7 +162,8 @@ std::string common_prefix(const std::vector<std::string>& names) {
   }
   std::string longest;
   for (const auto& [prefix, count] : counts) {
-    const bool is_common = static_cast<double>(count) >= kMinShare * static_cast<double>(names.size());
+    const bool is_common =
+        static_cast<double>(count) >= kMinShare * static_cast<double>(names.size());
     if (is_common && prefix.size() > longest.size()) longest = prefix;
   }
   return longest;

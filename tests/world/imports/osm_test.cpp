@@ -101,15 +101,6 @@ TEST_F(Quarter, IsLeftWhereItsWaysLeaveIt) {
   }
 }
 
-TEST(Osm, ReadsLengthsAsMappersWriteThem) {
-  EXPECT_EQ(length_in("12"), 12);
-  EXPECT_EQ(length_in("12.5 m"), 12.5);
-  EXPECT_NEAR(length_in("10 ft").value(), 3.048, 1e-9);
-  for (const char* text : {"", "high", "-3", "1e9", "nan", "12 cm", "3;4"}) {
-    EXPECT_FALSE(length_in(text)) << text;
-  }
-}
-
 TEST(Osm, RefusesOtherFiles) {
   const throng::testing::TemporaryFolder folder;
   const auto read = [&](const std::string& text) {
@@ -155,8 +146,6 @@ TEST(OsmBuildings, TakeHeightsFromTagsAsTheWikiSays) {
   EXPECT_EQ(building_height_m({{"building", "yes"}, {"height", "12"}, {"roof:height", "4"}}), 12);
   EXPECT_EQ(building_height_m({{"building:levels", "3"}, {"roof:height", "4"}}), 13);
   EXPECT_EQ(building_height_m({{"building:levels", "3"}, {"roof:levels", "1"}}), 12);
-  EXPECT_NEAR(length_in("16'6\"").value(), 5.0292, 1e-9);
-  EXPECT_EQ(length_in("3,5"), 3.5);
 }
 
 TEST(OsmFile, RepairsAreasThatLibosmiumGivesUp) {

@@ -2,7 +2,7 @@
 
 #include <sdf/sdf.hh>
 
-#include "world/imports/gazebo/sdf_pose.h"
+#include "world/imports/sdf/sdf_pose.h"
 
 namespace throng::imports {
 

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/files.h"
 
 namespace throng::imports {
 
@@ -20,6 +22,16 @@ constexpr std::uintmax_t kMaxFileBytes = 256U << 20U;
 Eigen::Vector3d to_z_up(const aiVector3D& p, bool y_is_up) {
   if (y_is_up) return {p.x, -p.z, p.y};
   return {p.x, p.y, p.z};
+}
+
+/// Why a file may be no mesh, by how it begins.
+std::string unreadable_file(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  if (text.empty()) return fmt::format("{}, which is empty", file.string());
+  if (text.starts_with("version https://git-lfs")) {
+    return fmt::format("{}, a pointer of Git LFS (`git lfs pull` fetches the mesh)", file.string());
+  }
+  return fmt::format("{}, in which no mesh can be read", file.string());
 }
 
 class MeshReader {
@@ -47,7 +59,8 @@ class MeshReader {
     const aiScene* scene = importer_.ReadFile(
         file_.string(), aiProcess_Triangulate | aiProcess_SortByPType | more_steps);
     if (scene == nullptr) {
-      throw InputError({file_.string(), "", importer_.GetErrorString(), "a mesh"});
+      throw InputError({file_.string(), "", unreadable_file(file_),
+                        "a mesh of COLLADA (.dae), STL, OBJ, glTF or FBX"});
     }
     return *scene;
   }

@@ -34,8 +34,8 @@ double size_within(double size) {
   return size;
 }
 
-Vector3d size_within(const ignition::math::Vector3d& size) {
-  return {size_within(size.X()), size_within(size.Y()), size_within(size.Z())};
+Vector3d size_within(const Vector3d& size) {
+  return {size_within(size.x()), size_within(size.y()), size_within(size.z())};
 }
 
 bool is_upright(const Isometry3d& pose) {
@@ -80,13 +80,13 @@ Eigen::Quaterniond turn_to(const Vector3d& normal) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
 }
 
-Body plane(const sdf::Plane& plane, const Isometry3d& pose) {
+Body plane(const sdf::Plane& plane, const Isometry3d& pose, const Vector3d& factors) {
   const Vector3d normal = to_vector(plane.Normal());
   const Vector3d up = pose.linear() * normal;
   const Eigen::Quaterniond turn = turn_to(normal);
   if (!(up.z() > 0.99)) reject("a plane that is not level", "a level plane");
-  const double half_x = 0.5 * size_within(plane.Size().X());
-  const double half_y = 0.5 * size_within(plane.Size().Y());
+  const double half_x = 0.5 * size_within(plane.Size().X() * factors.x());
+  const double half_y = 0.5 * size_within(plane.Size().Y() * factors.y());
   Body body;
   Corners corners;
   for (const Vector2d& corner : rectangle_corners({{-half_x, -half_y}, {half_x, half_y}})) {
@@ -98,14 +98,14 @@ Body plane(const sdf::Plane& plane, const Isometry3d& pose) {
 }
 
 Body mesh(const sdf::Mesh& mesh, const Isometry3d& pose, const std::string& file,
-          const LocalFiles& files) {
+          const LocalFiles& files, const Vector3d& factors) {
   const auto path = files.find(mesh.Uri(), file);
   if (!path) {
     reject(fmt::format("mesh \"{}\"", mesh.Uri()), "a file in the folders of the world and models");
   }
   Body body;
   body.solids = read_mesh(*path, mesh.Submesh());
-  const Vector3d scale = to_vector(mesh.Scale());
+  const Vector3d scale = to_vector(mesh.Scale()).cwiseProduct(factors);
   if (!scale.allFinite() || !(scale.cwiseAbs().maxCoeff() <= kMaxSizeM)) {
     reject("a scale that is no number", "a scale");
   }
@@ -122,27 +122,28 @@ Body mesh(const sdf::Mesh& mesh, const Isometry3d& pose, const std::string& file
 }
 
 // A cone about the pose's z, its tip up.
-Body cone(const sdf::ElementPtr& element, const Isometry3d& pose) {
+Body cone(const sdf::ElementPtr& element, const Isometry3d& pose, const Vector3d& factors) {
   Body body;
   Solid solid;
-  solid.triangles = cone_triangles(size_within(element->Get<double>("radius")),
-                                   size_within(element->Get<double>("length")));
+  solid.triangles =
+      cone_triangles(size_within(element->Get<double>("radius") * factors.head<2>().maxCoeff()),
+                     size_within(element->Get<double>("length") * factors.z()));
   move(solid.triangles, pose);
   body.solids.push_back(std::move(solid));
   return body;
 }
 
 // Prisms over outlines, upwards from the pose; an outline within another is a hole in it.
-Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose) {
+Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose, const Vector3d& factors) {
   std::vector<Area> areas;
   double height = 0;
   for (auto line = geometry->GetElement("polyline"); line;
        line = line->GetNextElement("polyline")) {
-    height = size_within(line->Get<double>("height"));
+    height = size_within(line->Get<double>("height") * factors.z());
     Corners corners;
     for (auto point = line->FindElement("point"); point; point = point->GetNextElement("point")) {
       const auto at = point->Get<ignition::math::Vector2d>();
-      corners.emplace_back(at.X(), at.Y());
+      corners.emplace_back(at.X() * factors.x(), at.Y() * factors.y());
       if (!(corners.back().norm() <= kMaxSizeM)) reject("a point that is far away", "10 km");
     }
     for (Area& area : repaired({corners, {}})) areas.push_back(std::move(area));
@@ -177,10 +178,11 @@ Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose) {
 }
 
 // Kinds that libsdformat 12 has no class for.
-Body other_kind(const sdf::Geometry& geometry, const Isometry3d& pose) {
+Body other_kind(const sdf::Geometry& geometry, const Isometry3d& pose, const Vector3d& factors) {
   const sdf::ElementPtr element = geometry.Element();
-  if (element && element->HasElement("polyline")) return polylines(element, pose);
-  if (element && element->HasElement("cone")) return cone(element->GetElement("cone"), pose);
+  if (element && element->HasElement("polyline")) return polylines(element, pose, factors);
+  if (element && element->HasElement("cone"))
+    return cone(element->GetElement("cone"), pose, factors);
   const sdf::ElementPtr kind = element ? element->GetFirstElement() : nullptr;
   if (kind && kind->GetName() == "empty") return {};
   reject(kind ? fmt::format("<{}>", kind->GetName()) : "no geometry",
@@ -190,28 +192,34 @@ Body other_kind(const sdf::Geometry& geometry, const Isometry3d& pose) {
 }  // namespace
 
 Body make_body(const sdf::Geometry& geometry, const Isometry3d& pose, const std::string& file,
-               const LocalFiles& files) {
+               const LocalFiles& files, const Vector3d& scale) {
+  const double across = scale.head<2>().maxCoeff();
   switch (geometry.Type()) {
     case sdf::GeometryType::BOX: {
-      const Vector3d half = 0.5 * size_within(geometry.BoxShape()->Size());
+      const Vector3d size = to_vector(geometry.BoxShape()->Size()).cwiseProduct(scale);
+      const Vector3d half = 0.5 * size_within(size);
       return prism(rectangle_corners({-half.head<2>(), half.head<2>()}), 2 * half.z(), pose);
     }
     case sdf::GeometryType::CYLINDER:
-      return prism(circle(Vector2d::Zero(), size_within(geometry.CylinderShape()->Radius())),
-                   size_within(geometry.CylinderShape()->Length()), pose);
+      return prism(
+          circle(Vector2d::Zero(), size_within(geometry.CylinderShape()->Radius() * across)),
+          size_within(geometry.CylinderShape()->Length() * scale.z()), pose);
     case sdf::GeometryType::SPHERE:
-      return ball(Vector3d::Constant(size_within(geometry.SphereShape()->Radius())), 0, pose);
+      return ball(
+          Vector3d::Constant(size_within(geometry.SphereShape()->Radius() * scale.maxCoeff())), 0,
+          pose);
     case sdf::GeometryType::ELLIPSOID:
-      return ball(size_within(geometry.EllipsoidShape()->Radii()), 0, pose);
+      return ball(size_within(to_vector(geometry.EllipsoidShape()->Radii()).cwiseProduct(scale)), 0,
+                  pose);
     case sdf::GeometryType::CAPSULE:
-      return ball(Vector3d::Constant(size_within(geometry.CapsuleShape()->Radius())),
-                  size_within(geometry.CapsuleShape()->Length()), pose);
+      return ball(Vector3d::Constant(size_within(geometry.CapsuleShape()->Radius() * across)),
+                  size_within(geometry.CapsuleShape()->Length() * scale.z()), pose);
     case sdf::GeometryType::PLANE:
-      return plane(*geometry.PlaneShape(), pose);
+      return plane(*geometry.PlaneShape(), pose, scale);
     case sdf::GeometryType::MESH:
-      return mesh(*geometry.MeshShape(), pose, file, files);
+      return mesh(*geometry.MeshShape(), pose, file, files, scale);
     default:
-      return other_kind(geometry, pose);
+      return other_kind(geometry, pose, scale);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "world/imports/gazebo/local_files.h"
 #include "world/imports/parts/imported_scenario.h"
 #include "world/imports/parts/solids.h"
+#include "world/imports/sdf/local_files.h"
 
 namespace sdf {
 inline namespace v12 {
@@ -29,10 +29,12 @@ struct Body {
 };
 
 /// Makes the body of a geometry at a pose; `file` is the file that contains the geometry. Planes
-/// have a footprint without height and triangles; <empty/> has neither. Throws InputError for
+/// have a footprint without height and triangles; <empty/> has neither. `scale` stretches the
+/// geometry along its own axes, round ones by the larger factor of x and y. Throws InputError for
 /// unknown kinds, sizes that are not in (0, 10 km), and meshes that cannot be read.
 Body make_body(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose,
-               const std::string& file, const LocalFiles& files);
+               const std::string& file, const LocalFiles& files,
+               const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 /// The color of a material, if it defines one: diffuse, that of Gazebo's script, or ambient.
 std::optional<Eigen::Vector3d> material_color(const sdf::Material* material);

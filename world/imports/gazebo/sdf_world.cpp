@@ -3,28 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <sdf/sdf.hh>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
-#include "base/geometry/angle.h"
 #include "base/geometry/rectangle.h"
-#include "world/imports/gazebo/camera_sensor.h"
-#include "world/imports/gazebo/local_files.h"
-#include "world/imports/gazebo/sdf_pose.h"
-#include "world/imports/gazebo/sdf_root.h"
-#include "world/imports/gazebo/sdf_shapes.h"
+#include "world/imports/gazebo/sdf_reader.h"
 #include "world/imports/gazebo/world_fixtures.h"
-#include "world/imports/gazebo/world_ground.h"
-#include "world/imports/gazebo/world_sun.h"
-#include "world/imports/parts/populate.h"
 #include "world/imports/parts/scenario_writer.h"
+#include "world/imports/parts/solids.h"
+#include "world/imports/sdf/sdf_pose.h"
+#include "world/imports/sdf/sdf_root.h"
 
 namespace throng::imports {
 
@@ -46,8 +37,17 @@ using Words = std::set<std::string>;
 
 // Elements that mean nothing to a scenario, or that are read.
 const Words& known_in(const std::string& parent) {
-  static const Words kWorld = {
-      "model", "light", "frame", "gravity", "magnetic_field", "include", "spherical_coordinates"};
+  static const Words kWorld = {"model",
+                               "light",
+                               "frame",
+                               "gravity",
+                               "magnetic_field",
+                               "include",
+                               "spherical_coordinates",
+                               "state",
+                               "road",
+                               "population",
+                               "actor"};
   static const Words kModel = {
       "pose",        "static", "link", "model", "frame", "self_collide", "allow_auto_disable",
       "enable_wind", "include"};
@@ -57,62 +57,28 @@ const Words& known_in(const std::string& parent) {
   return parent == "world" ? kWorld : parent == "model" ? kModel : kLink;
 }
 
-class SdfReader {
- public:
-  SdfReader(const fs::path& file, const SdfOptions& options)
-      : file_(file), gates_(options.gates), files_(folders_of(file, options)) {}
+std::vector<fs::path> list_folders(const fs::path& file, const SdfOptions& options) {
+  std::vector<fs::path> folders = options.models;
+  // The folders of models in repositories of worlds.
+  folders.push_back(file.parent_path() / "models");
+  folders.push_back(file.parent_path() / ".." / "models");
+  folders.insert(folders.begin(), file.parent_path());
+  return folders;
+}
 
-  ImportedScenario read();
+}  // namespace
 
- private:
-  static std::vector<fs::path> folders_of(const fs::path& file, const SdfOptions& options) {
-    std::vector<fs::path> folders = options.models;
-    // The folders of models in repositories of worlds.
-    folders.push_back(file.parent_path() / "models");
-    folders.push_back(file.parent_path() / ".." / "models");
-    folders.insert(folders.begin(), file.parent_path());
-    return folders;
-  }
-
-  void skip(const sdf::ElementPtr& element, const std::string& what, const std::string& why);
-  void skip_unknown(const sdf::ElementPtr& parent, const std::string& path);
-  std::optional<Isometry3d> resolve(const sdf::SemanticPose& pose, const Isometry3d& parent,
-                                    const sdf::ElementPtr& element, const std::string& path);
-  void add_model(const sdf::Model& model, const Isometry3d& parent, const std::string& path);
-  void add_link(const sdf::Link& link, const Isometry3d& model, const std::string& path,
-                Object& object);
-  void add_light(const sdf::Light& light, const Isometry3d& parent, const std::string& path);
-  void add_sun(const sdf::Light& light, const Isometry3d& parent, const std::string& name);
-  void add_sensor(const sdf::Sensor& sensor, const Isometry3d& link, const std::string& path);
-  template <typename Owner>
-  std::optional<Body> body(const Owner& owner, const Isometry3d& link, const std::string& path);
-  void add_seen(Body body, const Vector3d* rgb, Object& object);
-  void add_in_the_way(const Body& body);
-  void reach(const Corners& corners);
-  void add_building(const Body& body);
-  void finish();
-
-  fs::path file_;
-  std::vector<Gate> gates_;
-  LocalFiles files_;
-  std::optional<SdfText> text_;
-  ImportedScenario place_;
-  std::vector<geometry::Rectangle> building_bounds_;
-  std::vector<FlatArea> flat_;
-  Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
-  Vector2d high_ = -low_;
-  double latitude_deg_ = 45;  // as jobs have it without any
-  std::size_t bodies_ = 0;
-  std::size_t triangles_ = 0;
-};
+SdfReader::SdfReader(const fs::path& file, const SdfOptions& options)
+    : file_(file), gates_(options.gates), files_(list_folders(file, options)) {}
 
 void SdfReader::skip(const sdf::ElementPtr& element, const std::string& what,
                      const std::string& why) {
   Skipped skipped{file_.string(), 0, what, why};
-  if (element) {
-    const int line = element->LineNumber().value_or(0);
-    const bool own = is_given_text(element->FilePath());
-    if (!own) skipped.file = element->FilePath();
+  const sdf::ElementPtr& at = copied_ ? copied_ : element;
+  if (at) {
+    const int line = at->LineNumber().value_or(0);
+    const bool own = is_given_text(at->FilePath());
+    if (!own) skipped.file = at->FilePath();
     skipped.line = own && line > 0 ? text_->line_of(line) : line;
   }
   place_.skipped.push_back(std::move(skipped));
@@ -158,8 +124,9 @@ std::optional<Body> SdfReader::body(const Owner& owner, const Isometry3d& link,
   }
   std::optional<Body> found;
   try {
-    const std::string from = owner.Element() ? owner.Element()->FilePath() : "";
-    found = make_body(*owner.Geom(), *pose, is_given_text(from) ? file_.string() : from, files_);
+    std::string from = owner.Element() ? owner.Element()->FilePath() : "";
+    if (is_given_text(from)) from = copied_from_.empty() ? file_.string() : copied_from_;
+    found = make_body(*owner.Geom(), *pose, from, files_, scale_);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     skip(owner.Element(), name, fmt::format("{}, not {}", problem.found, problem.expected));
@@ -241,64 +208,12 @@ void SdfReader::add_in_the_way(const Body& body) {
   }
 }
 
-/// The first directional light becomes the sun of the draft job.
-void SdfReader::add_sun(const sdf::Light& light, const Isometry3d& parent,
-                        const std::string& name) {
-  if (!place_.environment.is_null()) {
-    return skip(light.Element(), name, "another directional light than the first, the sun");
-  }
-  const auto pose = resolve(light.SemanticPose(), Isometry3d::Identity(), light.Element(), name);
-  if (!pose) return;
-  const ignition::math::Vector3d shines = light.Direction();
-  const Vector3d towards_light =
-      parent.linear() * pose->linear() * Vector3d(-shines.X(), -shines.Y(), -shines.Z());
-  const auto sun = sun_like(towards_light, latitude_deg_);
-  if (!sun) return skip(light.Element(), name, "shines from below 3 degrees, as no sun by day");
-  const auto minutes = static_cast<int>(std::lround(60 * sun->time_of_day_h));
-  place_.environment = {{"latitude_deg", sun->latitude_deg},
-                        {"day_of_year", sun->day_of_year},
-                        {"time_of_day", fmt::format("{:02}:{:02}", minutes / 60, minutes % 60)}};
-  constexpr double kNear = 2 * kDegree;
-  if (sun->error_rad <= kNear) return;
-  skip(light.Element(), name,
-       fmt::format("the sun of the job stands {:.0f} degrees beside it, as near as at a latitude "
-                   "of {:g} degrees",
-                   sun->error_rad / kDegree, sun->latitude_deg));
-}
-
-void SdfReader::add_sensor(const sdf::Sensor& sensor, const Isometry3d& link,
-                           const std::string& path) {
-  const std::string name = fmt::format("{}/{} <sensor>", path, sensor.Name());
-  if (!is_camera(sensor)) {
-    return skip(sensor.Element(), name,
-                fmt::format("a scenario has no sensor of the type {}", sensor.TypeStr()));
-  }
-  if (const auto why = add_camera(sensor, link, place_)) return skip(sensor.Element(), name, *why);
-  reach({place_.drones.back().position.head<2>()});
-}
-
-void SdfReader::add_light(const sdf::Light& light, const Isometry3d& parent,
-                          const std::string& path) {
-  const std::string name = path + "/" + light.Name();
-  if (light.Type() == sdf::LightType::DIRECTIONAL) return add_sun(light, parent, name);
-  const auto pose = resolve(light.SemanticPose(), parent, light.Element(), name);
-  if (!pose) return;
-  constexpr double kLampM = 4.6;  // of a prop of scale 1
-  const double height = pose->translation().z();
-  if (!(height >= 2 && height <= 12)) {
-    return skip(light.Element(), name, "only lamps 2 to 12 m above the ground become lamp posts");
-  }
-  world::Prop lamp;
-  lamp.kind = world::PropKind::lamp_post;
-  lamp.position = pose->translation().head<2>();
-  lamp.scale = height / kLampM;
-  place_.props.push_back(lamp);
-}
-
 void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const std::string& path,
-                         Object& object) {
+                         Object& object, const EntityState* state) {
   const std::string name = path + "/" + link.Name();
-  const auto pose = resolve(link.SemanticPose(), model, link.Element(), name);
+  const bool is_placed = state != nullptr && state->pose.has_value();
+  const auto pose =
+      is_placed ? state->pose : resolve(link.SemanticPose(), model, link.Element(), name);
   if (!pose) return;
   skip_unknown(link.Element(), name);
   bool drawn = link.VisualCount() == 0;  // or meant to be invisible
@@ -330,9 +245,11 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
 }
 
 void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
-                          const std::string& path) {
+                          const std::string& path, const EntityState* state) {
   const std::string name = path.empty() ? model.Name() : path + "/" + model.Name();
-  const auto pose = resolve(model.SemanticPose(), parent, model.Element(), name);
+  const bool is_placed = state != nullptr && state->pose.has_value();
+  const auto pose =
+      is_placed ? state->pose : resolve(model.SemanticPose(), parent, model.Element(), name);
   if (!pose) return;
   if (is_robot(model)) {
     add_robot(model, *pose, place_);
@@ -340,14 +257,19 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
   }
   skip_unknown(model.Element(), name);
   if (model.LinkCount() + model.ModelCount() == 0) skip(model.Element(), name, "has no links");
+  const Vector3d scale_around = scale_;
+  if (state != nullptr) scale_ = scale_.cwiseProduct(state->scale);
   Object object{name, {}};
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    add_link(*model.LinkByIndex(i), *pose, name, object);
+    const sdf::Link& link = *model.LinkByIndex(i);
+    add_link(link, *pose, name, object, state ? state->link(link.Name()) : nullptr);
   }
   if (!object.solids.empty()) place_.objects.push_back(std::move(object));
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    add_model(*model.ModelByIndex(i), *pose, name);
+    const sdf::Model& nested = *model.ModelByIndex(i);
+    add_model(nested, *pose, name, state ? state->model(nested.Name()) : nullptr);
   }
+  scale_ = scale_around;
 }
 
 void SdfReader::finish() {
@@ -359,33 +281,54 @@ void SdfReader::finish() {
   place_drones(file_.string(), place_);
 }
 
+void SdfReader::add_world(const sdf::World& world) {
+  skip_unknown(world.Element(), "world " + world.Name());
+  if (const auto* coordinates = world.SphericalCoordinates()) {
+    latitude_deg_ = coordinates->LatitudeReference().Degree();
+  }
+  state_ = read_saved_state(world);
+  note_state(world);
+  const auto is_deleted = [&](const std::string& name) {
+    return std::find(state_.deleted.begin(), state_.deleted.end(), name) != state_.deleted.end();
+  };
+  for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
+    const sdf::Model& model = *world.ModelByIndex(i);
+    if (is_deleted(model.Name())) {
+      skip(model.Element(), model.Name(), "deleted by the world's <state>");
+    } else {
+      add_model(model, Isometry3d::Identity(), "", state_.world.model(model.Name()));
+    }
+  }
+  for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
+    const sdf::Light& light = *world.LightByIndex(i);
+    if (is_deleted(light.Name())) {
+      skip(light.Element(), light.Name(), "deleted by the world's <state>");
+    } else {
+      add_light(light, Isometry3d::Identity(), "world");
+    }
+  }
+  add_populations(world.Element());
+  add_roads(world.Element());
+  add_actors(world.Element());
+}
+
 ImportedScenario SdfReader::read() {
   sdf::Root root;
   text_ = load_root(file_, files_, root, place_.skipped);
   place_.name = scenario_name_from(file_);
   place_.description = fmt::format("Imported from {}.", file_.filename().string());
   if (root.WorldCount() == 0) {
-    add_model(*root.Model(), Isometry3d::Identity(), "");
+    add_model(*root.Model(), Isometry3d::Identity(), "", nullptr);
   } else {
     const sdf::World& world = *root.WorldByIndex(0);
-    if (root.WorldCount() > 1)
+    if (root.WorldCount() > 1) {
       skip(world.Element(), "all worlds but the first", "one scenario each");
-    skip_unknown(world.Element(), "world " + world.Name());
-    if (const auto* coordinates = world.SphericalCoordinates()) {
-      latitude_deg_ = coordinates->LatitudeReference().Degree();
     }
-    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-      add_model(*world.ModelByIndex(i), Isometry3d::Identity(), "");
-    }
-    for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
-      add_light(*world.LightByIndex(i), Isometry3d::Identity(), "world");
-    }
+    add_world(world);
   }
   finish();
   return std::move(place_);
 }
-
-}  // namespace
 
 ImportedScenario read_sdf(const fs::path& file, const SdfOptions& options) {
   return SdfReader(file, options).read();

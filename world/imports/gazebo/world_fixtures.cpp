@@ -14,8 +14,8 @@
 #include "world/imports/gazebo/camera_json.h"
 #include "world/imports/gazebo/camera_sensor.h"
 #include "world/imports/gazebo/motor_plugin.h"
-#include "world/imports/gazebo/sdf_root.h"
 #include "world/imports/parts/scenario_writer.h"
+#include "world/imports/sdf/sdf_root.h"
 
 namespace throng::imports {
 

@@ -32,14 +32,7 @@ BuildingPiece building_piece(const OsmArea& area, const Tags& tags) {
 // Tags that a part lacks are those of its building.
 Tags inherited(const Tags& part, const Tags& building) {
   Tags tags = part;
-  constexpr const char* kHeight = "height";
-  constexpr const char* kLevels = "building:levels";
-  if (!part.contains(kHeight) && !part.contains(kLevels)) {
-    for (const char* key : {kHeight, kLevels, "roof:height", "roof:levels"}) {
-      const std::string& value = tag_value(building, key);
-      if (!value.empty()) tags.try_emplace(key, value);
-    }
-  }
+  inherit_height(building, tags);
   const std::string& kind = tag_value(building, "building");
   tags["building"] = tag_value(part, "building:part") == "roof" ? "roof" : kind;
   return tags;
@@ -83,6 +76,67 @@ void stand_on_each_other(std::vector<BuildingPiece>& pieces) {
   }
 }
 
+void note_unread(const OsmArea& area, const BuildingPiece& piece, const std::string& file,
+                 std::vector<Skipped>& skipped) {
+  for (const std::string& tag : unread_building_sizes(area.tags)) {
+    skipped.push_back(
+        {file, 0, area.name,
+         fmt::format("{} is no size such as 12, 12.5 m, 40 ft, 22'3\" or 3 levels: it "
+                     "reaches from {:g} to {:g} m",
+                     tag, piece.from_m, piece.to_m)});
+  }
+  const auto stated = stated_height_m(area.tags);
+  if (stated && piece.from_m >= *stated) {
+    skipped.push_back({file, 0, area.name,
+                       fmt::format("its lower end at {:g} m is not below its height of {:g} m",
+                                   piece.from_m, *stated)});
+  }
+}
+
+/// The building itself stands beside its parts if they leave most of it bare: a church whose only
+/// part is its tower.
+void add_body(const Outline& outline, const BuildingPiece& whole, const std::string& file,
+              std::vector<BuildingPiece>& pieces, std::vector<Skipped>& skipped) {
+  constexpr double kMostly = 0.5;  // of its area
+  constexpr double kWorthSayingM2 = 5;
+  std::vector<Area> covered;
+  std::vector<Area> on_ground;
+  for (const BuildingPiece& piece : pieces) {
+    covered.push_back(piece.area);
+    if (piece.from_m <= kHeadM) on_ground.push_back(piece.area);
+  }
+  double bare_m2 = 0;
+  for (const Area& rest : without(whole.area, covered)) bare_m2 += size_m2(rest);
+  if (bare_m2 > kMostly * size_m2(whole.area)) {
+    for (Area& rest : without(whole.area, on_ground)) {
+      BuildingPiece body = whole;
+      body.area = std::move(rest);
+      body.part = whole.stands;
+      pieces.push_back(std::move(body));
+    }
+  } else if (bare_m2 > kWorthSayingM2) {
+    skipped.push_back(
+        {file, 0, outline.area->name,
+         fmt::format("is drawn by its parts, which leave {:.0f} m² of it bare", bare_m2)});
+  }
+}
+
+void add_parts(const Outline& outline, const BuildingPiece& whole, const std::string& file,
+               MapBuildings& result) {
+  std::vector<BuildingPiece> pieces;
+  for (const OsmArea* part : outline.parts) {
+    pieces.push_back(building_piece(*part, inherited(part->tags, outline.area->tags)));
+    pieces.back().part = whole.stands;
+    note_unread(*part, pieces.back(), file, result.skipped);
+  }
+  add_body(outline, whole, file, pieces, result.skipped);
+  stand_on_each_other(pieces);
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& a, const auto& b) { return a.to_m > b.to_m; });
+  result.pieces.insert(result.pieces.end(), pieces.begin(), pieces.end());
+  if (whole.stands) result.outlines.push_back(outline.area->area);
+}
+
 }  // namespace
 
 bool is_building(const Tags& tags) {
@@ -96,17 +150,18 @@ bool is_building_part(const Tags& tags) {
 MapBuildings make_buildings(const std::vector<OsmArea>& areas, const std::string& file) {
   MapBuildings result;
   std::vector<Outline> outlines;
+  const auto is_there = [&](const OsmArea& area) {
+    if (!is_underground(area.tags)) return true;
+    result.skipped.push_back({file, 0, area.name, "is underground"});
+    return false;
+  };
   for (const OsmArea& area : areas) {
-    if (!is_building(area.tags)) continue;
-    if (is_underground(area.tags)) {
-      result.skipped.push_back({file, 0, area.name, "is underground"});
-    } else {
-      outlines.push_back({&area, geometry::bounding_box(area.area.outline), {}});
-    }
+    if (!is_building(area.tags) || !is_there(area)) continue;
+    outlines.push_back({&area, geometry::bounding_box(area.area.outline), {}});
   }
   std::vector<const OsmArea*> alone;
   for (const OsmArea& area : areas) {
-    if (is_building(area.tags) || !is_building_part(area.tags)) continue;
+    if (is_building(area.tags) || !is_building_part(area.tags) || !is_there(area)) continue;
     const std::size_t around = building_around(area, outlines);
     if (around == kNone) {
       alone.push_back(&area);
@@ -116,32 +171,17 @@ MapBuildings make_buildings(const std::vector<OsmArea>& areas, const std::string
   }
   for (const Outline& outline : outlines) {
     const BuildingPiece whole = building_piece(*outline.area, outline.area->tags);
+    note_unread(*outline.area, whole, file, result.skipped);
     if (outline.parts.empty()) {
       result.pieces.push_back(whole);
-      continue;
-    }
-    std::vector<BuildingPiece> pieces;
-    std::vector<Area> covered;
-    for (const OsmArea* part : outline.parts) {
-      pieces.push_back(building_piece(*part, inherited(part->tags, outline.area->tags)));
-      pieces.back().part = whole.stands;
-      covered.push_back(part->area);
-    }
-    stand_on_each_other(pieces);
-    std::stable_sort(pieces.begin(), pieces.end(),
-                     [](const auto& a, const auto& b) { return a.to_m > b.to_m; });
-    result.pieces.insert(result.pieces.end(), pieces.begin(), pieces.end());
-    if (whole.stands) result.outlines.push_back(outline.area->area);
-    double bare_m2 = 0;
-    for (const Area& rest : without(outline.area->area, covered)) bare_m2 += size_m2(rest);
-    constexpr double kWorthSayingM2 = 5;
-    if (bare_m2 > kWorthSayingM2) {
-      result.skipped.push_back(
-          {file, 0, outline.area->name,
-           fmt::format("is drawn by its parts, which leave {:.0f} m² of it bare", bare_m2)});
+    } else {
+      add_parts(outline, whole, file, result);
     }
   }
-  for (const OsmArea* part : alone) result.pieces.push_back(building_piece(*part, part->tags));
+  for (const OsmArea* part : alone) {
+    result.pieces.push_back(building_piece(*part, part->tags));
+    note_unread(*part, result.pieces.back(), file, result.skipped);
+  }
   return result;
 }
 

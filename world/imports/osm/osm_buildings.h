@@ -34,8 +34,9 @@ bool is_building_part(const Tags& tags);
 
 /// Makes pieces of the areas that are buildings or building parts; `file` is for messages. A
 /// building is represented by the parts that lie in it by half or more, if there are any; parts
-/// without heights have the building's. The highest piece of a building comes first, since it is
-/// the visible one where pieces overlap on the ground.
+/// without heights have the building's. If they leave more than half of it bare, the rest stands
+/// at the building's own height. Sizes that cannot be read are listed. The highest piece of a
+/// building comes first, since it is the visible one where pieces overlap on the ground.
 MapBuildings make_buildings(const std::vector<OsmArea>& areas, const std::string& file);
 
 }  // namespace throng::imports

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <osmium/area/assembler.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <osmium/osm.hpp>
@@ -17,6 +19,7 @@
 #include "base/geometry/angle.h"
 #include "world/imports/osm/osm_rings.h"
 #include "world/imports/osm/osm_text.h"
+#include "world/imports/parts/xml_words.h"
 
 namespace throng::imports {
 
@@ -28,6 +31,8 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = 256U << 20U;
 constexpr std::size_t kMaxNodes = 2'000'000;
 constexpr double kMaxSizeM = 5'000;
+constexpr const char* kBadValue = "an id or a value that is no number, or is too long";
+constexpr const char* kNumbers = "an extract of OpenStreetMap with ids that are numbers";
 
 /// Meters east and north of a point on the WGS 84 ellipsoid, by its radii of curvature there
 /// (Torge, Geodesy, 2001, section 4.1.3).
@@ -121,7 +126,11 @@ class ExtractReader {
 
   OsmFile read() {
     for (const osmium::Node& node : extract_.buffer.select<osmium::Node>()) {
-      if (node.tags().empty() || !extract_.nodes.contains(node.id())) continue;
+      if (node.tags().empty() || !is_there('n', node)) continue;
+      if (!extract_.nodes.contains(node.id())) {
+        skip(fmt::format("node {}", node.id()), "its lat and lon are no position");
+        continue;
+      }
       result_.points.push_back(
           {node.id(), read_tags(node.tags()), projection_.at(node.location())});
     }
@@ -131,8 +140,15 @@ class ExtractReader {
     }
     std::vector<const osmium::Relation*> multipolygons;
     for (const osmium::Relation& relation : extract_.buffer.select<osmium::Relation>()) {
-      if (!relation.tags().has_tag("type", "multipolygon") || !is_there('r', relation)) continue;
+      if (!is_there('r', relation)) continue;
+      if (!relation.tags().has_tag("type", "multipolygon")) {
+        note_other(relation);
+        continue;
+      }
       multipolygons.push_back(&relation);
+      for (const osmium::RelationMember& member : relation.members()) {
+        if (member.type() == osmium::item_type::way) edges_of_areas_.insert(member.ref());
+      }
       if (relation.tags().size() == 1) find_tags_of_outers(relation);
     }
     for (const auto& way : extract_.buffer.select<osmium::Way>()) {
@@ -145,6 +161,16 @@ class ExtractReader {
  private:
   bool is_there(char kind, const osmium::OSMObject& object) const {
     return object.visible() && !extract_.deleted.contains({kind, object.id()});
+  }
+
+  /// Lists relations that state an area as multipolygons do.
+  void note_other(const osmium::Relation& relation) {
+    const char* const type = relation.tags().get_value_by_key("type", "");
+    const bool groups_ways =
+        std::string_view(type) == "building" || std::string_view(type) == "site";
+    if (groups_ways || !is_area(relation.tags())) return;
+    skip(fmt::format("relation {}", relation.id()),
+         fmt::format("its type is \"{}\"; areas have the type multipolygon", type));
   }
 
   // Until 2017 a multipolygon's tags stood on its outer ways.
@@ -163,6 +189,19 @@ class ExtractReader {
       const auto known = extract_.nodes.find(node.ref());
       if (known != extract_.nodes.end()) node.set_location(known->second);
     }
+    close_by_place(way);
+  }
+
+  /// Closes a way whose last node is another one at the place of the first.
+  void close_by_place(osmium::Way& way) const {
+    constexpr std::size_t kMinNodes = 4;  // nodes of a triangle
+    constexpr double kSamePlaceM = 0.1;
+    if (way.nodes().size() < kMinNodes) return;
+    const osmium::NodeRef& first = way.nodes().front();
+    osmium::NodeRef& last = *std::prev(way.nodes().end());
+    if (!first.location().valid() || !last.location().valid()) return;
+    const Vector2d gap = projection_.at(first.location()) - projection_.at(last.location());
+    if (gap.norm() <= kSamePlaceM) last = first;
   }
 
   static bool is_complete(const osmium::Way& way) {
@@ -188,13 +227,20 @@ class ExtractReader {
       if (!add_areas(made, name, tags)) repair({&way}, {}, name, tags);
       if (!tags.contains("barrier")) return;  // else it is fenced, too
     }
-    OsmLine line{way.id(), read_tags(way.tags()), {}, {}};
+    OsmLine line{way.id(), read_tags(way.tags()), {}, {}, 0, edges_of_areas_.contains(way.id())};
     for (const osmium::NodeRef& node : way.nodes()) {
-      if (!node.location().valid()) continue;
+      if (!node.location().valid()) {
+        ++line.missing;
+        continue;
+      }
       line.points.push_back(projection_.at(node.location()));
       line.nodes.push_back(node.ref());
     }
-    if (line.points.size() >= 2) result_.lines.push_back(std::move(line));
+    if (line.points.size() < 2) {
+      return skip(name, fmt::format("{} of its {} nodes are in the file", line.points.size(),
+                                    way.nodes().size()));
+    }
+    result_.lines.push_back(std::move(line));
   }
 
   void add_relation(const osmium::Relation& relation) {
@@ -224,12 +270,14 @@ class ExtractReader {
     repair(outer, inner, name, tags);
   }
 
+  // Nodes at one place count as one.
   JoinedRings joined(const std::vector<const osmium::Way*>& ways) const {
     std::vector<WayNodes> parts;
+    std::map<osmium::Location, std::int64_t> node_at;
     for (const osmium::Way* way : ways) {
       WayNodes& part = parts.emplace_back();
       for (const osmium::NodeRef& node : way->nodes()) {
-        part.nodes.push_back(node.ref());
+        part.nodes.push_back(node_at.try_emplace(node.location(), node.ref()).first->second);
         part.points.push_back(projection_.at(node.location()));
       }
     }
@@ -292,6 +340,7 @@ class ExtractReader {
   std::unordered_map<std::int64_t, const osmium::Way*> ways_;
   std::unordered_map<std::int64_t, Tags> tags_of_outers_;  // by relation
   std::set<std::int64_t> drawn_by_relations_;              // ways
+  std::set<std::int64_t> edges_of_areas_;                  // ways
   OsmFile result_;
 };
 
@@ -307,14 +356,23 @@ OsmFile read_osm_file(const fs::path& file, const std::optional<GeoPoint>& origi
   Extract extract;
   try {
     read_all(file, extract);
-  } catch (const osmium::io_error& error) {  // of XML too
-    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
-  } catch (const std::invalid_argument& error) {
-    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
-  } catch (const std::range_error& error) {
-    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
-  } catch (const std::length_error& error) {
-    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
+  } catch (const osmium::xml_error& error) {
+    const bool has_line = error.line > 0;
+    throw InputError({file.string(), has_line ? fmt::format("line {}", error.line) : "",
+                      has_line ? expat_fault(error.error_code)
+                               : "elements that extracts do not have, or entities",
+                      "an extract of OpenStreetMap (XML)"});
+  } catch (const osmium::format_version_error& error) {
+    throw InputError({file.string(), "<osm>",
+                      error.version.empty() ? "no version" : "version " + error.version,
+                      "version 0.6 of OpenStreetMap's XML"});
+  } catch (const osmium::io_error&) {
+    throw InputError({file.string(), "", "a file that is no XML of OpenStreetMap",
+                      "an extract of OpenStreetMap (XML)"});
+  } catch (const std::logic_error&) {  // of an argument or a length
+    throw InputError({file.string(), "", kBadValue, kNumbers});
+  } catch (const std::range_error&) {
+    throw InputError({file.string(), "", kBadValue, kNumbers});
   }
   const osmium::Location low = extract.bounds.bottom_left();
   const osmium::Location high = extract.bounds.top_right();

@@ -35,6 +35,8 @@ struct OsmLine {
   Tags tags;
   std::vector<Eigen::Vector2d> points;
   std::vector<std::int64_t> nodes;  ///< ids of the nodes, one per point
+  int missing = 0;                  ///< number of nodes that are not in the file
+  bool edge_of_area = false;        ///< a member of a multipolygon
 };
 
 /// A closed way or a multipolygon.
@@ -56,10 +58,11 @@ struct OsmFile {
 
 /// Reads all tagged objects of an OSM XML file by libosmium. x is east and y north of the origin
 /// (default: the center of the bounds), projected by the ellipsoid's radii of curvature there; the
-/// error is below a meter over 3 km. Rings that cross themselves are repaired(); rings that do not
-/// close and incomplete objects are listed in `skipped`. Objects that JOSM marks as deleted are
-/// omitted; a multipolygon without tags has those of its outer ways. Throws InputError if the file
-/// is no OSM XML, spans more than 5 km or has more than 2 million nodes, and EnvironmentError.
+/// error is below a meter over 3 km. Rings that cross themselves are repaired(); ways
+/// whose ends are within 0.1 m of each other are closed; multipolygons that do not close and
+/// incomplete objects are listed in `skipped`. Objects that JOSM marks as deleted are omitted; a
+/// multipolygon without tags has those of its outer ways. Throws InputError if the file is no OSM
+/// XML, spans more than 5 km or has more than 2 million nodes, and EnvironmentError.
 OsmFile read_osm_file(const std::filesystem::path& file, const std::optional<GeoPoint>& origin);
 
 }  // namespace throng::imports

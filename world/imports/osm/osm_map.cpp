@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
-#include "base/geometry/angle.h"
 #include "base/geometry/rectangle.h"
+#include "world/imports/osm/building_solids.h"
 #include "world/imports/osm/osm_buildings.h"
 #include "world/imports/osm/osm_gates.h"
+#include "world/imports/osm/osm_passages.h"
+#include "world/imports/osm/osm_props.h"
 #include "world/imports/osm/osm_tags.h"
 #include "world/imports/parts/populate.h"
 #include "world/imports/parts/scenario_writer.h"
@@ -26,15 +27,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kMinBuildingM2 = 1;
 constexpr double kMinPatchM2 = 0.2;
-constexpr std::size_t kMaxProps = 20'000;
-const Vector3d kRoofRgb(0.35, 0.33, 0.3);
 const Vector3d kWaterRgb(0.05, 0.12, 0.2);
 
 class MapReader {
  public:
-  MapReader(OsmFile file, std::string source) : file_(std::move(file)), source_(std::move(source)) {
+  MapReader(OsmFile file, std::string source)
+      : file_(std::move(file)), source_(std::move(source)), props_(place_, source_) {
     place_.inside = file_.bounds;
     place_.skipped = std::move(file_.skipped);
     ground_ = ground_rectangle(place_);
@@ -48,9 +47,8 @@ class MapReader {
   }
   void add_surface(const Area& area, const std::string& material,
                    std::vector<world::GroundArea>& to);
+  void note_outside();
   void add_buildings();
-  void add_standing(const BuildingPiece& piece);
-  void add_hanging(const BuildingPiece& piece);
   void add_water(const OsmArea& found);
   void add_area(const OsmArea& found);
   void add_way(const OsmLine& line, const WayKind& kind);
@@ -58,16 +56,17 @@ class MapReader {
   void add_barrier(const OsmLine& line, const Barrier& barrier);
   std::vector<Area> openings_near(const Area& area) const;
   void add_line(const OsmLine& line);
-  void add_tree_row(const OsmLine& line);
-  void add_prop(const OsmPoint& point);
-  void add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags, std::uint32_t look);
+  void add_street(const OsmLine& line, const std::string& name);
+  void note_open_ring(const OsmLine& line, const std::string& name);
+  void note_unread(const std::string& name, const std::vector<std::string>& tags,
+                   const std::string& instead);
   Object& object(const std::string& name) { return place_.objects.emplace_back(Object{name, {}}); }
 
   OsmFile file_;
   std::string source_;
   world::Rectangle ground_;
   ImportedScenario place_;
-  std::vector<geometry::Rectangle> building_bounds_;
+  MapProps props_;
   std::vector<Area> openings_;        // in barriers
   std::set<std::int64_t> crossings_;  // nodes
   std::vector<world::GroundArea> green_;
@@ -86,62 +85,9 @@ void MapReader::add_surface(const Area& area, const std::string& material,
   }
 }
 
-void MapReader::add_hanging(const BuildingPiece& piece) {
-  Solid solid;
-  solid.rgb = kRoofRgb;
-  constexpr double kRoofM = 0.3;
-  const double from_m = piece.from_m > kHeadM ? piece.from_m : piece.to_m - kRoofM;
-  for (const Area& part : clipped(piece.area, ground_)) {
-    for (const Corners& corners : simple_parts(part, kMinBuildingM2)) {
-      const Triangles prism = prism_triangles(corners, from_m, piece.to_m);
-      solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
-    }
-  }
-  if (!solid.triangles.empty()) object(piece.name).solids.push_back(std::move(solid));
-}
-
-// Buildings that are there already are cut out, so that no two buildings overlap.
-void MapReader::add_standing(const BuildingPiece& piece) {
-  for (const Area& part : clipped(piece.area, ground_)) {
-    std::vector<Area> others;
-    const geometry::Rectangle bounds = geometry::bounding_box(part.outline);
-    for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
-      if (bounds.meets(building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
-    }
-    double kept_m2 = 0;
-    for (const Area& rest : without(part, others)) {
-      kept_m2 += size_m2(rest);
-      for (Corners& corners : simple_parts(rest, kMinBuildingM2)) {
-        building_bounds_.push_back(geometry::bounding_box(corners));
-        if (!piece.part) place_.obstacles.push_back(corners);
-        place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
-                                    std::move(corners), piece.to_m, world::Facade::by_id});
-      }
-    }
-    const double cut_m2 = size_m2(part) - kept_m2;
-    if (cut_m2 > kMinBuildingM2 && !piece.part) {
-      skip(piece.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
-    }
-  }
-}
-
 void MapReader::add_buildings() {
-  MapBuildings found = make_buildings(file_.areas, source_);
-  for (const Area& outline : found.outlines) {
-    for (const Area& part : clipped(outline, ground_)) {
-      for (Corners& corners : simple_parts(part, kMinBuildingM2)) {
-        place_.obstacles.push_back(std::move(corners));
-      }
-    }
-  }
-  for (const BuildingPiece& piece : found.pieces) {
-    if (piece.stands) {
-      add_standing(piece);
-    } else {
-      add_hanging(piece);
-    }
-  }
-  for (Skipped& skipped : found.skipped) place_.skipped.push_back(std::move(skipped));
+  BuildingSolids(place_, source_, find_passages(file_.lines))
+      .add(make_buildings(file_.areas, source_));
 }
 
 void MapReader::add_water(const OsmArea& found) {
@@ -233,38 +179,50 @@ void MapReader::add_barrier(const OsmLine& line, const Barrier& barrier) {
   }
 }
 
-void MapReader::add_tree_row(const OsmLine& line) {
-  constexpr double kApartM = 8;
-  double since = kApartM;
-  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-    const Vector2d way = line.points[i + 1] - line.points[i];
-    const double length = way.norm();
-    for (double at = kApartM - since; at <= length; at += kApartM) {
-      if (at < 0) continue;
-      const Vector2d position = line.points[i] + at / std::max(length, 1e-9) * way;
-      add_prop(world::PropKind::tree, position, line.tags,
-               static_cast<std::uint32_t>(place_.props.size()));
-    }
-    since = std::fmod(since + length, kApartM);
+// Mappers close the rings of areas; those that are open may be slips.
+void MapReader::note_open_ring(const OsmLine& line, const std::string& name) {
+  if (line.edge_of_area) return;
+  const double gap_m = (line.points.front() - line.points.back()).norm();
+  const std::string missing =
+      line.missing == 0 ? "" : fmt::format("; {} of its nodes are not in the file", line.missing);
+  skip(name, gap_m == 0 ? fmt::format("its ring has no area{}", missing)
+                        : fmt::format("its ring does not close: the ends are {:.1f} m apart{}",
+                                      gap_m, missing));
+}
+
+void MapReader::note_unread(const std::string& name, const std::vector<std::string>& tags,
+                            const std::string& instead) {
+  for (const std::string& tag : tags) {
+    skip(name, fmt::format("{} cannot be read: {}", tag, instead));
   }
+}
+
+void MapReader::add_street(const OsmLine& line, const std::string& name) {
+  if (is_off_ground(line.tags)) return skip(name, "a way above or below the ground");
+  const auto kind = way_kind(line.tags);
+  if (!kind) {
+    return skip(name,
+                fmt::format("highway={} has no ground here", tag_value(line.tags, "highway")));
+  }
+  const std::string width = fmt::format("it is {:g} m wide", kind->width_m);
+  note_unread(name, unread_lengths(line.tags, {"width"}), width);
+  if (kind->road) note_unread(name, unread_counts(line.tags, {"lanes"}), width);
+  add_way(line, *kind);
 }
 
 void MapReader::add_line(const OsmLine& line) {
   const std::string name = fmt::format("way {}", line.id);
-  if (line.tags.contains("highway")) {
-    const auto kind = way_kind(line.tags);
-    const bool elsewhere = tag_value(line.tags, "tunnel") == "yes" ||
-                           tag_value(line.tags, "bridge") == "yes" ||
-                           length_in(tag_value(line.tags, "layer")).value_or(0) > 0;
-    if (elsewhere) return skip(name, "a way above or below the ground");
-    if (kind) return add_way(line, *kind);
-    return skip(name,
-                fmt::format("highway={} has no ground here", tag_value(line.tags, "highway")));
+  if (line.tags.contains("highway")) return add_street(line, name);
+  if (const auto barrier = find_barrier(line.tags)) {
+    note_unread(name, unread_lengths(line.tags, {"height"}),
+                fmt::format("it is {:g} m high", barrier->height_m));
+    return add_barrier(line, *barrier);
   }
-  if (const auto barrier = find_barrier(line.tags)) return add_barrier(line, *barrier);
-  if (tag_value(line.tags, "natural") == "tree_row") return add_tree_row(line);
-  constexpr std::array<const char*, 7> kSeen = {"railway",  "waterway", "natural", "barrier",
-                                                "man_made", "power",    "aeroway"};
+  if (tag_value(line.tags, "natural") == "tree_row") return props_.add_row(line);
+  if (is_ring(line.tags)) return note_open_ring(line, name);
+  constexpr std::array<const char*, 11> kSeen = {
+      "railway", "waterway",  "natural", "barrier",  "man_made",        "power",
+      "aeroway", "aerialway", "leisure", "historic", "public_transport"};
   for (const char* key : kSeen) {
     if (line.tags.contains(key)) {
       return skip(name, fmt::format("{}={} is not drawn", key, tag_value(line.tags, key)));
@@ -272,44 +230,18 @@ void MapReader::add_line(const OsmLine& line) {
   }
 }
 
-void MapReader::add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags,
-                         std::uint32_t look) {
-  if (!place_.inside.contains(at) || place_.props.size() >= kMaxProps) return;
-  world::Prop prop;
-  prop.kind = kind;
-  prop.position = at;
-  prop.look = look % 16;
-  if (kind == world::PropKind::tree) {
-    constexpr double kTreeM = 8;
-    prop.scale =
-        std::clamp(length_in(tag_value(tags, "height")).value_or(kTreeM) / kTreeM, 0.4, 2.5);
-  }
-  // A bench looks to its right, seen along its heading; directions are clockwise from north.
-  if (const auto towards = length_in(tag_value(tags, "direction"))) {
-    prop.yaw_rad = geometry::wrapped_rad(std::numbers::pi - *towards * kDegree);
-  }
-  place_.props.push_back(prop);
-}
-
-void MapReader::add_prop(const OsmPoint& point) {
-  struct NamedProp {
-    const char* key;
-    const char* value;
-    world::PropKind kind;
-  };
-  constexpr std::array<NamedProp, 7> kProps = {
-      {{"natural", "tree", world::PropKind::tree},
-       {"natural", "shrub", world::PropKind::bush},
-       {"man_made", "planter", world::PropKind::planter},
-       {"highway", "street_lamp", world::PropKind::lamp_post},
-       {"amenity", "bench", world::PropKind::bench},
-       {"amenity", "waste_basket", world::PropKind::bin},
-       {"barrier", "bollard", world::PropKind::bollard}}};
-  for (const NamedProp& named : kProps) {
-    if (tag_value(point.tags, named.key) != named.value) continue;
-    return add_prop(named.kind, point.position, point.tags,
-                    static_cast<std::uint32_t>(point.id & 0xFFFF));
-  }
+// Extracts hold whole ways, also where these reach beyond the bounds.
+void MapReader::note_outside() {
+  const geometry::Rectangle ground{ground_.min, ground_.max};
+  const auto outside =
+      std::count_if(file_.areas.begin(), file_.areas.end(),
+                    [&](const OsmArea& area) {
+                      return !geometry::bounding_box(area.area.outline).meets(ground);
+                    }) +
+      std::count_if(file_.lines.begin(), file_.lines.end(), [&](const OsmLine& line) {
+        return !geometry::bounding_box(line.points).meets(ground);
+      });
+  if (outside > 0) skip("edge", fmt::format("{} areas and ways are outside of it", outside));
 }
 
 ImportedScenario MapReader::read() {
@@ -322,10 +254,12 @@ ImportedScenario MapReader::read() {
     }
     if (tag_value(point.tags, "highway") == "crossing") crossings_.insert(point.id);
   }
+  note_outside();
   add_buildings();
   for (const OsmArea& area : file_.areas) add_area(area);
   for (const OsmLine& line : file_.lines) add_line(line);
-  for (const OsmPoint& point : file_.points) add_prop(point);
+  for (const OsmPoint& point : file_.points) props_.add(point);
+  props_.list();
   for (const auto* layer : {&green_, &paved_, &paths_, &roads_}) {
     place_.areas.insert(place_.areas.end(), layer->begin(), layer->end());
   }

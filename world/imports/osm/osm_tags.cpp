@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <map>
+#include <vector>
+
+#include "world/imports/osm/osm_lengths.h"
 
 namespace throng::imports {
 
@@ -77,7 +79,40 @@ constexpr std::array<Surface, 24> kSurfaces = {{{"highway", "", "pavers"},
                                                 {"natural", "sand", "dirt"},
                                                 {"natural", "bare_rock", "dirt"}}};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+using Keys = std::vector<std::string>;
+
+// The usual key of a size first, then keys that mappers use in its place.
+const Keys& find_keys(const std::string& size) {
+  static const std::map<std::string, Keys> kKeys = {
+      {"height", {"height", "building:height", "est_height"}},
+      {"levels", {"building:levels", "levels"}},
+      {"min_height", {"min_height", "building:min_height"}},
+      {"min_level", {"building:min_level", "min_level"}},
+      {"roof:height", {"roof:height"}},
+      {"roof:levels", {"roof:levels"}}};
+  return kKeys.at(size);
+}
+
+using Reader = std::optional<double> (*)(std::string_view);
+
+/// The first readable value of a size.
+std::optional<double> size_in(const Tags& tags, const std::string& size, Reader read) {
+  for (const std::string& key : find_keys(size)) {
+    if (const auto value = read(tag_value(tags, key))) return value;
+  }
+  return std::nullopt;
+}
+
+/// The height of a roof (m), or nothing.
+std::optional<double> roof_height_m(const Tags& tags) {
+  if (const auto height = size_in(tags, "roof:height", length_in)) return height;
+  if (const auto levels = size_in(tags, "roof:levels", count_in)) return *levels * kLevelM;
+  return std::nullopt;
+}
+
+bool is_below_ground(std::string_view text, Reader read) {
+  return text.starts_with('-') && read(text.substr(1)).has_value();
+}
 
 }  // namespace
 
@@ -85,33 +120,6 @@ const std::string& tag_value(const Tags& tags, const std::string& key) {
   static const std::string kNothing;
   const auto found = tags.find(key);
   return found == tags.end() ? kNothing : found->second;
-}
-
-std::optional<double> length_in(std::string_view text) {
-  constexpr double kFoot = 0.3048;
-  constexpr double kMaxLengthM = 1000;
-  double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !(value >= 0 && value <= kMaxLengthM)) return std::nullopt;
-  const char* const end = text.data() + text.size();
-  if (end - rest >= 2 && *rest == ',' && is_digit(rest[1])) {  // a decimal comma
-    std::string point(text);
-    point[static_cast<std::size_t>(rest - text.data())] = '.';
-    return length_in(point);
-  }
-  std::string_view unit(rest, static_cast<std::size_t>(end - rest));
-  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-  if (unit.empty() || unit == "m") return value;
-  if (unit == "ft" || unit == "'") return value * kFoot;
-  if (unit.front() == '\'' && unit.back() == '"') {
-    double inches = 0;
-    const char* const last = unit.data() + unit.size() - 1;
-    const auto [after, wrong] = std::from_chars(unit.data() + 1, last, inches);
-    if (wrong == std::errc() && after == last && inches >= 0 && inches < 12) {
-      return (value + inches / 12) * kFoot;
-    }
-  }
-  return std::nullopt;
 }
 
 std::optional<WayKind> way_kind(const Tags& tags) {
@@ -122,7 +130,7 @@ std::optional<WayKind> way_kind(const Tags& tags) {
   WayKind kind = found->kind;
   constexpr double kMinWidthM = 1;
   constexpr double kMaxWidthM = 40;
-  if (const auto lanes = length_in(tag_value(tags, "lanes")); lanes && kind.road) {
+  if (const auto lanes = count_in(tag_value(tags, "lanes")); lanes && kind.road) {
     kind.width_m = std::clamp(*lanes * kLaneM, kLaneM, kMaxWidthM);
     kind.center_line = *lanes >= 2;
   }
@@ -132,19 +140,19 @@ std::optional<WayKind> way_kind(const Tags& tags) {
   return kind;
 }
 
-double building_height_m(const Tags& tags) {
-  if (const auto height = length_in(tag_value(tags, "height")); height && *height > 0) {
+std::optional<double> stated_height_m(const Tags& tags) {
+  if (const auto height = size_in(tags, "height", length_in); height && *height > 0) {
     return std::clamp(*height, kMinBuildingM, kTallestM);
   }
-  if (const auto levels = length_in(tag_value(tags, "building:levels")); levels && *levels > 0) {
-    double roof = 0;
-    if (const auto height = length_in(tag_value(tags, "roof:height"))) {
-      roof = *height;
-    } else if (const auto roofs = length_in(tag_value(tags, "roof:levels"))) {
-      roof = *roofs * kLevelM;
-    }
-    return std::clamp(*levels * kLevelM + roof, kMinBuildingM, kTallestM);
+  if (const auto levels = size_in(tags, "levels", count_in)) {
+    const double height = *levels * kLevelM + roof_height_m(tags).value_or(0);
+    if (height > 0) return std::clamp(height, kMinBuildingM, kTallestM);
   }
+  return std::nullopt;
+}
+
+double building_height_m(const Tags& tags) {
+  if (const auto stated = stated_height_m(tags)) return *stated;
   const std::string& kind = tag_value(tags, "building");
   if (kind == "garage" || kind == "garages" || kind == "shed" || kind == "kiosk" ||
       kind == "roof" || kind == "hut" || kind == "carport") {
@@ -157,9 +165,64 @@ double building_height_m(const Tags& tags) {
 }
 
 double building_base_m(const Tags& tags) {
-  if (const auto base = length_in(tag_value(tags, "min_height"))) return *base;
-  if (const auto level = length_in(tag_value(tags, "building:min_level"))) return *level * kLevelM;
+  if (const auto base = size_in(tags, "min_height", length_in)) return *base;
+  if (const auto level = size_in(tags, "min_level", count_in)) return *level * kLevelM;
   return 0;
+}
+
+std::vector<std::string> unread_lengths(const Tags& tags, const std::vector<std::string>& keys) {
+  std::vector<std::string> unread;
+  for (const std::string& key : keys) {
+    const auto tag = tags.find(key);
+    if (tag != tags.end() && !length_in(tag->second)) unread.push_back(key + "=" + tag->second);
+  }
+  return unread;
+}
+
+std::vector<std::string> unread_counts(const Tags& tags, const std::vector<std::string>& keys) {
+  std::vector<std::string> unread;
+  for (const std::string& key : keys) {
+    const auto tag = tags.find(key);
+    if (tag != tags.end() && !count_in(tag->second)) unread.push_back(key + "=" + tag->second);
+  }
+  return unread;
+}
+
+std::vector<std::string> unread_building_sizes(const Tags& tags) {
+  std::vector<std::string> unread;
+  const auto look_at = [&](const std::string& size, Reader read, bool may_be_zero,
+                           bool may_be_below) {
+    for (const std::string& key : find_keys(size)) {
+      const auto tag = tags.find(key);
+      if (tag == tags.end()) continue;
+      const auto value = read(tag->second);
+      const bool below = may_be_below && is_below_ground(tag->second, read);
+      if (below || (value && (may_be_zero || *value > 0))) continue;
+      unread.push_back(key + "=" + tag->second);
+    }
+  };
+  const bool is_stated = stated_height_m(tags).has_value();
+  look_at("height", length_in, false, false);
+  look_at("levels", count_in, is_stated, false);
+  look_at("min_height", length_in, true, true);
+  look_at("min_level", count_in, true, true);
+  look_at("roof:height", length_in, true, false);
+  look_at("roof:levels", count_in, true, false);
+  return unread;
+}
+
+void inherit_height(const Tags& building, Tags& part) {
+  for (const char* size : {"height", "levels"}) {
+    for (const std::string& key : find_keys(size)) {
+      if (part.contains(key)) return;
+    }
+  }
+  for (const char* size : {"height", "levels", "roof:height", "roof:levels"}) {
+    for (const std::string& key : find_keys(size)) {
+      const std::string& value = tag_value(building, key);
+      if (!value.empty()) part.try_emplace(key, value);
+    }
+  }
 }
 
 bool is_water(const Tags& tags) {
@@ -173,6 +236,29 @@ bool is_water(const Tags& tags) {
 bool is_underground(const Tags& tags) {
   return tag_value(tags, "location") == "underground" ||
          tag_value(tags, "parking") == "underground" || tag_value(tags, "tunnel") == "yes";
+}
+
+bool is_off_ground(const Tags& tags) {
+  const auto says = [&](const char* key, std::string_view but) {
+    const std::string& value = tag_value(tags, key);
+    return !value.empty() && value != "no" && value != but;
+  };
+  // Galleries below avalanches are on the ground, and boardwalks nearly.
+  const bool in_gallery = tag_value(tags, "tunnel") == "avalanche_protector";
+  const bool in_tunnel = says("tunnel", "building_passage") && !in_gallery;
+  return in_tunnel || says("bridge", "boardwalk") ||
+         length_in(tag_value(tags, "layer")).value_or(0) > 0;
+}
+
+bool is_ring(const Tags& tags) {
+  const auto has = [&](const char* key) {
+    return tags.contains(key) && tag_value(tags, key) != "no";
+  };
+  const std::string& leisure = tag_value(tags, "leisure");
+  const bool is_course = leisure == "track" || leisure == "slipway";
+  return has("building") || has("building:part") || has("landuse") || has("amenity") ||
+         (has("leisure") && !is_course) || has("area") || is_water(tags) ||
+         (has("natural") && !surface_material(tags).empty());
 }
 
 std::string surface_material(const Tags& tags) {

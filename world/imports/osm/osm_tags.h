@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "world/imports/osm/osm_file.h"
 
@@ -11,10 +12,6 @@ namespace throng::imports {
 
 /// The value of a tag, or "" if there is none.
 const std::string& tag_value(const Tags& tags, const std::string& key);
-
-/// Parses a length (m) such as "12", "12.5 m", "3,5", "40 ft", "40'" or "16'4\""; nothing for other
-/// text, negative lengths and lengths above 1 km.
-std::optional<double> length_in(std::string_view text);
 
 /// A way that people or cars use.
 struct WayKind {
@@ -27,14 +24,31 @@ struct WayKind {
 /// The kind of a way by `highway` and, if given, `width` or `lanes`; nothing if nobody walks on it.
 std::optional<WayKind> way_kind(const Tags& tags);
 
-/// Height (m) of a building with its roof: `height`; else 3 m for each of `building:levels` plus
-/// `roof:height` or `roof:levels`; else by its kind.
+/// Height (m) of a building with its roof as its tags state it: `height` (also `building:height` or
+/// `est_height`); else 3 m for each of `building:levels` (also `levels`) plus `roof:height` or
+/// `roof:levels`; nothing if none of them can be read.
+std::optional<double> stated_height_m(const Tags& tags);
+/// The stated height (m) of a building, else the usual one of its kind.
 double building_height_m(const Tags& tags);
 /// Height (m) of a building's lower end: `min_height`, else `building:min_level`, else 0.
 double building_base_m(const Tags& tags);
 
+/// The tags ("height=tall") of a building that state a size and cannot be read, or state a height
+/// of 0.
+std::vector<std::string> unread_building_sizes(const Tags& tags);
+/// The tags with these keys that are not lengths, or not numbers of levels or lanes.
+std::vector<std::string> unread_lengths(const Tags& tags, const std::vector<std::string>& keys);
+std::vector<std::string> unread_counts(const Tags& tags, const std::vector<std::string>& keys);
+
+/// Gives a part that states no height those tags of its building that do.
+void inherit_height(const Tags& building, Tags& part);
+
 bool is_water(const Tags& tags);
 bool is_underground(const Tags& tags);
+/// Whether a way leads over a bridge or through a tunnel; passages below buildings are no tunnels.
+bool is_off_ground(const Tags& tags);
+/// Whether a way with such tags is the edge of an area.
+bool is_ring(const Tags& tags);
 
 /// The material of an area of ground; "" for other areas.
 std::string surface_material(const Tags& tags);

@@ -66,8 +66,9 @@ struct ImportedScenario {
   std::vector<Object> objects;
   std::vector<Corners> obstacles;  ///< all obstacles for people, including buildings; simple
   std::vector<Gate> gates;
-  bool gates_asked = false;  ///< the user specified the gates
-  bool people_come = false;  ///< people enter through the gates, as many as leave
+  bool gates_asked = false;             ///< the user specified the gates
+  bool people_come = false;             ///< people enter through the gates, as many as leave
+  std::vector<Eigen::Vector2d> people;  ///< where the file has people; others are drawn
   std::vector<ImportedDrone> drones;
   nlohmann::ordered_json environment;  ///< of the draft job; null: the default
   std::vector<Skipped> skipped;

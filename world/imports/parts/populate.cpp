@@ -159,7 +159,8 @@ void note_enclosed(ImportedScenario& scenario, const FreeGround& ground, int mai
 }
 
 // Cells in an order that the seed draws; one is taken where nobody taken before is near.
-std::vector<Vector2d> draw_starts(std::vector<Vector2d> cells, const PopulateOptions& options) {
+std::vector<Vector2d> draw_starts(std::vector<Vector2d> cells, const std::vector<Vector2d>& first,
+                                  const PopulateOptions& options) {
   Random random(options.seed, Stream::crowd_generator);
   std::map<std::pair<int, int>, std::vector<Vector2d>> taken;
   const auto bin = [](const Vector2d& p) {
@@ -180,14 +181,17 @@ std::vector<Vector2d> draw_starts(std::vector<Vector2d> cells, const PopulateOpt
     return true;
   };
   std::vector<Vector2d> starts;
+  const auto take = [&](const Vector2d& point) {
+    if (!is_free(point)) return;
+    starts.push_back(point);
+    taken[bin(point)].push_back(point);
+  };
+  for (const Vector2d& point : first) take(point);
   for (std::size_t left = cells.size();
        left > 0 && starts.size() < static_cast<std::size_t>(options.people); --left) {
     const std::size_t pick = random.below(static_cast<std::uint32_t>(left));
     std::swap(cells[pick], cells[left - 1]);
-    const Vector2d& cell = cells[left - 1];
-    if (!is_free(cell)) continue;
-    starts.push_back(cell);
-    taken[bin(cell)].push_back(cell);
+    take(cells[left - 1]);
   }
   return starts;
 }
@@ -253,7 +257,18 @@ Population populate(ImportedScenario& scenario, const PopulateOptions& options) 
   const Vector2d edge = Vector2d::Constant(kFromEdgeM);
   const world::Rectangle middle{scenario.inside.min + edge, scenario.inside.max - edge};
   std::erase_if(cells, [&](const Vector2d& cell) { return !middle.contains(cell); });
-  population.starts = draw_starts(std::move(cells), options);
+  std::vector<Vector2d> first;
+  for (const Vector2d& person : scenario.people) {
+    if (first.size() < static_cast<std::size_t>(options.people) && middle.contains(person) &&
+        ground.region_at(person) == region) {
+      first.push_back(person);
+    } else {
+      scenario.skipped.push_back({"", 0,
+                                  fmt::format("person at [{:.1f}, {:.1f}]", person.x(), person.y()),
+                                  "stands where nobody can, or is one more than --people"});
+    }
+  }
+  population.starts = draw_starts(std::move(cells), first, options);
   if (population.starts.size() < static_cast<std::size_t>(options.people)) {
     scenario.skipped.push_back(
         {"", 0, "people",

@@ -22,7 +22,8 @@ struct Population {
 };
 
 /// Chooses the scenario's gates, or openings of its edge if there are none, and samples the
-/// positions of people on ground that is connected with the gates, 0.9 m apart. Removes props in
+/// positions of people on ground that is connected with the gates, 0.9 m apart: first those of the
+/// file, then random ones. Removes props in
 /// buildings or in front of gates. Lists them, unreachable gates and missing room for people in
 /// `scenario.skipped`. Throws InputError for a scenario that nobody can leave.
 Population populate(ImportedScenario& scenario, const PopulateOptions& options);

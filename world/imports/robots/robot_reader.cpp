@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
-#include "world/imports/gazebo/sdf_pose.h"
 #include "world/imports/parts/scenario_writer.h"
 #include "world/imports/robots/robot_plugins.h"
 #include "world/imports/robots/robot_sensors.h"
 #include "world/imports/robots/robot_source.h"
+#include "world/imports/sdf/sdf_pose.h"
 
 namespace throng::imports {
 

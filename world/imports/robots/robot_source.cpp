@@ -7,11 +7,12 @@
 #include <numeric>
 #include <utility>
 
-#include "world/imports/gazebo/description_file.h"
-#include "world/imports/gazebo/include_cycles.h"
-#include "world/imports/gazebo/model_finder.h"
-#include "world/imports/gazebo/sdf_root.h"
 #include "world/imports/robots/urdf_check.h"
+#include "world/imports/sdf/description_file.h"
+#include "world/imports/sdf/included_files.h"
+#include "world/imports/sdf/model_finder.h"
+#include "world/imports/sdf/sdf_complaints.h"
+#include "world/imports/sdf/sdf_root.h"
 
 namespace throng::imports {
 
@@ -72,7 +73,7 @@ RobotSource::RobotSource(fs::path file, const LocalFiles& files) : file_(std::mo
   if (root == "robot") {
     load_urdf(text, finder.config());
   } else {
-    reject_include_cycles(file_, files);
+    check_included_files(file_, files);
     load_sdf(text, finder.config());
   }
   if (root_.Model() == nullptr) {
@@ -111,16 +112,15 @@ void RobotSource::take_errors(const sdf::Errors& errors) {
     int line = error.LineNumber().value_or(0);
     const bool is_own = is_given_text(path);
     if (is_own) line = text_ && line > 0 ? text_->line_of(line) : 0;
-    std::string message = error.Message();
-    if (error.Code() == sdf::ErrorCode::URI_LOOKUP) message += " (see --models)";
+    const int own_line = error.LineNumber().value_or(0);
+    const Complaint wrong =
+        plain_complaint(error, is_own && text_ && own_line > 0 ? text_->value_at(own_line) : "");
     if (is_about_looks(error)) {
-      complaints_.push_back({is_own ? file_.string() : path, line, "SDF", message});
+      complaints_.push_back({is_own ? file_.string() : path, line, "SDF", wrong.text()});
       continue;
     }
-    constexpr std::size_t kMaxMessage = 200;  // the last error quotes the whole text
     problems.push_back({is_own ? file_.string() : path,
-                        line > 0 ? fmt::format("line {}", line) : "",
-                        message.substr(0, kMaxMessage), "a robot that libsdformat can load"});
+                        line > 0 ? fmt::format("line {}", line) : "", wrong.found, wrong.expected});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

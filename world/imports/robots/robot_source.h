@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "world/imports/gazebo/local_files.h"
-#include "world/imports/gazebo/sdf_text.h"
 #include "world/imports/parts/imported_scenario.h"
+#include "world/imports/sdf/local_files.h"
+#include "world/imports/sdf/sdf_text.h"
 
 namespace throng::imports {
 

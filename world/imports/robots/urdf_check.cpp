@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/text/suggest.h"
+#include "world/imports/parts/xml_words.h"
 
 namespace throng::imports {
 
@@ -46,7 +47,7 @@ class UrdfCheck {
     tinyxml2::XMLDocument document;
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       throw InputError({name_, fmt::format("line {}", document.ErrorLineNum()),
-                        document.ErrorName(), "a robot of URDF (XML)"});
+                        tinyxml_fault(document.ErrorID()), "a robot of URDF (XML)"});
     }
     const XMLElement& root = *document.RootElement();
     reject_xacro(root);

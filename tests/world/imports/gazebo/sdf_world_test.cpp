@@ -15,8 +15,8 @@
 #include "base/geometry/rectangle.h"
 #include "tests/world/temporary_folder.h"
 #include "world/imports/gazebo/gazebo_colors.h"
-#include "world/imports/gazebo/local_files.h"
-#include "world/imports/gazebo/sdf_text.h"
+#include "world/imports/sdf/local_files.h"
+#include "world/imports/sdf/sdf_text.h"
 
 namespace throng::imports {
 namespace {
@@ -361,7 +361,7 @@ TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {
       "<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>"
       "<plugin name='p' filename='p.so'/></model><model name='hollow'/>");
   const auto reasons = reasons_in(scenario);
-  EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("world w <actor>: has no meaning")));
+  EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("actor walker: a person begins")));
   EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("m <joint>: has no meaning")));
   EXPECT_THAT(reasons, ::testing::Contains(HasSubstr("m <plugin>: has no meaning")));
 }

@@ -8,22 +8,6 @@
 namespace throng::imports {
 namespace {
 
-TEST(Lengths, AreMetersFeetAndInches) {
-  for (const auto& [text, meters] :
-       {std::pair("0", 0.0), std::pair("7.25", 7.25), std::pair("7,25", 7.25),
-        std::pair("7 m", 7.0), std::pair("7m", 7.0), std::pair("7,5 m", 7.5),
-        std::pair("3 ft", 0.9144), std::pair("3'", 0.9144), std::pair("5'11\"", 1.8034),
-        std::pair("0'6\"", 0.1524), std::pair("1000", 1000.0)}) {
-    const auto length = length_in(text);
-    ASSERT_TRUE(length) << text;
-    EXPECT_NEAR(*length, meters, 1e-9) << text;
-  }
-  for (const char* text : {"1000.1", "-0.1", "5 km", "5 feet", "5'12\"", "5'-1\"", "5'x\"", "5'\"",
-                           "about 5", "5..6", "5;6", "inf", " 5", "5,", ",5", "5 , 5"}) {
-    EXPECT_FALSE(length_in(text)) << text;
-  }
-}
-
 TEST(StreetKinds, HaveWidthsByKindLanesAndTag) {
   const auto width = [](const Tags& tags) { return way_kind(tags).value().width_m; };
   EXPECT_EQ(width({{"highway", "residential"}}), 6);
@@ -70,6 +54,39 @@ TEST(BuildingHeights, PreferHeightThenLevelsThenKind) {
       building_height_m({{"building:levels", "2"}, {"roof:height", "1.5"}, {"roof:levels", "4"}}),
       7.5)
       << "the roof's height before its levels";
+}
+
+TEST(BuildingHeights, AreReadInEverySpelling) {
+  for (const auto& [height, meters] :
+       {std::pair("12 meters", 12.0), std::pair("~12", 12.0), std::pair("12,5", 12.5),
+        std::pair("40 ft", 12.192), std::pair("22' 3\"", 6.7818)}) {
+    EXPECT_NEAR(building_height_m({{"building", "yes"}, {"height", height}}), meters, 1e-9);
+  }
+  EXPECT_EQ(building_height_m({{"building", "yes"}, {"building:levels", "2;3"}}), 9);
+  EXPECT_EQ(building_height_m({{"building", "yes"}, {"building:levels", "2,5"}}), 7.5);
+  EXPECT_EQ(building_height_m({{"building", "yes"}, {"building:height", "14"}}), 14);
+  EXPECT_EQ(building_height_m({{"building", "yes"}, {"est_height", "14"}}), 14);
+  EXPECT_EQ(building_height_m({{"building", "yes"}, {"levels", "5"}}), 15);
+  EXPECT_EQ(
+      building_height_m({{"building", "yes"}, {"building:levels", "0"}, {"roof:levels", "1"}}), 3)
+      << "a house that is all roof";
+  EXPECT_NEAR(building_base_m({{"building:part", "yes"}, {"min_height", "10'"}}), 3.048, 1e-9);
+}
+
+TEST(BuildingHeights, ThatCannotBeReadAreNamed) {
+  using Names = std::vector<std::string>;
+  const auto unread = [](const char* key, const char* value) {
+    return unread_building_sizes({{"building", "yes"}, {key, value}});
+  };
+  EXPECT_EQ(unread("height", "tall"), Names{"height=tall"});
+  EXPECT_EQ(unread("height", "0"), Names{"height=0"});
+  EXPECT_EQ(unread("building:levels", "three"), Names{"building:levels=three"});
+  EXPECT_EQ(unread("building:levels", "0"), Names{"building:levels=0"});
+  EXPECT_EQ(unread("min_height", "low"), Names{"min_height=low"});
+  EXPECT_EQ(unread("roof:height", "steep"), Names{"roof:height=steep"});
+  EXPECT_EQ(unread("min_height", "0"), Names{});
+  EXPECT_EQ(unread("building:min_level", "-1"), Names{}) << "begins below the ground";
+  EXPECT_EQ(unread("height", "12 m"), Names{});
 }
 
 TEST(BuildingBases, AreHeightsOrLevels) {

@@ -1,4 +1,4 @@
-#include "world/imports/gazebo/local_files.h"
+#include "world/imports/sdf/local_files.h"
 
 #include <algorithm>
 #include <system_error>

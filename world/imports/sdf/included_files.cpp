@@ -1,4 +1,4 @@
-#include "world/imports/gazebo/include_cycles.h"
+#include "world/imports/sdf/included_files.h"
 
 #include <fmt/core.h>
 #include <tinyxml2.h>
@@ -8,9 +8,12 @@
 #include <sdf/sdf.hh>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "world/imports/sdf/sdf_numbers.h"
 
 namespace throng::imports {
 
@@ -36,9 +39,25 @@ class IncludeWalk {
     tinyxml2::XMLDocument document;
     if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) return;
     open_.push_back(file);
+    if (document.RootElement() != nullptr) {
+      find_number_commas(*document.RootElement(), file.string(), problems_);
+    }
     visit(document.RootElement());
     open_.pop_back();
     done_.insert(file);
+  }
+
+  void reject() const {
+    constexpr std::size_t kMaxProblems = 10;
+    if (problems_.empty()) return;
+    std::vector<Problem> first(
+        problems_.begin(),
+        problems_.begin() + static_cast<std::ptrdiff_t>(std::min(problems_.size(), kMaxProblems)));
+    if (problems_.size() > kMaxProblems) {
+      first.back().expected +=
+          fmt::format(" ({} more numbers have commas)", problems_.size() - kMaxProblems);
+    }
+    throw InputError(std::move(first));
   }
 
  private:
@@ -66,14 +85,30 @@ class IncludeWalk {
   const LocalFiles& files_;
   std::vector<fs::path> open_;  ///< each includes the next
   std::set<fs::path> done_;
+  std::vector<Problem> problems_;  ///< numbers with commas
 };
 
 }  // namespace
 
-void reject_include_cycles(const fs::path& file, const LocalFiles& files) {
+void check_included_files(const fs::path& file, const LocalFiles& files) {
   std::error_code error;
   const fs::path known = fs::canonical(file, error);
-  IncludeWalk(files).enter(error ? file : known);
+  IncludeWalk walk(files);
+  walk.enter(error ? file : known);
+  walk.reject();
+}
+
+std::string included_name(const std::string& uri, const fs::path& from, const LocalFiles& files) {
+  const auto file = model_file(uri, from, files);
+  tinyxml2::XMLDocument document;
+  if (!file || document.LoadFile(file->c_str()) != tinyxml2::XML_SUCCESS) return "";
+  const tinyxml2::XMLElement* root = document.RootElement();
+  for (const char* kind : {"model", "light", "actor"}) {
+    const auto* found = root == nullptr ? nullptr : root->FirstChildElement(kind);
+    const char* name = found == nullptr ? nullptr : found->Attribute("name");
+    if (name != nullptr) return name;
+  }
+  return "";
 }
 
 }  // namespace throng::imports

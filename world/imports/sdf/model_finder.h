@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sdf/ParserConfig.hh>
 
-#include "world/imports/gazebo/local_files.h"
+#include "world/imports/sdf/local_files.h"
 
 namespace throng::imports {
 

@@ -21,6 +21,14 @@ class SdfText {
   /// The line of the file that corresponds to a line of text().
   int line_of(int line) const;
 
+  /// Names the element on a line of text(), such as "model a/link b", and its text.
+  std::string label_at(int line) const;
+  std::string value_at(int line) const;
+
+  /// Sets the attribute "name" of the element on a line of text(), or its child <name>. Lines stay.
+  void set_name_attribute(int line, const std::string& name);
+  void set_name_element(int line, const std::string& name);
+
   struct Part {
     std::string name;  ///< "model a/link b/visual c"
     int line = 0;      ///< line in the file
@@ -41,6 +49,8 @@ class SdfText {
   void add_tag(const std::string& tag, int line);
   void close();
   std::string path_of(int element) const;
+  const Element* element_at(int line) const;
+  void replace(std::size_t at, std::size_t count, const std::string& with);
 
   std::string text_;
   std::vector<Element> elements_;  ///< the element on line i of text_ has index i - 1

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "world/imports/gazebo/local_files.h"
-#include "world/imports/gazebo/sdf_text.h"
 #include "world/imports/parts/imported_scenario.h"
+#include "world/imports/sdf/local_files.h"
+#include "world/imports/sdf/sdf_text.h"
 
 namespace sdf {
 inline namespace v12 {

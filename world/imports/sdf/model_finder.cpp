@@ -1,4 +1,6 @@
-#include "world/imports/gazebo/model_finder.h"
+#include "world/imports/sdf/model_finder.h"
+
+#include <console_bridge/console.h>
 
 #include <sdf/sdf.hh>
 #include <string>
@@ -11,6 +13,8 @@ ModelFinder::ModelFinder(const LocalFiles& files, std::filesystem::path file) {
     const auto found = files.find(uri, file);
     return found ? found->string() : "";
   };
+  sdf::Console::Instance()->SetQuiet(true);
+  console_bridge::noOutputHandler();  // by which the parser of URDF, which it tries next, complains
   config_.SetFindCallback(find);
   sdf::setFindCallback(find);
 }

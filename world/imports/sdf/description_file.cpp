@@ -1,4 +1,4 @@
-#include "world/imports/gazebo/description_file.h"
+#include "world/imports/sdf/description_file.h"
 
 #include <cstdint>
 #include <system_error>

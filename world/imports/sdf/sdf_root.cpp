@@ -1,6 +1,7 @@
-#include "world/imports/gazebo/sdf_root.h"
+#include "world/imports/sdf/sdf_root.h"
 
 #include <fmt/core.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <sdf/sdf.hh>
@@ -9,9 +10,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "world/imports/gazebo/description_file.h"
-#include "world/imports/gazebo/include_cycles.h"
-#include "world/imports/gazebo/model_finder.h"
+#include "world/imports/sdf/description_file.h"
+#include "world/imports/sdf/included_files.h"
+#include "world/imports/sdf/model_finder.h"
+#include "world/imports/sdf/sdf_complaints.h"
+#include "world/imports/sdf/sdf_names.h"
+#include "world/imports/sdf/sdf_numbers.h"
 
 namespace throng::imports {
 
@@ -50,11 +54,13 @@ class RootLoader {
         skipped_(skipped),
         text_(file.string(), read_description(file, "a world of SDF")),
         finder_(files, file) {
-    reject_include_cycles(file, files);
+    check_included_files(file, files);
+    make_names_unique(text_, file, files);
   }
 
   SdfText load(sdf::Root& root) {
     sdf::Console::Instance()->SetQuiet(true);
+    take_out_odd_numbers();
     sdf::Errors errors = load_once(root);
     for (int i = 0; i < kMaxTakenOut && !is_loaded(root); ++i) {
       if (!take_out_first(errors)) break;
@@ -70,9 +76,31 @@ class RootLoader {
     root = sdf::Root();
     try {
       return root.LoadSdfString(text_.text(), finder_.config());
-    } catch (const std::exception& wrong) {
-      throw InputError({file_.string(), "", wrong.what(), "a world of SDF"});
+    } catch (const std::exception&) {
+      throw InputError(
+          {file_.string(), "", "a value that libsdformat cannot take", "a world of SDF"});
     }
+  }
+
+  void take_out_odd_numbers() {
+    for (int i = 0; i < kMaxTakenOut; ++i) {
+      tinyxml2::XMLDocument document;
+      const std::string& text = text_.text();
+      if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return;
+      const OddNumber odd = find_odd_number(*document.RootElement());
+      const int line = text_.line_of(odd.line);
+      const auto part = odd.line > 0 ? text_.take_out(odd.line) : std::nullopt;
+      if (!part) return;
+      skipped_.push_back({file_.string(), line, part->name,
+                          fmt::format("{} is \"{}\"; expected numbers, in meters without unit",
+                                      odd.element, odd.value)});
+    }
+  }
+
+  Complaint complaint(const sdf::Error& error) const {
+    const bool is_own = is_given_text(error.FilePath().value_or(""));
+    const int line = error.LineNumber().value_or(0);
+    return plain_complaint(error, is_own && line > 0 ? text_.value_at(line) : "");
   }
 
   std::pair<std::string, int> place_of(const sdf::Error& error) const {
@@ -86,9 +114,11 @@ class RootLoader {
   bool take_out_first(const sdf::Errors& errors) {
     for (const sdf::Error& error : errors) {
       if (!is_given_text(error.FilePath().value_or("")) || !error.LineNumber()) continue;
+      const Complaint wrong = complaint(error);
+      const int line = text_.line_of(*error.LineNumber());
       const auto part = text_.take_out(*error.LineNumber());
       if (!part) continue;
-      skipped_.push_back({file_.string(), part->line, part->name, error.Message()});
+      skipped_.push_back({file_.string(), line, part->name, wrong.text()});
       return true;
     }
     return false;
@@ -100,8 +130,9 @@ class RootLoader {
       const auto [file, line] = place_of(error);
       // The last one quotes the whole text.
       if (line == 0 && !problems.empty()) continue;
-      problems.push_back({file, line > 0 ? fmt::format("line {}", line) : "",
-                          error.Message().substr(0, 200), "a world of SDF"});
+      const Complaint wrong = complaint(error);
+      problems.push_back(
+          {file, line > 0 ? fmt::format("line {}", line) : "", wrong.found, wrong.expected});
     }
     if (problems.empty()) problems.push_back({file_.string(), "", "no world", "a world of SDF"});
     throw InputError(std::move(problems));
@@ -112,9 +143,9 @@ class RootLoader {
     for (const sdf::Error& error : errors) {
       if (is_noise(error)) continue;
       const auto [file, line] = place_of(error);
-      const bool missing = error.Code() == sdf::ErrorCode::URI_LOOKUP;
-      Skipped skipped{file, line, "SDF",
-                      error.Message() + (missing ? " (nothing is fetched: see --models)" : "")};
+      const bool is_own = is_given_text(error.FilePath().value_or("")) && line > 0;
+      const std::string label = is_own ? text_.label_at(*error.LineNumber()) : "";
+      Skipped skipped{file, line, label.empty() ? "SDF" : label, complaint(error).text()};
       if (said.insert(skipped.text()).second) skipped_.push_back(std::move(skipped));
     }
   }

@@ -1,4 +1,4 @@
-#include "world/imports/gazebo/sdf_text.h"
+#include "world/imports/sdf/sdf_text.h"
 
 #include <fmt/core.h>
 #include <tinyxml2.h>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "world/imports/parts/xml_words.h"
 
 namespace throng::imports {
 
@@ -51,6 +52,29 @@ std::string without_line_ends(std::string text) {
   return text;
 }
 
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      case '\'':
+        text += "&apos;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
 bool holds_parts(const std::string& name) {
   constexpr std::array<std::string_view, 4> kHolders = {"sdf", "world", "model", "link"};
   return std::find(kHolders.begin(), kHolders.end(), name) != kHolders.end();
@@ -82,7 +106,7 @@ SdfText::SdfText(const std::string& name, const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS) {
     throw InputError({name, fmt::format("line {}", line_of(document.ErrorLineNum())),
-                      document.ErrorName(), "a world of SDF (XML)"});
+                      tinyxml_fault(document.ErrorID()), "a world of SDF (XML)"});
   }
   const char* root = document.RootElement() == nullptr ? "" : document.RootElement()->Name();
   if (std::string_view(root) != "sdf") {
@@ -132,6 +156,62 @@ std::string SdfText::path_of(int element) const {
     path = path.empty() ? one.label : one.label + "/" + path;
   }
   return path;
+}
+
+const SdfText::Element* SdfText::element_at(int line) const {
+  const int index = line - 2;
+  if (index < 0 || index >= static_cast<int>(elements_.size())) return nullptr;
+  return &elements_[static_cast<std::size_t>(index)];
+}
+
+std::string SdfText::label_at(int line) const {
+  return element_at(line) == nullptr ? "" : path_of(line - 2);
+}
+
+std::string SdfText::value_at(int line) const {
+  const Element* element = element_at(line);
+  if (element == nullptr) return "";
+  const std::size_t begin = end_of_tag(text_, element->begin);
+  const std::size_t end = std::min(text_.find('<', begin), text_.size());
+  constexpr std::size_t kMaxShown = 60;
+  const std::string value = text_.substr(begin, end - begin);
+  const std::size_t first = value.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return value.substr(first, std::min(value.find_last_not_of(" \t\r\n") + 1 - first, kMaxShown));
+}
+
+void SdfText::replace(std::size_t at, std::size_t count, const std::string& with) {
+  text_.replace(at, count, with);
+  for (Element& element : elements_) {
+    if (element.begin >= at + count) element.begin += with.size() - count;
+    if (element.end >= at + count) element.end += with.size() - count;
+  }
+}
+
+void SdfText::set_name_attribute(int line, const std::string& name) {
+  const Element* element = element_at(line);
+  if (element == nullptr) return;
+  const std::size_t end = end_of_tag(text_, element->begin);
+  for (const std::string_view mark : {" name=\"", " name='"}) {
+    const std::size_t at = text_.find(mark, element->begin);
+    if (at >= end) continue;
+    const std::size_t begin = at + mark.size();
+    return replace(begin, text_.find(mark.back(), begin) - begin, escaped(name));
+  }
+}
+
+void SdfText::set_name_element(int line, const std::string& name) {
+  const Element* element = element_at(line);
+  if (element == nullptr) return;
+  const auto child = std::find_if(elements_.begin(), elements_.end(), [&](const Element& one) {
+    return one.parent == line - 2 && one.name == "name";
+  });
+  if (child == elements_.end()) {
+    return replace(end_of_tag(text_, element->begin), 0,
+                   fmt::format("<name>{}</name>", escaped(name)));
+  }
+  const std::size_t begin = end_of_tag(text_, child->begin);
+  replace(begin, std::min(text_.find('<', begin), text_.size()) - begin, escaped(name));
 }
 
 std::optional<SdfText::Part> SdfText::take_out(int line) {

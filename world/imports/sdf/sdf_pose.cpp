@@ -1,4 +1,4 @@
-#include "world/imports/gazebo/sdf_pose.h"
+#include "world/imports/sdf/sdf_pose.h"
 
 #include <sdf/sdf.hh>
 
