@@ -41,8 +41,9 @@ fs::path find_file(const Element& element, const Attributes& attributes, const c
   if (!attributes.has(name)) return {};
   fs::path path = element.file_beside(attributes.text(name));
   if (!is_file(path)) {
-    problems.push_back(element.attribute_problem(
-        name, in_quotes(attributes.text(name)) + ", which is no file", expected_instead_of(path)));
+    problems.push_back(
+        element.attribute_problem(name, in_quotes(attributes.text(name)) + ", which is no file",
+                                  describe_missing_file(path)));
   }
   return path;
 }
@@ -82,7 +83,7 @@ void require_file(const fs::path& path, const char* what) {
     throw InputError(Problem{
         path.string(), what, path.empty() ? "nothing" : "no file",
         path.empty() ? fmt::format("the {} file of a run", what)
-                     : fmt::format("the {} file of a run: {}", what, expected_instead_of(path))});
+                     : fmt::format("the {} file of a run: {}", what, describe_missing_file(path))});
   }
 }
 

@@ -134,7 +134,7 @@ std::filesystem::path Element::existing_file(std::string_view file_name) const {
   std::filesystem::path path = file_beside(file_name);
   if (!is_file(path)) {
     fail(fmt::format("the file {}, which is no file", in_quotes(file_name)),
-         expected_instead_of(path));
+         describe_missing_file(path));
   }
   return path;
 }

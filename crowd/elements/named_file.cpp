@@ -28,7 +28,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-fs::path folder_of(const fs::path& path) {
+fs::path absolute_folder(const fs::path& path) {
   std::error_code ignored;
   fs::path folder = fs::absolute(path, ignored).lexically_normal().parent_path();
   return folder.empty() ? path.parent_path() : folder;
@@ -49,8 +49,8 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-std::string expected_instead_of(const fs::path& path) {
-  fs::path missing = folder_of(path);
+std::string describe_missing_file(const fs::path& path) {
+  fs::path missing = absolute_folder(path);
   std::error_code ignored;
   if (fs::is_directory(missing, ignored)) {
     const std::vector<std::string> there = names_in(missing);

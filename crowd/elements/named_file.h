@@ -17,6 +17,6 @@ bool is_file(const std::filesystem::path& path);
 
 /// Returns what to expect instead of a missing file: "a file in FOLDER", with the most similar name
 /// there, or the first folder of its path that is missing.
-std::string expected_instead_of(const std::filesystem::path& path);
+std::string describe_missing_file(const std::filesystem::path& path);
 
 }  // namespace throng::crowd

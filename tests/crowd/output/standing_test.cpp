@@ -21,8 +21,8 @@ std::string walk(const std::string& component) {
     </BFSM>)";
 }
 
-std::optional<Problem> warning_of(const std::string& behavior, const std::string& wall,
-                                  double until_s) {
+std::optional<Problem> run_and_warn(const std::string& behavior, const std::string& wall,
+                                    double until_s) {
   Simulation crowd = test::load(test::scene_with(test::agent_at(0, 0) + test::agent_at(0, 5),
                                                  R"(obstacleSet="1" r="0.2")", "Start", wall),
                                 behavior);
@@ -43,26 +43,27 @@ const std::string kTrap = R"(<ObstacleSet type="explicit" class="1"><Obstacle cl
     <Vertex p_x="3" p_y="2"/></Obstacle></ObstacleSet>)";
 
 TEST(Standing, CountsThoseWhomAWallStops) {
-  const std::optional<Problem> warning = warning_of(walk(kToGoal), kTrap, 60);
+  const std::optional<Problem> warning = run_and_warn(walk(kToGoal), kTrap, 60);
   ASSERT_TRUE(warning.has_value());
   EXPECT_THAT(warning->found, HasSubstr("1 of 2 agents who stand still"));
   EXPECT_THAT(warning->found, HasSubstr("1 in Start"));
 }
 
 TEST(Standing, CountsThoseWhoHaveAGoalButNoVelocity) {
-  const std::optional<Problem> warning = warning_of(walk(R"(<VelComponent type="zero"/>)"), "", 30);
+  const std::optional<Problem> warning =
+      run_and_warn(walk(R"(<VelComponent type="zero"/>)"), "", 30);
   ASSERT_TRUE(warning.has_value());
   EXPECT_THAT(warning->found, HasSubstr("2 of 2 agents who stand still since 0.0 s"));
 }
 
 TEST(Standing, IsSilentOfShortWaitsAndOfThoseWhoArrive) {
-  EXPECT_FALSE(warning_of(walk(kToGoal), "", 60).has_value());
-  EXPECT_FALSE(warning_of(walk(kToGoal), kTrap, 15).has_value());
-  EXPECT_FALSE(warning_of(R"(<BFSM><State name="Start" final="0"><GoalSelector type="identity"/>
+  EXPECT_FALSE(run_and_warn(walk(kToGoal), "", 60).has_value());
+  EXPECT_FALSE(run_and_warn(walk(kToGoal), kTrap, 15).has_value());
+  EXPECT_FALSE(run_and_warn(R"(<BFSM><State name="Start" final="0"><GoalSelector type="identity"/>
     <VelComponent type="goal"/></State><State name="End" final="1"/>
     <Transition from="Start" to="End"><Condition type="timer" dist="c" value="50" per_agent="1"/>
     </Transition></BFSM>)",
-                          "", 40)
+                            "", 40)
                    .has_value())
       << "who waits at their own place";
 }
