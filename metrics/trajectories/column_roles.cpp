@@ -22,7 +22,7 @@ const Synonyms& column_synonyms(const std::string& name) {
       {"frame", {"frame", "fr", "frameid", "framenumber", "frameno", "frames"}},
       {"time",
        {"time", "t", "times", "timestamp", "timems", "timestampms", "unixtime", "simtime", "simsec",
-        "seconds", "datetime"}},
+        "seconds", "datetime", "zeit"}},
       {"x", {"x", "posx", "xpos", "positionx", "xm", "xcm", "locationx", "startx", "coordcentx"}},
       {"y", {"y", "posy", "ypos", "positiony", "ym", "ycm", "locationy", "starty", "coordcenty"}}};
   static const Synonyms kNone;
@@ -113,7 +113,7 @@ std::optional<ColumnRoles> named_columns(const std::vector<std::string_view>& na
     if (found) {
       column = *found;
     } else if (missing.empty()) {
-      missing = name;
+      missing = name == "frame" ? "frame\" or \"time" : name;
     }
     return found.has_value();
   };

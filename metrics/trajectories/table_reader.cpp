@@ -129,10 +129,10 @@ class TableReader {
       for (const std::string_view name : names) {
         all += (all.empty() ? "" : ", ") + shown(name);
       }
-      reject(
-          all.substr(0, 200),
-          fmt::format("a column \"{}\" (which --columns or --{}-column names)", missing,
-                      missing == "id" || missing == format_.columns.person ? "person" : missing));
+      reject(all.substr(0, 200),
+             fmt::format("a column \"{}\"; --columns id,frame,x,y (or time for frame) says what "
+                         "they are in their order (in JSON \"columns\")",
+                         missing));
     }
     part_ = Part::units;
     field_count_ = names.size();

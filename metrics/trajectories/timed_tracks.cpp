@@ -51,19 +51,26 @@ bool is_regular(const std::vector<double>& times, double step_s) {
   return static_cast<double>(regular) >= kMinRegularShare * static_cast<double>(times.size() - 1);
 }
 
+/// The rate with three decimals, if it differs from that only as differences of times do.
+double without_rounding(double rate) {
+  constexpr double kSlack = 2e-6;  // of Unix times, which a double holds to 0.2 µs
+  const double rounded = std::round(rate * 1000) / 1000;
+  return std::abs(rate - rounded) <= kSlack * std::max(rate, 1.0) ? rounded : rate;
+}
+
 double find_rate(const std::vector<Track>& tracks, const std::string& name) {
   constexpr std::size_t kTooFewToJudge = 5;
   const std::vector<double> times = distinct_times(tracks);
   if (times.size() < 2) {
-    throw InputError({name, "", "people at one time only", "times of at least two frames"});
+    throw InputError(
+        {name, "", "people at one time only", "times of at least two frames, or --frame-rate"});
   }
   const double step_s = median_step(times);
   if (times.size() >= kTooFewToJudge && !is_regular(times, step_s)) {
     throw InputError({name, "", "times without a regular step, as of events",
                       kFrameRateExpected + std::string(", to interpolate to")});
   }
-  constexpr double kDigits = 1e6;  // 0.2 s, which differences of times miss by rounding, is 5 Hz
-  return std::round(kDigits / step_s) / kDigits;
+  return without_rounding(1 / step_s);
 }
 
 std::map<std::int64_t, Vector2d> on_frames(const Track& track, double frames_per_s,

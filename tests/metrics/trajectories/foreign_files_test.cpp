@@ -225,7 +225,7 @@ TEST(ForeignFiles, ClockTimesAreCountedFromTheFirst) {
     const world::Trace trace = read("id,timestamp,x,y\n1," + both.substr(0, space) + ",1,2\n1," +
                                         both.substr(space + 1) + ",1.5,2\n",
                                     "t.csv");
-    EXPECT_NEAR(trace.header.dt_s, 0.5, 1e-3) << times;
+    EXPECT_NEAR(trace.header.dt_s, 0.5, 1e-9) << times;
     EXPECT_EQ(trace.steps(), 2U) << times;
   }
   EXPECT_NEAR(
