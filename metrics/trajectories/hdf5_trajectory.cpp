@@ -28,12 +28,24 @@ struct Row {
   double y = 0;
 };
 
+/// Whether a type is a usual number: HDF5 converts damaged others beyond its buffers.
+bool is_usual_number(hid_t type) {
+  for (const hid_t usual :
+       {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I64LE, H5T_STD_I32LE, H5T_STD_I16LE, H5T_STD_U64LE,
+        H5T_STD_U32LE, H5T_STD_U16LE, H5T_STD_U8LE, H5T_STD_I8LE, H5T_IEEE_F64BE, H5T_IEEE_F32BE,
+        H5T_STD_I64BE, H5T_STD_I32BE}) {
+    if (H5Tequal(type, usual) > 0) return true;
+  }
+  return false;
+}
+
 /// Whether the type has a number of this name.
 bool has_number(const hdf5::Handle& type, const char* member) {
   const int index = H5Tget_member_index(type.id(), member);
   if (index < 0) return false;
-  const H5T_class_t kind = H5Tget_member_class(type.id(), static_cast<unsigned>(index));
-  return kind == H5T_INTEGER || kind == H5T_FLOAT;
+  const hdf5::Handle number(H5Tget_member_type(type.id(), static_cast<unsigned>(index)), H5Tclose,
+                            member);
+  return is_usual_number(number.id());
 }
 
 hdf5::Handle row_type() {
@@ -50,8 +62,9 @@ std::optional<double> number_attribute(const hdf5::Handle& object, const char* n
   if (H5Aexists(object.id(), name) <= 0) return std::nullopt;
   const hdf5::Handle attribute(H5Aopen(object.id(), name, H5P_DEFAULT), H5Aclose, name);
   const hdf5::Handle space(H5Aget_space(attribute.id()), H5Sclose, name);
+  const hdf5::Handle type(H5Aget_type(attribute.id()), H5Tclose, name);
   double value = 0;
-  if (H5Sget_simple_extent_npoints(space.id()) != 1 ||
+  if (!is_usual_number(type.id()) || H5Sget_simple_extent_npoints(space.id()) != 1 ||
       H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0) {
     return std::nullopt;
   }
