@@ -7,6 +7,7 @@
 
 #include "crowd/description/menge_files/read.h"
 #include "crowd/elements/element.h"
+#include "crowd/elements/named_file.h"
 #include "crowd/model.h"
 
 namespace throng::crowd {
@@ -34,19 +35,15 @@ std::vector<std::string_view> listed(const std::array<std::string_view, N>& word
   return {words.begin(), words.end()};
 }
 
-/// Also for names that no file can have.
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
-
-/// A file that an attribute names, which has to be there.
-fs::path require_file(const Element& element, const Attributes& attributes, const char* name) {
+/// A file that an attribute names, which has to be there; otherwise adds a problem.
+fs::path find_file(const Element& element, const Attributes& attributes, const char* name,
+                   std::vector<Problem>& problems) {
   if (!attributes.has(name)) return {};
   fs::path path = element.file_beside(attributes.text(name));
   if (!is_file(path)) {
-    element.fail_attribute(name, in_quotes(attributes.text(name)) + ", which is no file",
-                           fmt::format("a file in {}", path.parent_path().string()));
+    problems.push_back(
+        element.attribute_problem(name, in_quotes(attributes.text(name)) + ", which is no file",
+                                  describe_missing_file(path)));
   }
   return path;
 }
@@ -83,8 +80,10 @@ std::optional<double> read_time_step(const Element& element, const Attributes& a
 
 void require_file(const fs::path& path, const char* what) {
   if (!is_file(path)) {
-    throw InputError(Problem{path.string(), what, path.empty() ? "nothing" : "no file",
-                             fmt::format("the {} file of a run", what)});
+    throw InputError(Problem{
+        path.string(), what, path.empty() ? "nothing" : "no file",
+        path.empty() ? fmt::format("the {} file of a run", what)
+                     : fmt::format("the {} file of a run: {}", what, describe_missing_file(path))});
   }
 }
 
@@ -131,8 +130,10 @@ Project load_project(const fs::path& file) {
   const Attributes attributes(element, project_attributes());
   for (const Element& child : element.children()) child.warn("an element", "none in a project");
   Project project;
-  project.scene_file = require_file(element, attributes, "scene");
-  project.behavior_file = require_file(element, attributes, "behavior");
+  std::vector<Problem> missing;
+  project.scene_file = find_file(element, attributes, "scene", missing);
+  project.behavior_file = find_file(element, attributes, "behavior", missing);
+  if (!missing.empty()) throw InputError(std::move(missing));
   project.options.model = read_model(element, attributes);
   project.options.seed = read_seed(element, attributes);
   project.options.compat = parse_compat(attributes.text("compat"));

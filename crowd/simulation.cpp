@@ -178,6 +178,12 @@ Eigen::Vector2f Simulation::preferred_velocity(std::size_t agent) const {
   return agents.preferred_speed[agent] * agents.preferred_direction[agent];
 }
 
+float Simulation::goal_distance_m(std::size_t agent) const {
+  const Crowd& crowd = state_->crowd;
+  const int goal = crowd.agents.goal[agent];
+  return goal < 0 ? 0 : crowd.goals[goal].distance(crowd.agents.position[agent], crowd.compat);
+}
+
 float Simulation::ground_m(std::size_t agent) const {
   const Crowd& crowd = state_->crowd;
   return crowd.elevation ? crowd.elevation->height_m(crowd.agents.position[agent]) : 0;

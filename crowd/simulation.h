@@ -68,6 +68,8 @@ class Simulation {
   std::span<const std::int32_t> agent_classes() const;  ///< classes given in profiles, for reports
   /// Velocity without other agents, m/s.
   Eigen::Vector2f preferred_velocity(std::size_t agent) const;
+  /// Distance from the agent to its goal; 0 if it has none.
+  float goal_distance_m(std::size_t agent) const;
   /// Height of the ground at the agent.
   float ground_m(std::size_t agent) const;
   const std::vector<std::string>& state_names() const;

@@ -20,6 +20,7 @@
 #include "crowd/output/positions.h"
 #include "crowd/output/scb.h"
 #include "crowd/output/series.h"
+#include "crowd/output/standing.h"
 #include "sim/people/crowd_trace.h"
 
 namespace throng::cli {
@@ -126,10 +127,13 @@ void run(const CrowdArguments& arguments) {
   crowd::Simulation crowd = crowd::load_simulation(project);
   if (!arguments.quiet) print_warnings(crowd.warnings());
   const Interrupt interrupt;  // before there are files to remove
-  const Recorders recorders = make_recorders(arguments, project, crowd);
+  Recorders recorders = make_recorders(arguments, project, crowd);
+  auto& standing = static_cast<crowd::StandingWatch&>(
+      *recorders.emplace_back(std::make_unique<crowd::StandingWatch>()));
   const auto start = std::chrono::steady_clock::now();
   const long steps = simulate(crowd, project.duration_s, recorders, arguments.quiet, interrupt);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  if (!arguments.quiet && standing.warning()) print_warnings({*standing.warning()});
   if (!arguments.quiet) print_summary(crowd, steps, wall.count());
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "annotate/exits_csv.h"
 #include "base/error.h"
@@ -69,6 +70,18 @@ void check_somebody_inside(const world::Trace& trace, const world::Scenario& sce
                    place.min.x(), place.min.y(), place.max.x(), place.max.y(), scenario.id)});
 }
 
+/// With the walkable area of the scenario that is given or that the trace holds, if any.
+void write_converted(const MetricsArguments& arguments, const world::Trace& trace) {
+  std::optional<world::Scenario> scenario;
+  if (!arguments.scenario.empty()) {
+    scenario = scenario_named(arguments.scenario);
+  } else if (!trace.header.scenario_document.empty()) {
+    scenario =
+        world::scenario_in_trace(trace.header, arguments.trace, world::TraceMeshes::left_out);
+  }
+  metrics::write_trajectory(trace, arguments.to_file, scenario ? &*scenario : nullptr);
+}
+
 void measure(const MetricsArguments& arguments) {
   const bool recorded = !arguments.trajectory.empty();
   if (recorded == !arguments.trace.empty()) {
@@ -91,7 +104,7 @@ void measure(const MetricsArguments& arguments) {
       recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
                : read_trace_file(arguments.trace);
   if (!arguments.to_file.empty()) {
-    metrics::write_trajectory(trace, arguments.to_file);
+    write_converted(arguments, trace);
     fmt::print("{}\n", arguments.to_file);
     if (arguments.output.empty() && arguments.csv.empty()) return;
   }
@@ -127,15 +140,15 @@ void measure(const MetricsArguments& arguments) {
 void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& arguments) {
   metrics::TrajectoryFormat& format = arguments->format;
   static const std::map<std::string, metrics::TrajectoryKind> kKinds = {
-      {"any", metrics::TrajectoryKind::any},
-      {"text", metrics::TrajectoryKind::text},
-      {"sqlite", metrics::TrajectoryKind::sqlite},
-      {"scb", metrics::TrajectoryKind::scb},
-      {"csv", metrics::TrajectoryKind::csv}};
+      {"any", metrics::TrajectoryKind::any},       {"text", metrics::TrajectoryKind::text},
+      {"sqlite", metrics::TrajectoryKind::sqlite}, {"scb", metrics::TrajectoryKind::scb},
+      {"csv", metrics::TrajectoryKind::csv},       {"hdf5", metrics::TrajectoryKind::hdf5},
+      {"fcd", metrics::TrajectoryKind::fcd},       {"json", metrics::TrajectoryKind::json_text}};
   command
       .add_option("--format", format.kind,
                   "Format of the trajectory; default: by suffix and content")
-      ->transform(CLI::CheckedTransformer(kKinds).description("{any,text,sqlite,scb,csv}"))
+      ->transform(
+          CLI::CheckedTransformer(kKinds).description("{any,text,sqlite,scb,csv,hdf5,fcd,json}"))
       ->type_name("TEXT");
   command.add_option("--frame-rate", format.frames_per_s, "Frame rate of the trajectory, 1/s")
       ->check(CLI::Range(0.01, 10'000.0));
@@ -149,6 +162,11 @@ void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& argu
       ->excludes(frame);
   command.add_option("--x-column", format.columns.x, "Column of a CSV")->capture_default_str();
   command.add_option("--y-column", format.columns.y, "Column of a CSV")->capture_default_str();
+  command.add_option_function<std::string>(
+      "--columns",
+      [&format](const std::string& words) { format.columns = metrics::columns_in_order(words); },
+      "The columns in their order, such as frame,id,x,y: id, frame or time, x, y, and - for "
+      "others");
 }
 
 }  // namespace
@@ -160,7 +178,8 @@ void add_metrics(CLI::App& app) {
   command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
   command->add_option(
       "--trajectory", arguments->trajectory,
-      "Recorded trajectories instead: JuPedSim or PedPy text, JuPedSim SQLite, Menge .scb, .csv");
+      "Recorded trajectories instead: text, tables, JuPedSim's SQLite, Jülich's HDF5, SUMO's FCD, "
+      "Menge's .scb and others (docs/recorded.md)");
   command->add_option("--scenario", arguments->scenario,
                       "Id or file (.json) of the scenario; default: the one that the trace holds");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");

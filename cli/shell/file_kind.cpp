@@ -84,9 +84,6 @@ void refuse_as_trajectory(const fs::path& file) {
   constexpr const char* kExpected = "a file of trajectories";
   check_input_file(file.string(), kExpected);
   if (fs::is_directory(file)) refuse(file, "a folder", kExpected);
-  if (is_hdf5(file)) {
-    refuse(file, "a trace", fmt::format("{}; a trace is given without --trajectory", kExpected));
-  }
   const DocumentKind kind = kind_of_json(file);
   if (kind != DocumentKind::unknown) refuse(file, std::string(to_string(kind)), kExpected);
 }

@@ -12,7 +12,7 @@ namespace throng::cli {
 /// the file ("a job") and the command for it; for a folder, the traces in it.
 void require_trace(const std::filesystem::path& file);
 
-/// Throws InputError if a file given as trajectories is a trace, a job or another known kind.
+/// Throws InputError if a file given as trajectories is a job or another known kind of JSON.
 void refuse_as_trajectory(const std::filesystem::path& file);
 
 /// Throws InputError unless the name of a file to write ends with one of `endings`; devices are

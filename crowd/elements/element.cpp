@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/files/confine.h"
+#include "crowd/elements/named_file.h"
 #include "crowd/elements/suggest.h"
 
 namespace throng::crowd {
@@ -116,15 +117,24 @@ void Element::add_warning(Problem warning) const {
 TextFile Element::text_file(std::string_view file_name) const {
   const auto& files = reading_->description_->files;
   const auto known = files.find(std::string(file_name));
-  if (known == files.end()) return file_beside(file_name);
+  if (known == files.end()) return existing_file(file_name);
   return {reading_->description_->folder / file_name, &known->second};
 }
 
 std::filesystem::path Element::file_beside(std::string_view file_name) const {
-  std::filesystem::path path = reading_->description_->folder / file_name;
+  std::filesystem::path path = named_file(reading_->description_->folder, file_name);
   if (!Confinement::allows(path)) {
     fail(fmt::format("the file {}, which lies elsewhere", in_quotes(file_name)),
          "a file that came with the scenario");
+  }
+  return path;
+}
+
+std::filesystem::path Element::existing_file(std::string_view file_name) const {
+  std::filesystem::path path = file_beside(file_name);
+  if (!is_file(path)) {
+    fail(fmt::format("the file {}, which is no file", in_quotes(file_name)),
+         describe_missing_file(path));
   }
   return path;
 }

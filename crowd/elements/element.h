@@ -40,6 +40,9 @@ class Element {
   [[noreturn]] void fail(std::string found, std::string expected) const;
   [[noreturn]] void fail_attribute(std::string_view attribute, std::string found,
                                    std::string expected) const;
+  /// The problem that fail_attribute() throws.
+  Problem attribute_problem(std::string_view attribute, std::string found,
+                            std::string expected) const;
   /// Throws for an element that is not allowed here; `expected` lists the allowed ones.
   [[noreturn]] void fail_unknown(std::string expected) const;
 
@@ -47,16 +50,17 @@ class Element {
   void warn(std::string found, std::string expected) const;
   void warn_attribute(std::string_view attribute, std::string found, std::string expected) const;
 
-  /// Resolves a file name against the folder of the description.
+  /// Resolves a file name against the folder of the description; backslashes separate folders, too.
   std::filesystem::path file_beside(std::string_view file_name) const;
-  /// Returns a text file of the description's folder or of Description::files.
+  /// The same of a file that has to be there. Fails with the folder that was looked in.
+  std::filesystem::path existing_file(std::string_view file_name) const;
+  /// Returns a text file of the description's folder or of Description::files. Fails like
+  /// existing_file().
   TextFile text_file(std::string_view file_name) const;
 
  private:
   Problem problem(std::string found, std::string expected) const;
   void add_warning(Problem warning) const;
-  Problem attribute_problem(std::string_view attribute, std::string found,
-                            std::string expected) const;
 
   const Node* node_;
   Reading* reading_;

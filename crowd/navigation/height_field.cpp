@@ -62,7 +62,7 @@ HeightField::HeightField(const std::filesystem::path& path) {
        optional(text("kernel", "not used here: heights are interpolated linearly"))});
   pixel_m_ = attributes.real("cell_size");
   corner_ = {attributes.real("x"), attributes.real("y")};
-  const GrayImage image = read_gray_png(file.root().file_beside(attributes.text("file_name")));
+  const GrayImage image = read_gray_png(file.root().existing_file(attributes.text("file_name")));
   columns_ = image.width;
   rows_ = image.height;
   heights_m_.reserve(image.pixels.size());
@@ -128,7 +128,7 @@ class OfImage : public Elevation {
 std::unique_ptr<Elevation> make_of_image(const Element& element, const Attributes& attributes,
                                          ElevationContext& context) {
   return std::make_unique<OfImage>(
-      shared_height_field(element.file_beside(attributes.text("file_name")), context.parts));
+      shared_height_field(element.existing_file(attributes.text("file_name")), context.parts));
 }
 
 /// Slopes turn people downhill and make them slower uphill, faster downhill.
@@ -160,7 +160,7 @@ class OnSlopes : public VelModifier {
 
 std::unique_ptr<VelModifier> make_on_slopes(const Element& element, const Attributes& attributes,
                                             BehaviorContext& context) {
-  const auto path = element.file_beside(attributes.text("file_name"));
+  const auto path = element.existing_file(attributes.text("file_name"));
   return std::make_unique<OnSlopes>(shared_height_field(path, *context.crowd.parts), attributes);
 }
 

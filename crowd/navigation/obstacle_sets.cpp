@@ -11,9 +11,20 @@ namespace throng::crowd {
 
 namespace {
 
+constexpr float kMinEdge = 1e-3F;  // m
+
+/// Removes a last corner that repeats the first, as many programs write closed polygons.
+void drop_repeated_corner(const Element& element, std::vector<Eigen::Vector2f>& corners) {
+  constexpr std::size_t kTriangle = 3;
+  if (corners.size() <= kTriangle || (corners.back() - corners.front()).norm() >= kMinEdge) return;
+  element.warn(fmt::format("a last corner that repeats the first at ({}, {}), which is dropped",
+                           corners.front().x(), corners.front().y()),
+               "each corner once: the last is joined to the first anyway");
+  corners.pop_back();
+}
+
 /// Throws for what has no sides.
 void check_polygon(const Element& element, const std::vector<Eigen::Vector2f>& corners) {
-  constexpr float kMinEdge = 1e-3F;  // m
   constexpr double kMinArea = 1e-6;  // m^2
   if (corners.size() < 3) {
     element.fail(fmt::format("{} corners", corners.size()), "at least three <Vertex>");
@@ -74,6 +85,7 @@ std::vector<Eigen::Vector2f> read_polygon(const Element& element) {
     const Attributes place(vertex, {number("p_x", "in m"), number("p_y", "in m")});
     corners.emplace_back(place.real("p_x"), place.real("p_y"));
   }
+  drop_repeated_corner(element, corners);
   check_polygon(element, corners);
   return corners;
 }

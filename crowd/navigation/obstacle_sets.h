@@ -19,8 +19,9 @@ struct ObstacleSet {
   std::vector<Polygon> polygons;
 };
 
-/// Reads the corners of a polygon, <Vertex> children of an element. Throws InputError for fewer
-/// than three corners, equal corners, and a polygon without area.
+/// Reads the corners of a polygon, <Vertex> children of an element. A last corner that repeats the
+/// first is dropped with a warning. Throws InputError for fewer than three corners, other equal
+/// corners, and a polygon without area.
 std::vector<Eigen::Vector2f> read_polygon(const Element& element);
 
 struct ObstacleSetContext {

@@ -6,7 +6,8 @@
 
 #include "base/error.h"
 #include "crowd/output/scb.h"
-#include "metrics/trajectories/trajectory_file.h"
+#include "metrics/trajectories/other_formats.h"
+#include "metrics/trajectories/scb_trajectory.h"
 
 namespace throng::metrics {
 
@@ -21,6 +22,7 @@ Recorded read_scb(const std::filesystem::path& file) {
   const std::size_t floats = reader.floats_per_agent();
   const std::size_t y_at = reader.version() == "2.4" ? 2 : 1;  // beside the ground's height
   Recorded recorded;
+  recorded.unit_is_stated = true;
   // The header has a float: 0.1 s are to be 10 frames per second.
   constexpr double kDigits = 1e4;
   recorded.frames_per_s = std::round(kDigits / reader.dt_s()) / kDigits;

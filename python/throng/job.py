@@ -556,7 +556,7 @@ class Drone(Part):
 
 @dataclass
 class Columns(Part):
-    """Names of the columns of a table (csv) in its first line."""
+    """Names of the columns of a table in its first line, or all of their numbers from 1."""
 
     _: KW_ONLY
     person: str | None = None
@@ -581,16 +581,16 @@ class Recorded(Part):
     _: KW_ONLY
     sha256: str | None = None
     """SHA-256 of the file; another file is refused. Filled in."""
-    format: Literal["any", "text", "sqlite", "scb", "csv"] | None = None
-    """text of JuPedSim and PedPy, JuPedSim's sqlite, Menge's scb, or csv, a table whose columns are named below;
-    without it (any), by suffix and content."""
+    format: Literal["any", "text", "sqlite", "scb", "csv", "hdf5", "fcd", "json"] | None = None
+    """text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's scb, Jülich's hdf5, SUMO's
+    fcd, json of Pathfinder or TrajNet++; without it (any), by suffix and content."""
     frame_rate_hz: float | None = None
     """Frames per second, if the file does not contain the rate or is wrong; with a column of times, the rate to
     interpolate to. Unit: Hz."""
     unit: Literal["m", "cm", "mm", "ft"] | None = None
     """Unit of lengths in the file; default: the file's, else m."""
     columns: Columns | None = None
-    """Names of the columns of a table (csv) in its first line."""
+    """Names of the columns of a table in its first line, or all of their numbers from 1."""
     radius_m: float | None = None
     """Radius of all bodies, which files do not contain; default: 0.2. Unit: m."""
     desired_speed_mps: float | None = None

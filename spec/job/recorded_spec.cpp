@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kRecordedFolder = "recorded";
 /// In the order of metrics::TrajectoryKind.
-constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv"};
+constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv", "hdf5", "fcd", "json"};
 
 std::vector<std::string> unit_words() {
   std::vector<std::string> words;
@@ -71,10 +71,12 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
           "SHA-256 of the file; another file is refused. Filled in.")
       .without_default();
   table
-      .add_word("format", "Format", kKindWords,
-                at(&RecordedSpec::format, &metrics::TrajectoryFormat::kind),
-                "text of JuPedSim and PedPy, JuPedSim's sqlite, Menge's scb, or csv, a table whose "
-                "columns are named below; without it (any), by suffix and content.")
+      .add_word(
+          "format", "Format", kKindWords,
+          at(&RecordedSpec::format, &metrics::TrajectoryFormat::kind),
+          "text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's "
+          "scb, Jülich's hdf5, SUMO's fcd, json of Pathfinder or TrajNet++; without it (any), "
+          "by suffix and content.")
       .without_default();
   table.add(
       "frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),
@@ -86,7 +88,9 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
 }
 
 void add_column_fields(FieldTable<RecordedSpec>& table) {
-  table.group("columns", "Columns", "Names of the columns of a table (csv) in its first line.")
+  table
+      .group("columns", "Columns",
+             "Names of the columns of a table in its first line, or all of their numbers from 1.")
       .without_default();
   table
       .add("columns/person", "Person", "", texts(1, 200),

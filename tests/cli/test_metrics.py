@@ -320,14 +320,30 @@ class Metrics(unittest.TestCase):
                 if value is not None:
                     self.assertAlmostEqual(again["escape_time_percentiles"][name], value, delta=1e-3)
 
+    def test_people_of_a_frame_are_not_exchanged_with_frames(self):
+        throng("metrics", self.base / "run.h5", "--to", self.base / "ids_first.txt")
+        rows = [line.split() for line in (self.base / "ids_first.txt").read_text().splitlines() if line[0] != "#"]
+        rows.sort(key=lambda row: (int(row[1]), int(row[0])))
+        file = self.base / "eth.txt"
+        file.write_text("".join(f"{frame}\t{who}\t{x}\t{y}\n" for who, frame, x, y in rows))
+        place = ("--scenario", self.base / "place.json", "--frame-rate", "10")
+        for more in ((), ("--columns", "frame,id,x,y")):
+            again = json.loads(throng("metrics", "--trajectory", file, *place, *more))
+            self.assertEqual(again["people"], self.figures["people"])
+            self.assertEqual(again["exits"][0]["crossings"], self.figures["exits"][0]["crossings"])
+
     def test_people_in_other_units_are_refused(self):
         file = self.base / "centimetres.txt"
         file.write_text("# framerate: 10\n1 0 -300 0\n1 1 -290 0\n")
         command = [THRONG, "metrics", "--trajectory", str(file), "--scenario", str(self.base / "place.json")]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("centimetres.txt: found nobody inside the scenario at any time", done.stderr)
-        self.assertIn("--unit-m 0.01", done.stderr)
+        for options, found in (
+            ((), "found no unit"),
+            (("--unit-m", "1"), "found nobody inside the scenario at any time"),
+        ):
+            done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"centimetres.txt: {found}", done.stderr)
+            self.assertIn("--unit-m 0.01", done.stderr)
         done = subprocess.run([*command, "--unit-m", "0.01"], capture_output=True, text=True, timeout=300)
         self.assertEqual(json.loads(done.stdout)["people"], 1)
 

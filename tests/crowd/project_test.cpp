@@ -108,6 +108,41 @@ TEST_F(Projects, NameMistakes) {
   EXPECT_THROW(load_simulation(load(R"(scene="s.xml")")), InputError);
 }
 
+TEST_F(Projects, ReadBackslashesAsFolders) {
+  std::filesystem::create_directory(folder_.path() / "sub");
+  folder_.write("sub/b2.xml", test::mirror_behavior());
+  const Project project = load(R"(scene=".\s.xml" behavior="sub\b2.xml" output="sub\out.scb")");
+  EXPECT_TRUE(std::filesystem::exists(project.scene_file)) << project.scene_file;
+  EXPECT_EQ(project.behavior_file.parent_path().filename(), "sub");
+  EXPECT_EQ(project.output.parent_path().filename(), "sub");
+}
+
+TEST_F(Projects, NameEveryMissingFileAndTheFolderThatWasLookedIn) {
+  try {
+    load(R"(scene="S.xml" behavior="maps\b.xml")");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2U);
+    EXPECT_THAT(error.problems()[0].expected, HasSubstr(folder_.path().string()));
+    EXPECT_THAT(error.problems()[0].expected, HasSubstr("did you mean s.xml?"));
+    EXPECT_THAT(error.problems()[1].expected,
+                HasSubstr((folder_.path() / "maps").string() + ", which is missing"));
+  }
+  folder_.write("road.xml",
+                R"(<BFSM><GoalSet id="0"><Goal type="point" id="0" x="9" y="0"/></GoalSet>
+    <State name="Start" final="0"><GoalSelector type="explicit" goal_set="0" goal="0"/>
+    <VelComponent type="road_map" file_name="maps\graph.txt"/></State>
+    <State name="End" final="1"/>
+    <Transition from="Start" to="End"><Condition type="goal_reached" distance="1"/></Transition>
+    </BFSM>)");
+  try {
+    load_simulation(load(R"(scene="s.xml" behavior="road.xml")"));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.problems().front().expected, HasSubstr((folder_.path() / "maps").string()));
+  }
+}
+
 TEST(ProjectFiles, OfMengesExamplesAreRead) {
   const auto examples = source_folder() / "../shared/data/menge_examples";
   if (!std::filesystem::exists(examples)) GTEST_SKIP() << "no examples here";

@@ -186,5 +186,23 @@ TEST(Compat, WordsAreNumbersForMenge) {
   }
 }
 
+TEST(Scene, DropsALastCornerThatRepeatsTheFirst) {
+  const std::string square = R"(<ObstacleSet type="explicit" class="1"><Obstacle closed="1">
+      <Vertex p_x="3" p_y="0"/><Vertex p_x="4" p_y="0"/><Vertex p_x="4" p_y="1"/>
+      <Vertex p_x="3" p_y="1"/>)";
+  const std::string end = "</Obstacle></ObstacleSet>";
+  const auto loaded = [&](const std::string& more) {
+    return test::load(
+        test::scene_with(test::agent_at(0, 0), R"(obstacleSet="1")", "Start", square + more + end),
+        test::mirror_behavior());
+  };
+  const Simulation crowd = loaded(R"(<Vertex p_x="3" p_y="0"/>)");
+  ASSERT_EQ(crowd.warnings().size(), 1U);
+  EXPECT_NE(crowd.warnings()[0].text().find("repeats the first at (3, 0)"), std::string::npos)
+      << crowd.warnings()[0].text();
+  EXPECT_TRUE(loaded("").warnings().empty());
+  EXPECT_THROW(loaded(R"(<Vertex p_x="3" p_y="1"/>)"), InputError) << "twice in between";
+}
+
 }  // namespace
 }  // namespace throng::crowd

@@ -123,12 +123,13 @@ class ExperimentsReader {
       item.fields({"name", "loop"}, {"free_speed_mps"});
       experiment.loop = read_loop(item["loop"]);
     } else if (item["single_file"].exists()) {
-      item.fields({"name", "file", "single_file"}, {"frame_rate_hz", "unit", "free_speed_mps"});
+      item.fields({"name", "file", "single_file"},
+                  {"columns", "frame_rate_hz", "unit", "free_speed_mps"});
       experiment.single_file = read_single_file(item);
     } else {
       item.fields({"name", "file", "walkable", "goals", "area", "line"},
-                  {"frame_rate_hz", "unit", "free_speed_mps", "obstacles", "steady_s", "loop",
-                   "single_file"});
+                  {"columns", "frame_rate_hz", "unit", "free_speed_mps", "obstacles", "steady_s",
+                   "loop", "single_file"});
       experiment.recording = read_recording(item);
     }
     experiment.name = read_name(item["name"]);
@@ -168,6 +169,13 @@ class ExperimentsReader {
     metrics::TrajectoryFormat format;
     if (item["frame_rate_hz"].exists()) {
       format.frames_per_s = item["frame_rate_hz"].number(0.01, 10'000);
+    }
+    if (const JsonValue columns = item["columns"]; columns.is_text()) {
+      try {
+        format.columns = metrics::columns_in_order(columns.text());
+      } catch (const InputError& error) {
+        columns.reject(error.problems().front().expected);
+      }
     }
     const JsonValue unit = item["unit"];
     if (!unit.exists()) return format;

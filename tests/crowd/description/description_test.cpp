@@ -230,7 +230,7 @@ TEST(Descriptions, NameFilesOfTheirFolderOrInMemory) {
   behavior.add_state("Walk", {select_own_place(), velocity("vel_field", {{"file_name", "field.txt"},
                                                                          {"use_nearest", 0}})});
   BehaviorDescription description = behavior.build();
-  EXPECT_THROW(Simulation(two_people().build(), description, {}), EnvironmentError);
+  EXPECT_THROW(Simulation(two_people().build(), description, {}), InputError);
   description.folder = folder.path();
   const auto there = positions_after(Simulation(two_people().build(), description, {}), 10);
   EXPECT_GT(there[0].y(), 0.5F);

@@ -108,10 +108,10 @@ TEST(TrajectoryFile, FindsRateAndUnitInCommentsOfAllKinds) {
         std::tuple("# PeTrack project: 040_fps.pet\n# 25fps\n# x/cm y/cm z/cm\n", 0.04, 0.01),
         std::tuple("# frame rate = 10\n# coordinates in cm\n# z: height in m\n", 0.1, 0.01)}) {
     write_file_atomically(folder.path() / "w.txt",
-                          std::string(comments) + "1\t0\t100\t0\t0\n1\t1\t110\t0\t0\n");
+                          std::string(comments) + "1\t0\t10\t0\t0\n1\t1\t10.5\t0\t0\n");
     const world::Trace trace = read_trajectory(folder.path() / "w.txt", {});
     EXPECT_NEAR(trace.header.dt_s, dt_s, 1e-9) << comments;
-    EXPECT_NEAR(trace.position[0].x(), 100 * unit, 1e-4) << comments;
+    EXPECT_NEAR(trace.position[0].x(), 10 * unit, 1e-4) << comments;
   }
 }
 

@@ -94,6 +94,16 @@ TEST_F(ExperimentsFile, ReadsARecording) {
   EXPECT_EQ(recording.steady->until_s, 15);
 }
 
+TEST_F(ExperimentsFile, NamesTheColumnsOfARecording) {
+  json experiment = corridor_json();
+  experiment["columns"] = "frame,id,x,y";
+  const Experiment read = parse(experiment).at(0);
+  ASSERT_TRUE(read.recording);
+  EXPECT_EQ(read.recording->format.columns.frame, "1");
+  EXPECT_EQ(read.recording->format.columns.person, "2");
+  refuse(corridor_json(), "/columns", "frame,x,y", "id, x, y and either frame or time");
+}
+
 TEST_F(ExperimentsFile, ReadsLoopsAndSingleFiles) {
   const Experiment loop = parse(loop_json()).at(0);
   ASSERT_TRUE(loop.loop);

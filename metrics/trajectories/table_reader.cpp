@@ -1,0 +1,370 @@
+#include "metrics/trajectories/table_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text/words.h"
+#include "metrics/trajectories/column_roles.h"
+#include "metrics/trajectories/number_in.h"
+#include "metrics/trajectories/table_fields.h"
+#include "metrics/trajectories/text_encoding.h"
+#include "metrics/trajectories/timed_tracks.h"
+#include "metrics/trajectories/trajectory_words.h"
+
+namespace throng::metrics {
+
+using Eigen::Vector2d;
+using Fields = std::vector<std::string_view>;
+
+namespace {
+
+constexpr double kMaxFrame = 1e7;
+constexpr double kMaxId = 1e15;
+constexpr const char* kUnnamedExpected =
+    "id, frame (whole numbers), x and y, each person once a frame; or columns that are named "
+    "(--columns frame,id,x,y)";
+
+/// The id of a person as a number; nothing for other words.
+std::optional<std::int64_t> id_number(std::string_view word) {
+  const auto number = number_in(word);
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kMaxId) return std::nullopt;
+  return std::llround(*number);
+}
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& name, const TrajectoryFormat& format)
+      : text_(text), name_(name), format_(format), roles_(numbered_columns(format.columns)) {
+    are_numbered_ = roles_.has_value();
+  }
+
+  Recorded read() {
+    for (std::size_t at = 0; at < text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      ++line_;
+      read_line(text_.substr(at, end - at));
+      at = end + 1;
+    }
+    add_unnamed();
+    return by_time() ? read_times() : read_frames();
+  }
+
+ private:
+  enum class Part : std::uint8_t { names, units, rows };
+
+  bool by_time() const { return roles_ && roles_->by_time; }
+
+  void read_line(std::string_view line) {
+    const std::string_view trimmed_line = trimmed(line, " \t\r");
+    if (trimmed_line.empty()) return;
+    if (trimmed_line.front() == '#' || trimmed_line.front() == '*') {
+      return read_comment(trimmed_line);
+    }
+    if (trimmed_line.front() == '$' && read_viswalk_word(trimmed_line)) return;
+    if (separator_ == 0) separator_ = detect_separator(trimmed_line);
+    const Fields fields = split_fields(separator_ == ' ' ? trimmed_line : line, separator_);
+    if (part_ == Part::names && read_names(fields)) return;
+    if (part_ == Part::units && read_units(fields)) return;
+    part_ = Part::rows;
+    read_row(fields);
+  }
+
+  void read_comment(std::string_view line) {
+    if (line.front() == '*') {  // of Viswalk, which explains each column
+      if (lower_case(line).find("coordcentx:") != std::string::npos) state_unit(last_unit_in(line));
+      return;
+    }
+    if (const auto rate = frame_rate_in(line)) stated_rate_ = rate;
+    state_unit(unit_in(line));
+    line.remove_prefix(1);
+    std::string missing;
+    const Fields words = split_fields(line, detect_separator(trimmed(line, " \t\r")));
+    if (const auto roles = named_columns(words, {}, missing);
+        roles && roles->last() < words.size()) {
+      commented_ = roles;
+    }
+  }
+
+  /// Whether a line that begins with $ is nothing but a mark of Viswalk's.
+  bool read_viswalk_word(std::string_view line) {
+    constexpr std::string_view kNames = "$PEDESTRIAN:";
+    if (line.starts_with(kNames)) {
+      separator_ = ';';
+      has_names_ = read_names(split_fields(line.substr(kNames.size()), separator_));
+      unit_is_stated_ = true;  // m unless a comment states another
+      return true;
+    }
+    if (line.starts_with("$VISION")) return true;
+    if (line.starts_with("$VEHICLE:")) reject("a table of vehicles", "one of pedestrians");
+    return false;
+  }
+
+  void state_unit(const std::optional<double>& unit) {
+    if (!unit) return;
+    unit_m_ = *unit;
+    unit_is_stated_ = true;
+  }
+
+  /// Whether the line names the columns, which no line with numbers does.
+  bool read_names(const Fields& names) {
+    part_ = Part::rows;
+    const bool are_names = std::none_of(names.begin(), names.end(),
+                                        [](auto name) { return field_number(name).has_value(); });
+    if (are_numbered_) return are_names;
+    if (!are_names) {
+      roles_ = commented_;
+      return false;
+    }
+    std::string missing;
+    roles_ = named_columns(names, format_.columns, missing);
+    if (!roles_) {
+      std::string all;
+      for (const std::string_view name : names) {
+        all += (all.empty() ? "" : ", ") + shown(name);
+      }
+      reject(all.substr(0, 200),
+             fmt::format("a column \"{}\"; --columns id,frame,x,y (or time for frame) says what "
+                         "they are in their order (in JSON \"columns\")",
+                         missing));
+    }
+    part_ = Part::units;
+    field_count_ = names.size();
+    has_names_ = true;
+    time_scale_ = time_unit_in(names[roles_->when]).value_or(1);
+    spans_gaps_ = bare_name(names[roles_->x]) == "startx";  // footsteps of Vadere, in m
+    unit_is_stated_ = unit_is_stated_ || spans_gaps_;
+    state_unit(unit_in_name(names[roles_->x]));
+    return true;
+  }
+
+  /// Whether the line gives the units of the columns.
+  bool read_units(const Fields& fields) {
+    if (fields.size() <= roles_->last()) return false;
+    const std::string_view unit = fields[roles_->x];
+    if (unit.empty() || field_number(unit) || field_number(fields[roles_->y]) ||
+        field_number(fields[roles_->when])) {
+      return false;
+    }
+    const auto meters = unit_of_word(unit);
+    if (!meters && !format_.unit_m) {
+      reject(fmt::format("the unit {}", shown(unit)), kUnitExpected);
+    }
+    state_unit(meters);
+    if (const auto scale = time_unit_in(fields[roles_->when])) time_scale_ = *scale;
+    return true;
+  }
+
+  void read_row(const Fields& fields) {
+    if (!roles_) return read_unnamed(fields);
+    if (fields.size() <= roles_->last()) {
+      reject(fmt::format("{} fields", fields.size()),
+             fmt::format("at least {}", roles_->last() + 1));
+    }
+    if (separator_ == ',' && has_names_ && fields.size() > field_count_ &&
+        !(fields.size() == field_count_ + 1 && fields.back().empty())) {
+      reject(fmt::format("{} fields", fields.size()),
+             fmt::format("{}, as there are names; decimals with a comma need quotes or another "
+                         "separator",
+                         field_count_));
+    }
+    const std::string_view x = fields[roles_->x];
+    const std::string_view y = fields[roles_->y];
+    if (is_missing(x) && is_missing(y)) return;
+    const std::string_view person = fields[roles_->person];
+    if (person.empty()) reject("nobody", "a person's name or number");
+    double when = 0;
+    if (roles_->by_time) {
+      const auto time = field_time(fields[roles_->when]);
+      if (!time) reject(shown(fields[roles_->when]), "a time");
+      note_decimal(time->decimal);
+      when = time->value * time_scale_;
+    } else {
+      when = number(fields[roles_->when]);
+    }
+    add(person, when, Vector2d(number(x), number(y)));
+  }
+
+  static bool is_missing(std::string_view field) {
+    const std::string word = lower_case(field);
+    return word.empty() || word == "nan" || word == "na" || word == "null";
+  }
+
+  void read_unnamed(const Fields& fields) {
+    constexpr std::size_t kObsmat = 8;
+    std::array<double, kObsmat> numbers{};
+    const std::size_t count = std::min(fields.size(), kObsmat);
+    if (count < 4) reject(fmt::format("{} values", count), kUnnamedExpected);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = i < 4 || fields.size() == kObsmat ? field_number(fields[i])
+                                                           : std::optional(FieldNumber{});
+      if (!value || (i < 2 && *&value->value != std::floor(value->value))) {
+        reject(shown(fields[i]), kUnnamedExpected);
+      }
+      note_decimal(value->decimal);
+      numbers[i] = value->value;
+    }
+    if (std::abs(numbers[0]) > kMaxId || std::abs(numbers[1]) > kMaxId) {
+      reject(shown(fields[std::abs(numbers[0]) > kMaxId ? 0 : 1]), kUnnamedExpected);
+    }
+    // ETH's obsmat.txt: frame, person, x, z, y and velocities, the heights being 0.
+    is_obsmat_ = is_obsmat_ && fields.size() == kObsmat && numbers[3] == 0 && numbers[6] == 0;
+    unnamed_.push_back({numbers[0], numbers[1], {numbers[2], numbers[3]}, line_});
+    if (is_obsmat_) depths_.push_back(numbers[4]);
+  }
+
+  /// Adds the rows whose columns have no names.
+  void add_unnamed() {
+    if (unnamed_.empty()) return;
+    if (is_obsmat_) {
+      for (std::size_t i = 0; i < unnamed_.size(); ++i) unnamed_[i].place.y() = depths_[i];
+    }
+    ColumnOrder order = order_of_columns(unnamed_, stated_rate_.has_value());
+    if (is_obsmat_) order = ColumnOrder::frame_first;
+    if (order == ColumnOrder::unclear) refuse_order();
+    for (const UnnamedRow& row : unnamed_) {
+      line_ = row.line;
+      const bool person_first = order == ColumnOrder::person_first;
+      add(fmt::format("{}", person_first ? row.first : row.second),
+          person_first ? row.second : row.first, row.place);
+    }
+  }
+
+  [[noreturn]] void refuse_order() const {
+    const auto count = [&](double UnnamedRow::*column) {
+      std::vector<double> numbers;
+      for (const UnnamedRow& row : unnamed_) numbers.push_back(row.*column);
+      std::sort(numbers.begin(), numbers.end());
+      return std::unique(numbers.begin(), numbers.end()) - numbers.begin();
+    };
+    const auto first = count(&UnnamedRow::first);
+    const auto second = count(&UnnamedRow::second);
+    throw InputError(
+        {name_, "",
+         fmt::format("columns without names that are either {} people in {} frames or "
+                     "{} frames with {} people",
+                     first, second, first, second),
+         "which column is the person: --columns id,frame,x,y or --columns frame,id,x,y "
+         "(of a job: \"columns\": {\"person\": \"1\", \"frame\": \"2\", \"x\": \"3\", "
+         "\"y\": \"4\"} or {\"frame\": \"1\", \"person\": \"2\", ...})"});
+  }
+
+  void add(std::string_view person, double when, const Vector2d& place) {
+    if (!by_time() && when != std::floor(when)) {
+      reject(fmt::format("frame {}", when),
+             has_names_ ? "a whole number" : std::string(kUnnamedExpected));
+    }
+    if (!by_time() && std::abs(when) > kMaxFrame) {
+      reject(fmt::format("frame {:g}", when), "a frame within 1e7");
+    }
+    const auto id = id_number(person);
+    const std::string key = id ? fmt::format("{}", *id) : std::string(person);
+    const auto [known, is_new] = numbers_.try_emplace(key, tracks_.size());
+    if (is_new) {
+      tracks_.emplace_back();
+      ids_.push_back(id.value_or(0));
+      are_numbers_ = are_numbers_ && id.has_value();
+    }
+    if (!tracks_[known->second].try_emplace(when, place).second) {
+      reject("the same person and time again",
+             has_names_ ? "each person once at a time" : std::string(kUnnamedExpected));
+    }
+  }
+
+  double number(std::string_view field) {
+    const auto value = field_number(field);
+    if (!value) reject(shown(field), "a number");
+    note_decimal(value->decimal);
+    return value->value;
+  }
+
+  /// Refuses points beside decimal commas, which may separate thousands.
+  void note_decimal(char decimal) {
+    if (decimal == 0 || decimal == decimal_) return;
+    if (decimal_ != 0) {
+      reject(fmt::format("a number with '{}', after numbers with '{}'", decimal, decimal_),
+             "the same decimal separator throughout, and none of thousands");
+    }
+    decimal_ = decimal;
+  }
+
+  Recorded read_frames() {
+    Recorded recorded = stated();
+    recorded.frames_per_s = format_.frames_per_s.value_or(stated_rate_.value_or(0));
+    if (!(recorded.frames_per_s > 0)) {
+      throw InputError({name_, "", "no frame rate",
+                        kFrameRateExpected + std::string(", or a comment \"# framerate: 16\"")});
+    }
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      auto& places = recorded.places[id_of(i)];
+      for (const auto& [frame, place] : tracks_[i]) places[std::llround(frame)] = place;
+    }
+    return recorded;
+  }
+
+  Recorded read_times() {
+    TimedPeople people{{}, std::move(tracks_), spans_gaps_};
+    for (std::size_t i = 0; i < people.tracks.size(); ++i) people.ids.push_back(id_of(i));
+    auto rate = format_.frames_per_s ? format_.frames_per_s : stated_rate_;
+    Recorded recorded = put_on_frames(std::move(people), rate, name_);
+    recorded.unit_m = unit_m_;
+    recorded.unit_is_stated = unit_is_stated_;
+    return recorded;
+  }
+
+  Recorded stated() const {
+    Recorded recorded;
+    recorded.unit_m = unit_m_;
+    recorded.unit_is_stated = unit_is_stated_;
+    return recorded;
+  }
+
+  /// The id of a person in the trace: the number in the file, or the place in its order.
+  std::int64_t id_of(std::size_t person) const {
+    return are_numbers_ ? ids_[person] : static_cast<std::int64_t>(person) + 1;
+  }
+
+  [[noreturn]] void reject(const std::string& found, const std::string& expected) const {
+    throw InputError({name_, fmt::format("line {}", line_), found, expected});
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  const TrajectoryFormat& format_;
+  std::optional<ColumnRoles> roles_;
+  std::optional<ColumnRoles> commented_;  // columns that a comment names
+  bool are_numbered_ = false;             // by the user
+  bool has_names_ = false;
+  Part part_ = Part::names;
+  std::optional<double> stated_rate_;
+  double unit_m_ = 1;
+  bool unit_is_stated_ = false;
+  double time_scale_ = 1;
+  bool spans_gaps_ = false;
+  int line_ = 0;
+  char separator_ = 0;  // 0: not known yet
+  char decimal_ = 0;
+  std::size_t field_count_ = 0;
+  bool is_obsmat_ = true;
+  std::vector<UnnamedRow> unnamed_;
+  std::vector<double> depths_;                            // of ETH's obsmat.txt
+  std::unordered_map<std::string, std::size_t> numbers_;  // of persons, in order of appearance
+  std::vector<std::int64_t> ids_;
+  bool are_numbers_ = true;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace
+
+Recorded read_table(std::string_view text, const std::string& name,
+                    const TrajectoryFormat& format) {
+  return TableReader(text, name, format).read();
+}
+
+}  // namespace throng::metrics
