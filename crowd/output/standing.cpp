@@ -11,9 +11,9 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kShuffleM = 0.25F;  // swaying and giving way on the spot
-constexpr float kSlowMps = 0.05F;   // no wish to move
-constexpr float kAtGoalM = 1;       // as near as others let somebody
+constexpr float kShuffleM = 0.5F;  // swaying, and giving way in a jam
+constexpr float kSlowMps = 0.05F;  // no wish to move
+constexpr float kAtGoalM = 1;      // as near as others let somebody
 constexpr double kRoundingS = 1e-6;
 
 bool wants_to_go(const Simulation& crowd, std::size_t agent) {

@@ -12,7 +12,7 @@
 namespace throng::crowd {
 
 /// Watches how long agents have stood. Writes no file; warning() speaks of the last recorded time.
-/// An agent stands from when it has remained within 25 cm in the same state. It wants to go on if
+/// An agent stands from when it has remained within 50 cm in the same state. It wants to go on if
 /// its state is not final, its desired speed is above 0, and it prefers to move or has a goal
 /// farther than 1 m away.
 class StandingWatch : public Recorder {
