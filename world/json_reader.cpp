@@ -7,6 +7,7 @@
 
 #include "base/json/deprecation.h"
 #include "base/json/json_describe.h"
+#include "base/json/json_integer.h"
 #include "base/text/suggest.h"
 
 namespace throng::world {
@@ -111,7 +112,7 @@ double JsonValue::number(double low, double high) const {
 
 int JsonValue::integer(int low, int high) const {
   if (value_ == nullptr) return low;
-  if (value_->is_number_integer()) {
+  if (is_integer(*value_)) {
     // Through double: an unsigned value beyond the range of int64 must not wrap around.
     const double value = value_->get<double>();
     if (value >= low && value <= high) return static_cast<int>(value);

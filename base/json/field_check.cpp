@@ -8,6 +8,7 @@
 
 #include "base/json/deprecation.h"
 #include "base/json/json_describe.h"
+#include "base/json/json_integer.h"
 #include "base/text/suggest.h"
 #include "base/text/utf8.h"
 
@@ -73,7 +74,7 @@ std::string describe_expected(const FieldRules& field) {
 }
 
 bool is_of_type(const json& value, std::string_view type) {
-  if (type == "integer") return value.is_number_integer();
+  if (type == "integer") return is_integer(value);
   if (type == "number") return value.is_number();
   if (type == "boolean") return value.is_boolean();
   if (type == "string") return value.is_string();

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/json/json_integer.h"
+
 namespace throng::fields {
 
 using nlohmann::json;
@@ -41,7 +43,7 @@ Values integers(std::int64_t low, std::int64_t high) {
   Quantity quantity = number_quantity(static_cast<double>(low), static_cast<double>(high));
   quantity.expected = fmt::format("an integer from {} to {}", low, high);
   quantity.number = [number = quantity.number](const json& value) {
-    return value.is_number_integer() ? number(value) : std::nullopt;
+    return is_integer(value) ? number(value) : std::nullopt;
   };
   quantity.json = [](double value) { return json(std::llround(value)); };
   return {{{"type", "integer"}, {"minimum", low}, {"maximum", high}}, "", std::move(quantity)};

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -36,13 +35,12 @@ std::string shown(std::string_view text, std::size_t max_bytes = kMaxShownBytes)
 class ValueBuilder final : public nlohmann::json_sax<json> {
  public:
   ValueBuilder(std::string_view text, const JsonLimits& limits, std::string list_key = {},
-               OnElement on_element = {}, std::string_view what = "text", bool is_own = false)
+               OnElement on_element = {}, std::string_view what = "text")
       : text_(text),
         what_(what),
         limits_(limits),
         list_key_(std::move(list_key)),
-        on_element_(std::move(on_element)),
-        is_own_(is_own) {}
+        on_element_(std::move(on_element)) {}
 
   json take() { return std::move(root_); }
   const std::optional<Problem>& problem() const { return problem_; }
@@ -55,14 +53,6 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
     if (written.size() > limits_.max_number_chars) {
       return fail(fmt::format("a number of {} characters", written.size()),
                   fmt::format("at most {}", limits_.max_number_chars));
-    }
-    // JSON has one kind of number: 2.0 is an integer, as JSON Schema has it.
-    constexpr double kMaxExact = 9007199254740992;  // 2^53
-    const bool is_negative_zero = value == 0 && std::signbit(value);
-    if (!is_own_ && !is_negative_zero && std::abs(value) <= kMaxExact &&
-        value == std::trunc(value)) {
-      return value < 0 ? number_integer(static_cast<number_integer_t>(value))
-                       : number_unsigned(static_cast<number_unsigned_t>(value));
     }
     return add(value) != nullptr;
   }
@@ -178,7 +168,6 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   const JsonLimits& limits_;
   std::string list_key_;
   OnElement on_element_;
-  bool is_own_;  ///< written by this program, which keeps the kinds of its numbers
   json root_;
   std::vector<json*> open_;  ///< from the root inwards; only the innermost one changes
   json* member_ = nullptr;   ///< of the innermost object: the place for the value of its last key
@@ -222,7 +211,7 @@ json parse_json(std::string_view text, const std::string& source, const JsonLimi
 }
 
 json parse_own_json(std::string_view text, const std::string& what) {
-  ValueBuilder builder(text, kOwnJsonLimits, {}, {}, "text", true);
+  ValueBuilder builder(text, kOwnJsonLimits);
   return own_value(text, what, builder);
 }
 
@@ -239,7 +228,7 @@ bool is_own_json(std::string_view text) { return json::accept(text); }
 
 json parse_own_json_list(std::string_view text, const std::string& what,
                          const std::string& list_key, const OnElement& on_element) {
-  ValueBuilder builder(text, kOwnJsonLimits, list_key, on_element, "text", true);
+  ValueBuilder builder(text, kOwnJsonLimits, list_key, on_element);
   return own_value(text, what, builder);
 }
 

@@ -32,8 +32,7 @@ inline constexpr JsonLimits kOwnJsonLimits = {.max_bytes = std::size_t{16} << 30
 
 /// Parses a document. Throws InputError with line and column or JSON pointer for malformed JSON
 /// (RFC 8259; also invalid UTF-8 and lone surrogates), duplicate keys, numbers beyond the range of
-/// a double, and exceeded limits. A number with an integer's value is an integer, however it is
-/// written (2.0, 1e3), as in JSON Schema. `source` is the name of the file in messages.
+/// a double, and exceeded limits. `source` is the name of the file in messages.
 nlohmann::json parse_json(std::string_view text, const std::string& source,
                           const JsonLimits& limits = {});
 

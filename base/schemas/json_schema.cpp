@@ -1,6 +1,7 @@
 #include "base/schemas/json_schema.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string_view>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -10,6 +11,7 @@
 
 #include "base/json/field_table.h"
 #include "base/json/json_describe.h"
+#include "base/json/json_integer.h"
 #include "base/text/suggest.h"
 
 namespace throng::schemas {
@@ -135,6 +137,15 @@ bool is_at_or_below(const std::string& pointer, const std::string& other) {
   return pointer == other || other.empty() || other == "/" || pointer.starts_with(other + "/");
 }
 
+/// valijson takes the kind of a number for its type: 2.0 becomes the integer that it is.
+void use_integers(json& value) {
+  if (value.is_structured()) {
+    for (json& element : value) use_integers(element);
+  } else if (value.is_number_float() && is_integer(value)) {
+    value = static_cast<std::int64_t>(value.get<double>());
+  }
+}
+
 }  // namespace
 
 struct JsonSchema::Compiled {
@@ -154,7 +165,9 @@ JsonSchema& JsonSchema::operator=(JsonSchema&&) noexcept = default;
 std::vector<Problem> JsonSchema::problems(const json& value, const std::string& source) const {
   valijson::Validator validator;
   valijson::ValidationResults results;
-  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(value),
+  json numbers = value;
+  use_integers(numbers);
+  if (validator.validate(compiled_->schema, valijson::adapters::NlohmannJsonAdapter(numbers),
                          &results)) {
     return {};
   }

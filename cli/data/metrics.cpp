@@ -176,10 +176,10 @@ void add_metrics(CLI::App& app) {
       "metrics", "Measure a trace or recorded trajectories: exits, clogs, evacuation, exposure");
   const auto arguments = std::make_shared<MetricsArguments>();
   command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
-  command->add_option(
-      "--trajectory", arguments->trajectory,
-      "Recorded trajectories instead: text, tables, JuPedSim's SQLite, Jülich's HDF5, SUMO's FCD, "
-      "Menge's .scb and others (docs/recorded.md)");
+  command->add_option("--trajectory", arguments->trajectory,
+                      "Recorded trajectories instead: text, tables, JuPedSim's SQLite, the Data "
+                      "Archive's HDF5, SUMO's FCD, "
+                      "Menge's .scb and others (docs/recorded.md)");
   command->add_option("--scenario", arguments->scenario,
                       "Id or file (.json) of the scenario; default: the one that the trace holds");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");

@@ -166,8 +166,8 @@ Recorded read_archive_hdf5(const std::filesystem::path& file, std::optional<doub
   const hdf5::QuietErrors quiet;
   try {
     return read(file, frames_per_s);
-  } catch (const hdf5::Failure& failure) {
-    throw InputError({file.string(), failure.what(), "HDF5 that is damaged or cut short",
+  } catch (const hdf5::Failure&) {
+    throw InputError({file.string(), "", "HDF5 that is damaged or cut short",
                       "trajectories of the Pedestrian Dynamics Data Archive"});
   }
 }

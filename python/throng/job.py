@@ -582,8 +582,8 @@ class Recorded(Part):
     sha256: str | None = None
     """SHA-256 of the file; another file is refused. Filled in."""
     format: Literal["any", "text", "sqlite", "scb", "csv", "hdf5", "fcd", "json"] | None = None
-    """text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's scb, Jülich's hdf5, SUMO's
-    fcd, json of Pathfinder or TrajNet++; without it (any), by suffix and content."""
+    """text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's scb, the Data Archive's
+    hdf5, SUMO's fcd, json of Pathfinder or TrajNet++; without it (any), by suffix and content."""
     frame_rate_hz: float | None = None
     """Frames per second, if the file does not contain the rate or is wrong; with a column of times, the rate to
     interpolate to. Unit: Hz."""

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/json/json_integer.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/http.h"
@@ -49,7 +50,7 @@ std::int64_t integer_in(const json& body, const char* name, std::int64_t min_num
                         std::int64_t max_number) {
   const json value = body.value(name, json(nullptr));
   if (value.is_null()) return 0;
-  if (value.is_number_integer() && value >= min_number && value <= max_number) return value;
+  if (is_integer(value) && value >= min_number && value <= max_number) return value;
   throw wrong_field(kKeyNoun, fmt::format("/{}", name), value.dump(),
                     fmt::format("an integer from {} to {}, or null", min_number, max_number));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_integer.h"
 #include "base/text/utf8.h"
 #include "jobs/queue/store/store.h"
 #include "server/api/requests.h"
@@ -61,7 +62,7 @@ jobs::JobChange read_change(const RequestContext& context, const Request& reques
   jobs::JobChange wanted{row.priority, row.labels, row.keep};
   for (const auto& [name, value] : change.items()) {
     if (name == "priority") {
-      if (!value.is_number_integer() || value < -kMaxPriority || value > kMaxPriority) {
+      if (!is_integer(value) || value < -kMaxPriority || value > kMaxPriority) {
         throw wrong_change("/priority", value.dump(), "an integer from -100 to 100");
       }
       wanted.priority = value;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_integer.h"
 #include "base/text/suggest.h"
 #include "spec/job/schema.h"
 #include "world/json_reader.h"
@@ -72,7 +73,7 @@ Quantity read_quantity(const json& rules) {
   if (rules.at("type") != "integer") return quantity;
   quantity.expected.replace(0, std::string_view("a number").size(), "an integer");
   quantity.number = [number = quantity.number](const json& value) {
-    return value.is_number_integer() ? number(value) : std::nullopt;
+    return is_integer(value) ? number(value) : std::nullopt;
   };
   quantity.json = [](double value) { return json(std::llround(value)); };
   return quantity;

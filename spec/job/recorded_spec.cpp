@@ -71,12 +71,12 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
           "SHA-256 of the file; another file is refused. Filled in.")
       .without_default();
   table
-      .add_word(
-          "format", "Format", kKindWords,
-          at(&RecordedSpec::format, &metrics::TrajectoryFormat::kind),
-          "text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's "
-          "scb, Jülich's hdf5, SUMO's fcd, json of Pathfinder or TrajNet++; without it (any), "
-          "by suffix and content.")
+      .add_word("format", "Format", kKindWords,
+                at(&RecordedSpec::format, &metrics::TrajectoryFormat::kind),
+                "text or csv, a table whose columns may be named below; JuPedSim's sqlite, Menge's "
+                "scb, the Data Archive's hdf5, SUMO's fcd, json of Pathfinder or TrajNet++; "
+                "without it (any), "
+                "by suffix and content.")
       .without_default();
   table.add(
       "frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),

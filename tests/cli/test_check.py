@@ -97,7 +97,8 @@ class Check(unittest.TestCase):
         self.assertEqual(answer["runs"], 2)
         self.assertEqual(answer["people"], 20)
         self.assertEqual(answer["frames"], 2 * 9 * cameras)
-        self.assertGreater(answer["estimate"]["memory_mib"], 500)
+        # Of which the characters are most, and tests have fewer of them.
+        self.assertGreater(answer["estimate"]["memory_mib"], 350)
         more = self.answer(runs=4, capture={"rate_hz": 2, "from_s": 1, "to_s": 5}, crowd={"agents": 20})
         self.assertAlmostEqual(more["estimate"]["cpu_s"] / answer["estimate"]["cpu_s"], 2, delta=0.1)
         self.assertGreater(

@@ -248,7 +248,7 @@ class Messages(unittest.TestCase):
         self.refused("d: found a dataset, expected a trace (HDF5); its figures are in ", "metrics", self.folder / "d")
         trace = self.folder / "run.h5"
         trace.write_bytes(b"\x89HDF\r\n\x1a\n")
-        self.refused("run.h5: found a trace, expected a file of trajectories", "metrics", "--trajectory", trace)
+        self.refused("run.h5: found HDF5 that is damaged or cut short", "metrics", "--trajectory", trace)
         self.refused("found a job, expected a file of trajectories", "metrics", "--trajectory", job)
 
     def test_endings_of_files_to_write_are_checked_first(self):

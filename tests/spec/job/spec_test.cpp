@@ -40,6 +40,19 @@ class Spec : public testing::Test {
   }
 };
 
+// As a program prints them that has one kind of number.
+TEST(JobNumbers, IntegersMayBeWrittenWithAFractionOfZero) {
+  const JobSpec job = parse_job(
+      R"({"scenario": "yard", "runs": 2.0, "seed": 1e3, "crowd": {"agents": 30.0},
+          "drones": [{"id": "d1", "camera": {"width": 160.0, "height": 120}}]})",
+      "");
+  EXPECT_EQ(job.runs, 2);
+  EXPECT_EQ(job.seed, 1000U);
+  EXPECT_EQ(job.agents, 30);
+  EXPECT_EQ(job.drones.at(0).camera.width, 160);
+  EXPECT_THROW(parse_job(R"({"scenario": "yard", "runs": 2.5})", ""), InputError);
+}
+
 TEST_F(Spec, EverythingButTheScenarioHasADefault) {
   const JobSpec job = parse(R"({"scenario": "yard"})");
   EXPECT_EQ(job.name, "yard");

@@ -2,7 +2,7 @@
 // as the service knows them ("/jobs/ID", "/v1/jobs"); the proxy's path is added where an address goes to the browser.
 
 /** "" or the path of the proxy without a slash at its end: the scripts are in assets/ of the service. */
-export const kBase = new URL("..", import.meta.url).pathname.replace(/\/$/, "");
+export const kBase = /^https?:/.test(import.meta.url) ? new URL("..", import.meta.url).pathname.replace(/\/$/, "") : "";
 
 /** An address of the service as the browser needs it. */
 export const browserAddress = (address: string): string => (/^\/(?!\/)/.test(address) ? kBase + address : address);

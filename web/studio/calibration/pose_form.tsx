@@ -105,8 +105,8 @@ export function PoseForm({ calibrations, nameOf }: PoseFormProps) {
           <FileField
             id="file-camera"
             label="Camera file"
-            note="a calibration's camera (JSON)"
-            accept=".json,application/json"
+            note="a calibration's camera (JSON), or ROS', OpenCV's, Kalibr's or COLMAP's file"
+            accept=".json,.yaml,.yml,.xml,.txt,.bin"
             file={files.camera ?? null}
             onFile={(file) => set("camera", file)}
           />
