@@ -165,8 +165,9 @@ TEST(CommandTopics, MistakesNameTopicAndField) {
             R"(/d1/cmd_vel: /linear: found ["fast",0,0], expected 3 numbers from -20 to 20)");
   EXPECT_EQ(refused("/d1/cmd_vel", R"({"linear": [1, 2, 3]})"),
             "/d1/cmd_vel: /linear: found [1,2,3], expected an object with x, y, z");
-  EXPECT_EQ(refused("/d1/cmd_pose", R"({"position": {"x": 1e5}})"),
-            "/d1/cmd_pose: /position: found [100000.0,0,0], expected 3 numbers from -10000 to 10000");
+  EXPECT_EQ(
+      refused("/d1/cmd_pose", R"({"position": {"x": 1e5}})"),
+      "/d1/cmd_pose: /position: found [100000.0,0,0], expected 3 numbers from -10000 to 10000");
   EXPECT_EQ(refused("/d1/cmd_pose", R"({"position": {}, "orientation": 3})"),
             "/d1/cmd_pose: /orientation/x: found 3, expected a number from -1.1 to 1.1");
   EXPECT_TRUE(refused("/d1/cmd_pose", R"({"position": {}, "yaw_deg": "north"})")
