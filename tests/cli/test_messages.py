@@ -64,7 +64,7 @@ class Messages(unittest.TestCase):
         for command in ([], ["metrics"], ["calibrate", "pose"]):
             text = throng(*command, "--help").stdout
             self.assertTrue(text.isascii() and re.fullmatch(r"[\n -~]*", text), command)
-        self.assertIn("{any,text,sqlite,scb,csv}", throng("metrics", "--help").stdout)
+        self.assertIn("{any,text,sqlite,scb,csv,hdf5,fcd,json}", throng("metrics", "--help").stdout)
 
     def test_an_unknown_field_is_named_with_the_nearest_one(self):
         self.refused(
