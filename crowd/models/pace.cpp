@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowd/models/local_model.h"
 #include "crowd/models/oncoming.h"
 #include "crowd/models/single_file.h"
 

@@ -100,7 +100,7 @@ bool is_utf16(std::string_view bytes) {
   return (even > kMany && odd < kFew) || (odd > kMany && even < kFew);
 }
 
-std::string decode_text(std::string bytes, const std::string& name) {
+std::string decode_text(std::string_view bytes, const std::string& name) {
   if (is_utf16(bytes)) return from_utf16(bytes);
   if (const std::string_view kind = binary_kind(bytes); !kind.empty()) {
     throw InputError({name, "", std::string(kind),

@@ -11,7 +11,7 @@ bool is_utf16(std::string_view bytes);
 
 /// Returns the text of a file in UTF-8 without byte order mark; UTF-16 is converted. `name` names
 /// the file in messages. Throws InputError for bytes that are no text, naming their kind.
-std::string decode_text(std::string bytes, const std::string& name);
+std::string decode_text(std::string_view bytes, const std::string& name);
 
 /// Returns a part of a file for a message: shortened, with unprintable characters replaced.
 std::string shown(std::string_view text);

@@ -150,7 +150,7 @@ Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
                       "text or a table (csv), or the file decompressed"});
   }
   if (auto recorded = read_binary(file, kind, format)) return *std::move(recorded);
-  const std::string text = decode_text(std::move(bytes), file.string());
+  const std::string text = decode_text(bytes, file.string());
   if (kind == TrajectoryKind::any) kind = kind_of_text(text);
   if (kind == TrajectoryKind::fcd) return read_fcd(text, file.string(), format.frames_per_s);
   if (kind == TrajectoryKind::json_text) {
