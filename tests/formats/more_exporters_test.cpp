@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/files/hash.h"
+#include "base/graphics/images/raster.h"
 #include "formats/files/npy.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
