@@ -3,7 +3,6 @@
 #include <archive.h>
 #include <archive_entry.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +16,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/files/files.h"
-#include "base/files/untrusted_folders.h"
+#include "base/files/read_only_file.h"
 #include "base/resource_exhaustion.h"
 #include "base/text/words.h"
 
@@ -263,28 +261,19 @@ class Unpacking {
 /// Returns the number of bytes. `bytes_before` is that of the files before it.
 std::int64_t copy_plain_file(const fs::path& from, const std::string& name, const fs::path& to,
                              const UnpackLimits& limits, std::int64_t bytes_before) {
-  const int descriptor = open_for_reading(from);
-  if (descriptor < 0) {
-    if (errno == ELOOP || errno == EACCES) refuse(name, "no plain file", "files and folders");
-    throw_environment_error("cannot read " + from.string(), errno);
-  }
-  const std::unique_ptr<const int, void (*)(const int*)> closed(
-      &descriptor, [](const int* open) { ::close(*open); });
+  const ReadOnlyFile source(from);
+  errno = 0;
   std::ofstream file(to, std::ios::binary | std::ios::trunc);
   std::vector<char> block(64 << 10);
   std::int64_t bytes = 0;
-  while (true) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count < 0) throw_environment_error("cannot read " + from.string(), errno);
-    if (count == 0) break;
-    bytes += count;
+  while (const std::size_t count = source.read_at(bytes, block)) {
+    bytes += static_cast<std::int64_t>(count);
     if (bytes > limits.max_file_bytes || bytes_before + bytes > limits.max_bytes) {
       refuse(name, "a larger file",
              fmt::format("at most {} bytes, and {} in all files together", limits.max_file_bytes,
                          limits.max_bytes));
     }
-    errno = 0;
-    file.write(block.data(), count);
+    file.write(block.data(), static_cast<std::streamsize>(count));
   }
   file.close();
   if (!file) throw_write_error(to, errno);
@@ -317,7 +306,11 @@ Unpacked copy_unpacked(const fs::path& from, const fs::path& to, const UnpackLim
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from)) {
     const std::string name = entry.path().lexically_relative(from).generic_string();
     const std::vector<std::string> parts = split_path(name, limits);
-    const bool is_folder = entry.symlink_status().type() == fs::file_type::directory;
+    const fs::file_type type = entry.symlink_status().type();
+    const bool is_folder = type == fs::file_type::directory;
+    if (!is_folder && type != fs::file_type::regular) {
+      refuse(name, "no plain file", "files and folders");
+    }
     names.add(name, parts, is_folder);
     if (++entries > limits.max_entries + limits.max_folders ||
         names.folders() > limits.max_folders) {

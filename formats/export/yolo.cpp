@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <string>
 
+#include "base/text/slug.h"
 #include "formats/dataset/mask.h"
 #include "formats/dataset/polygon.h"
 #include "formats/export/makers.h"
@@ -27,15 +27,6 @@ constexpr std::array<int, skinning::kKeypointCount> kMirrored = {0,  2, 1,  4,  
 /// Offset of a polygon's point within its pixel: whether loaders cut off or round, they come to
 /// this pixel, whose middle is a whole number for OpenCV.
 constexpr double kInPixel = 0.25;
-
-/// A dataset's name as the name of a folder.
-std::string folder_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(),
-      [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c < 0x80; },
-      '_');
-  return name.empty() ? "throng" : name;
-}
 
 double share(double value, int size) { return std::clamp(value / size, 0.0, 1.0); }
 
@@ -77,11 +68,10 @@ class YoloExporter : public Exporter {
     // Ultralytics takes the folder of data.yaml where none is named. YOLOv5 and its kin take their
     // own folder, beside which they expect "datasets".
     output_.write("data.yaml", yaml);
-    output_.write(
-        "data.yolov5.yaml",
-        fmt::format("# YOLOv5, v6, v7: where this folder lies, absolute or as seen from "
-                    "theirs.\npath: {}\n{}",
-                    nlohmann::json("../datasets/" + folder_name(info_.name)).dump(), yaml));
+    output_.write("data.yolov5.yaml",
+                  fmt::format("# YOLOv5, v6, v7: where this folder lies, absolute or as seen from "
+                              "theirs.\npath: {}\n{}",
+                              nlohmann::json("../datasets/" + slug(info_.name)).dump(), yaml));
     if (task_ == Task::segment) {
       output_.write("polygons.csv", "label,line,pieces,left_out_px,line_px,iou\n" + fits_);
     }

@@ -204,7 +204,7 @@ class TableReader {
     for (std::size_t i = 0; i < count; ++i) {
       const auto value = i < 4 || fields.size() == kObsmat ? field_number(fields[i])
                                                            : std::optional(FieldNumber{});
-      if (!value || (i < 2 && *&value->value != std::floor(value->value))) {
+      if (!value || (i < 2 && value->value != std::floor(value->value))) {
         reject(shown(fields[i]), kUnnamedExpected);
       }
       note_decimal(value->decimal);

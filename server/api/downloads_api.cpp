@@ -16,6 +16,7 @@
 #include "base/files/hash.h"
 #include "base/files/untrusted_folders.h"
 #include "base/json/json_text.h"
+#include "base/text/slug.h"
 #include "jobs/queue/dataset/archive.h"
 #include "jobs/queue/dataset/folder.h"
 #include "jobs/queue/dataset/manifest.h"
@@ -184,7 +185,7 @@ int requested_run(const Request& request, const jobs::JobRow& row) {
 void send_archive(const RequestContext& context, const Request& request, Response& response) {
   const jobs::JobRow row = find_succeeded(context, request);
   const fs::path dataset = context.folders.dataset_folder(row.id);
-  const std::string name = jobs::slug(row.name);
+  const std::string name = slug(row.name);
   const jobs::ArchiveFormat format = requested_format(request);
   const auto archive = context.datasets.archive_of(
       dataset, name, format,
@@ -296,9 +297,8 @@ void send_run_trace(const RequestContext& context, const Request& request, Respo
   const jobs::JobRow row = find_job(context, request);
   const int run = requested_run(request, row);
   const fs::path trace = trace_file(context, row, run);
-  response.set_header(
-      "Content-Disposition",
-      fmt::format("attachment; filename=\"{}_{}.h5\"", jobs::slug(row.name), jobs::run_name(run)));
+  response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}_{}.h5\"",
+                                                         slug(row.name), jobs::run_name(run)));
   answer_with_file(request, response, trace, "application/x-hdf5",
                    fmt::format("\"{}\"", jobs::sealed_hash(trace)));
 }

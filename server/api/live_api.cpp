@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text/slug.h"
 #include "jobs/queue/dataset/archive.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
@@ -202,7 +203,7 @@ void send_live_recording(const RequestContext& context, const Request& request,
     throw HttpError{404, "nothing was recorded; the flight's result says why"};
   }
   response.set_header("Content-Disposition",
-                      fmt::format("attachment; filename=\"{}.mcap\"", jobs::slug(flight->name())));
+                      fmt::format("attachment; filename=\"{}.mcap\"", slug(flight->name())));
   answer_with_file(request, response, flight->recording(), "application/octet-stream",
                    fmt::format("\"{}\"", flight->id()));
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "server/http/file_answer.h"
 #include "server/http/http.h"
 #include "server/http/http_error.h"
 
@@ -41,11 +42,7 @@ void send_bytes(const Request& request, Response& response, const StudioFile& fi
   response.set_header("Cache-Control", caching);
   response.set_header("ETag", std::string(file.etag));
   response.set_header("Vary", "Accept-Encoding");
-  const std::string known = request.get_header_value("If-None-Match");
-  if (response.status != 404 && known.find(file.etag) != std::string::npos) {
-    response.status = 304;
-    return;
-  }
+  if (response.status != 404 && is_current(request, response, std::string(file.etag))) return;
   const bool is_compressed = request.has_header("Accept-Encoding");  // gzip: RequestHead
   if (is_compressed) response.set_header("Content-Encoding", "gzip");
   const std::string_view bytes = is_compressed ? file.gzip : file.bytes;

@@ -71,7 +71,7 @@ TEST(HandMadeYolo, HasCentersAndSizesAsShares) {
   EXPECT_TRUE(out.has("images/train/run002-d1-000004.jpg"));
   // The same for readers that take paths relative to their own folder.
   EXPECT_THAT(out.text("data.yolov5.yaml"),
-              ::testing::EndsWith("path: \"../datasets/hand__made_\"\n" + out.text("data.yaml")));
+              ::testing::EndsWith("path: \"../datasets/hand-made\"\n" + out.text("data.yaml")));
 }
 
 TEST(HandMadeMot, ListsItsSequencesForTrackEval) {

@@ -65,7 +65,4 @@ class Archive {
   std::int64_t size_ = 0;
 };
 
-/// Converts a name to one for files or folders: at most 60 lower-case letters, digits and '-'.
-std::string slug(const std::string& name);
-
 }  // namespace throng::jobs

@@ -4,17 +4,11 @@
 
 #include <sdf/sdf.hh>
 
+#include "world/imports/gazebo/sdf_children.h"
+
 namespace throng::imports {
 
 namespace {
-
-template <typename Call>
-void for_each_child(const sdf::ElementPtr& parent, const std::string& name, const Call& call) {
-  if (!parent->HasElement(name)) return;
-  for (auto child = parent->GetElement(name); child; child = child->GetNextElement(name)) {
-    call(child);
-  }
-}
 
 const EntityState* find_in(const std::map<std::string, EntityState>& states,
                            const std::string& name) {

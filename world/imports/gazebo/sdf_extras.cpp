@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "world/imports/gazebo/sdf_children.h"
 #include "world/imports/gazebo/sdf_reader.h"
 #include "world/imports/gazebo/world_population.h"
 #include "world/imports/gazebo/world_roads.h"
@@ -15,18 +16,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 
 namespace {
-
-template <typename Call>
-void for_each_child(const sdf::ElementPtr& parent, const std::string& name, const Call& call) {
-  if (!parent || !parent->HasElement(name)) return;
-  for (auto child = parent->GetElement(name); child; child = child->GetNextElement(name)) {
-    call(child);
-  }
-}
-
-sdf::ElementPtr first_child(const sdf::ElementPtr& parent, const std::string& name) {
-  return parent && parent->HasElement(name) ? parent->GetElement(name) : nullptr;
-}
 
 /// The file from which an element includes models; "" if it includes none.
 std::string find_source(const sdf::ElementPtr& element) {
@@ -43,7 +32,7 @@ std::string find_source(const sdf::ElementPtr& element) {
 }  // namespace
 
 void SdfReader::note_state(const sdf::World& world) {
-  const sdf::ElementPtr element = first_child(world.Element(), "state");
+  const sdf::ElementPtr element = find_child(world.Element(), "state");
   for (const std::string& name : state_.inserted) {
     skip(element, name + " <insertions>", "only the <state> has it: save the world with it");
   }
@@ -82,10 +71,10 @@ void SdfReader::add_populations(const sdf::ElementPtr& world) {
 }
 
 void SdfReader::add_copies(const sdf::ElementPtr& population, const std::string& name) {
-  const sdf::ElementPtr model = first_child(population, "model");
+  const sdf::ElementPtr model = find_child(population, "model");
   sdf::Root root;
   if (!model || !load_model(model, root)) return skip(population, name, "has no model to copy");
-  const sdf::ElementPtr distribution = first_child(population, "distribution");
+  const sdf::ElementPtr distribution = find_child(population, "distribution");
   const int line = distribution ? distribution->LineNumber().value_or(0) : 0;
   const ModelCopies copies = place_copies(population, text_->value_at(line));
   if (!copies.unread.empty()) skip(population, name, copies.unread);
@@ -103,8 +92,8 @@ void SdfReader::add_copies(const sdf::ElementPtr& population, const std::string&
 void SdfReader::add_actors(const sdf::ElementPtr& world) {
   for_each_child(world, "actor", [&](const sdf::ElementPtr& actor) {
     const std::string name = fmt::format("actor {}", actor->Get<std::string>("name"));
-    const auto trajectory = first_child(first_child(actor, "script"), "trajectory");
-    const auto waypoint = first_child(trajectory, "waypoint");
+    const auto trajectory = find_child(find_child(actor, "script"), "trajectory");
+    const auto waypoint = find_child(trajectory, "waypoint");
     const auto place = waypoint ? waypoint : actor;
     const auto pose = place->HasElement("pose") ? place->Get<ignition::math::Pose3d>("pose")
                                                 : ignition::math::Pose3d();

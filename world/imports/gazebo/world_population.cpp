@@ -8,6 +8,7 @@
 #include <sdf/sdf.hh>
 
 #include "base/compute/random.h"
+#include "world/imports/gazebo/sdf_children.h"
 
 namespace throng::imports {
 
@@ -28,10 +29,6 @@ template <typename Value>
 Value value_in(const sdf::ElementPtr& element, const std::string& name, Value otherwise) {
   if (!element || !element->HasElement(name)) return otherwise;
   return element->Get<Value>(name);
-}
-
-sdf::ElementPtr find_child(const sdf::ElementPtr& element, const std::string& name) {
-  return element && element->HasElement(name) ? element->GetElement(name) : nullptr;
 }
 
 /// A box, or the cylinder in it, about `center`.

@@ -97,7 +97,7 @@ void note_unread(const OsmArea& area, const BuildingPiece& piece, const std::str
 /// part is its tower.
 void add_body(const Outline& outline, const BuildingPiece& whole, const std::string& file,
               std::vector<BuildingPiece>& pieces, std::vector<Skipped>& skipped) {
-  constexpr double kMostly = 0.5;  // of its area
+  constexpr double kMinBareShare = 0.5;  // of its area
   constexpr double kWorthSayingM2 = 5;
   std::vector<Area> covered;
   std::vector<Area> on_ground;
@@ -107,7 +107,7 @@ void add_body(const Outline& outline, const BuildingPiece& whole, const std::str
   }
   double bare_m2 = 0;
   for (const Area& rest : without(whole.area, covered)) bare_m2 += size_m2(rest);
-  if (bare_m2 > kMostly * size_m2(whole.area)) {
+  if (bare_m2 > kMinBareShare * size_m2(whole.area)) {
     for (Area& rest : without(whole.area, on_ground)) {
       BuildingPiece body = whole;
       body.area = std::move(rest);

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/text/words.h"
+
 namespace throng::imports {
 
 namespace {
@@ -16,12 +18,6 @@ constexpr double kMaxLengthM = 1000;
 constexpr double kMaxCount = 300;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
 
 /// Lower case, with one spelling of each sign.
 std::string plain(std::string_view text) {

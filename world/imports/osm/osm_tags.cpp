@@ -110,6 +110,17 @@ std::optional<double> roof_height_m(const Tags& tags) {
   return std::nullopt;
 }
 
+/// "KEY=VALUE" of the tags that have these keys and that cannot be read.
+std::vector<std::string> unread_values(const Tags& tags, const std::vector<std::string>& keys,
+                                       Reader read) {
+  std::vector<std::string> unread;
+  for (const std::string& key : keys) {
+    const auto tag = tags.find(key);
+    if (tag != tags.end() && !read(tag->second)) unread.push_back(key + "=" + tag->second);
+  }
+  return unread;
+}
+
 bool is_below_ground(std::string_view text, Reader read) {
   return text.starts_with('-') && read(text.substr(1)).has_value();
 }
@@ -171,21 +182,11 @@ double building_base_m(const Tags& tags) {
 }
 
 std::vector<std::string> unread_lengths(const Tags& tags, const std::vector<std::string>& keys) {
-  std::vector<std::string> unread;
-  for (const std::string& key : keys) {
-    const auto tag = tags.find(key);
-    if (tag != tags.end() && !length_in(tag->second)) unread.push_back(key + "=" + tag->second);
-  }
-  return unread;
+  return unread_values(tags, keys, length_in);
 }
 
 std::vector<std::string> unread_counts(const Tags& tags, const std::vector<std::string>& keys) {
-  std::vector<std::string> unread;
-  for (const std::string& key : keys) {
-    const auto tag = tags.find(key);
-    if (tag != tags.end() && !count_in(tag->second)) unread.push_back(key + "=" + tag->second);
-  }
-  return unread;
+  return unread_values(tags, keys, count_in);
 }
 
 std::vector<std::string> unread_building_sizes(const Tags& tags) {
