@@ -9,7 +9,7 @@ namespace throng::imports {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kSpaces = " \t\r\n";
 
 bool is_of_history(std::string_view name) {
   constexpr std::array<std::string_view, 5> kNames = {"user", "uid", "changeset", "version",
@@ -27,8 +27,8 @@ bool is_coordinate(std::string_view value) {
 void copy_attributes(std::string_view tag, char kind, OsmText& plain) {
   std::int64_t id = 0;
   bool deleted = false;
-  for (std::size_t at = tag.find_first_of(kBlanks); at < tag.size();) {
-    const std::size_t name_at = tag.find_first_not_of(kBlanks, at);
+  for (std::size_t at = tag.find_first_of(kSpaces); at < tag.size();) {
+    const std::size_t name_at = tag.find_first_not_of(kSpaces, at);
     const std::size_t equals = tag.find('=', name_at);
     if (name_at == std::string_view::npos || equals == std::string_view::npos) break;
     const std::size_t quote_at = tag.find_first_of("'\"", equals);
@@ -36,7 +36,7 @@ void copy_attributes(std::string_view tag, char kind, OsmText& plain) {
     const std::size_t end = tag.find(tag[quote_at], quote_at + 1);
     if (end == std::string_view::npos) break;
     const std::string_view name =
-        tag.substr(name_at, tag.find_last_not_of(kBlanks, equals - 1) + 1 - name_at);
+        tag.substr(name_at, tag.find_last_not_of(kSpaces, equals - 1) + 1 - name_at);
     const std::string_view value = tag.substr(quote_at + 1, end - quote_at - 1);
     if (name == "id") std::from_chars(value.data(), value.data() + value.size(), id);
     if (name == "action" && value == "delete") deleted = true;
