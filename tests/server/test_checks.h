@@ -68,18 +68,17 @@ inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
 
 /// A dry run without views and warnings.
 inline nlohmann::json dry_run_lightly(const nlohmann::json& request) {
-  nlohmann::json answer = resolve_lightly(request);
+  const nlohmann::json job = resolve_lightly(request).at("job");
   constexpr int kPeople = 2;
-  const jobs::JobCost cost =
-      jobs::estimate_cost(jobs::parse_job(answer.at("job").dump(), ""), {kPeople});
-  answer.update({{"runs", cost.runs},
-                 {"shards", cost.shards},
-                 {"frames", cost.images},
-                 {"people", kPeople},
-                 {"estimate", jobs::estimate_json(cost)},
-                 {"views", nlohmann::json::array()},
-                 {"warnings", nlohmann::json::array()}});
-  return answer;
+  const jobs::JobCost cost = jobs::estimate_cost(jobs::parse_job(job.dump(), ""), {kPeople});
+  return {{"job", job},
+          {"runs", cost.runs},
+          {"shards", cost.shards},
+          {"frames", cost.images},
+          {"people", kPeople},
+          {"estimate", jobs::estimate_json(cost)},
+          {"views", nlohmann::json::array()},
+          {"warnings", nlohmann::json::array()}};
 }
 
 inline nlohmann::json check_lightly(const nlohmann::json& request) {
