@@ -22,9 +22,13 @@ const Synonyms& column_synonyms(const std::string& name) {
       {"frame", {"frame", "fr", "frameid", "framenumber", "frameno", "frames"}},
       {"time",
        {"time", "t", "times", "timestamp", "timems", "timestampms", "unixtime", "simtime", "simsec",
-        "seconds", "datetime", "zeit"}},
-      {"x", {"x", "posx", "xpos", "positionx", "xm", "xcm", "locationx", "startx", "coordcentx"}},
-      {"y", {"y", "posy", "ypos", "positiony", "ym", "ycm", "locationy", "starty", "coordcenty"}}};
+        "seconds", "datetime", "timesteptime", "zeit"}},
+      {"x",
+       {"x", "posx", "xpos", "positionx", "xm", "xcm", "locationx", "startx", "coordcentx",
+        "centerx", "xcenter", "personx"}},
+      {"y",
+       {"y", "posy", "ypos", "positiony", "ym", "ycm", "locationy", "starty", "coordcenty",
+        "centery", "ycenter", "persony"}}};
   static const Synonyms kNone;
   const auto found = kNames.find(name);
   return found == kNames.end() ? kNone : found->second;

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,17 +70,25 @@ std::vector<double> numbers(const Member& of, const std::string& source) {
   return list;
 }
 
-int side(const json& object, std::initializer_list<std::string_view> names, const char* usual,
-         const std::string& source) {
-  const Member found = member(object, names);
-  if (found.value == nullptr) {
-    throw InputError(Problem{source, "", fmt::format("no {}", usual),
-                             fmt::format("the image's size in pixels: add {}", usual)});
+/// A number of pixels, such as the width of an image.
+int pixels(double value, const std::string& pointer, const std::string& source) {
+  constexpr double kMost = 1 << 20;
+  if (!(value >= 0 && value <= kMost) || value != std::floor(value)) {
+    throw InputError(
+        Problem{source, pointer, fmt::format("{}", value), "a whole number of pixels"});
   }
+  return static_cast<int>(value);
+}
+
+/// The pixels under the first of several names; nothing if there is none.
+std::optional<int> pixels_under(const json& object, std::initializer_list<std::string_view> names,
+                                const std::string& source) {
+  const Member found = member(object, names);
+  if (found.value == nullptr) return std::nullopt;
   if (!found.value->is_number()) {
     throw InputError(Problem{source, "/" + found.name, found.value->dump(), "a number of pixels"});
   }
-  return found.value->get<int>();
+  return pixels(*found.value, "/" + found.name, source);
 }
 
 /// The values that all kinds of files have.
@@ -162,12 +173,72 @@ void take_matrix(const std::vector<double>& k, const std::string& name, Found& f
   found.cy = k[5];
 }
 
+void take_size(const Member& size, Found& found, const std::string& source) {
+  const std::vector<double> sides =
+      size.value == nullptr ? std::vector<double>{} : numbers(size, source);
+  if (sides.size() != 2) {
+    throw InputError(Problem{source, "/" + size.name, fmt::format("{} numbers", sides.size()),
+                             "the width and the height of the image"});
+  }
+  found.width = pixels(sides[0], "/" + size.name, source);
+  found.height = pixels(sides[1], "/" + size.name, source);
+}
+
+void take_size_of_matrix_camera(const json& document, Found& found, const std::string& source) {
+  const Member size = member(document, {"imagesize", "imgsize", "resolution"});
+  if (size.value != nullptr) return take_size(size, found, source);
+  const auto width = pixels_under(document, {"imagewidth", "width"}, source);
+  const auto height = pixels_under(document, {"imageheight", "height"}, source);
+  if (!width || !height) {
+    const char* missing = width ? "image_height" : "image_width";
+    throw InputError(Problem{source, "", fmt::format("no {}", missing),
+                             fmt::format("the image's size in pixels: add {}", missing)});
+  }
+  found.width = *width;
+  found.height = *height;
+}
+
+/// ROS: the matrix is that of the whole sensor, of which the image is a region (`roi`, 0 x 0 for
+/// all of it) whose pixels are joined (`binning_x`, 0 for 1). Centers of pixels have whole numbers.
+void take_region(const json& document, Found& found, const std::string& source) {
+  const Member roi = member(document, {"roi"});
+  if (roi.value != nullptr && roi.value->is_object()) {
+    const json& region = *roi.value;
+    const int left = pixels_under(region, {"xoffset"}, source).value_or(0);
+    const int top = pixels_under(region, {"yoffset"}, source).value_or(0);
+    const int width = pixels_under(region, {"width"}, source).value_or(0);
+    const int height = pixels_under(region, {"height"}, source).value_or(0);
+    if (width > 0 && height > 0) {
+      if (left + width > found.width || top + height > found.height) {
+        throw InputError(
+            Problem{source, "/" + roi.name,
+                    fmt::format("{} x {} pixels at {}, {}", width, height, left, top),
+                    fmt::format("a region of the {} x {} pixels", found.width, found.height)});
+      }
+      found.width = width;
+      found.height = height;
+      found.cx -= left;
+      found.cy -= top;
+    }
+  }
+  const int across = std::max(1, pixels_under(document, {"binningx"}, source).value_or(1));
+  const int down = std::max(1, pixels_under(document, {"binningy"}, source).value_or(1));
+  constexpr double kHalf = 0.5;  // from the edge of a pixel to its center
+  found.width /= across;
+  found.height /= down;
+  found.fx /= across;
+  found.skew /= across;
+  found.cx = (found.cx + kHalf) / across - kHalf;
+  found.fy /= down;
+  found.cy = (found.cy + kHalf) / down - kHalf;
+}
+
 /// ROS' camera_info (from a file or a message), and OpenCV's files.
 CameraFile matrix_camera(const json& document, const Member& matrix, const std::string& source) {
   Found found;
-  found.width = side(document, {"imagewidth", "width"}, "image_width", source);
-  found.height = side(document, {"imageheight", "height"}, "image_height", source);
+  take_size_of_matrix_camera(document, found, source);
   take_matrix(numbers(matrix, source), matrix.name, found, source);
+  take_region(document, found, source);
   const Member model = member(document, {"distortionmodel", "cameramodel"});
   const Member fisheye = member(document, {"fisheyemodel", "fisheye"});
   found.is_fisheye =
@@ -198,14 +269,7 @@ CameraFile kalibr_camera(const json& camera, const std::string& source) {
   found.cx = focal[2];
   found.cy = focal[3];
   const Member resolution = member(camera, {"resolution"});
-  const std::vector<double> size =
-      resolution.value == nullptr ? std::vector<double>{} : numbers(resolution, source);
-  if (size.size() != 2) {
-    throw InputError(Problem{source, "/resolution", fmt::format("{} numbers", size.size()),
-                             "the width and the height of the image"});
-  }
-  found.width = static_cast<int>(size[0]);
-  found.height = static_cast<int>(size[1]);
+  take_size({"resolution", resolution.value}, found, source);
   found.is_fisheye = is_fisheye_model(member(camera, {"distortionmodel"}), source);
   const Member distortion = member(camera, {"distortioncoeffs"});
   if (distortion.value != nullptr) found.coefficients = numbers(distortion, source);

@@ -108,6 +108,27 @@ TEST(ForeignFiles, ViswalksCommentsAndNames) {
   EXPECT_NEAR(x_at(read(file("ft"), "walk.pp"), 1, 0), 1.1 * 0.3048, 1e-6);
 }
 
+TEST(ForeignFiles, SumosTableHasPersonsBesideVehicles) {
+  const world::Trace trace = read(
+      "timestep_time;vehicle_id;vehicle_x;vehicle_y;person_id;person_speed;person_x;person_y\n"
+      "0.00;car;8.0;9.0;;;;\n0.00;;;;p0;1.2;10.0;5.0\n1.00;;;;p0;1.2;11.2;5.0\n"
+      "1.00;car;9.0;9.0;;;;\n",
+      "fcd.csv");
+  ASSERT_EQ(trace.agents(), 1U);
+  ASSERT_EQ(trace.steps(), 2U);
+  EXPECT_NEAR(trace.header.dt_s, 1, 1e-9);
+  EXPECT_NEAR(x_at(trace, 1, 0), 11.2, 1e-5);
+}
+
+TEST(ForeignFiles, TracksOfDronesHaveCenters) {
+  const world::Trace trace = read(
+      "recordingId,trackId,frame,trackLifetime,xCenter,yCenter,heading\n"
+      "0,7,100,0,1.0,-2.0,90\n0,7,101,1,1.1,-2.0,90\n",
+      "00_tracks.csv", at_rate(25));
+  ASSERT_EQ(trace.agents(), 1U);
+  EXPECT_NEAR(x_at(trace, 1, 0), 1.1, 1e-6);
+}
+
 TEST(ForeignFiles, SumosPersonsButNoVehicles) {
   const auto file = [](double step_m) {
     std::string text = "<?xml version=\"1.0\"?>\n<fcd-export>\n";

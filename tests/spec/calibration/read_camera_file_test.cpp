@@ -90,6 +90,24 @@ TEST_F(ReadCameraFile, AMessageOfRos) {
                 Lens::brown5, 640, 480, {500, 501, 320, 240, 0, -0.1, 0.2});
 }
 
+TEST_F(ReadCameraFile, RegionsAndBinningOfRosAreTheImages) {
+  const auto message = [&](const std::string& roi, const std::string& binning) {
+    return "height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [-0.1, 0.2, 0, 0, 0]\n"
+           "K: [500.0, 0.0, 320.0, 0.0, 501.0, 240.0, 0.0, 0.0, 1.0]\nbinning_x: " +
+           binning + "\nbinning_y: " + binning + "\nroi: {x_offset: 100, y_offset: 50, " + roi +
+           ", do_rectify: false}\n";
+  };
+  expect_camera(read(message("height: 300, width: 400", "0")), Lens::brown5, 400, 300,
+                {500, 501, 220, 190, 0, -0.1, 0.2});
+  // A pixel of two by two: the edges at -0.5 stay, and its center lies between four.
+  expect_camera(read(message("height: 300, width: 400", "2")), Lens::brown5, 200, 150,
+                {250, 250.5, 109.75, 94.75, 0, -0.1, 0.2});
+  expect_camera(read(message("height: 0, width: 0", "1")), Lens::brown5, 640, 480,
+                {500, 501, 320, 240, 0, -0.1, 0.2});
+  EXPECT_THAT(refusal_of(message("height: 300, width: 600", "1")),
+              HasSubstr("/roi: found 600 x 300 pixels at 100, 50"));
+}
+
 TEST_F(ReadCameraFile, OpenCvAsYamlXmlAndJson) {
   const std::vector<double> expected = {535.5,  536.5,   342.5,  235.5,    0,
                                         -0.266, -0.0386, 0.0017, -0.00028, 0.238};
@@ -119,6 +137,8 @@ TEST_F(ReadCameraFile, OpenCvAsYamlXmlAndJson) {
  "opencv-matrix", "rows": 3, "cols": 3, "dt": "d", "data": [535.5, 0, 342.5, 0, 536.5, 235.5, 0, 0,
  1]}, "distCoeffs": [[-0.266, -0.0386, 0.0017, -0.00028, 0.238]]})"),
                 Lens::brown5, 640, 480, expected);
+  expect_camera(read("imageSize: [64, 48]\nK: [[50, 0, 32], [0, 51, 24], [0, 0, 1]]\n"),
+                Lens::pinhole, 64, 48, {50, 51, 32, 24, 0});
   // The sample program's word for fisheyes.
   expect_camera(read("image_width: 64\nimage_height: 48\nfisheye_model: 1\n"
                      "K: [[50, 0, 32], [0, 51, 24], [0, 0, 1]]\nD: [0.1, 0.2, 0.3, 0.4]\n"),
@@ -136,6 +156,12 @@ TEST_F(ReadCameraFile, CoefficientsThatThrongDoesNotHaveMustBeZero) {
 TEST_F(ReadCameraFile, MissingMembersAreNamed) {
   EXPECT_THAT(refusal_of("camera_matrix: [50, 0, 32, 0, 51, 24, 0, 0, 1]\n"),
               HasSubstr("add image_width"));
+  EXPECT_THAT(refusal_of("image_width: 9\ncamera_matrix: [50, 0, 32, 0, 51, 24, 0, 0, 1]\n"),
+              HasSubstr("add image_height"));
+  EXPECT_THAT(refusal_of("image_width: 1e300\nimage_height: 8\ncamera_matrix: [1]\n"),
+              HasSubstr("/image_width: found 1e+300"));
+  EXPECT_THAT(refusal_of("image_size: [64, 48, 3]\ncamera_matrix: [1]\n"),
+              HasSubstr("/image_size: found 3 numbers"));
   EXPECT_THAT(refusal_of("image_width: 9\nimage_height: 8\ncamera_matrix: {rows: 3}\n"),
               HasSubstr("/camera_matrix: found no member \"data\""));
   EXPECT_THAT(refusal_of("image_width: wide\nimage_height: 8\ncamera_matrix: [1]\n"),

@@ -34,7 +34,7 @@ double building_height_m(const Tags& tags);
 double building_base_m(const Tags& tags);
 
 /// The tags ("height=tall") of a building that state a size and cannot be read, or state a height
-/// of 0.
+/// of 0 or of more than 900 m, which buildings are cut off at.
 std::vector<std::string> unread_building_sizes(const Tags& tags);
 /// The tags with these keys that are not lengths, or not numbers of levels or lanes.
 std::vector<std::string> unread_lengths(const Tags& tags, const std::vector<std::string>& keys);

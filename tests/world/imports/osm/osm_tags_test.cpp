@@ -79,6 +79,9 @@ TEST(BuildingHeights, ThatCannotBeReadAreNamed) {
     return unread_building_sizes({{"building", "yes"}, {key, value}});
   };
   EXPECT_EQ(unread("height", "tall"), Names{"height=tall"});
+  EXPECT_EQ(unread("height", "1200"), Names{"height=1200"}) << "centimeters?";
+  EXPECT_EQ(unread("building:levels", "500"), Names{"building:levels=500"});
+  EXPECT_EQ(unread("height", "828"), Names{});
   EXPECT_EQ(unread("height", "0"), Names{"height=0"});
   EXPECT_EQ(unread("building:levels", "three"), Names{"building:levels=three"});
   EXPECT_EQ(unread("building:levels", "0"), Names{"building:levels=0"});
