@@ -61,8 +61,8 @@ std::int64_t max_memory_mib() {
 }
 
 /// Children that may run at once: so many that each finds its memory, though all take it at once.
-/// Among the requests that wait, one of the sender with the fewest running children is next, then the
-/// oldest. A sender has at most half of the children, whose checks may take minutes.
+/// Among the requests that wait, one of the sender with the fewest running children is next, then
+/// the oldest. A sender has at most half of the children, whose checks may take minutes.
 class Slots {
  public:
   explicit Slots(int max) : max_(max) {}

@@ -72,8 +72,8 @@ std::vector<double> numbers(const Member& of, const std::string& source) {
 
 /// A number of pixels, such as the width of an image.
 int pixels(double value, const std::string& pointer, const std::string& source) {
-  constexpr double kMost = 1 << 20;
-  if (!(value >= 0 && value <= kMost) || value != std::floor(value)) {
+  constexpr double kMaxPixels = 1 << 20;
+  if (!(value >= 0 && value <= kMaxPixels) || value != std::floor(value)) {
     throw InputError(
         Problem{source, pointer, fmt::format("{}", value), "a whole number of pixels"});
   }
