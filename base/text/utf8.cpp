@@ -48,6 +48,18 @@ std::size_t find_invalid_utf8(std::string_view text) {
 
 bool is_utf8(std::string_view text) { return find_invalid_utf8(text) == std::string_view::npos; }
 
+std::string with_valid_utf8(std::string_view text) {
+  constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+  std::string valid;
+  while (true) {
+    const std::size_t at = find_invalid_utf8(text);
+    valid += text.substr(0, at);
+    if (at == std::string_view::npos) return valid;
+    valid += kReplacement;
+    text.remove_prefix(at + 1);
+  }
+}
+
 std::string first_characters(std::string_view text, std::size_t count) {
   std::size_t end = 0;
   for (std::size_t characters = 0; end < text.size(); ++end) {

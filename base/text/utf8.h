@@ -17,6 +17,9 @@ std::size_t find_invalid_utf8(std::string_view text);
 /// U+10FFFF.
 bool is_utf8(std::string_view text);
 
+/// Returns the text with the replacement character U+FFFD for each byte that is not well-formed.
+std::string with_valid_utf8(std::string_view text);
+
 /// Returns the first `count` code points of `text`, or all if it has fewer.
 std::string first_characters(std::string_view text, std::size_t count);
 

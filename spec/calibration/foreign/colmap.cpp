@@ -5,29 +5,36 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text/words.h"
+#include "spec/calibration/foreign/pixels.h"
+#include "spec/calibration/foreign/radial_lens.h"
 
 namespace throng::calibrate {
 
 namespace {
 
-/// COLMAP's models in the order of their numbers; what each parameter is, "f" for fx = fy. Models
-/// that have no parameters here cannot be read.
+constexpr std::string_view kOmega = "omega";  // the field of view of fov_lens()
+
+/// A model; each parameter by its name in throng, "f" for fx = fy. Parameters that throng's lens
+/// does not have (p1, p2, sx1 and sy1 of a fisheye) must be 0.
 struct Model {
   std::string_view name;
   Lens lens;
   std::vector<std::string_view> parameters;
 };
 
+/// COLMAP's models in the order of their numbers.
 const std::vector<Model>& models() {
   static const std::vector<Model> kModels = {
       {"SIMPLE_PINHOLE", Lens::pinhole, {"f", "cx", "cy"}},
@@ -39,53 +46,76 @@ const std::vector<Model>& models() {
       {"FULL_OPENCV",
        Lens::brown8,
        {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"}},
-      {"FOV", Lens::pinhole, {}},
+      {"FOV", Lens::pinhole, {"fx", "fy", "cx", "cy", kOmega}},
       {"SIMPLE_RADIAL_FISHEYE", Lens::fisheye, {"f", "cx", "cy", "k1"}},
       {"RADIAL_FISHEYE", Lens::fisheye, {"f", "cx", "cy", "k1", "k2"}},
-      {"THIN_PRISM_FISHEYE", Lens::pinhole, {}}};
+      {"THIN_PRISM_FISHEYE",
+       Lens::fisheye,
+       {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"}}};
   return kModels;
 }
 
+/// A camera as a file states it. `source` says where.
+struct Stated {
+  std::string model;
+  double width = 0;
+  double height = 0;
+  std::vector<double> values = {};
+  std::string source;
+};
+
 const Model& model_named(std::string_view name, const std::string& source) {
-  std::vector<std::string_view> readable;
+  std::vector<std::string_view> names;
   for (const Model& model : models()) {
-    if (model.parameters.empty()) continue;
     if (model.name == name) return model;
-    readable.push_back(model.name);
+    names.push_back(model.name);
   }
   throw InputError(Problem{source, "", fmt::format("COLMAP's camera model \"{}\"", name),
-                           fmt::format("one of: {}", fmt::join(readable, ", "))});
+                           fmt::format("one of: {}", fmt::join(names, ", "))});
 }
 
-CameraFile make_camera(std::string_view model_name, double width, double height,
-                       const std::vector<double>& values, const std::string& source) {
-  const Model& model = model_named(model_name, source);
-  if (values.size() != model.parameters.size()) {
-    throw InputError(Problem{source, "", fmt::format("{} parameters", values.size()),
+CameraFile make_camera(const Stated& stated) {
+  const std::string& source = stated.source;
+  const Model& model = model_named(stated.model, source);
+  if (stated.values.size() != model.parameters.size()) {
+    throw InputError(Problem{source, "", fmt::format("{} parameters", stated.values.size()),
                              fmt::format("{} of {}: {}", model.parameters.size(), model.name,
                                          fmt::join(model.parameters, ", "))});
   }
-  nlohmann::json camera = {{"width", std::llround(width)},
-                           {"height", std::llround(height)},
+  nlohmann::json camera = {{"width", pixels(stated.width, "", source)},
+                           {"height", pixels(stated.height, "", source)},
                            {"lens", to_string(model.lens)}};
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(model.lens, i);
     if (!name.empty()) camera[name] = 0;
   }
   constexpr double kPixelCenter = 0.5;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  std::optional<double> omega_rad;
+  for (std::size_t i = 0; i < stated.values.size(); ++i) {
     const std::string name(model.parameters[i]);
+    const double value = stated.values[i];
     if (name == "f") {
-      camera["fx"] = camera["fy"] = values[i];
-    } else {
-      camera[name] = name == "cx" || name == "cy" ? values[i] - kPixelCenter : values[i];
+      camera["fx"] = camera["fy"] = value;
+    } else if (name == kOmega) {
+      omega_rad = value;
+    } else if (camera.contains(name)) {
+      camera[name] = name == "cx" || name == "cy" ? value - kPixelCenter : value;
+    } else if (value != 0) {
+      throw InputError(Problem{source, "", fmt::format("{} = {} of {}", name, value, model.name),
+                               "0: throng's fisheye has neither prism nor tangential distortion"});
     }
   }
-  return camera_from_json(camera, source);
+  const CameraFile read = camera_from_json(camera, source);
+  return omega_rad ? as_fisheye(read, fov_lens(*omega_rad), source) : read;
+}
+
+/// Names such as SIMPLE_RADIAL, of models that throng knows or not.
+bool is_model_name(std::string_view word) {
+  return word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789") == std::string_view::npos;
 }
 
 /// Cameras by their CAMERA_ID.
-using Cameras = std::map<std::string, CameraFile>;
+using Cameras = std::map<std::string, Stated>;
 
 std::optional<Cameras> read_text(std::string_view bytes, const std::string& source) {
   Cameras cameras;
@@ -99,19 +129,16 @@ std::optional<Cameras> read_text(std::string_view bytes, const std::string& sour
     std::string model;
     double width = 0;
     double height = 0;
-    const bool is_known =
-        words >> id >> model && std::any_of(models().begin(), models().end(),
-                                            [&](const Model& one) { return one.name == model; });
-    if (!is_known) {
+    const bool is_camera = words >> id >> model >> width >> height && is_model_name(model);
+    if (!is_camera) {
       if (cameras.empty()) return std::nullopt;  // another kind of file
       throw InputError(Problem{source, fmt::format("line {}", number), std::string(text),
                                "CAMERA_ID MODEL WIDTH HEIGHT PARAMS"});
     }
     std::vector<double> values;
-    words >> width >> height;
     for (double value = 0; words >> value;) values.push_back(value);
-    cameras.emplace(std::to_string(id), make_camera(model, width, height, values,
-                                                    fmt::format("{}, line {}", source, number)));
+    cameras[std::to_string(id)] = {model, width, height, values,
+                                   fmt::format("{}, line {}", source, number)};
   }
   return cameras.empty() ? std::nullopt : std::optional(cameras);
 }
@@ -157,9 +184,8 @@ std::optional<Cameras> read_binary(std::string_view bytes, const std::string& so
     std::vector<double> parameters(known.parameters.size());
     for (double& parameter : parameters) parameter = values.next<double>();
     if (values.is_short()) return std::nullopt;
-    cameras.emplace(std::to_string(id),
-                    make_camera(known.name, static_cast<double>(width), static_cast<double>(height),
-                                parameters, source));
+    cameras[std::to_string(id)] = {std::string(known.name), static_cast<double>(width),
+                                   static_cast<double>(height), parameters, source};
   }
   return values.is_whole() ? std::optional(cameras) : std::nullopt;
 }
@@ -172,8 +198,8 @@ std::optional<CameraFile> read_colmap(std::string_view bytes, const std::string&
   const auto cameras = is_binary ? read_binary(bytes, source) : read_text(bytes, source);
   if (!cameras) return std::nullopt;
   const auto found = cameras->find(name);
-  if (found != cameras->end()) return found->second;
-  if (name.empty() && cameras->size() == 1) return cameras->begin()->second;
+  if (found != cameras->end()) return make_camera(found->second);
+  if (name.empty() && cameras->size() == 1) return make_camera(cameras->begin()->second);
   std::vector<std::string> ids;
   for (const auto& [id, camera] : *cameras) ids.push_back(id);
   throw InputError(Problem{
@@ -199,8 +225,8 @@ CameraFile colmap_camera(const nlohmann::json& value, const std::string& source)
   if (!value.at("model").is_string()) {
     throw InputError(Problem{source, "/model", value["model"].dump(), "the name of a model"});
   }
-  return make_camera(value["model"].get<std::string>(), value["width"], value["height"], parameters,
-                     source);
+  return make_camera(
+      {value["model"].get<std::string>(), value["width"], value["height"], parameters, source});
 }
 
 }  // namespace throng::calibrate

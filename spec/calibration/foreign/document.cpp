@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "base/text/utf8.h"
 #include "base/text/words.h"
 
 namespace throng::calibrate {
@@ -21,14 +22,15 @@ constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr int kMaxDepth = 32;
 constexpr int kMaxValues = 100'000;
 
-/// A number where the text is one as a whole.
+/// A number where the text is one as a whole. Comments and names of other programs may be in other
+/// encodings.
 json scalar(std::string_view text) {
   const std::string_view word = trimmed(text);
   double value = 0;
   const char* const end = word.data() + word.size();
   const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
   const auto [rest, error] = std::from_chars(begin, end, value);
-  if (word.empty() || error != std::errc() || rest != end) return std::string(word);
+  if (word.empty() || error != std::errc() || rest != end) return with_valid_utf8(word);
   return value;
 }
 
@@ -51,7 +53,7 @@ class YamlReader {
       json object = json::object();
       for (const auto& entry : node) {
         if (!entry.first.IsScalar()) continue;
-        object[entry.first.Scalar()] = value_of(entry.second, depth + 1);
+        object[with_valid_utf8(entry.first.Scalar())] = value_of(entry.second, depth + 1);
       }
       return object;
     }
@@ -88,7 +90,7 @@ json text_of_element(const char* text) {
     rest = trimmed(rest.substr(end));
   }
   if (list.size() == 1) return list[0];
-  return is_numbers ? list : json(std::string(trimmed(text)));
+  return is_numbers ? list : json(with_valid_utf8(trimmed(text)));
 }
 
 json value_of_element(const tinyxml2::XMLElement& element, const std::string& source, int depth) {
@@ -99,7 +101,7 @@ json value_of_element(const tinyxml2::XMLElement& element, const std::string& so
   json object = json::object();
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    object[child->Name()] = value_of_element(*child, source, depth + 1);
+    object[with_valid_utf8(child->Name())] = value_of_element(*child, source, depth + 1);
   }
   return object;
 }
@@ -121,6 +123,8 @@ json read_document(std::string_view text, const std::string& source) {
     throw InputError(Problem{source, "", fmt::format("{} bytes", text.size()),
                              fmt::format("a camera file, of at most {}", kMaxBytes)});
   }
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::string_view start = trimmed(text);
   if (start.starts_with('<')) return read_xml(text, source);
   if (start.starts_with('{')) return parse_json(text, source);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
@@ -16,6 +17,8 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "spec/calibration/foreign/colmap.h"
+#include "spec/calibration/foreign/pixels.h"
+#include "spec/calibration/foreign/radial_lens.h"
 
 namespace throng::calibrate {
 
@@ -34,6 +37,10 @@ std::string plain_name(std::string_view name) {
 struct Member {
   std::string name;
   const json* value = nullptr;
+
+  std::string text_or(const char* otherwise) const {
+    return value != nullptr && value->is_string() ? value->get<std::string>() : otherwise;
+  }
 };
 
 Member member(const json& object, std::initializer_list<std::string_view> names) {
@@ -68,16 +75,6 @@ std::vector<double> numbers(const Member& of, const std::string& source) {
   };
   add(add, *value);
   return list;
-}
-
-/// A number of pixels, such as the width of an image.
-int pixels(double value, const std::string& pointer, const std::string& source) {
-  constexpr double kMaxPixels = 1 << 20;
-  if (!(value >= 0 && value <= kMaxPixels) || value != std::floor(value)) {
-    throw InputError(
-        Problem{source, pointer, fmt::format("{}", value), "a whole number of pixels"});
-  }
-  return static_cast<int>(value);
 }
 
 /// The pixels under the first of several names; nothing if there is none.
@@ -251,28 +248,56 @@ CameraFile matrix_camera(const json& document, const Member& matrix, const std::
   return make_camera(found, source);
 }
 
-CameraFile kalibr_camera(const json& camera, const std::string& source) {
-  const Member model = member(camera, {"cameramodel"});
-  if (model.value != nullptr && *model.value != "pinhole") {
-    throw InputError(Problem{source, "/camera_model", model.value->dump(),
-                             "\"pinhole\": calibrate with pinhole-radtan or pinhole-equi"});
-  }
-  Found found;
-  const std::vector<double> focal = numbers(member(camera, {"intrinsics"}), source);
+/// A camera model of Kalibr that has parameters of its own before fx, fy, cx and cy, and no
+/// distortion.
+struct KalibrModel {
+  std::string_view name;
+  std::size_t own_parameters;
+  RadialLens (*lens)(double, double);
+};
+constexpr std::array kKalibrModels = {KalibrModel{"ds", 2, double_sphere_lens},
+                                      KalibrModel{"eucm", 2, extended_unified_lens}};
+
+/// The last four of Kalibr's intrinsics.
+void take_intrinsics(const std::vector<double>& intrinsics, std::size_t own_parameters,
+                     Found& found, const std::string& source) {
   constexpr std::size_t kFour = 4;
-  if (focal.size() != kFour) {
-    throw InputError(Problem{source, "/intrinsics", fmt::format("{} numbers", focal.size()),
-                             "fx, fy, cx and cy"});
+  if (intrinsics.size() != own_parameters + kFour) {
+    throw InputError(Problem{source, "/intrinsics", fmt::format("{} numbers", intrinsics.size()),
+                             own_parameters == 0 ? "fx, fy, cx and cy"
+                                                 : "the two of the model, then fx, fy, cx and cy"});
   }
-  found.fx = focal[0];
-  found.fy = focal[1];
-  found.cx = focal[2];
-  found.cy = focal[3];
+  found.fx = intrinsics[own_parameters];
+  found.fy = intrinsics[own_parameters + 1];
+  found.cx = intrinsics[own_parameters + 2];
+  found.cy = intrinsics[own_parameters + 3];
+}
+
+CameraFile kalibr_camera(const json& camera, const std::string& source) {
+  const std::string model = member(camera, {"cameramodel"}).text_or("pinhole");
+  const std::string distortion = member(camera, {"distortionmodel"}).text_or("none");
   const Member resolution = member(camera, {"resolution"});
+  const std::vector<double> intrinsics = numbers(member(camera, {"intrinsics"}), source);
+  Found found;
   take_size({"resolution", resolution.value}, found, source);
+  for (const KalibrModel& known : kKalibrModels) {
+    if (model != known.name || distortion != "none") continue;
+    take_intrinsics(intrinsics, known.own_parameters, found, source);
+    return as_fisheye(make_camera(found, source), known.lens(intrinsics[0], intrinsics[1]), source);
+  }
+  if (model != "pinhole") {
+    throw InputError(Problem{source, "/camera_model", fmt::format("{}-{}", model, distortion),
+                             "pinhole-radtan, pinhole-equi, pinhole-fov, ds-none or eucm-none"});
+  }
+  take_intrinsics(intrinsics, 0, found, source);
+  const Member listed = member(camera, {"distortioncoeffs"});
+  const std::vector<double> coefficients =
+      listed.value == nullptr ? std::vector<double>{} : numbers(listed, source);
+  if (distortion == "fov" && coefficients.size() == 1) {
+    return as_fisheye(make_camera(found, source), fov_lens(coefficients[0]), source);
+  }
   found.is_fisheye = is_fisheye_model(member(camera, {"distortionmodel"}), source);
-  const Member distortion = member(camera, {"distortioncoeffs"});
-  if (distortion.value != nullptr) found.coefficients = numbers(distortion, source);
+  found.coefficients = coefficients;
   return make_camera(found, source);
 }
 

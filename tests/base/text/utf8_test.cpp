@@ -38,5 +38,12 @@ TEST(Utf8, InvalidBytesAreFound) {
   EXPECT_EQ(find_invalid_utf8("x\xED\xA0\x80"), 1U) << "a surrogate";
 }
 
+TEST(Utf8, InvalidBytesAreReplacedOneByOne) {
+  EXPECT_EQ(with_valid_utf8("schön"), "schön");
+  EXPECT_EQ(with_valid_utf8("sch\xF6n"), "sch\uFFFDn");
+  EXPECT_EQ(with_valid_utf8("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");
+  EXPECT_EQ(with_valid_utf8(""), "");
+}
+
 }  // namespace
 }  // namespace throng

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -17,6 +19,8 @@ namespace throng::calibrate {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 class ReadCameraFile : public testing::Test {
  protected:
@@ -169,6 +173,8 @@ TEST_F(ReadCameraFile, MissingMembersAreNamed) {
   EXPECT_THAT(refusal_of(R"({"width": 64, "height": 48, "lens": "pinhole", "fx": null})"),
               HasSubstr("/fx: found null"));
   EXPECT_THAT(refusal_of("a: [1, 2\n"), HasSubstr("line "));
+  EXPECT_THAT(refusal_of("image_width: br\xEAit\nimage_height: 8\ncamera_matrix: [1]\n"),
+              HasSubstr("/image_width: found \"br\uFFFDit\""));
   EXPECT_THAT(refusal_of("<a><b></a>"), HasSubstr("XML"));
   EXPECT_NE(refusal_of(std::string(100'000, '[')), "");
   EXPECT_NE(refusal_of("just words"), "");
@@ -210,7 +216,51 @@ TEST_F(ReadCameraFile, KalibrsChains) {
   EXPECT_THAT(refusal_of(both, "camera#cam2"), HasSubstr("one of: cam0, cam1"));
   std::string omni = kCam0;
   omni.replace(omni.find("pinhole"), 7, "omni");
-  EXPECT_THAT(refusal_of(omni), HasSubstr("pinhole-radtan or pinhole-equi"));
+  EXPECT_THAT(refusal_of(omni), HasSubstr("found omni-radtan, expected pinhole-radtan"));
+}
+
+/// Pixels at which the camera shows a ray at an angle to the axis, along x and along y.
+std::pair<double, double> shown_at(const CameraFile& camera, double angle_rad) {
+  const Parameters& p = camera.parameters;
+  const double a = angle_rad;
+  double radius = a;
+  for (std::size_t i = 0; i < 4; ++i) {
+    radius += p.at(kCoefficients + i) * std::pow(a, 3 + 2 * static_cast<int>(i));
+  }
+  return {p[kFx] * radius + p[kCx], p[kFy] * radius + p[kCy]};
+}
+
+// The reference is each model's projection of the ray (sin a, 0, cos a), in Cartesian coordinates.
+TEST_F(ReadCameraFile, LensesThatBendByTheAngleBecomeFisheyes) {
+  const auto chain = [](const char* model, const char* own, const char* distortion,
+                        const char* coefficients) {
+    return std::string("cam0:\n  camera_model: ") + model + "\n  distortion_coeffs: [" +
+           coefficients + "]\n  distortion_model: " + distortion + "\n  intrinsics: [" + own +
+           "158, 157, 255.5, 256.5]\n  resolution: [512, 512]\n";
+  };
+  const auto expect_shown = [](const CameraFile& camera, double angle_rad, double radius) {
+    EXPECT_EQ(to_string(camera.lens), "fisheye");
+    const auto [u, v] = shown_at(camera, angle_rad);
+    EXPECT_NEAR(u, 255.5 + 158 * radius, 0.05) << angle_rad;
+    EXPECT_NEAR(v, 256.5 + 157 * radius, 0.05) << angle_rad;
+  };
+  const CameraFile sphere = read(chain("ds", "-0.18, 0.59, ", "none", ""));
+  const CameraFile unified = read(chain("eucm", "0.63, 1.04, ", "none", ""));
+  const CameraFile view = read(chain("pinhole", "", "fov", "0.9"));
+  for (const double angle : {0.05, 0.4, 0.8, 1.2, 1.5}) {
+    const double x = std::sin(angle);
+    const double z = std::cos(angle);
+    const double d2 = std::sqrt(x * x + (z - 0.18) * (z - 0.18));
+    expect_shown(sphere, angle, x / (0.59 * d2 + 0.41 * (z - 0.18)));
+    const double d = std::sqrt(1.04 * x * x + z * z);
+    expect_shown(unified, angle, x / (0.63 * d + 0.37 * z));
+    expect_shown(view, angle, std::atan2(2 * x * std::tan(0.45), z) / 0.9);
+  }
+  EXPECT_THAT(refusal_of(chain("ds", "-0.18, 0.59, ", "radtan", "1, 2, 3, 4")),
+              HasSubstr("found ds-radtan"));
+  EXPECT_THAT(refusal_of(chain("ds", "", "none", "")), HasSubstr("found 4 numbers"));
+  EXPECT_THAT(refusal_of(chain("ds", "-3, 0.5, ", "none", "")), HasSubstr("parameters of no lens"));
+  EXPECT_THAT(refusal_of(chain("pinhole", "", "fov", ".nan")), Not(IsEmpty()));
 }
 
 template <typename Value>
@@ -228,7 +278,17 @@ TEST_F(ReadCameraFile, ColmapsTextBinaryAndJson) {
   expect_camera(read(two, "camera#7"), Lens::brown4, 1920, 1080, expected);
   expect_camera(read(two, "camera#3"), Lens::brown2, 640, 480, {500, 500, 319.5, 239.5, 0, -0.1});
   EXPECT_THAT(refusal_of(two), HasSubstr("FILE#CAMERA_ID with one of: 3, 7"));
-  EXPECT_THAT(refusal_of("1 FOV 640 480 1 2 3 4 5\n"), HasSubstr("\"FOV\", expected one of"));
+  const CameraFile fov = read("1 FOV 640 480 300 301 320 240 0.9\n");
+  EXPECT_NEAR(shown_at(fov, 0.5).first,
+              319.5 + 300 * std::atan(2 * std::tan(0.5) * std::tan(0.45)) / 0.9, 0.05);
+  EXPECT_THAT(refusal_of("1 DIVISION 640 480 1 2 3 4 5\n"),
+              HasSubstr("line 1: found COLMAP's camera model \"DIVISION\", expected one of"));
+  expect_camera(read(two + "9 THIN_PRISM_FISHEYE 640 480 1 2 3 4 0 0 1 1 0 0 0 0\n", "camera#3"),
+                Lens::brown2, 640, 480, {500, 500, 319.5, 239.5, 0, -0.1});
+  expect_camera(read("9 THIN_PRISM_FISHEYE 640 480 300 301 320 240 .1 .2 0 0 .3 .4 0 0\n"),
+                Lens::fisheye, 640, 480, {300, 301, 319.5, 239.5, 0, .1, .2, .3, .4});
+  EXPECT_THAT(refusal_of("9 THIN_PRISM_FISHEYE 640 480 300 301 320 240 .1 .2 0 0 .3 .4 0.1 0\n"),
+              HasSubstr("found sx1 = 0.1 of THIN_PRISM_FISHEYE, expected 0"));
   EXPECT_THAT(refusal_of("1 PINHOLE 640 480 1 2 3\n"), HasSubstr("found 3 parameters"));
   expect_camera(read(R"({"model": "OPENCV", "width": 1920, "height": 1080, "params":
  [1400, 1402, 960, 540, -0.1, 0.02, 0.0003, 0.0001]})"),
