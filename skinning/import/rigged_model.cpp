@@ -353,7 +353,8 @@ RiggedModel read_rigged_model(const fs::path& path, ModelUse use) {
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                            aiProcess_JoinIdenticalVertices);
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw InputError({path.string(), "", importer.GetErrorString(),
+    throw InputError({path.string(), "",
+                      fmt::format("a file that assimp refuses ({})", importer.GetErrorString()),
                       "a file that assimp reads: glTF or GLB without compression, FBX, DAE"});
   }
   return ModelReader(path, *scene).read(use);
