@@ -66,8 +66,9 @@ void DiskWatch::watch(const std::stop_token& stop) {
 DiskState measure_disk(const std::filesystem::path& folder) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) throw_environment_error("cannot ask the disk", errno);
-  return {static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize),
-          (disk.f_flag & ST_RDONLY) != 0};
+  const auto block_bytes = static_cast<std::int64_t>(disk.f_frsize);
+  return {static_cast<std::int64_t>(disk.f_bavail) * block_bytes, (disk.f_flag & ST_RDONLY) != 0,
+          static_cast<std::int64_t>(disk.f_blocks) * block_bytes};
 }
 
 }  // namespace throng::server

@@ -16,6 +16,7 @@ inline constexpr const char* kDiskIsFull = "the disk is full";
 struct DiskState {
   std::int64_t free_bytes = 0;
   bool is_read_only = false;
+  std::int64_t total_bytes = 0;  ///< capacity
 };
 
 /// Checks the disk in a thread of its own. Safe to use from many threads.

@@ -10,6 +10,7 @@
 #include "base/json/json_text.h"
 #include "jobs/queue/pinned_library.h"
 #include "server/catalog/api_json.h"
+#include "server/jobs/disk_watch.h"
 #include "server/jobs/report_maker.h"
 #include "spec/calibration/calibrations.h"
 #include "spec/estimates/job_cost.h"
@@ -45,9 +46,21 @@ jobs::ResolvedJob JobQueue::resolve(std::string_view job_json, const Viewer& vie
 
 json JobQueue::dry_run(std::string_view job_json, const Viewer& viewer) const {
   json answer = confined_.dry_run(with_cameras(job_json, viewer), folders_.scenarios());
+  require_disk(answer.at("estimate").at("disk_bytes").get<std::int64_t>());
   constexpr const char* kPublish = "/outputs/publish";
   publish_to_.require(parse_json(job_json, "").value(json::json_pointer(kPublish), ""));
   return answer;
+}
+
+void JobQueue::require_disk(std::int64_t planned_bytes) const {
+  constexpr double kGb = 1e9;
+  const std::int64_t total_bytes = measure_disk(folders_.data()).total_bytes;
+  if (planned_bytes <= total_bytes) return;
+  throw InputError(Problem{
+      "", "/runs",
+      fmt::format("a job of about {:.0f} GB", static_cast<double>(planned_bytes) / kGb),
+      fmt::format("at most the {:.0f} GB of the service's disk: fewer runs, images or annotations",
+                  static_cast<double>(total_bytes) / kGb)});
 }
 
 jobs::Added JobQueue::submit(const Submission& submission) {
@@ -56,6 +69,7 @@ jobs::Added JobQueue::submit(const Submission& submission) {
   const jobs::JobSpec& job = resolved.spec();
   publish_to_.require(job.outputs.publish);
   const std::int64_t planned_bytes = jobs::estimate_cost(job, resolved.load()).disk_bytes;
+  require_disk(planned_bytes);
   const auto lock = uploads_.hold();
   require_scenario(job);
   const std::string spec_json = dump_text(to_json(job));

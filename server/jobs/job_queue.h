@@ -108,6 +108,8 @@ class JobQueue {
   /// The job with calibrations that it names replaced by their cameras.
   std::string with_cameras(std::string_view job_json, const Viewer& viewer) const;
   void require_scenario(const jobs::JobSpec& job) const;
+  /// Throws InputError for a job that cannot fit on an empty disk of the data folder.
+  void require_disk(std::int64_t planned_bytes) const;
 
   const ServiceFolders& folders_;
   jobs::Store& store_;

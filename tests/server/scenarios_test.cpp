@@ -1,6 +1,8 @@
 // Scenarios that users send: over HTTP, and with a job.
 #include <gmock/gmock.h>
 
+#include <thread>
+
 #include "base/error.h"
 #include "tests/server/api_fixture.h"
 #include "tests/server/bundles.h"
@@ -272,11 +274,16 @@ TEST_F(Uploads, AJobGoesOnOnlyWithTheScenariosThatItWasResolvedFrom) {
   Gate gate(executor);
   const httplib::Result job = client().Post("/v1/jobs", as(one), kMine, "application/json");
   ASSERT_EQ(job->status, 201) << job->body;
-  const std::string self = "/v1/jobs/" + json::parse(job->body)["id"].get<std::string>();
+  const std::string id = json::parse(job->body)["id"];
   const auto post = [&](const std::string& what) {
-    return client().Post(self + what, as(one), "", "application/json");
+    return client().Post("/v1/jobs/" + id + what, as(one), "", "application/json");
   };
-  ASSERT_EQ(post("/cancel")->status, 200);
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  {
+    const std::jthread canceller([&] { EXPECT_EQ(post("/cancel")->status, 200); });
+    ASSERT_TRUE(reaches(service, id, jobs::JobState::cancelled));
+    gate.open();
+  }
   ASSERT_EQ(client().Delete("/v1/scenarios/mine", as(one))->status, 204);
   const httplib::Result gone = post("/retry");
   expect_problem(gone, 409);

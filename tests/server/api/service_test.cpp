@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/resource_exhaustion.h"
+#include "server/jobs/disk_watch.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
@@ -314,6 +315,27 @@ TEST_F(ServiceTest, EstimatesCountAmongTheBytesOfAKey) {
   EXPECT_THROW(submit(2 * planned - 1), QuotaError);
   submit(2 * planned);
   gate.open();
+}
+
+TEST_F(ServiceTest, AJobLargerThanTheDiskIsRefused) {
+  Service service(options(), executor);
+  constexpr std::int64_t kPlannedBytes = 20'000'000'000'000;
+  if (measure_disk(service.folders().data()).total_bytes > kPlannedBytes) GTEST_SKIP();
+  constexpr const char* kLarge = R"({"scenario": "yard", "runs": 1000, "capture": {"to_s": 150,
+ "rate_hz": 10}, "drones": [{"id": "d1", "start": [0, 0, 20], "camera": {"width": 7680, "height":
+ 4320}}], "outputs": {"annotations": ["coco", "depth", "flow"]}})";
+  const auto refusal = [&](const auto& ask) -> std::string {
+    try {
+      ask();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string expected = "GB of the service's disk";
+  EXPECT_THAT(refusal([&] { service.queue().submit({.job_json = kLarge}); }), HasSubstr(expected));
+  EXPECT_THAT(refusal([&] { service.queue().dry_run(kLarge); }), HasSubstr(expected));
+  EXPECT_TRUE(service.queue().list({}).empty());
 }
 
 TEST_F(ServiceTest, AReadOnlyOrFullDiskLetsTheQueueRestWithoutALimitToo) {
