@@ -115,13 +115,13 @@ class Server:
                 os.kill(random.choice(workers), signal.SIGKILL)
         return bool(workers)
 
-    def request(self, method, path, body=None):
+    def request(self, method, path, body=None, timeout_s=300):
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(
             self.url + path, data=data, method=method, headers={"Content-Type": "application/json"}
         )
         try:
-            with urllib.request.urlopen(request, timeout=300) as answer:
+            with urllib.request.urlopen(request, timeout=timeout_s) as answer:
                 return json.loads(answer.read() or b"null")
         except http.client.HTTPException as error:  # the server died in the midst of its answer
             raise ConnectionResetError(f"{method} {path}: {error}") from error

@@ -29,9 +29,9 @@ class Machine(unittest.TestCase):
         self.server = crash.Server(self.base)
         self.addCleanup(lambda: self.server.stop())
 
-    def status(self, method, path, body=None):
+    def status(self, method, path, body=None, timeout_s=300):
         try:
-            self.server.request(method, path, body)
+            self.server.request(method, path, body, timeout_s)
             return 200
         except urllib.error.HTTPError as error:
             return error.code
@@ -52,7 +52,8 @@ class Machine(unittest.TestCase):
             # Few are queued: the first one would wait for them all.
             path = "/v1/jobs" if accepted < 3 else "/v1/jobs?dry_run"
             try:
-                status = self.status("POST", path, crash.JOB)
+                # A connection that is not accepted would wait as long as the limit lasts.
+                status = self.status("POST", path, crash.JOB, timeout_s=10)
                 self.assertIn(status, (200, 503))
                 accepted += status == 200
                 refused += status == 503
