@@ -17,6 +17,9 @@ std::size_t find_invalid_utf8(std::string_view text);
 /// U+10FFFF.
 bool is_utf8(std::string_view text);
 
+/// Returns the text without a byte order mark, with which spreadsheets and editors begin files.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Returns the text with the replacement character U+FFFD for each byte that is not well-formed.
 std::string with_valid_utf8(std::string_view text);
 

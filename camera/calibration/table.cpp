@@ -11,14 +11,12 @@
 #include "base/error.h"
 #include "base/files/files.h"
 #include "base/text/csv.h"
+#include "base/text/utf8.h"
 #include "base/text/words.h"
 
 namespace throng::calibrate {
 
 namespace {
-
-// A byte-order mark, as spreadsheets write it.
-constexpr std::string_view kMark = "\xEF\xBB\xBF";
 
 /// Spreadsheets of countries with decimal commas separate cells by semicolons.
 char find_separator(std::string_view header) {
@@ -49,9 +47,8 @@ std::optional<double> number_in(std::string_view text) {
 
 Table read_table(const std::filesystem::path& file, const std::vector<std::string>& columns,
                  const std::vector<std::string>& optional_columns) {
-  std::string text = read_file(file);
-  if (text.starts_with(kMark)) text.erase(0, kMark.size());
-  std::istringstream lines(text);
+  const std::string text = read_file(file);
+  std::istringstream lines{std::string(without_byte_order_mark(text))};
   Table table;
   std::vector<std::size_t> places;
   int number = 0;

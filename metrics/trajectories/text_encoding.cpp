@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "metrics/trajectories/trajectory_words.h"
+#include "base/text/utf8.h"
 
 namespace throng::metrics {
 

@@ -143,9 +143,4 @@ std::string bare_name(std::string_view name) {
   return bare;
 }
 
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
-}
-
 }  // namespace throng::metrics

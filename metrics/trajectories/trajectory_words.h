@@ -31,7 +31,4 @@ std::optional<double> time_unit_in(std::string_view name);
 /// Vadere's number of a processor: "Pos_X [m]" becomes "posx", "startX-PID1" "startx".
 std::string bare_name(std::string_view name);
 
-/// The text without a leading UTF-8 byte order mark.
-std::string_view without_byte_order_mark(std::string_view text);
-
 }  // namespace throng::metrics

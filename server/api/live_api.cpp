@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "base/text/slug.h"
-#include "jobs/queue/dataset/archive.h"
 #include "server/api/requests.h"
 #include "server/catalog/api_json.h"
 #include "server/http/file_answer.h"

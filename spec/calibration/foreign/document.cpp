@@ -123,8 +123,7 @@ json read_document(std::string_view text, const std::string& source) {
     throw InputError(Problem{source, "", fmt::format("{} bytes", text.size()),
                              fmt::format("a camera file, of at most {}", kMaxBytes)});
   }
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   const std::string_view start = trimmed(text);
   if (start.starts_with('<')) return read_xml(text, source);
   if (start.starts_with('{')) return parse_json(text, source);

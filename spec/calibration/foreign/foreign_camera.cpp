@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -248,15 +247,15 @@ CameraFile matrix_camera(const json& document, const Member& matrix, const std::
   return make_camera(found, source);
 }
 
-/// A camera model of Kalibr that has parameters of its own before fx, fy, cx and cy, and no
+/// A camera model of Kalibr that has two parameters of its own before fx, fy, cx and cy, and no
 /// distortion.
 struct KalibrModel {
   std::string_view name;
-  std::size_t own_parameters;
   RadialLens (*lens)(double, double);
 };
-constexpr std::array kKalibrModels = {KalibrModel{"ds", 2, double_sphere_lens},
-                                      KalibrModel{"eucm", 2, extended_unified_lens}};
+constexpr std::array kKalibrModels = {KalibrModel{"ds", double_sphere_lens},
+                                      KalibrModel{"eucm", extended_unified_lens}};
+constexpr std::size_t kOwnParameters = 2;
 
 /// The last four of Kalibr's intrinsics.
 void take_intrinsics(const std::vector<double>& intrinsics, std::size_t own_parameters,
@@ -282,7 +281,7 @@ CameraFile kalibr_camera(const json& camera, const std::string& source) {
   take_size({"resolution", resolution.value}, found, source);
   for (const KalibrModel& known : kKalibrModels) {
     if (model != known.name || distortion != "none") continue;
-    take_intrinsics(intrinsics, known.own_parameters, found, source);
+    take_intrinsics(intrinsics, kOwnParameters, found, source);
     return as_fisheye(make_camera(found, source), known.lens(intrinsics[0], intrinsics[1]), source);
   }
   if (model != "pinhole") {

@@ -38,6 +38,14 @@ TEST(Utf8, InvalidBytesAreFound) {
   EXPECT_EQ(find_invalid_utf8("x\xED\xA0\x80"), 1U) << "a surrogate";
 }
 
+TEST(Utf8, AByteOrderMarkIsLeftOutAtTheBeginning) {
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF"
+                                    "a\xEF\xBB\xBF"),
+            "a\xEF\xBB\xBF");
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB"), "\xEF\xBB");
+  EXPECT_EQ(without_byte_order_mark(""), "");
+}
+
 TEST(Utf8, InvalidBytesAreReplacedOneByOne) {
   EXPECT_EQ(with_valid_utf8("schön"), "schön");
   EXPECT_EQ(with_valid_utf8("sch\xF6n"), "sch\uFFFDn");

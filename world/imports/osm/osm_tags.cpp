@@ -193,13 +193,12 @@ std::vector<std::string> unread_building_sizes(const Tags& tags) {
   std::vector<std::string> unread;
   const auto look_at = [&](const std::string& size, Reader read, bool may_be_zero,
                            bool may_be_below) {
-    const double most = kTallestM / (read == count_in ? kLevelM : 1);
     for (const std::string& key : find_keys(size)) {
       const auto tag = tags.find(key);
       if (tag == tags.end()) continue;
       const auto value = read(tag->second);
       const bool below = may_be_below && is_below_ground(tag->second, read);
-      if (below || (value && *value <= most && (may_be_zero || *value > 0))) continue;
+      if (below || (value && *value <= kTallestM && (may_be_zero || *value > 0))) continue;
       unread.push_back(key + "=" + tag->second);
     }
   };
