@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,7 +103,14 @@ Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& 
 /// determine all projections.
 bool is_plain(const Image& image);
 
+/// Whether the lens does not distort.
+bool is_pinhole(const Image& image);
+
 /// Whether all rows were exposed at the same time.
 bool is_shot_at_once(const Image& image);
+
+/// Max distance (px) between where rows of a rolling shutter show a body and where the camera of
+/// the image's time sees it; 0 without a rolling shutter, nothing if the image does not tell.
+std::optional<double> shutter_slack_px(const Image& image);
 
 }  // namespace throng::formats
