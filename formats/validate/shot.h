@@ -2,12 +2,15 @@
 // images.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "camera/camera.h"
@@ -105,6 +108,35 @@ class ClothesCheck {
   std::map<std::string, std::map<std::int64_t, Shirt>> runs_;  ///< by track
   std::map<std::int64_t, std::size_t> carried_;                ///< pixels of carried items by track
   std::set<std::int64_t> without_item_;  ///< tracks with such pixels that carry no item
+};
+
+/// Compares classes of surfaces with their places: the land around the ground, doors at exits (both
+/// in counts/), and what faces up of buildings, over all images of a run.
+class PlaceCheck {
+ public:
+  void add(const DatasetInfo& info, const Shot& shot, Findings& findings);
+  void finish(Findings& findings) const;
+
+ private:
+  /// Places in counts/RUN.json, m; empty without that file.
+  struct Areas {
+    Eigen::AlignedBox2d ground;
+    std::map<std::string, std::pair<Eigen::Vector2d, Eigen::Vector2d>> exits;  ///< ends by id
+  };
+  struct Tops {
+    std::size_t looked_at = 0;
+    std::size_t facades = 0;
+    std::string file;  ///< of the first facade
+    std::string record;
+  };
+
+  const Areas& areas_of(const DatasetInfo& info, const std::string& run);
+  static void check_land(const Shot& shot, const Areas& areas, Findings& findings);
+  static void check_doors(const Shot& shot, const Areas& areas, Findings& findings);
+  void look_at_tops(const Shot& shot);
+
+  std::map<std::string, Areas> areas_;                          ///< by run
+  std::map<std::pair<std::string, std::uint32_t>, Tops> tops_;  ///< by run and building
 };
 
 /// Checks that outlines of labels coincide with edges in the images. Evaluated over the whole

@@ -131,6 +131,7 @@ class ShotChecks {
     check_buildings(shot, findings);
     check_normals(shot, findings);
     check_surface_classes(shot, findings);
+    places_.add(info, shot, findings);
     alignment_.add(shot);
     clothes_.add(shot);
     check_whole_bodies(shot, findings);
@@ -157,6 +158,7 @@ class ShotChecks {
   void finish(Findings& findings) const {
     alignment_.finish(findings);
     clothes_.finish(findings);
+    places_.finish(findings);
   }
   /// Nothing is compared with a camera's last image any more.
   void forget(const std::string& camera) { last_.erase(camera); }
@@ -174,6 +176,7 @@ class ShotChecks {
 
   AlignmentCheck alignment_;
   ClothesCheck clothes_;
+  PlaceCheck places_;
   std::map<std::string, Shot> last_;  ///< each camera's
 };
 
