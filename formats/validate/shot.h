@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "camera/camera.h"
@@ -102,9 +103,10 @@ class ClothesCheck {
     Eigen::Vector3d inner_sum = Eigen::Vector3d::Zero();  ///< over those far from other surfaces
     std::size_t inner_pixels = 0;
   };
-  std::map<std::string, std::map<std::int64_t, Shirt>> runs_;  ///< by track
-  std::map<std::int64_t, std::size_t> carried_;                ///< pixels of carried items by track
-  std::set<std::int64_t> without_item_;  ///< tracks with such pixels that carry no item
+  /// By run and white balance, then track: images of one shirt in two white balances differ.
+  std::map<std::pair<std::string, double>, std::map<std::int64_t, Shirt>> runs_;
+  std::map<std::int64_t, std::size_t> carried_;  ///< pixels of carried items by track
+  std::set<std::int64_t> without_item_;          ///< tracks with such pixels that carry no item
 };
 
 /// Checks that outlines of labels coincide with edges in the images. Evaluated over the whole

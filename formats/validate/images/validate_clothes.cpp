@@ -130,6 +130,13 @@ bool is_inside_torso(const Pixels& pixels, std::size_t pixel) {
   return true;
 }
 
+/// What counts as white in an image.
+double white_balance_k(const Image& image) {
+  constexpr double kDaylightK = 6500;
+  return image.record.value("sensor", nlohmann::json::object())
+      .value("white_balance_k", kDaylightK);
+}
+
 /// Whether all people are in the light of one color, so that differences are those of clothes. A
 /// low sun is red and the shadows beside are blue; by night each lamp lights those near it.
 bool is_in_one_light(const Image& image) {
@@ -161,7 +168,7 @@ void ClothesCheck::add(const Shot& shot) {
       continue;
     }
     if (!is_one_light) continue;
-    Shirt& shirt = runs_[shot.image.run][person->second->track_id];
+    Shirt& shirt = runs_[{shot.image.run, white_balance_k(shot.image)}][person->second->track_id];
     if (shirt.pixels++ == 0) shirt.label = recorded_color(*person->second->track);
     Eigen::Vector3d light;
     for (int c = 0; c < 3; ++c) {
@@ -180,7 +187,8 @@ void ClothesCheck::finish(Findings& findings) const {
                  fmt::format("carries nothing, but parts/ has {} pixels of a carried item",
                              carried_.at(track)));
   }
-  for (const auto& [run, shirts] : runs_) {
+  for (const auto& [run_and_white, shirts] : runs_) {
+    const std::string& run = run_and_white.first;
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, image
     Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
     Eigen::Vector2d mean_image = Eigen::Vector2d::Zero();

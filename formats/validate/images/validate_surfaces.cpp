@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,11 @@ struct ColorSum {
 
 class SurfaceCheck {
  public:
-  SurfaceCheck(const Shot& shot, Findings& findings) : shot_(shot), findings_(findings) {}
+  SurfaceCheck(const Shot& shot, Findings& findings)
+      : shot_(shot),
+        findings_(findings),
+        visibility_m_(shot.image.record.value("environment", nlohmann::json::object())
+                          .value("visibility_m", std::numeric_limits<double>::infinity())) {}
 
   void run() {
     const Pixels& pixels = shot_.pixels;
@@ -68,9 +73,15 @@ class SurfaceCheck {
     return static_cast<SemanticClass>(shot_.pixels.semantic[shot_.pixels.at(x, y)]);
   }
 
-  /// Whether smoke, fire or gas, which may be green, gives a pixel some of its color.
+  /// Whether air, smoke, fire or gas, which have any color, give a pixel some of theirs.
   bool is_veiled(std::size_t pixel) const {
     const std::vector<std::uint16_t>& opacity = shot_.pixels.hazard_opacity;
+    // 2 % of a contrast are left at the visibility, two thirds at a tenth of it.
+    constexpr double kClearShare = 0.1;
+    constexpr double kUnknownDepthM = 100;
+    const bool has_depth = !shot_.pixels.depth_cm.empty();
+    const double away_m = has_depth ? shot_.pixels.depth_m(pixel) : kUnknownDepthM;
+    if (away_m > kClearShare * visibility_m_) return true;
     return !opacity.empty() &&
            (opacity[3 * pixel] | opacity[3 * pixel + 1] | opacity[3 * pixel + 2]) != 0;
   }
@@ -142,6 +153,7 @@ class SurfaceCheck {
 
   const Shot& shot_;
   Findings& findings_;
+  double visibility_m_;
   SurfaceTally roofs_;
   SurfaceTally doors_;
   SurfaceTally facades_;
