@@ -56,6 +56,9 @@ void check_bodies(const Image& image, Findings& findings);
 /// them byte by byte, for datasets written by this version of the program.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
+/// The version of the definitions by which the COCO file was labeled; "" if it does not say.
+std::string label_version(const DatasetInfo& info);
+
 /// Checks names and ids of the COCO file's categories.
 void check_categories(const DatasetInfo& info, Findings& findings);
 
