@@ -43,6 +43,7 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::flow_occlusion, make<PixelCheck<check_flow_occlusion_values>>},
     GroundTruthChecker{GroundTruth::scene_flow, make<PixelCheck<check_scene_flow_values>>},
     GroundTruthChecker{GroundTruth::hazard_opacity, make<HazardOpacityCheck>},
+    GroundTruthChecker{GroundTruth::hazard_opacity, make<HazardSightCheck>},
     GroundTruthChecker{GroundTruth::semantic, make<PixelCheck<check_semantic>>},
     GroundTruthChecker{GroundTruth::sensors, make<SensorTableCheck>},
 };

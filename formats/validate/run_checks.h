@@ -180,8 +180,10 @@ class ActionsCheck : public GroundTruthCheck {
                              Findings& findings);
   static void check_table(const CsvTable& table, const std::string& file,
                           const std::vector<Seen>& seen, Findings& findings);
+  void check_groups(const CsvTable& table, const std::string& file, Findings& findings) const;
 
   std::map<std::string, std::vector<Seen>> seen_;  ///< by run
+  std::map<std::int64_t, nlohmann::json> groups_;  ///< of tracks that images show
 };
 
 /// Checks that values are constant: a run's environment, a camera's lens, a person's attributes and
@@ -197,6 +199,7 @@ class ConstancyCheck {
   void check_camera(const Image& image, Findings& findings);
   void check_person(const Person& person, Findings& findings);
   void check_track(const Image& image, const Person& person, Findings& findings);
+  void check_sexes(Findings& findings) const;
 
   const nlohmann::json& manifest_;
   std::map<std::string, nlohmann::json> lenses_;       ///< by run and camera
@@ -257,6 +260,13 @@ class HazardOpacityCheck : public GroundTruthCheck {
 
   std::set<std::string> runs_with_hazards_;
   std::vector<Unexplained> without_hazard_;
+};
+
+/// Checks that hazards in the open show the fire, smoke and gas of their kind.
+class HazardSightCheck : public GroundTruthCheck {
+ public:
+  void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                  Findings& findings) override;
 };
 
 /// Checks that a person who is recorded in the previous and the next frame is recorded in the frame

@@ -63,9 +63,6 @@ void check_normals(const Shot& shot, Findings& findings);
 /// Compares all kinds of flow between consecutive frames of a camera with depth, cameras and
 /// people.
 void check_flow_between(const Shot& before, const Shot& after, Findings& findings);
-/// Checks that scene flow is 0 for static objects and agrees with optical flow and the motion of
-/// people.
-void check_scene_flow(const Shot& before, const Shot& after, Findings& findings);
 /// Compares the occlusion of flow with depth and ids of the next frame.
 void check_flow_occlusion(const Shot& before, const Shot& after, Findings& findings);
 /// Checks that the first frame has no backward flow.
@@ -109,6 +106,17 @@ class ClothesCheck {
   std::map<std::pair<std::string, double>, std::map<std::int64_t, Shirt>> runs_;
   std::map<std::int64_t, std::size_t> carried_;  ///< pixels of carried items by track
   std::set<std::int64_t> without_item_;          ///< tracks with such pixels that carry no item
+};
+
+/// Checks that scene flow is 0 for static objects and agrees with optical flow and the motion of
+/// people, each and on the average over a run.
+class SceneFlowCheck {
+ public:
+  void add(const Shot& before, const Shot& after, Findings& findings);
+  void finish(Findings& findings) const;
+
+ private:
+  std::map<std::string, std::vector<double>> ratios_;  ///< motion of pixels by that of positions
 };
 
 /// Compares classes of surfaces with their places: the land around the ground, doors at exits (both

@@ -155,6 +155,7 @@ class ShotChecks {
       if (is_same) check_same_instant(other, shot, findings);
       if (!is_before) continue;
       check_flow_between(other, shot, findings);
+      scene_flow_.add(other, shot, findings);
       check_motion(other, shot, findings);
     }
     last_.insert_or_assign(image.camera, std::move(shot));
@@ -163,6 +164,7 @@ class ShotChecks {
     alignment_.finish(findings);
     clothes_.finish(findings);
     places_.finish(findings);
+    scene_flow_.finish(findings);
   }
   /// Nothing is compared with a camera's last image any more.
   void forget(const std::string& camera) { last_.erase(camera); }
@@ -182,6 +184,7 @@ class ShotChecks {
   AlignmentCheck alignment_;
   ClothesCheck clothes_;
   PlaceCheck places_;
+  SceneFlowCheck scene_flow_;
   std::map<std::string, Shot> last_;  ///< each camera's
 };
 

@@ -1,7 +1,10 @@
 // Files that follow from what the records say of cameras, and the values of parts and normals.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "base/error.h"
@@ -51,6 +54,37 @@ void check_samples(const char* kind, const Image& image, const Pixels& pixels,
 
 }  // namespace
 
+namespace {
+
+/// A body that is whole and not small shows several parts.
+void check_several_parts(const Image& image, const Pixels& pixels, Findings& findings) {
+  constexpr std::size_t kParts = 10;
+  std::map<std::uint32_t, std::array<std::size_t, kParts>> counts;
+  for (std::size_t i = 0; i < pixels.count(); ++i) {
+    if (is_person(pixels.ids[i]) && pixels.parts[i] < kParts) {
+      ++counts[pixels.ids[i]].at(pixels.parts[i]);
+    }
+  }
+  for (const Person& person : image.people) {
+    constexpr double kMinAreaPx = 150;
+    constexpr double kMinVisibility = 0.9;
+    constexpr double kMaxShare = 0.95;
+    const auto found = counts.find(instance_id(person));
+    if (found == counts.end() || person.area < kMinAreaPx || person.truncation > 0 ||
+        person.visibility < kMinVisibility) {
+      continue;
+    }
+    const auto largest = std::max_element(found->second.begin(), found->second.end());
+    if (static_cast<double>(*largest) <= kMaxShare * person.area) continue;
+    findings.add("parts", raster_name("parts", image), fmt::format("annotation {}", person.id),
+                 fmt::format("{} of {} pixels of a whole body are of part {}", *largest,
+                             person.area, largest - found->second.begin()));
+    return;
+  }
+}
+
+}  // namespace
+
 void check_parts(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
                  Findings& findings) {
   check_samples("parts", image, pixels, pixels.parts, 1,
@@ -59,6 +93,7 @@ void check_parts(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
                   constexpr std::uint16_t kLastPart = 9;
                   return (part[0] > 0) == is_person(id) && part[0] <= kLastPart;
                 });
+  if (!pixels.parts.empty() && !pixels.ids.empty()) check_several_parts(image, pixels, findings);
 }
 
 void check_normal_lengths(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,

@@ -268,6 +268,28 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
   }
 }
 
+/// Most of those who wear what women wear are female. A library of a user's own may have others.
+void ConstancyCheck::check_sexes(Findings& findings) const {
+  constexpr std::array kOfWomen = {"dress", "skirt", "straight skirt", "blouse"};
+  std::size_t wearers = 0;
+  std::size_t males = 0;
+  for (const auto& [character, known] : characters_) {
+    const json clothes = known.second.value("clothes", json::array());
+    const bool wears = std::any_of(clothes.begin(), clothes.end(), [&](const json& clothing) {
+      return std::find(kOfWomen.begin(), kOfWomen.end(), clothing.value("type", "")) !=
+             kOfWomen.end();
+    });
+    if (!wears) continue;
+    ++wearers;
+    males += known.second.value("sex", "") == "male" ? 1 : 0;
+  }
+  constexpr std::size_t kMinWearers = 3;
+  if (wearers < kMinWearers || 2 * males <= wearers) return;
+  findings.add("attributes", kCocoFile, "tracks",
+               fmt::format("sex is male of {} of {} characters who wear dresses, skirts or blouses",
+                           males, wearers));
+}
+
 void ConstancyCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings& findings) {
   check_environment(image, findings);
   check_camera(image, findings);
@@ -279,6 +301,7 @@ void ConstancyCheck::add(const DatasetInfo& /*info*/, const Image& image, Findin
 }
 
 void ConstancyCheck::finish(const DatasetInfo& info, Findings& findings) {
+  check_sexes(findings);
   for (const auto& [series, frames] : frames_) {
     if (static_cast<std::int64_t>(frames.size()) == info.frames_per_camera &&
         *frames.begin() == 0 && *frames.rbegin() + 1 == info.frames_per_camera) {

@@ -303,7 +303,6 @@ void check_no_flow(const FlowPlane& plane, const Shot& shot, Findings& findings)
 void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
   check_flow_between(kForward, before, after, findings);
   check_flow_between(kBackward, after, before, findings);
-  check_scene_flow(before, after, findings);
   check_flow_occlusion(before, after, findings);
 }
 

@@ -7,7 +7,9 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"
 
@@ -98,14 +100,22 @@ double turn_m(const Person& then, const Person& now) {
   return kMiddleOfUpperHalf * std::max(then.box_size.maxCoeff(), now.box_size.maxCoeff());
 }
 
-/// The mean motion of somebody's pixels is that of their place, but for what limbs and falls do.
-void check_people_move(const Shot& before, const Shot& after, Findings& findings) {
+/// Somebody of two frames: the mean motion of the pixels, and that of the position.
+struct PersonMotion {
+  const Person* then = nullptr;
+  const Person* now = nullptr;
+  Eigen::Vector3d of_pixels = Eigen::Vector3d::Zero();
+  Eigen::Vector3d of_position = Eigen::Vector3d::Zero();
+};
+
+std::vector<PersonMotion> person_motions(const Shot& before, const Shot& after) {
   const Pixels& pixels = before.pixels;
   struct Sum {
     Eigen::Vector3d motion = Eigen::Vector3d::Zero();
     std::size_t pixels = 0;
   };
   std::map<std::uint32_t, Sum> sums;
+  std::vector<PersonMotion> motions;
   for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
     if (pixels.ids[i] == 0 || pixels.ids[i] >= kFirstBuilding) continue;
     const auto motion = motion_at(pixels, i);
@@ -121,17 +131,40 @@ void check_people_move(const Shot& before, const Shot& after, Findings& findings
     constexpr double kMinVisibility = 0.5;  // else a foot on the ground may be all that shows
     if (then.visibility < kMinVisibility || then.truncation > 1 - kMinVisibility) continue;
     if (now == nullptr || sum == sums.end() || sum->second.pixels < kMinPixels) continue;
-    const Eigen::Vector3d mean = sum->second.motion / static_cast<double>(sum->second.pixels);
-    const Eigen::Vector3d moved = now->position - then.position;
-    const double slack_m = 0.3 + 0.3 * moved.norm() + turn_m(then, *now);
+    motions.push_back({&then, now, sum->second.motion / static_cast<double>(sum->second.pixels),
+                       now->position - then.position});
+  }
+  return motions;
+}
+
+/// The mean motion of somebody's pixels is that of their place, but for what limbs and falls do.
+void check_people_move(const Shot& before, const std::vector<PersonMotion>& motions,
+                       Findings& findings) {
+  for (const PersonMotion& person : motions) {
+    const Eigen::Vector3d& mean = person.of_pixels;
+    const Eigen::Vector3d& moved = person.of_position;
+    const double slack_m = 0.3 + 0.3 * moved.norm() + turn_m(*person.then, *person.now);
     if ((mean - moved).head<2>().norm() <= slack_m) continue;
     findings.add("scene-flow", raster_name("scene_flow", before.image),
-                 fmt::format("annotation {}", then.id),
+                 fmt::format("annotation {}", person.then->id),
                  fmt::format("pixels move by ({:.2f}, {:.2f}) m on the average, but the person by "
                              "({:.2f}, {:.2f})",
                              mean.x(), mean.y(), moved.x(), moved.y()));
     return;
   }
+}
+
+/// Over many people who walk, pixels move as far as their positions: limbs swing to and fro.
+void check_scale(const std::vector<double>& ratios, const std::string& file,
+                 const std::string& record, Findings& findings) {
+  constexpr double kMaxOff = 0.05;
+  if (ratios.empty()) return;
+  const double ratio = median(ratios);
+  if (!(std::abs(ratio - 1) > kMaxOff + median_error(ratios))) return;
+  findings.add("scene-flow", file, record,
+               fmt::format("pixels of {} people who walk move {:.3f} times as far as their "
+                           "positions (median)",
+                           ratios.size(), ratio));
 }
 
 /// Depth (m) in the next frame of what a pixel shows, 0: sky; nothing where it is unknown.
@@ -207,7 +240,14 @@ std::optional<FlowTarget> expected_target(const Shot& before, const Shot& after,
 
 }  // namespace
 
-void check_scene_flow(const Shot& before, const Shot& after, Findings& findings) {
+void SceneFlowCheck::finish(Findings& findings) const {
+  for (const auto& [run, ratios] : ratios_) {
+    check_scale(ratios, ground_truth_file(annotate::GroundTruth::scene_flow, run, "CAMERA", 0), run,
+                findings);
+  }
+}
+
+void SceneFlowCheck::add(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
   if (pixels.scene_flow.empty() || pixels.ids.empty() || !before.at_once || !after.at_once) return;
   Verdict still;
@@ -226,7 +266,18 @@ void check_scene_flow(const Shot& before, const Shot& after, Findings& findings)
   report(still, kRule, kKind, "of what stands still move", before, findings);
   report(sky, kRule, kKind, "of the sky have motion", before, findings);
   report(like_flow, kRule, kKind, "do not move where flow leads", before, findings);
-  check_people_move(before, after, findings);
+  const std::vector<PersonMotion> motions = person_motions(before, after);
+  check_people_move(before, motions, findings);
+  std::vector<double> ratios;
+  for (const PersonMotion& person : motions) {
+    constexpr double kMinWayM = 0.2;
+    const double way_m = person.of_position.norm();
+    if (way_m < kMinWayM || !is_upright(*person.then) || !is_upright(*person.now)) continue;
+    ratios.push_back(person.of_pixels.dot(person.of_position) / (way_m * way_m));
+  }
+  check_scale(ratios, raster_name("scene_flow", before.image), before.record(), findings);
+  std::vector<double>& all = ratios_[before.image.run];
+  all.insert(all.end(), ratios.begin(), ratios.end());
 }
 
 void check_flow_occlusion(const Shot& before, const Shot& after, Findings& findings) {

@@ -48,6 +48,7 @@ void ActionsCheck::add(const DatasetInfo& info, const Image& image, Findings& fi
     if (info.has(GroundTruth::actions) != (found != person.record.end())) {
       findings.add("schema", person, "actions are missing, or not of this job");
     }
+    groups_.try_emplace(person.track_id, person.track->value("group", json()));
     if (found == person.record.end()) continue;
     check_names(person, *found, findings);
     check_together(person, by_track, findings);
@@ -118,12 +119,30 @@ void ActionsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
     const std::string file = ground_truth_file(GroundTruth::actions, run);
     try {
-      check_table(read_csv(info.root / file), file, seen_[run], findings);
+      const CsvTable table = read_csv(info.root / file);
+      check_table(table, file, seen_[run], findings);
+      check_groups(table, file, findings);
     } catch (const InputError& error) {
       findings.add("actions", file, "", error.problems().front().found);
     } catch (const std::exception& error) {
       findings.add("actions", file, "", error.what());
     }
+  }
+}
+
+/// Those who are together are of one group.
+void ActionsCheck::check_groups(const CsvTable& table, const std::string& file,
+                                Findings& findings) const {
+  constexpr std::size_t kOther = 2;
+  for (const std::vector<std::string>& row : table.rows) {
+    if (row.size() <= kOther || row[1] != "together") continue;
+    const auto own = groups_.find(std::stoll(row[0]));
+    const auto other = groups_.find(std::stoll(row[kOther]));
+    if (own == groups_.end() || other == groups_.end()) continue;
+    if (!own->second.is_null() && own->second == other->second) continue;
+    return findings.add("actions", file, fmt::format("track {}", row[0]),
+                        fmt::format("together with track {}, but their groups are {} and {}",
+                                    row[kOther], own->second.dump(), other->second.dump()));
   }
 }
 
