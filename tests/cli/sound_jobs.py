@@ -290,7 +290,7 @@ job(
 )
 job("two runs", "city_square/nearest_exit", [drone([8, -3, 15], camera(-38, 90))], agents=120, at=12, runs=2)
 
-# What rules once took for a fault.
+# Kinds that rules once took for faults.
 job(
     "smoke in the wind",
     "station/emergency",

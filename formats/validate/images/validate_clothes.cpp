@@ -130,7 +130,7 @@ bool is_inside_torso(const Pixels& pixels, std::size_t pixel) {
   return true;
 }
 
-/// What counts as white in an image.
+/// The color temperature of white in an image.
 double white_balance_k(const Image& image) {
   constexpr double kDaylightK = 6500;
   return image.record.value("sensor", nlohmann::json::object())
