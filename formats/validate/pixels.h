@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/compute/srgb.h"
 #include "formats/dataset/dataset.h"
 #include "formats/validate/findings.h"
 
@@ -44,6 +45,12 @@ struct Pixels {
   double luma(std::size_t pixel) const {
     const std::uint8_t* c = &rgb[3 * pixel];
     return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
+  }
+  /// In linear light, 0 to 1 (ITU-R BT.709).
+  double luminance(std::size_t pixel) const {
+    const std::uint8_t* c = &rgb[3 * pixel];
+    return 0.2126 * linear_from_srgb(c[0]) + 0.7152 * linear_from_srgb(c[1]) +
+           0.0722 * linear_from_srgb(c[2]);
   }
 };
 

@@ -120,7 +120,7 @@ class SceneFlowCheck {
 };
 
 /// Compares classes of surfaces with their places: the land around the ground, doors at exits (both
-/// in counts/), and what faces up of buildings, over all images of a run.
+/// in counts/), and, over all images of a run, what faces up of buildings and what is beside paint.
 class PlaceCheck {
  public:
   void add(const DatasetInfo& info, const Shot& shot, Findings& findings);
@@ -139,13 +139,25 @@ class PlaceCheck {
     std::string record;
   };
 
+  /// The ground beside a run's markings.
+  struct Paint {
+    std::size_t looked_at = 0;
+    std::size_t on_pavement = 0;
+    std::vector<double> contrasts;  ///< brightness of paint over that of pavement
+    std::string file;               ///< of the first pavement
+    std::string record;
+  };
+
   const Areas& areas_of(const DatasetInfo& info, const std::string& run);
   static void check_land(const Shot& shot, const Areas& areas, Findings& findings);
   static void check_doors(const Shot& shot, const Areas& areas, Findings& findings);
   void look_at_tops(const Shot& shot);
+  void look_at_paint(const Shot& shot);
+  void report_paint(Findings& findings) const;
 
   std::map<std::string, Areas> areas_;                          ///< by run
   std::map<std::pair<std::string, std::uint32_t>, Tops> tops_;  ///< by run and building
+  std::map<std::string, Paint> paint_;                          ///< by run
 };
 
 /// Checks that outlines of labels coincide with edges in the images. Evaluated over the whole
@@ -164,6 +176,7 @@ class AlignmentCheck {
     int best_x = 0;   ///< best offset, px
     int best_y = 0;
     bool can_tell = false;  ///< light, weather and sensor permit a judgment
+    bool is_line = false;   ///< the outlines mostly lie on themselves when moved along them
   };
   /// By run, camera, and whether the outlines are those of people.
   std::map<std::tuple<std::string, std::string, bool>, std::vector<Score>> scores_;

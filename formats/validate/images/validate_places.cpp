@@ -1,14 +1,16 @@
-// Classes of surfaces by where they are: the land around the ground, doors at exits, and walls,
-// whose tops are seen from above.
+// Classes of surfaces by where they are: the land around the ground, doors at exits, walls, whose
+// tops are seen from above, and markings on roads.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/compute/quantile.h"
 #include "base/files/files.h"
 #include "base/json/json_text.h"
 #include "formats/files/json_vectors.h"
+#include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"
 #include "world/semantic_class.h"
@@ -154,10 +156,60 @@ void PlaceCheck::look_at_tops(const Shot& shot) {
   }
 }
 
+/// The ground two pixels beside paint: nearer ones may be of both.
+void PlaceCheck::look_at_paint(const Shot& shot) {
+  const Pixels& pixels = shot.pixels;
+  constexpr int kBesidePx = 2;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      const std::size_t pixel = pixels.at(x, y);
+      if (class_of(pixels, pixel) != SemanticClass::marking) continue;
+      for (const auto& [dx, dy] : {std::pair(kBesidePx, 0), std::pair(-kBesidePx, 0),
+                                   std::pair(0, kBesidePx), std::pair(0, -kBesidePx)}) {
+        if (!pixels.holds(x + dx, y + dy)) continue;
+        const std::size_t other = pixels.at(x + dx, y + dy);
+        const SemanticClass beside = class_of(pixels, other);
+        const bool is_pavement = beside == SemanticClass::pavement;
+        if (!is_pavement && beside != SemanticClass::road) continue;
+        Paint& paint = paint_[shot.image.run];
+        ++paint.looked_at;
+        if (!is_pavement) continue;
+        if (paint.on_pavement++ == 0) {
+          paint.file = raster_name("semantic", shot.image);
+          paint.record = shot.record();
+        }
+        constexpr double kDark = 1e-3;
+        paint.contrasts.push_back((pixels.luminance(pixel) + kDark) /
+                                  (pixels.luminance(other) + kDark));
+      }
+    }
+  }
+}
+
+/// Paint may be on any ground, as the lines of platforms are, but it is 3.6 times as bright as the
+/// asphalt of roads, half of which is left in small images, and less than 1.7 times as bright as
+/// what is pavement; both are in one light.
+void PlaceCheck::report_paint(Findings& findings) const {
+  constexpr double kMaxPaved = 0.4;
+  constexpr double kMinOfAsphalt = 1.8;
+  for (const auto& [run, paint] : paint_) {
+    const double error = median_error(paint.contrasts);
+    if (!std::isfinite(error) || median(paint.contrasts) - error < kMinOfAsphalt ||
+        !is_above_share(paint.on_pavement, paint.looked_at, kMaxPaved)) {
+      continue;
+    }
+    findings.add("semantic", paint.file, paint.record,
+                 fmt::format("{} of {} pixels beside markings are pavement in {}, but as dark as "
+                             "roads: markings are {:.1f} times as bright",
+                             paint.on_pavement, paint.looked_at, run, median(paint.contrasts)));
+  }
+}
+
 void PlaceCheck::add(const DatasetInfo& info, const Shot& shot, Findings& findings) {
   const Pixels& pixels = shot.pixels;
   if (pixels.semantic.empty() || pixels.ids.empty() || !shot.at_once) return;
   if (!pixels.normals.empty()) look_at_tops(shot);
+  if (!pixels.rgb.empty()) look_at_paint(shot);
   if (pixels.depth_cm.empty() || !info.has(annotate::GroundTruth::counts)) return;
   const Areas& areas = areas_of(info, shot.image.run);
   check_land(shot, areas, findings);
@@ -165,6 +217,7 @@ void PlaceCheck::add(const DatasetInfo& info, const Shot& shot, Findings& findin
 }
 
 void PlaceCheck::finish(Findings& findings) const {
+  report_paint(findings);
   for (const auto& [building, tops] : tops_) {
     constexpr double kMaxShare = 0.3;
     if (!is_above_share(tops.facades, tops.looked_at, kMaxShare)) continue;

@@ -190,12 +190,6 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
   return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * per_pixel_m;
 }
 
-/// The luminance of an sRGB pixel, in linear light.
-double luminance(const std::uint8_t* rgb) {
-  return 0.2126 * linear_from_srgb(rgb[0]) + 0.7152 * linear_from_srgb(rgb[1]) +
-         0.0722 * linear_from_srgb(rgb[2]);
-}
-
 /// Equal exposure, and no vignette that makes it a matter of the place. Metered exposures of what
 /// stays the same are nearly equal.
 bool have_one_exposure(const Image& a, const Image& b) {
@@ -255,7 +249,8 @@ std::vector<StillPoint> still_points(const Shot& before, const Shot& after) {
       const std::uint8_t* a = &pixels.rgb[3 * pixel];
       const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
       constexpr double kDark = 1e-4;
-      points.push_back({(luminance(b) + kDark) / (luminance(a) + kDark),
+      points.push_back({(after.pixels.luminance(after.pixels.at(u, v)) + kDark) /
+                            (pixels.luminance(pixel) + kDark),
                         static_cast<double>(a[0]) - a[2], static_cast<double>(b[0]) - b[2],
                         warm_variance(sensor, a), warm_variance(sensor, b)});
     }

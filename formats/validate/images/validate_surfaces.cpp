@@ -1,5 +1,5 @@
-// Classes of still surfaces against their shape and neighbors: facades are upright, roofs and
-// doors at their heights, what is painted like a road is one, grass green.
+// Classes of still surfaces against their shape and color: facades are upright, roofs and doors at
+// their heights, grass green.
 #include <fmt/format.h>
 
 #include <array>
@@ -8,9 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "base/compute/quantile.h"
-#include "base/compute/srgb.h"
-#include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"
 #include "world/semantic_class.h"
@@ -57,7 +54,6 @@ class SurfaceCheck {
     report(roofs_, kMaxLow, "of roofs are less than 1.5 m above the ground");
     report(doors_, kMaxLow, "of doors are more than 6 m above the ground");
     report(facades_, kMaxUp, "of facades face up");
-    report_markings();
     constexpr std::size_t kMinPixels = 300;
     constexpr double kNoise = 0.01;
     if (grass_.pixels < kMinPixels || paved_.pixels < kMinPixels ||
@@ -86,12 +82,6 @@ class SurfaceCheck {
            (opacity[3 * pixel] | opacity[3 * pixel + 1] | opacity[3 * pixel + 2]) != 0;
   }
 
-  double luminance_at(std::size_t pixel) const {
-    const std::uint8_t* rgb = &shot_.pixels.rgb[3 * pixel];
-    return 0.2126 * linear_from_srgb(rgb[0]) + 0.7152 * linear_from_srgb(rgb[1]) +
-           0.0722 * linear_from_srgb(rgb[2]);
-  }
-
   void look_at(int x, int y) {
     const Pixels& pixels = shot_.pixels;
     const std::size_t pixel = pixels.at(x, y);
@@ -102,7 +92,6 @@ class SurfaceCheck {
       for (std::size_t c = 0; c < 3; ++c) color.sum.at(c) += pixels.rgb[3 * pixel + c];
       ++color.pixels;
     }
-    if (surface == SemanticClass::marking) look_beside(x, y);
     if (pixels.depth_cm.empty() || pixels.depth_cm[pixel] == 0) return;
     if (surface == SemanticClass::roof || surface == SemanticClass::door) {
       const double height_m = shot_.point_at(x, y, pixels.depth_m(pixel)).z();
@@ -115,31 +104,6 @@ class SurfaceCheck {
       constexpr std::uint16_t kUp = 128 + 100;  // of 127
       facades_.add(pixels.normals[3 * pixel + 2] > kUp);
     }
-  }
-
-  /// The ground two pixels beside paint: nearer ones may be of both. Paint may be on any ground, as
-  /// the lines of platforms are, but it is 3.6 times as bright as the asphalt of roads and less
-  /// than 1.7 times as bright as what is pavement, and both are in one light.
-  void look_beside(int x, int y) {
-    for (const auto& [dx, dy] :
-         {std::pair(2, 0), std::pair(-2, 0), std::pair(0, 2), std::pair(0, -2)}) {
-      if (!shot_.pixels.holds(x + dx, y + dy)) continue;
-      const SemanticClass beside = class_at(x + dx, y + dy);
-      const bool is_pavement = beside == SemanticClass::pavement;
-      if (is_pavement || beside == SemanticClass::road) markings_.add(is_pavement);
-      if (!is_pavement || shot_.pixels.rgb.empty()) continue;
-      constexpr double kDark = 1e-3;
-      const double paint = luminance_at(shot_.pixels.at(x, y)) + kDark;
-      contrasts_.push_back(paint / (luminance_at(shot_.pixels.at(x + dx, y + dy)) + kDark));
-    }
-  }
-
-  void report_markings() const {
-    constexpr double kMaxPaved = 0.4;
-    constexpr double kMinOfAsphalt = 2.4;  // worn paint is darker
-    const double error = median_error(contrasts_);
-    if (!std::isfinite(error) || median(contrasts_) - error < kMinOfAsphalt) return;
-    report(markings_, kMaxPaved, "beside markings are pavement, but as dark as roads");
   }
 
   void report(const SurfaceTally& tally, double max_share, const char* what) const {
@@ -157,8 +121,6 @@ class SurfaceCheck {
   SurfaceTally roofs_;
   SurfaceTally doors_;
   SurfaceTally facades_;
-  SurfaceTally markings_;
-  std::vector<double> contrasts_;  ///< of paint to the pavement beside it
   ColorSum grass_;
   ColorSum paved_;
 };

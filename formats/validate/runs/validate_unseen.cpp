@@ -104,6 +104,24 @@ class UnseenRun {
                           std::max(kMaxShare, 2 * seen_states.share()), 1);
   }
 
+  /// A state in which the seen stand and the unseen walk, or the reverse; "" if there is none.
+  std::string state_of_other_motion() const {
+    constexpr std::size_t kMinCount = 20;
+    constexpr double kNearlyAll = 0.95;
+    constexpr double kMinority = 0.4;
+    for (const auto& [state, seen] : seen_motion_) {
+      const auto unseen = unseen_motion_.find(state);
+      if (unseen == unseen_motion_.end() || seen.looked_at < kMinCount ||
+          unseen->second.looked_at < kMinCount) {
+        continue;
+      }
+      const bool stand = seen.share() > kNearlyAll && unseen->second.share() < kMinority;
+      const bool walk = seen.share() < 1 - kNearlyAll && unseen->second.share() > 1 - kMinority;
+      if (stand || walk) return recorded_.states.at(static_cast<std::size_t>(state));
+    }
+    return "";
+  }
+
   UnlikeTally seen_headings;
   UnlikeTally unseen_headings;
   UnlikeTally seen_states;
@@ -124,6 +142,10 @@ class UnseenRun {
     if (before && after) seen_states.add(is_other);
     if (before != after) border_states.add(is_other);
     const Vector2d way = recorded_.place(frame + 1, person) - recorded_.place(frame, person);
+    constexpr double kStandingMps = 0.2;
+    if (before == after && !is_other) {
+      (before ? seen_motion_ : unseen_motion_)[then[3]].add(way.norm() < kStandingMps * passed_s);
+    }
     constexpr double kWalkingMps = 0.6;
     constexpr double kMinWayM = 0.1;
     if (way.norm() < std::max(kMinWayM, kWalkingMps * passed_s) || before != after) return;
@@ -137,6 +159,8 @@ class UnseenRun {
 
   const RunTrajectories& recorded_;
   const std::map<std::int64_t, UnseenCheck::Frame>& frames_;
+  std::map<float, UnlikeTally> seen_motion_;  ///< who stands, by state
+  std::map<float, UnlikeTally> unseen_motion_;
 };
 
 }  // namespace
@@ -167,6 +191,10 @@ void UnseenCheck::finish(const DatasetInfo& info, Findings& findings) {
                      fmt::format("{} of {} headings of people who walk unseen are not where they "
                                  "go",
                                  run.unseen_headings.unlike, run.unseen_headings.looked_at));
+      }
+      if (const std::string state = run.state_of_other_motion(); !state.empty()) {
+        findings.add("trajectories", file, "",
+                     fmt::format("the unseen do not move in state \"{}\" as the seen do", state));
       }
       if (run.have_other_states()) {
         findings.add("trajectories", file, "",

@@ -31,7 +31,7 @@ TABLE = {
         backward_flow_is_forward_flow backward_flow_reversed backward_flow_of_people_zero
         backward_flow_of_the_first_frame occlusion_all_visible occlusion_inverted occlusion_outside_is_hidden
         occlusion_of_the_frame_before occlusion_of_unknown_values scene_flow_reversed scene_flow_axes_exchanged
-        scene_flow_in_centimeters scene_flow_of_one_person_zero scene_flow_of_still_pixels_5_cm
+        scene_flow_in_centimeters scene_flow_a_tenth_less scene_flow_of_one_person_zero scene_flow_of_still_pixels_5_cm
         scene_flow_of_the_last_frame""",
     trajectories: """
         trajectories_10_cm_off trajectories_one_frame_late trajectories_without_somebody_seen
@@ -128,7 +128,7 @@ TABLE = {
         zones_of_two_exits_exchanged metrics_of_two_runs_exchanged metrics_with_another_number_of_people
         metrics_time_in_state_halved metrics_greatest_density_halved escape_curve_reversed crossings_one_more
         crossings_one_more_from_a_frame_on crossings_in_and_out_exchanged queues_one_more people_at_exits_one_more
-        predicted_waits_halved pressure_of_exits_doubled exits_with_nan door_of_one_exit_3_px_off_in_all_pictures
+        predicted_waits_halved predicted_waits_doubled pressure_of_exits_doubled exits_with_nan door_of_one_exit_3_px_off_in_all_pictures
         mean_escape_time_10_s_more escape_percentiles_20_percent_less not_escaped_one_less
         one_more_left_by_an_exit net_out_one_more
         shares_of_exits_moved_by_one metrics_in_one_place_only drones_of_metrics_flew_farther exposure_doubled""",
@@ -156,19 +156,22 @@ TABLE = {
         category_left_out notices_left_out one_notice_left_out escapes_left_out events_left_out
         notices_half_a_second_early escapes_called_notices notices_of_others somebody_departs_twice
         event_of_unknown_type unseen_people_2_m_off unseen_people_mirrored somebody_unseen_left_out
-        somebody_unseen_absent_for_a_frame unseen_people_in_other_frames parts_all_head
+        somebody_unseen_absent_for_a_frame unseen_people_in_other_frames unseen_people_look_back
+        unseen_people_in_other_states one_hidden_person_left_out escapes_by_another_exit everybody_male parts_all_head
+        semantic_land_called_pavement semantic_doors_called_facades
         semantic_roofs_and_facades_exchanged semantic_doors_and_facades_exchanged
         semantic_road_and_pavement_exchanged_in_one_image""",
     hazards: """
-        hazard_left_out hazard_3_m_off hazard_areas_10_px_off hazards_twice_as_large hazard_of_another_kind
+        hazard_left_out hazard_3_m_off hazard_areas_10_px_off hazards_twice_as_large hazard_of_another_kind hazards_of_another_kind
         hazard_begins_later danger_from_the_middle danger_left_out time_in_danger_is_a_minute
+        opacity_left_out opacity_halved opacity_of_fire_and_smoke_exchanged
         opacity_of_smoke_called_gas opacity_of_fire_upside_down opacity_before_the_fire""",
     vehicles: """
         vehicle_left_out vehicles_of_one_image_left_out vehicle_count_one_more vehicle_box_2_px_wider
         vehicle_category_exchanged vehicle_track_and_category_exchanged vehicle_tracks_exchanged_in_one_image
         vehicle_mask_moved vehicle_box_3d_1_m_off vehicle_boxes_3d_turned_by_90_degrees vehicle_boxes_3d_twice_as_high
         vehicle_in_motion vehicle_place_jumps vehicle_visibility_is_a_half vehicle_amodal_box_is_5_px_off
-        semantic_road_and_pavement_exchanged semantic_grass_and_road_exchanged""",
+        semantic_walls_called_facades semantic_road_and_pavement_exchanged semantic_grass_and_road_exchanged""",
 }
 #: Damages that need a dataset with cars, or one in which a disaster has begun.
 OF_VEHICLES = {name.replace("_", " ") for name in TABLE[vehicles].split()}

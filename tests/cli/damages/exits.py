@@ -265,6 +265,17 @@ def predicted_waits_halved(d):
 
 
 @damage
+def predicted_waits_doubled(d):
+    def double(head, rows):
+        at = head.index("predicted_wait")
+        for row in rows:
+            row[at] = f"{float(row[at]) * 2:.2f}"
+        return rows
+
+    change_exits(d, double)
+
+
+@damage
 def pressure_of_exits_doubled(d):
     def double(head, rows):
         at = head.index("pressure")

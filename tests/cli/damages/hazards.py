@@ -47,6 +47,14 @@ def hazard_of_another_kind(d):
 
 
 @damage
+def hazards_of_another_kind(d):
+    for image in d.images:
+        for hazard in image["hazards"]:
+            hazard["kind"] = "fire" if hazard["kind"] != "fire" else "explosion"
+    d.save_coco()
+
+
+@damage
 def hazard_begins_later(d):
     image = image_with_hazard(d)
     image["hazards"][0]["start_s"] = image["time_s"] + 5
@@ -87,6 +95,27 @@ def opacity_of_fire_upside_down(d):
         return abs((np.arange(len(shown)) * shown).sum() / shown.sum() - (len(shown) - 1) / 2)
 
     d.change_raster("hazard_opacity", max(d.images, key=moved), lambda a: a[::-1])
+
+
+def change_opacity(d, change):
+    for image in d.images:
+        if d.raster("hazard_opacity", image)[1].any():
+            d.change_raster("hazard_opacity", image, change)
+
+
+@damage
+def opacity_left_out(d):
+    change_opacity(d, np.zeros_like)
+
+
+@damage
+def opacity_halved(d):
+    change_opacity(d, lambda a: a // 2)
+
+
+@damage
+def opacity_of_fire_and_smoke_exchanged(d):
+    change_opacity(d, lambda a: a[..., [1, 0, 2]])
 
 
 @damage

@@ -85,6 +85,13 @@ def scene_flow_in_centimeters(d):
 
 
 @damage
+def scene_flow_a_tenth_less(d):
+    for image in d.images:
+        if image["frame"] < d.frames - 1:
+            change_scene_flow(d, image, lambda m: 0.9 * m)
+
+
+@damage
 def scene_flow_of_one_person_zero(d):
     image = d.image(0)
     number = walker(d, image)["track_id"] % 1000000

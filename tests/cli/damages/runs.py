@@ -243,6 +243,64 @@ def unseen_people_in_other_frames(d):
 
 
 @damage
+def unseen_people_look_back(d):
+    def change(values, unseen):
+        values[:, unseen, 2] += numpy.pi
+
+    change_unseen(d, change)
+
+
+@damage
+def unseen_people_in_other_states(d):
+    states = len(json.loads(d.path(f"trajectories/{d.runs[0]}.json").read_text())["states"])
+
+    def change(values, unseen):
+        values[:, unseen, 3] = (values[:, unseen, 3] + 1) % states
+
+    change_unseen(d, change)
+
+
+@damage
+def one_hidden_person_left_out(d):
+    image = next(i for i in d.images if len(i.get("hidden", [])) > 1 and 0 < i["frame"] < d.frames - 1)
+    middle = max(image["hidden"], key=lambda p: p["bbox_amodal"][2] * p["bbox_amodal"][3])
+    image["hidden"].remove(middle)
+    image["counts"]["all"] -= 1
+    d.save_coco()
+
+
+@damage
+def escapes_by_another_exit(d):
+    def change(events):
+        exits = sorted({e["exit"] for e in events if "exit" in e})
+        assert len(exits) > 1, "one exit"
+        for event in events:
+            if event["type"] == "escapes":
+                event["exit"] = exits[(exits.index(event["exit"]) + 1) % len(exits)]
+        return events
+
+    change_events(d, change)
+
+
+@damage
+def everybody_male(d):
+    for track in d.coco["tracks"]:
+        if "attributes" in track:
+            track["attributes"]["sex"] = "male"
+    d.save_coco()
+
+
+@damage
+def semantic_land_called_pavement(d):
+    change_class(d, TERRAIN, PAVEMENT)
+
+
+@damage
+def semantic_doors_called_facades(d):
+    change_class(d, DOOR, BUILDING)
+
+
+@damage
 def parts_all_head(d):
     for image in d.images:
         d.change_raster("parts", image, lambda parts: numpy.where(parts > 0, 1, 0).astype(parts.dtype))
@@ -259,7 +317,16 @@ def exchange_classes(d, images, a, b):
     assert changed, "neither class shows"
 
 
-ROOF, BUILDING, DOOR, PAVEMENT, ROAD, GRASS = 7, 2, 8, 11, 12, 13
+TERRAIN, ROOF, BUILDING, DOOR, WALL, PAVEMENT, ROAD, GRASS = 1, 7, 2, 8, 9, 11, 12, 13
+
+
+def change_class(d, a, b):
+    changed = 0
+    for image in d.images:
+        if (d.raster("semantic", image)[1] == a).sum() > 200:
+            d.change_raster("semantic", image, lambda v: numpy.where(v == a, b, v).astype(v.dtype))
+            changed += 1
+    assert changed, "the class does not show"
 
 
 @damage
