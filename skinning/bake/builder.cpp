@@ -200,12 +200,12 @@ class Bakery {
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
-        const std::size_t triangles =
-            kDetailLevels[level].triangles - (item ? item->indices.size() / 3 : 0);
+        const std::size_t carried = item ? item->indices.size() / 3 : 0;
+        const std::size_t triangles = kDetailLevels[level].triangles - carried;
         asset.levels.push_back(
             level < kDrawnLevels
                 ? hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
-                             level > 1 ? kDetailLevels[level - 1].triangles : triangles)
+                             level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles)
                 : hull.level(triangles, image));
       }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
