@@ -19,7 +19,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kTimeDecimals = 6;
 constexpr int kDecimals = 4;
 
 struct Event {

@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "annotate/people/decimals.h"
 #include "annotate/people/exit_view.h"
 #include "base/error.h"
 #include "spec/annotate/table_columns.h"
@@ -35,17 +36,17 @@ std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
     for (const metrics::ExitSeries& exit : exits) {
       check(exit.samples.size() == step_times_s.size(), "an exit has a sample per step");
       const metrics::ExitSample& sample = exit.samples[step];
-      fmt::format_to(std::back_inserter(text),
-                     "{},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{:.2f},{:.2f},{},{:.4f},"
-                     "{:.4f},{:.3f},{},{},{:.2f},{:.2f},{:.5f},{}\n",
-                     frame.frame_index, frame.time_s, csv_field(exit.exit_id), sample.in_zone,
-                     sample.density_per_m2, sample.normalized_density, sample.approach_speed_mps,
-                     sample.crossed_out, sample.crossed_in, sample.flow_per_s,
-                     sample.since_crossing_s, metrics::to_string(sample.state),
-                     sample.clogging_index, sample.voronoi_density_per_m2,
-                     sample.specific_flow_per_ms, sample.demand ? 1 : 0, sample.queue,
-                     sample.queue_length_m, sample.predicted_wait_s, sample.pressure_per_s2,
-                     metrics::to_string(sample.state_offline));
+      fmt::format_to(
+          std::back_inserter(text),
+          "{},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{:.2f},{:.2f},{},{:.4f},"
+          "{:.4f},{:.3f},{},{},{:.2f},{:.2f},{:.5f},{}\n",
+          frame.frame_index, rounded(frame.time_s, kTimeDecimals), csv_field(exit.exit_id),
+          sample.in_zone, sample.density_per_m2, sample.normalized_density,
+          sample.approach_speed_mps, sample.crossed_out, sample.crossed_in, sample.flow_per_s,
+          sample.since_crossing_s, metrics::to_string(sample.state), sample.clogging_index,
+          sample.voronoi_density_per_m2, sample.specific_flow_per_ms, sample.demand ? 1 : 0,
+          sample.queue, sample.queue_length_m, sample.predicted_wait_s, sample.pressure_per_s2,
+          metrics::to_string(sample.state_offline));
     }
   }
   return text;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "annotate/rasters/density.h"
 #include "annotate/rasters/png.h"
 #include "annotate/rasters/zone_counts.h"
+#include "base/graphics/images/jpeg_file.h"
 
 namespace throng::annotate {
 
@@ -41,7 +43,9 @@ void write_actions(FrameOutput& output) {
 void write_amodal(FrameOutput& output) { output.record.whole_masks = true; }
 
 void write_difficulty(FrameOutput& output) {
-  add_difficulty(output.frame, output.labels);
+  const images::JpegFile file(output.jpeg, output.record.file_name);
+  const std::vector<std::uint8_t> rgb = file.decode(TJPF_RGB, /*strict=*/true);
+  add_difficulty(output.frame, {file.width(), file.height(), rgb}, output.labels);
   output.lap("difficulty");
 }
 

@@ -23,6 +23,8 @@ namespace throng::annotate {
 struct FrameOutput {
   const render::Frame& frame;
   FrameLabels& labels;
+  /// The file of the image. Difficulty is measured on it, because users have no other image.
+  std::string_view jpeg;
   CocoImage& record;  ///< its run, camera and frame name the files; written after all kinds
   const ExitView* exits = nullptr;                ///< null if records have no exits
   const ActionFacts* actions = nullptr;           ///< null if records have no actions

@@ -398,7 +398,10 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
   frame.camera = camera;
   frame.people.clear();
   frame.objects.clear();
-  std::vector<Seen> seen = state.finder.find(scene, camera);
+  const bool is_strip = choice.weights != nullptr && choice.weights->count.empty();
+  const Eigen::AlignedBox2i measured =
+      is_strip ? choice.weights->domain : measured_pixels(camera.intrinsics);
+  std::vector<Seen> seen = state.finder.find(scene, camera, measured, choice.margin_px);
   state.lap("cull");
   state.draw_image(scene, camera, choice, seen, frame);
   state.target->read(!state.color_apart, frame);
@@ -416,8 +419,8 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nei
     state.lap("opacity");
   }
   if (choice.truth) {
-    state.coverage.measure(state.people_pass, scene, frame, choice.weights, options.whole_masks,
-                           seen);
+    state.coverage.measure(state.people_pass, scene, frame, measured, choice.weights,
+                           options.whole_masks, seen);
   }
   check_gl("drawing a frame");
   for (Seen& person : seen) {

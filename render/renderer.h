@@ -53,8 +53,11 @@ struct RenderOptions {
 
 /// Options of a draw.
 struct DrawChoice {
-  const PixelWeights* weights = nullptr;    ///< weights of pixels in areas; null: 1
-  bool truth = true;                        ///< false: areas are 0, and no normals, flow and parts
+  /// Weights of pixels in areas; null: 1. Of a strip of an image, whose weights are all 1, people
+  /// are measured within the domain.
+  const PixelWeights* weights = nullptr;
+  int margin_px = 0;  ///< people up to so far beside the image are in Frame::people, too
+  bool truth = true;  ///< false: areas are 0, and no normals, flow and parts
   const NeighborFrame* previous = nullptr;  ///< for the backward flow only
   double exposure_gain = 1;                 ///< factor on all light
 };

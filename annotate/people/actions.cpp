@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "annotate/people/coco.h"
+#include "annotate/people/decimals.h"
 #include "skinning/items.h"
 #include "spec/annotate/table_columns.h"
 
@@ -139,8 +140,9 @@ std::string actions_csv(const world::Trace& trace, const render::Animator& anima
     for (const ActionStretch& stretch : stretches.take()) {
       const auto& [name, other] = stretch.doing;
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", track_id(run_index, number),
-                     name, other == 0 ? "" : std::to_string(other), trace.time_s[stretch.first],
-                     trace.time_s[stretch.last]);
+                     name, other == 0 ? "" : std::to_string(other),
+                     rounded(trace.time_s[stretch.first], kTimeDecimals),
+                     rounded(trace.time_s[stretch.last], kTimeDecimals));
     }
   }
   return text;

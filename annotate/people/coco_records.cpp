@@ -188,7 +188,7 @@ void append_image_record(std::string& text, const CocoImage& image, const FrameL
       image.id, quoted(image.file_name), image.camera.intrinsics.width,
       image.camera.intrinsics.height, quoted(image.run), quoted(image.camera_id),
       image.frame_index);
-  append(text, R"("time_s":{},"camera":{{"K":)", finite(image.time_s));
+  append(text, R"("time_s":{},"camera":{{"K":)", rounded(image.time_s, kTimeDecimals));
   append_exact(text, image.camera.intrinsics.matrix());
   text += R"(,"R":)";
   append_exact(text, image.camera.pose.R);

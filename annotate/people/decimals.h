@@ -13,6 +13,8 @@ inline constexpr int kMeterDecimals = 3;
 inline constexpr int kBodyDecimals = 2;
 /// Decimals of pixel coordinates. Boxes of other formats are compared to 0.01 pixels.
 inline constexpr int kPixelDecimals = 2;
+/// Decimals of times (s), as sums of steps have rounding errors.
+inline constexpr int kTimeDecimals = 6;
 /// Decimals of shares (0 to 1).
 inline constexpr int kShareDecimals = 4;
 

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "annotate/instance_id.h"
-#include "annotate/people/contrast.h"
 #include "annotate/people/keypoints.h"
 #include "annotate/people/lookalikes.h"
 #include "annotate/people/visible_mask.h"
@@ -42,7 +41,7 @@ std::vector<Occluder> find_occluders(const render::Frame& frame, const PersonLab
 
 }  // namespace
 
-void add_difficulty(const render::Frame& frame, FrameLabels& labels) {
+void add_difficulty(const render::Frame& frame, const ColorImage& image, FrameLabels& labels) {
   const bool has_keypoints =
       std::none_of(labels.people.begin(), labels.people.end(),
                    [](const PersonLabel& label) { return label.keypoints.empty(); });
@@ -52,7 +51,6 @@ void add_difficulty(const render::Frame& frame, FrameLabels& labels) {
     add_keypoints(frame, own);
   }
   const FrameLabels& with_keypoints = has_keypoints ? labels : own;
-  const ColorImage image{frame.width(), frame.height(), frame.rgb};
   std::vector<PersonLook> looks;
   for (std::size_t i = 0; i < labels.people.size(); ++i) {
     PersonLabel& label = labels.people[i];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "annotate/rasters/density.h"
 #include "base/error.h"
@@ -37,6 +38,68 @@ struct RowRange {
   int last = -1;
 };
 
+// The exact areas of a polygon in the cells of a grid, whose cells are squares of side 1. By
+// Green's theorem, the area in cell (row, column) is the integral of clamp(x - column, 0, 1) dy
+// along the polygon's edges in the row.
+class CoveredPatch {
+ public:
+  /// Begins a polygon with these bounds.
+  void reset(const Eigen::AlignedBox2d& bounds) {
+    first_ = bounds.min().array().floor().cast<int>();
+    size_ = Eigen::Vector2i(bounds.max().array().floor().cast<int>()) - first_ +
+            Eigen::Vector2i::Ones();
+    partial_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()), 0);
+    left_.assign(partial_.size(), 0);
+  }
+
+  void add_edge(const Vector2d& a, const Vector2d& b) {
+    cuts_ = {0, 1};
+    for (const int axis : {0, 1}) {
+      const auto [low, high] = std::minmax(a[axis], b[axis]);
+      for (double border = std::floor(low) + 1; border < high; ++border) {
+        cuts_.push_back((border - a[axis]) / (b[axis] - a[axis]));
+      }
+    }
+    std::sort(cuts_.begin(), cuts_.end());
+    for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+      const Vector2d middle = a + (b - a) * (cuts_[i] + cuts_[i + 1]) / 2;
+      const double dy = (b.y() - a.y()) * (cuts_[i + 1] - cuts_[i]);
+      const double column = std::floor(middle.x());
+      const std::size_t cell =
+          at(static_cast<int>(std::floor(middle.y())), static_cast<int>(column));
+      partial_[cell] += (middle.x() - column) * dy;
+      left_[cell] += dy;
+    }
+  }
+
+  /// Calls body(row, column, area) for each cell with a part of the polygon.
+  template <typename Body>
+  void visit(const Body& body) const {
+    for (int row = first_.y(); row < first_.y() + size_.y(); ++row) {
+      double whole = 0;  // of cells left of the edges
+      for (int column = first_.x() + size_.x() - 1; column >= first_.x(); --column) {
+        const double area = partial_[at(row, column)] + whole;
+        whole += left_[at(row, column)];
+        if (area > 0) body(row, column, area);
+      }
+    }
+  }
+
+ private:
+  std::size_t at(int row, int column) const {
+    const int y = std::clamp(row - first_.y(), 0, size_.y() - 1);
+    const int x = std::clamp(column - first_.x(), 0, size_.x() - 1);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x()) +
+           static_cast<std::size_t>(x);
+  }
+
+  Eigen::Vector2i first_ = Eigen::Vector2i::Zero();
+  Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
+  std::vector<double> partial_;  // in the cells with the edges
+  std::vector<double> left_;     // in all cells left of these
+  std::vector<double> cuts_;
+};
+
 }  // namespace
 
 // Draws into the cells of a grid.
@@ -67,6 +130,26 @@ class FieldPainter {
         for (int column = columns.first; column <= columns.last; ++column) body(index(row, column));
       }
     }
+  }
+
+  /// Calls body(index, share) for the cells of which the rings cover a share: outlines
+  /// counter-clockwise, holes clockwise.
+  template <typename Body>
+  void cover(const std::vector<metrics::Ring>& rings, const Body& body) {
+    Eigen::AlignedBox2d bounds;
+    for (const metrics::Ring& ring : rings) {
+      for (const Vector2d& corner : ring) bounds.extend(in_cells(corner));
+    }
+    patch_.reset(bounds);
+    for (const metrics::Ring& ring : rings) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        patch_.add_edge(in_cells(ring[i]), in_cells(ring[(i + 1) % ring.size()]));
+      }
+    }
+    patch_.visit([&](int row, int column, double share) {
+      if (row < 0 || row >= grid_.rows_ || column < 0 || column >= grid_.columns_) return;
+      body(index(row, column), share);
+    });
   }
 
   /// A person's kernel, summing to 1 over the cells where one can walk; all of it in the person's
@@ -104,6 +187,8 @@ class FieldPainter {
   const metrics::VoronoiCutter& cutter() const { return grid_.cutter_; }
 
  private:
+  Vector2d in_cells(const Vector2d& place) const { return (place - grid_.origin_) / grid_.cell_m_; }
+
   // The cells whose middles lie between two distances from the origin.
   RowRange middles(double from_m, double until_m, int count) const {
     const double first = std::ceil(from_m / grid_.cell_m_ - 0.5);
@@ -117,6 +202,7 @@ class FieldPainter {
 
   const GroundGrid& grid_;
   std::vector<double> edges_;
+  CoveredPatch patch_;
   std::vector<std::pair<std::size_t, double>> share_;
 };
 
@@ -171,7 +257,7 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
   }
   GroundField field;
   field.people = static_cast<std::int64_t>(places.size());
-  field.voronoi.assign(grid.cells(), 0);
+  std::vector<double> voronoi(grid.cells());
   std::vector<double> weight(grid.cells());
   std::vector<double> x(grid.cells());
   std::vector<double> y(grid.cells());
@@ -181,8 +267,9 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
   for (std::size_t i = 0; i < places.size(); ++i) {
     painter.add(places[i], velocities[i], weight, x, y);
     const metrics::VoronoiCell cell = painter.cutter().cell(neighbors, i);
-    const auto density = static_cast<float>(cell.density_per_m2());
-    painter.fill(cell.rings, [&](std::size_t index) { field.voronoi[index] = density; });
+    // Everybody who shares the cell adds their part.
+    painter.cover(cell.rings,
+                  [&](std::size_t index, double share) { voronoi[index] += share / cell.area_m2; });
   }
   const double cell_m2 = grid.cell_m() * grid.cell_m();
   for (std::size_t i = 0; i < grid.cells(); ++i) {
@@ -190,6 +277,7 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
     field.density.push_back(static_cast<float>(weight[i] / cell_m2));
     field.velocity_x.push_back(static_cast<float>(x[i] * mean));
     field.velocity_y.push_back(static_cast<float>(y[i] * mean));
+    field.voronoi.push_back(static_cast<float>(voronoi[i]));
   }
   return field;
 }

@@ -49,8 +49,11 @@ struct GroundField {
   std::vector<float> density;
   std::vector<float> velocity_x;  ///< m/s, mean weighted by the same kernel; 0 if nobody is near
   std::vector<float> velocity_y;
-  std::vector<float> voronoi;  ///< people per m² from Voronoi cells (metrics/density/voronoi.h)
-  std::int64_t people = 0;     ///< on the ground, whether cameras see them or not
+  /// People per m², the mean over the cell of the densities of the Voronoi cells in it
+  /// (metrics/density/voronoi.h), which times the area of a cell sum to `people`, but for the parts
+  /// of Voronoi cells beyond the grid.
+  std::vector<float> voronoi;
+  std::int64_t people = 0;  ///< on the ground, whether cameras see them or not
 };
 
 /// The fields of all people present at `time_s`; positions are interpolated between steps.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "annotate/people/coco.h"
+#include "annotate/people/decimals.h"
 #include "annotate/trajectories.h"
 #include "base/error.h"
 #include "base/geometry/polygon.h"
@@ -86,8 +87,9 @@ std::vector<Crossers> find_crossers(const world::Trace& trace, const CountLine& 
 void append_row(std::string& text, std::size_t frame, double time_s, std::string_view kind,
                 const std::string& id, const std::string& inside,
                 const std::vector<std::int64_t>& in, const std::vector<std::int64_t>& out) {
-  fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", frame, time_s, kind, id,
-                 inside, in.size(), out.size(), fmt::join(in, " "), fmt::join(out, " "));
+  fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{}\n", frame,
+                 rounded(time_s, kTimeDecimals), kind, id, inside, in.size(), out.size(),
+                 fmt::join(in, " "), fmt::join(out, " "));
 }
 
 json place_json(const Vector2d& place) { return {place.x(), place.y()}; }

@@ -61,13 +61,13 @@ const std::vector<EventType>& event_types() {
 }
 
 /// A state of a person that begins and ends.
-struct Change {
+struct StateChange {
   std::string_view begins;
   std::string_view ends;
 };
-constexpr std::array kChanges = {Change{"arrives", "departs"}, Change{"lies_down", "gets_up"},
-                                 Change{"panic_begins", "panic_ends"},
-                                 Change{"following_begins", "following_ends"}};
+constexpr std::array kChanges = {StateChange{"arrives", "departs"}, StateChange{"lies_down", "gets_up"},
+                                 StateChange{"panic_begins", "panic_ends"},
+                                 StateChange{"following_begins", "following_ends"}};
 
 std::optional<std::int64_t> event_track(const RunEvent& event) {
   const auto track = event.record.find("track_id");
@@ -285,7 +285,7 @@ void check_event_records(const std::vector<RunEvent>& events, const EventReport&
     }
     const auto track = event_track(event);
     if (!track) continue;
-    for (const Change& change : kChanges) {
+    for (const StateChange& change : kChanges) {
       const bool begins = event.type == change.begins;
       if (!begins && event.type != change.ends) continue;
       const auto [known, is_new] = is_on.try_emplace({change.begins, *track}, begins);

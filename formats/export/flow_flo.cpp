@@ -14,7 +14,7 @@ namespace throng::formats {
 
 namespace {
 
-constexpr float kMagic = 202021.25F;
+constexpr float kFloMagic = 202021.25F;
 constexpr float kUnknownFlow = 1e10F;
 
 void append_bytes(std::string& bytes, const auto& value) {
@@ -26,7 +26,7 @@ void append_bytes(std::string& bytes, const auto& value) {
 std::string encode_flo(const images::Raster& flow) {
   std::string bytes;
   bytes.reserve(12 + flow.samples.size() / 3 * 8);
-  append_bytes(bytes, kMagic);
+  append_bytes(bytes, kFloMagic);
   append_bytes(bytes, static_cast<std::int32_t>(flow.width));
   append_bytes(bytes, static_cast<std::int32_t>(flow.height));
   for (std::size_t i = 0; i < flow.samples.size(); i += 3) {

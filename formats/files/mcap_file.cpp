@@ -21,7 +21,7 @@ namespace throng::formats {
 
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 
 enum class Opcode : std::uint8_t {
   header = 1,
@@ -222,7 +222,7 @@ std::string McapFile::State::make_summary(std::uint64_t start) const {
   end.resize(end.size() - sizeof(std::uint32_t));
   summary += end;  // the checksum covers the footer up to itself
   append(summary, crc32(summary));
-  summary += kMagic;
+  summary += kMcapMagic;
   return summary;
 }
 
@@ -250,7 +250,7 @@ void McapFile::State::begin() {
   std::string header;
   append_text(header, options.profile);
   append_text(header, "throng " + std::string(kVersion));
-  space.write(kMagic);
+  space.write(kMcapMagic);
   space.write(record(Opcode::header, header));
 }
 

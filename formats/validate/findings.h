@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,9 @@ void check_bodies(const Image& image, Findings& findings);
 /// them byte by byte, for datasets written by this version of the program.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
+/// The version of the definitions by which the COCO file was labeled; "" if it does not say.
+std::string label_version(const DatasetInfo& info);
+
 /// Checks names and ids of the COCO file's categories.
 void check_categories(const DatasetInfo& info, Findings& findings);
 
@@ -102,7 +106,14 @@ Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& 
 /// determine all projections.
 bool is_plain(const Image& image);
 
+/// Whether the lens does not distort.
+bool is_pinhole(const Image& image);
+
 /// Whether all rows were exposed at the same time.
 bool is_shot_at_once(const Image& image);
+
+/// Max distance (px) between where rows of a rolling shutter show a body and where the camera of
+/// the image's time sees it; 0 without a rolling shutter, nothing if the image does not tell.
+std::optional<double> shutter_slack_px(const Image& image);
 
 }  // namespace throng::formats

@@ -32,6 +32,7 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
     GroundTruthChecker{GroundTruth::counts, make<CountsCheck>},
     GroundTruthChecker{GroundTruth::trajectories, make<TrajectoriesCheck>},
+    GroundTruthChecker{GroundTruth::trajectories, make<UnseenCheck>},
     GroundTruthChecker{GroundTruth::events, make<EventsCheck>},
     GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
     GroundTruthChecker{GroundTruth::instances, make<PixelCheck<check_instances>>},

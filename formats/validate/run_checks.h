@@ -123,6 +123,27 @@ class TrajectoriesCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
 };
 
+/// Compares trajectories/RUN.npy with the images' views: everybody there has a record, and people
+/// whom no image shows are like the others.
+class UnseenCheck : public GroundTruthCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
+
+  struct View {
+    std::int64_t image = 0;
+    camera::Camera camera;
+    std::set<std::int64_t> tracks;  ///< those with a record, seen or hidden
+  };
+  struct Frame {
+    std::vector<View> views;      ///< of images without a rolling shutter
+    std::set<std::int64_t> seen;  ///< tracks of people with an annotation
+  };
+
+ private:
+  std::map<std::string, std::map<std::int64_t, Frame>> runs_;  ///< by run and frame
+};
+
 /// Compares events/RUN.jsonl with the frames and the people in the images.
 class EventsCheck : public GroundTruthCheck {
  public:

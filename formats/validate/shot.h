@@ -2,12 +2,15 @@
 // images.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "camera/camera.h"
@@ -26,6 +29,7 @@ struct Shot {
   camera::Camera camera;
   bool is_plain = true;                             ///< no lens distortion, no rolling shutter
   bool at_once = true;                              ///< no rolling shutter
+  bool has_current_labels = true;                   ///< by this version's definitions of labels
   std::shared_ptr<const PixelRays> rays = nullptr;  ///< of a distorted image; may be null
 
   std::string record() const { return "image " + std::to_string(image.id); }
@@ -72,9 +76,6 @@ void check_last_flow(const Shot& shot, Findings& findings);
 void check_whole_bodies(const Shot& shot, Findings& findings);
 /// Compares contrasts with the image, and occluders with instances.
 void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findings);
-/// Max CIELAB difference of the colors of a few pixels before and after compression. JPEG rounds by
-/// up to half a quantization step; at quality 50, steps are 10 to 100 of 255 levels.
-double compression_slack(const Image& image);
 /// Checks that recorded lookalikes look alike in the image, and that no other people nearby do.
 void check_lookalikes(const Shot& shot, Findings& findings);
 /// Compares boxes of heads with heads, bodies and masks.
@@ -101,10 +102,42 @@ class ClothesCheck {
     std::optional<Eigen::Vector3d> label;           ///< linear light
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< sum over the pixels of the torso
     std::size_t pixels = 0;
+    Eigen::Vector3d inner_sum = Eigen::Vector3d::Zero();  ///< over those far from other surfaces
+    std::size_t inner_pixels = 0;
   };
-  std::map<std::string, std::map<std::int64_t, Shirt>> runs_;  ///< by track
-  std::map<std::int64_t, std::size_t> carried_;                ///< pixels of carried items by track
-  std::set<std::int64_t> without_item_;  ///< tracks with such pixels that carry no item
+  /// By run and white balance, then track: images of one shirt in two white balances differ.
+  std::map<std::pair<std::string, double>, std::map<std::int64_t, Shirt>> runs_;
+  std::map<std::int64_t, std::size_t> carried_;  ///< pixels of carried items by track
+  std::set<std::int64_t> without_item_;          ///< tracks with such pixels that carry no item
+};
+
+/// Compares classes of surfaces with their places: the land around the ground, doors at exits (both
+/// in counts/), and what faces up of buildings, over all images of a run.
+class PlaceCheck {
+ public:
+  void add(const DatasetInfo& info, const Shot& shot, Findings& findings);
+  void finish(Findings& findings) const;
+
+ private:
+  /// Places in counts/RUN.json, m; empty without that file.
+  struct Areas {
+    Eigen::AlignedBox2d ground;
+    std::map<std::string, std::pair<Eigen::Vector2d, Eigen::Vector2d>> exits;  ///< ends by id
+  };
+  struct Tops {
+    std::size_t looked_at = 0;
+    std::size_t facades = 0;
+    std::string file;  ///< of the first facade
+    std::string record;
+  };
+
+  const Areas& areas_of(const DatasetInfo& info, const std::string& run);
+  static void check_land(const Shot& shot, const Areas& areas, Findings& findings);
+  static void check_doors(const Shot& shot, const Areas& areas, Findings& findings);
+  void look_at_tops(const Shot& shot);
+
+  std::map<std::string, Areas> areas_;                          ///< by run
+  std::map<std::pair<std::string, std::uint32_t>, Tops> tops_;  ///< by run and building
 };
 
 /// Checks that outlines of labels coincide with edges in the images. Evaluated over the whole

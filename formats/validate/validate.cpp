@@ -118,6 +118,9 @@ class IdCheck {
 /// Checks of one image at a time and of pairs, fed in the order of the COCO file.
 class ShotChecks {
  public:
+  explicit ShotChecks(const DatasetInfo& info)
+      : has_current_labels_(label_version(info) == annotate::kLabelVersion) {}
+
   void add(const DatasetInfo& info, const Image& image, GroundTruthChecks& kinds,
            Findings& findings) {
     Shot shot;
@@ -127,10 +130,12 @@ class ShotChecks {
     shot.rays = rays_of(image.camera, shot.camera.intrinsics);
     shot.is_plain = is_plain(image);
     shot.at_once = is_shot_at_once(image);
+    shot.has_current_labels = has_current_labels_;
     kinds.add_pixels(info, image, shot.pixels, findings);
     check_buildings(shot, findings);
     check_normals(shot, findings);
     check_surface_classes(shot, findings);
+    places_.add(info, shot, findings);
     alignment_.add(shot);
     clothes_.add(shot);
     check_whole_bodies(shot, findings);
@@ -157,6 +162,7 @@ class ShotChecks {
   void finish(Findings& findings) const {
     alignment_.finish(findings);
     clothes_.finish(findings);
+    places_.finish(findings);
   }
   /// Nothing is compared with a camera's last image any more.
   void forget(const std::string& camera) { last_.erase(camera); }
@@ -172,8 +178,10 @@ class ShotChecks {
     return is_same ? last->second.rays : std::make_shared<const PixelRays>(intrinsics);
   }
 
+  bool has_current_labels_;
   AlignmentCheck alignment_;
   ClothesCheck clothes_;
+  PlaceCheck places_;
   std::map<std::string, Shot> last_;  ///< each camera's
 };
 
@@ -248,7 +256,6 @@ Validation validate_dataset(const fs::path& root) {
     return describe_dataset(root, manifest, export_options(manifest));
   });
   IdCheck ids;
-  ShotChecks shots;
   FormatCheck other_formats;
   RecordChecks records(manifest);
   GroundTruthChecks kinds(info);
@@ -258,6 +265,7 @@ Validation validate_dataset(const fs::path& root) {
       return validation;
     }
     DatasetReader reader(info);
+    ShotChecks shots(info);
     Image image;
     while (reader.next(image)) {
       ++validation.images;

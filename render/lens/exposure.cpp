@@ -71,6 +71,13 @@ int strips_for(double motion_px, int rows) {
   return std::min({wanted, kMaxStrips, rows});
 }
 
+/// How far beside the image people are measured in each strip, because another strip may show them.
+/// Bodies may be much nearer to the camera than the places whose motion is known.
+int margin_of(double motion_px, const camera::Intrinsics& image) {
+  constexpr double kNearer = 4;
+  return std::min(static_cast<int>(std::ceil(std::min(kNearer * motion_px, 1e6))), image.width / 2);
+}
+
 double motion_during(const MomentAt& moment_at, double time_s, double duration_s) {
   if (duration_s <= 0) return 0;
   return image_motion_px(moment_at(time_s - duration_s / 2), moment_at(time_s + duration_s / 2));
@@ -100,6 +107,17 @@ void set_blur(const ShutterMoment& open, const ShutterMoment& closed, Frame& fra
   }
 }
 
+/// Sets everybody's actions at the time of the frame, which are the same in all cameras: strips are
+/// of other times, some before the first step of the run.
+void set_actions(const Scene& scene, std::vector<PersonInView>& people) {
+  std::unordered_map<std::uint32_t, skinning::Actions> actions;
+  for (const PersonInstance& person : scene.people) actions[person.agent] = person.actions;
+  for (PersonInView& person : people) {
+    const auto known = actions.find(person.agent);
+    if (known != actions.end()) person.actions = known->second;
+  }
+}
+
 NeighborTimes shifted(NeighborTimes times, double by_s) {
   for (std::optional<double>* time_s : {&times.next_s, &times.previous_s}) {
     if (*time_s) **time_s += by_s;
@@ -107,27 +125,38 @@ NeighborTimes shifted(NeighborTimes times, double by_s) {
   return times;
 }
 
+/// A part of an exposure.
+struct Strip {
+  double time_s = 0;
+  int samples = 1;
+  Rows rows;
+  NeighborTimes neighbors;
+  int margin_px = 0;  ///< of people beside the image, whom other strips may show
+};
+
 /// A strip of rows: the middle moment's everything, with the colors of all moments.
-Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double exposure_s,
-                    int samples, const Rows& rows, const NeighborTimes& neighbors, double gain) {
+Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double exposure_s, double gain,
+                    const Strip& part) {
   std::vector<float> light;
   Frame strip;
-  for (int i = 0; i < samples; ++i) {
-    const bool middle = 2 * i + 1 == samples;
+  for (int i = 0; i < part.samples; ++i) {
+    const bool middle = 2 * i + 1 == part.samples;
     // The middles of equal parts of the exposure; the middle one's share is exactly 0.
-    const double offset_s = exposure_s * (2 * i + 1 - samples) / (2.0 * samples);
-    const ShutterMoment moment = moment_at(time_s + offset_s);
+    const double offset_s = exposure_s * (2 * i + 1 - part.samples) / (2.0 * part.samples);
+    const ShutterMoment moment = moment_at(part.time_s + offset_s);
     const auto neighbor_at = [&](const std::optional<double>& other_s) {
       if (!middle || !other_s) return std::optional<NeighborFrame>();
       const ShutterMoment other = moment_at(*other_s);
       return std::optional(NeighborFrame{*other.scene, other.camera});
     };
-    const std::optional<NeighborFrame> next = neighbor_at(neighbors.next_s);
-    const std::optional<NeighborFrame> previous = neighbor_at(neighbors.previous_s);
-    Frame frame = lens.draw_rows(
-        *moment.scene, moment.camera, rows, next ? &*next : nullptr,
-        {.truth = middle, .previous = previous ? &*previous : nullptr, .exposure_gain = gain});
-    if (samples == 1) return frame;
+    const std::optional<NeighborFrame> next = neighbor_at(part.neighbors.next_s);
+    const std::optional<NeighborFrame> previous = neighbor_at(part.neighbors.previous_s);
+    Frame frame = lens.draw_rows(*moment.scene, moment.camera, part.rows, next ? &*next : nullptr,
+                                 {.margin_px = part.margin_px,
+                                  .truth = middle,
+                                  .previous = previous ? &*previous : nullptr,
+                                  .exposure_gain = gain});
+    if (part.samples == 1) return frame;
     light.resize(frame.rgb.size());
     for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_from_srgb(frame.rgb[j]);
     if (middle) {
@@ -137,7 +166,7 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
     }
   }
   for (std::size_t j = 0; j < light.size(); ++j) {
-    strip.rgb[j] = srgb_from_linear(light[j] / static_cast<float>(samples));
+    strip.rgb[j] = srgb_from_linear(light[j] / static_cast<float>(part.samples));
   }
   return strip;
 }
@@ -169,9 +198,11 @@ class PeopleInStrips {
     }
   }
 
-  std::vector<PersonInView> take() const {
+  /// Those who reach into the image in some strip.
+  std::vector<PersonInView> take(const Eigen::AlignedBox2d& image) const {
     std::vector<PersonInView> people;
     for (const auto& [agent, known] : people_) {
+      if (!known.box.intersects(image)) continue;
       people.push_back(known.person);
       people.back().amodal_box = known.box;
       people.back().amodal_area_px = known.area_px;
@@ -254,10 +285,12 @@ class ObjectsInStrips {
     }
   }
 
-  std::vector<ObjectInView> take() const {
+  /// Those that reach into the image in some strip.
+  std::vector<ObjectInView> take(const Eigen::AlignedBox2d& image) const {
     std::vector<ObjectInView> objects;
-    objects.reserve(objects_.size());
-    for (const auto& [id, known] : objects_) objects.push_back(known.object);
+    for (const auto& [id, known] : objects_) {
+      if (known.object.amodal_box.intersects(image)) objects.push_back(known.object);
+    }
     return objects;
   }
 
@@ -310,7 +343,8 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
   }
   exposed.samples = samples_for(exposed.blur_px);
   const int height = camera.intrinsics.height;
-  const int strips = strips_for(motion_during(moment_at, time_s, exposure.readout_s), height);
+  const double motion_px = motion_during(moment_at, time_s, exposure.readout_s);
+  const int strips = strips_for(motion_px, height);
   const int strip_rows = (height + strips - 1) / strips;
   Frame& frame = exposed.frame;
   PeopleInStrips people;
@@ -320,8 +354,10 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
     const Rows rows{first, std::min(first + strip_rows, height)};
     const double middle_row = 0.5 * (rows.first + rows.end - height);
     const double strip_s = strips == 1 ? time_s : time_s + exposure.readout_s * middle_row / height;
-    Frame strip = exposed_strip(lens, moment_at, strip_s, exposure.exposure_s, exposed.samples,
-                                rows, shifted(neighbors, strip_s - time_s), exposed.gain);
+    Frame strip =
+        exposed_strip(lens, moment_at, exposure.exposure_s, exposed.gain,
+                      {strip_s, exposed.samples, rows, shifted(neighbors, strip_s - time_s),
+                       strips == 1 ? 0 : margin_of(motion_px, camera.intrinsics)});
     if (strips == 1) {
       frame = std::move(strip);
       frame.time_s = time_s;
@@ -346,8 +382,10 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
   if (strips > 1) {
     frame.time_s = time_s;
     frame.camera = camera;
-    frame.people = people.take();
-    frame.objects = objects.take();
+    const Eigen::AlignedBox2d image(Vector2d(0, 0), Vector2d(camera.intrinsics.width, height));
+    frame.people = people.take(image);
+    set_actions(*now.scene, frame.people);
+    frame.objects = objects.take(image);
   }
   if (open && closed) set_blur(*open, *closed, frame);
   return exposed;

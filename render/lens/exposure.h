@@ -44,7 +44,7 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 /// moves by more than half a pixel, 32 at most. Colors are averaged in linear light. Ids, depth,
 /// boxes and areas are those of the middle of each strip's exposure; a person's box is the union
 /// over the strips, the position is that of the strip with the largest part of the person. The
-/// frame's camera is the one at `time_s`.
+/// frame's camera and people's actions are those at `time_s`.
 ///
 /// `neighbors` has the times of the next and the previous frame if flow is requested; flow leads
 /// from each row's time by the same interval. The gain is that of the camera's metering at `time_s`

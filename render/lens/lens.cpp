@@ -21,10 +21,6 @@ using Eigen::Vector2d;
 
 /// Rows that one task of a loop takes.
 constexpr std::size_t kRowsOfTask = 16;
-bool is_whole(const Rows& rows, const camera::Intrinsics& lens) {
-  return rows.first == 0 && rows.end == lens.height;
-}
-
 /// The camera of some rows of a pinhole's image.
 camera::Intrinsics cropped(camera::Intrinsics pinhole, const Rows& rows) {
   pinhole.cy_px -= rows.first;
@@ -32,14 +28,9 @@ camera::Intrinsics cropped(camera::Intrinsics pinhole, const Rows& rows) {
   return pinhole;
 }
 
-/// Everything of the image's column in these rows, and beyond the image's border.
+/// The measured pixels of the whole image that are in these rows.
 PixelWeights cropped_weights(const camera::Intrinsics& pinhole, const Rows& rows) {
-  constexpr int kFar = 1 << 20;
-  PixelWeights weights;
-  weights.domain.extend(Eigen::Vector2i(-kFar, rows.first == 0 ? -kFar : 0));
-  weights.domain.extend(
-      Eigen::Vector2i(kFar, rows.end == pinhole.height ? kFar : rows.end - rows.first));
-  return weights;
+  return {measured_pixels(pinhole, rows).translated(Eigen::Vector2i(0, -rows.first)), {}};
 }
 
 std::uint8_t mixed(const std::uint8_t* above, const std::uint8_t* below, int right, float u,
@@ -250,7 +241,7 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
                       const NeighborFrame* next, const DrawChoice& choice) {
   const camera::Intrinsics& lens = camera.intrinsics;
   const LensMap* map = lens.distortion ? &map_of(lens, rows) : nullptr;
-  if (map == nullptr && is_whole(rows, lens)) {
+  if (map == nullptr && rows.are_all(lens)) {
     Frame frame = renderer_->draw(scene, camera, next, choice);
     if (choice.truth) measure_objects(scene, renderer_->vehicles(), rows, frame);
     return frame;
@@ -303,13 +294,17 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     const Eigen::AlignedBox2d box =
         shown_box(mesh, parts, palette, instance, frame.camera, rows, is_cut);
     const bool shows = visible.contains(id_of_agent(person.agent));
-    if (!shows && (box.isEmpty() || !box.intersects(image))) continue;
-    // Right at the camera, or where the lens's model ends, an image may show triangles of somebody
-    // but no corner of them.
+    // Parts beside the image count where another strip shows the person.
+    const bool is_beside = !box.intersects(image);
+    if (!shows && (box.isEmpty() || (is_beside && rows.are_all(frame.camera.intrinsics)))) {
+      continue;
+    }
+    // Right at the camera, at the border, or where the lens's model ends, an image may show
+    // triangles of somebody but no corner of them.
     person.amodal_box = box;
     person.head_box = head_box(renderer_->head_points(instance.appearance.character, person.level),
                                palette, instance, frame.camera);
-    if (shows && (box.isEmpty() || is_cut)) {
+    if (shows && (box.isEmpty() || is_beside || is_cut)) {
       person.amodal_box.extend(visible_box(frame, rows, person.agent));
     }
     kept.push_back(std::move(person));

@@ -30,8 +30,9 @@ class Lens {
   Frame draw(const Scene& scene, const camera::Camera& camera, const NeighborFrame* next = nullptr);
 
   /// Renders only these rows, which are the frame's buffers. The frame's camera is that of the
-  /// whole image; boxes of people are in the coordinates of the whole image and cover the parts in
-  /// these rows. DrawChoice::weights are ignored.
+  /// whole image; boxes of people and objects are in the coordinates of the whole image and cover
+  /// the parts in these rows. Unless these are all rows, people and objects of which only parts
+  /// beside the image are in these rows are listed, too. DrawChoice::weights are ignored.
   Frame draw_rows(const Scene& scene, const camera::Camera& camera, const Rows& rows,
                   const NeighborFrame* next = nullptr, const DrawChoice& choice = {});
 

@@ -14,9 +14,22 @@ namespace {
 /// Image height (px) of people whose shadows show a head.
 constexpr double kFineShadowPx = 40;
 
-Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
-  return {Eigen::Vector2d::Zero(),
-          Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
+/// The image with a margin on all sides, of which only the pixels `measured` are left.
+Eigen::AlignedBox2d listed_pixels(const camera::Intrinsics& image, int margin_px,
+                                  const Eigen::AlignedBox2i& measured) {
+  const Eigen::AlignedBox2i widened(
+      Eigen::Vector2i::Constant(-margin_px),
+      Eigen::Vector2i(image.width + margin_px, image.height + margin_px));
+  return widened.intersection(measured).cast<double>();
+}
+
+/// The camera whose image has a margin on all sides.
+camera::Camera widened(camera::Camera camera, int margin_px) {
+  camera.intrinsics.cx_px += margin_px;
+  camera.intrinsics.cy_px += margin_px;
+  camera.intrinsics.width += 2 * margin_px;
+  camera.intrinsics.height += 2 * margin_px;
+  return camera;
 }
 
 }  // namespace
@@ -104,9 +117,10 @@ void PeopleFinder::texture_the_nearest(std::vector<Seen>& seen) const {
                 [](Seen* person) { person->draw.shading = Shading::lit_by_corners; });
 }
 
-std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& camera) const {
-  const ClipPlanes planes = clip_planes(camera);
-  const Eigen::AlignedBox2d image = image_box(camera);
+std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& camera,
+                                     const Eigen::AlignedBox2i& measured, int margin_px) const {
+  const ClipPlanes planes = clip_planes(widened(camera, margin_px));
+  const Eigen::AlignedBox2d listed = listed_pixels(camera.intrinsics, margin_px, measured);
   std::vector<Seen> seen;
   seen.reserve(scene.people.size());
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
@@ -124,10 +138,10 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     const skinning::Palette palette = blended_palette(*population_, person);
     const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
       const BodyShape& shape = shapes[person.appearance.character][draw.level];
-      return silhouette(shape, palette, person, camera).box;
+      return silhouette_box(shape, palette, person, camera).intersection(measured.cast<double>());
     };
     const auto shows = [&](const Eigen::AlignedBox2d& box) {
-      return !box.isEmpty() && box.intersects(image);
+      return !box.isEmpty() && box.intersects(listed);
     };
     const Eigen::AlignedBox2d body = box_of(bodies_);
     if (!shows(body) && !shows(box_of(umbrellas_))) continue;

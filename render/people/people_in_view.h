@@ -38,10 +38,12 @@ class PeopleFinder {
   /// `population` must outlive this object.
   PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
 
-  /// The people whose box, or whose umbrella's box, intersects the image of a pinhole camera, by
-  /// agent, with their boxes, levels of detail and shading. Depends only on the arguments, but is
-  /// not thread-safe.
-  std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
+  /// The people whose box, or whose umbrella's box, intersects the image of a pinhole camera, or
+  /// comes within `margin_px` of it and lies in `measured`, by agent, with their boxes, levels of
+  /// detail and shading. Boxes are limited to the pixels `measured`. Depends only on the arguments,
+  /// but is not thread-safe.
+  std::vector<Seen> find(const Scene& scene, const camera::Camera& camera,
+                         const Eigen::AlignedBox2i& measured, int margin_px = 0) const;
 
   /// The points of a character's head from which the head boxes of people at this level are
   /// computed.

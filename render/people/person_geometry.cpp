@@ -170,8 +170,20 @@ void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& lan
   truth.box_size = box.sizes();
 }
 
-Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
-                      const PersonInstance& person, const camera::Camera& camera) {
+Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image) {
+  const Eigen::Vector2i size(image.width, image.height);
+  return {-size, 2 * size};
+}
+
+Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image, const Rows& rows) {
+  Eigen::AlignedBox2i pixels = measured_pixels(image);
+  if (rows.first > 0) pixels.min().y() = rows.first;
+  if (rows.end < image.height) pixels.max().y() = rows.end;
+  return pixels;
+}
+
+Eigen::AlignedBox2d silhouette_box(const BodyShape& shape, const skinning::Palette& palette,
+                                   const PersonInstance& person, const camera::Camera& camera) {
   const Projector project(palette, image_from_model(person, camera));
   // Bounds of u, v and z at once; the fourth value is unused.
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -184,18 +196,12 @@ Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
     low = low.min(at);
     high = high.max(at);
   }
-  Silhouette seen;
-  if (shape.points.empty()) return seen;
+  if (shape.points.empty()) return {};
   Eigen::AlignedBox2f box(low.head<2>().matrix(), high.head<2>().matrix());
   if (low.z() < kNear) {
     box = cut_box(shape, projected_vertices(*shape.mesh, project));
   }
-  if (box.isEmpty()) return seen;
-  const Eigen::Vector2d size(camera.intrinsics.width, camera.intrinsics.height);
-  const Eigen::AlignedBox2d limit(-size, 2 * size);
-  seen.box =
-      Eigen::AlignedBox2d(box.min().cast<double>(), box.max().cast<double>()).intersection(limit);
-  return seen;
+  return box.isEmpty() ? Eigen::AlignedBox2d() : box.cast<double>();
 }
 
 namespace {
@@ -227,8 +233,7 @@ camera::Camera viewing_camera(const camera::Camera& camera) {
 
 /// As far as a box of somebody in the image may leave it.
 Eigen::AlignedBox2d limited(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
-  const Eigen::Vector2d size(k.width, k.height);
-  return box.intersection(Eigen::AlignedBox2d(-size, 2 * size));
+  return box.intersection(measured_pixels(k).cast<double>());
 }
 
 }  // namespace

@@ -63,30 +63,32 @@ void measure_body(const Eigen::AlignedBox3f& box, const skinning::Landmarks& lan
                   const skinning::Palette& palette, const PersonInstance& person,
                   PersonInView& truth);
 
-/// Image bounds of a mesh.
-struct Silhouette {
-  /// Bounds in box coordinates. Parts behind the near plane are clipped. The rest is limited to
-  /// three times the image around its center, since a person close to the camera would extend over
-  /// thousands of pixels. Empty if everything is behind the near plane.
-  Eigen::AlignedBox2d box;
-};
-
-Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
-                      const PersonInstance& person, const camera::Camera& camera);
-
-/// Bounds in box coordinates of a person's head points in the image of a camera with any lens,
-/// limited as Silhouette::box. Points outside of the camera's view are ignored; empty if all are.
-Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
-                             const PersonInstance& person, const camera::Camera& camera);
+/// Bounds in box coordinates of a mesh in the image of a pinhole camera, without the parts behind
+/// the near plane; empty if everything is behind it.
+Eigen::AlignedBox2d silhouette_box(const BodyShape& shape, const skinning::Palette& palette,
+                                   const PersonInstance& person, const camera::Camera& camera);
 
 /// Rows [first, end) of an image. Rows at its upper and lower border extend beyond it.
 struct Rows {
   int first = 0;
   int end = 0;
+
+  bool are_all(const camera::Intrinsics& image) const { return first == 0 && end == image.height; }
 };
 
+/// The pixels within which people and objects are measured: three times the image around its
+/// center, since a person close to the camera would extend over thousands of pixels.
+Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image);
+/// Those of them that are in these rows.
+Eigen::AlignedBox2i measured_pixels(const camera::Intrinsics& image, const Rows& rows);
+
+/// Bounds in box coordinates of a person's head points in the image of a camera with any lens,
+/// limited to measured_pixels(). Points outside of the camera's view are ignored; empty if all are.
+Eigen::AlignedBox2d head_box(std::span<const SkinPoint> head, const skinning::Palette& palette,
+                             const PersonInstance& person, const camera::Camera& camera);
+
 /// Bounds in box coordinates of the parts of a mesh in these rows of the image of a camera with any
-/// lens, from vertices and edges within the lens model's valid range; limited as Silhouette::box.
+/// lens, from vertices and edges within the lens model's valid range; limited to measured_pixels().
 /// Empty if there are none. Sets `is_cut` if some vertices have no position in the image.
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
                               const skinning::Palette& palette, const PersonInstance& person,

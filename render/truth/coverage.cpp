@@ -32,11 +32,9 @@ CoverageCounter::CoverageCounter()
       pixels_(static_cast<std::size_t>(kAtlasSize) * kAtlasSize) {}
 
 std::vector<CoverageCounter::Tile> CoverageCounter::tiles_of(
-    std::span<const CoverageRequest> requests, const camera::Intrinsics& image) {
+    std::span<const CoverageRequest> requests, const Eigen::AlignedBox2i& measured) {
   // One pixel less: what is limited ends there.
-  const Eigen::Vector2i size(image.width, image.height);
-  const Eigen::AlignedBox2i unlimited(Eigen::Vector2i(-size.array() + 1),
-                                      Eigen::Vector2i(2 * size.array() - 1));
+  const Eigen::AlignedBox2i unlimited(measured.min().array() + 1, measured.max().array() - 1);
   std::vector<Tile> tiles;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Eigen::AlignedBox2i& bounds = requests[i].bounds;
@@ -123,12 +121,10 @@ void CoverageCounter::add_to_mask(const Tile& tile, PixelMask& mask) const {
   }
 }
 
-std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
-                                                  std::span<const PersonInstance> people,
-                                                  std::span<const CoverageRequest> requests,
-                                                  const camera::Camera& camera,
-                                                  const PixelWeights* weights,
-                                                  std::span<PixelMask> masks) {
+std::vector<std::uint64_t> CoverageCounter::count(
+    PeoplePass& pass, std::span<const PersonInstance> people,
+    std::span<const CoverageRequest> requests, const camera::Camera& camera,
+    const Eigen::AlignedBox2i& measured, const PixelWeights* weights, std::span<PixelMask> masks) {
   std::vector<std::uint64_t> counts(requests.size(), 0);
   if (requests.empty()) return counts;
   const Viewport viewport = guarded_viewport(kAtlasSize, kAtlasSize);
@@ -138,7 +134,7 @@ std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
   glDisable(GL_DEPTH_TEST);
-  std::vector<Tile> tiles = tiles_of(requests, camera.intrinsics);
+  std::vector<Tile> tiles = tiles_of(requests, measured);
   for (std::size_t first = 0; first < tiles.size();) {
     int used_rows = 0;
     const std::size_t end = place(tiles, first, used_rows);

@@ -16,8 +16,8 @@
 
 namespace throng::render {
 
-/// A person to be measured, and the pixels [min, max) of the silhouette, limited as Silhouette::box
-/// (render/people/person_geometry.h).
+/// A person to be measured, and the pixels [min, max) of the silhouette within the measured ones,
+/// with a pixel more on each side.
 struct CoverageRequest {
   PersonDraw draw;
   Eigen::AlignedBox2i bounds;
@@ -28,11 +28,13 @@ class CoverageCounter {
   CoverageCounter();
 
   /// Returns the number of covered pixels for each request, including pixels beyond the image,
-  /// weighted by `weights` (null: 1). Sets the covered pixels in `masks`, which is empty or has one
-  /// mask per request. Leaves its own target, viewport and View block bound.
+  /// weighted by `weights` (null: 1). Requests are limited to the pixels `measured`. Sets the
+  /// covered pixels in `masks`, which is empty or has one mask per request. Leaves its own target,
+  /// viewport and View block bound.
   std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
                                    const camera::Camera& camera,
+                                   const Eigen::AlignedBox2i& measured,
                                    const PixelWeights* weights = nullptr,
                                    std::span<PixelMask> masks = {});
 
@@ -47,7 +49,7 @@ class CoverageCounter {
   };
 
   static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests,
-                                    const camera::Intrinsics& image);
+                                    const Eigen::AlignedBox2i& measured);
   /// Places tiles from `first` on in rows until the atlas is full; returns the index after the last
   /// one placed.
   static std::size_t place(std::vector<Tile>& tiles, std::size_t first, int& used_rows);

@@ -137,13 +137,8 @@ void fill(const Corners& corners, PixelMask& mask) {
   }
 }
 
-/// Pixels covered by an object in these rows and, at the image's borders, beyond them.
-PixelMask covered(const PropProjector& seen, const Rows& rows, const Frame& frame) {
-  const int width = frame.width();
-  const int height = frame.camera.intrinsics.height;
-  const Eigen::AlignedBox2i domain(
-      Eigen::Vector2i(-width, rows.first == 0 ? -height : rows.first),
-      Eigen::Vector2i(2 * width, rows.end == height ? 2 * height : rows.end));
+/// Pixels covered by an object in a part of the image.
+PixelMask covered(const PropProjector& seen, const Eigen::AlignedBox2i& domain) {
   const Vector2d far(1e6, 1e6);
   const Vector2d low = seen.box().min().cwiseMax(-far);
   const Vector2d high = seen.box().max().cwiseMin(far);
@@ -207,19 +202,21 @@ void set_box(const PropMesh& mesh, ObjectInView& object) {
   object.box_size = box.sizes();
 }
 
-/// Measures an object, whose id, place and heading are known; false if no pixel of it would be in
-/// the image.
+/// Measures an object, whose id, place and heading are known; false if no pixel of it would be
+/// where it is measured.
 bool measure_object(const PropMesh& mesh, const Rows& rows, const Frame& frame,
                     ObjectInView& object) {
-  const Eigen::AlignedBox2d image(Vector2d(0, rows.first), Vector2d(frame.width(), rows.end));
+  const Eigen::AlignedBox2d image(Vector2d(0, 0), Vector2d(frame.width(), rows.end));
+  const Eigen::AlignedBox2i measured = measured_pixels(frame.camera.intrinsics, rows);
+  const bool is_whole = rows.are_all(frame.camera.intrinsics);
   const PropProjector seen = projected(mesh, frame.camera);
-  if (seen.box().isEmpty() || !seen.box().intersects(image)) return false;
-  PixelMask mask = covered(seen, rows, frame);
+  const Eigen::AlignedBox2d wanted = is_whole ? image : measured.cast<double>();
+  if (seen.box().isEmpty() || !seen.box().intersects(wanted)) return false;
+  PixelMask mask = covered(seen, measured);
   add_shown(frame, object.id, rows, mask);
   Eigen::AlignedBox2d bounds;
   object.amodal_area_px = measure(mask, bounds);
   if (object.amodal_area_px == 0) return false;
-  const bool is_whole = rows.first == 0 && rows.end == frame.camera.intrinsics.height;
   object.amodal_box = is_whole ? seen.box() : bounds;
   object.whole_mask = std::make_shared<PixelMask>(inside(mask, frame));
   set_box(mesh, object);

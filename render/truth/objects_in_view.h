@@ -10,9 +10,10 @@
 
 namespace throng::render {
 
-/// Sets Frame::objects of a frame with these rows. Amodal masks are the pixels whose centers are in
-/// projected triangles, united with the visible pixels, since the rasterizer rounds corners to
-/// 1/256 of a pixel.
+/// Sets Frame::objects of a frame with these rows: those that reach into the image or, unless these
+/// are all rows, into the measured pixels beside the rows. Amodal masks are the pixels whose
+/// centers are in projected triangles, united with the visible pixels, since the rasterizer rounds
+/// corners to 1/256 of a pixel.
 void measure_objects(const Scene& scene, std::span<const Vehicle> vehicles, const Rows& rows,
                      Frame& frame);
 

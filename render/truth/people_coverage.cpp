@@ -74,10 +74,10 @@ void PeopleCoverage::prepare(const camera::Camera& camera, std::vector<Seen>& se
 }
 
 void PeopleCoverage::measure(PeoplePass& pass, const Scene& scene, const Frame& frame,
-                             const PixelWeights* weights, bool whole_masks,
-                             std::vector<Seen>& seen) {
+                             const Eigen::AlignedBox2i& measured, const PixelWeights* weights,
+                             bool whole_masks, std::vector<Seen>& seen) {
   silhouettes_.read();
-  std::vector<std::size_t> measured;
+  std::vector<std::size_t> requested;
   std::vector<CoverageRequest> requests;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!seen[i].is_listed) continue;
@@ -89,7 +89,7 @@ void PeopleCoverage::measure(PeoplePass& pass, const Scene& scene, const Frame& 
       }
       continue;
     }
-    measured.push_back(i);
+    requested.push_back(i);
     requests.push_back({seen[i].draw, pixel_box(truth.amodal_box)});
   }
   std::vector<PixelMask> masks;
@@ -101,11 +101,11 @@ void PeopleCoverage::measure(PeoplePass& pass, const Scene& scene, const Frame& 
     }
   }
   const std::vector<std::uint64_t> counts =
-      counter_.count(pass, scene.people, requests, frame.camera, weights, masks);
-  for (std::size_t i = 0; i < measured.size(); ++i) {
+      counter_.count(pass, scene.people, requests, frame.camera, measured, weights, masks);
+  for (std::size_t i = 0; i < requested.size(); ++i) {
     // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
     // covered all the same.
-    PersonInView& truth = seen[measured[i]].truth;
+    PersonInView& truth = seen[requested[i]].truth;
     truth.amodal_area_px =
         std::max(counts[i], visible_in(frame, truth.agent, requests[i].bounds, weights));
     if (!whole_masks) continue;

@@ -23,8 +23,10 @@ class PeopleCoverage {
 
   /// Sets the areas (px, by `weights` unless null) and, with `whole_masks`, the masks of whole
   /// people, after they were rendered into `frame`; those without a tile are rendered again.
+  /// Boxes of `seen` are limited to the pixels `measured`.
   void measure(PeoplePass& pass, const Scene& scene, const Frame& frame,
-               const PixelWeights* weights, bool whole_masks, std::vector<Seen>& seen);
+               const Eigen::AlignedBox2i& measured, const PixelWeights* weights, bool whole_masks,
+               std::vector<Seen>& seen);
 
  private:
   Silhouettes silhouettes_;

@@ -45,6 +45,14 @@ TEST(ExitsCsv, HasARowPerFrameAndExit) {
   EXPECT_EQ(lines[2].substr(0, 26), "12,0.1,\"a \"\"b\"\", c\",0,0.00");
 }
 
+TEST(ExitsCsv, HasTimesWithoutErrorsOfRounding) {
+  const std::vector<double> times = {0, 0.7};
+  const std::vector<FrameTime> frames = {{7, 7 * 0.1}, {1, 1 / 3.0}};
+  const auto lines = read_lines(exits_csv(two_exits(2), times, frames));
+  EXPECT_EQ(lines[1].substr(0, 6), "7,0.7,");
+  EXPECT_EQ(lines[3].substr(0, 11), "1,0.333333,");
+}
+
 TEST(ExitsCsv, TakesTheLastStepAtOrBeforeTheFrame) {
   std::vector<double> times;
   times.reserve(10);

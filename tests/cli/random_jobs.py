@@ -19,6 +19,7 @@ SCENARIOS = [f"{place}/{kind}" for place in PLACES for kind in ("everyday", "eme
     )
 ]
 GENERATED = ["plaza", "street", "block", "campus"]
+CIRCLE = [0.03, 0.01, 0.003, 0.0005]  # the largest terms of a fisheye whose image has a border
 MODELS = ["orca", "helbing", "ttc"]
 
 
@@ -29,7 +30,7 @@ def log_uniform(draw, low, high):
 def random_sensor(draw):
     sensor = {}
     if draw.random() < 0.4:
-        sensor["iso"] = round(log_uniform(draw, 100, 3200))
+        sensor["iso"] = round(log_uniform(draw, 100, 6400))
     if draw.random() < 0.4:
         sensor["exposure_s"] = round(log_uniform(draw, 0.0005, 0.02), 5)
     if draw.random() < 0.25:
@@ -43,16 +44,24 @@ def random_sensor(draw):
     return sensor
 
 
+def random_lens(draw, width):
+    """Members of a camera: those of a pinhole or a lens, and its field of view."""
+    lens = draw.choice([{}, {}, {}, BROWN, FISHEYE, "circle"])
+    if lens == "circle":
+        # The image of some of these is larger than what the lens's model describes.
+        terms = {name: round(draw.uniform(-most, most), 4) for name, most in zip(("k1", "k2", "k3", "k4"), CIRCLE)}
+        return {"model": "fisheye", "distortion": terms, "fx_px": round(width * draw.uniform(0.28, 0.45), 1)}
+    return {"hfov_deg": round(log_uniform(draw, 15, 110 if lens is FISHEYE else 90), 1), **lens}
+
+
 def random_camera(draw):
-    lens = draw.choice([{}, {}, {}, BROWN, FISHEYE])
-    width = round(draw.choice([log_uniform(draw, 64, 400), draw.uniform(200, 400)]))
+    width = round(draw.choice([log_uniform(draw, 64, 400), draw.uniform(200, 400), draw.uniform(200, 700)]))
     camera = {
         "width": width,
         "height": max(64, round(width * draw.uniform(0.5, 1))),
-        "hfov_deg": round(log_uniform(draw, 15, 110 if lens is FISHEYE else 90), 1),
         "yaw_deg": round(draw.uniform(-180, 180), 1),
         "pitch_deg": round(draw.choice([-90, draw.uniform(-90, -20), draw.uniform(-60, -30), draw.uniform(-20, 5)]), 1),
-        **lens,
+        **random_lens(draw, width),
     }
     if sensor := random_sensor(draw):
         camera["sensor"] = sensor
@@ -95,12 +104,33 @@ def random_drone(draw, name):
     return drone
 
 
+def sun_elevation_deg(minutes, latitude_deg, day_of_year):
+    """Within a degree, of solar time."""
+    declination = math.radians(-23.4 * math.cos(2 * math.pi * (day_of_year + 10) / 365))
+    latitude, angle = math.radians(latitude_deg), math.radians((minutes / 60 - 12) * 15)
+    up = math.sin(latitude) * math.sin(declination) + math.cos(latitude) * math.cos(declination) * math.cos(angle)
+    return math.degrees(math.asin(up))
+
+
+def random_time(draw):
+    """Any hour, or one at which the sun is near the horizon."""
+    latitude_deg = round(draw.uniform(-60, 65), 1)
+    day_of_year = draw.randrange(1, 366)
+    minutes = range(24 * 60)
+    if draw.random() < 0.35:
+        minutes = [m for m in minutes if abs(sun_elevation_deg(m, latitude_deg, day_of_year)) < 6] or minutes
+    chosen = draw.choice(minutes)
+    return {
+        "time_of_day": f"{chosen // 60:02}:{chosen % 60:02}",
+        "latitude_deg": latitude_deg,
+        "day_of_year": day_of_year,
+    }
+
+
 def random_environment(draw):
     environment = {
-        "time_of_day": f"{draw.randrange(24):02}:{draw.randrange(60):02}",
+        **random_time(draw),
         "weather": draw.choice(["clear", "clear", "overcast", "fog", "rain"]),
-        "latitude_deg": round(draw.uniform(-60, 65), 1),
-        "day_of_year": draw.randrange(1, 366),
     }
     if environment["weather"] == "rain":
         environment["rain_mm_per_h"] = round(log_uniform(draw, 1, 60), 1)
@@ -108,7 +138,7 @@ def random_environment(draw):
         environment["visibility_m"] = round(log_uniform(draw, 30, 5000))
     if draw.random() < 0.5:
         environment["smoke"] = round(draw.random(), 2)
-    if draw.random() < 0.4:
+    if draw.random() < 0.6:
         wind = {"speed_mps": round(draw.uniform(1, 14), 1), "direction_deg": draw.randrange(360)}
         environment["wind"] = {**wind, "gusts": draw.choice(["dryden", "ou", "none"])}
     return environment
@@ -120,7 +150,7 @@ def random_crowd(draw):
     if draw.random() < 0.4:
         crowd["physical"] = True
         if draw.random() < 0.5:
-            crowd["fall_impulse_ns"] = 1
+            crowd["fall_impulse_ns"] = draw.choice([1, 1.5, 3])
     if draw.random() < 0.2:
         crowd["model"] = draw.choice(MODELS)
     if draw.random() < 0.15:
@@ -129,9 +159,9 @@ def random_crowd(draw):
 
 
 def random_outputs(draw):
-    # Mostly everything; else some kinds, of which each may miss another that a check reads.
+    # Nearly always everything; else some kinds, of which each may miss another that a check reads.
     kinds = GEOMETRY
-    if draw.random() < 0.25:
+    if draw.random() < 0.1:
         kinds = ["coco", *(kind for kind in GEOMETRY[1:] if draw.random() < 0.6)]
     outputs = {"annotations": kinds, "previews": draw.randrange(3), "image": {"quality": draw.randrange(40, 101)}}
     if "fields" in kinds and draw.random() < 0.5:
@@ -153,7 +183,7 @@ def random_job(seed):
         [*SCENARIOS, *({"generate": {"kind": kind, "seed": draw.randrange(1000)}} for kind in GENERATED)]
     )
     to_s = round(log_uniform(draw, 2, 60), 2)
-    frames = draw.choice([1, 2, 3, 3, 4])
+    frames = draw.choice([1, 2, 3, 3, 4, 6])
     rate_hz = round(log_uniform(draw, 0.2, 30), 3)
     from_s = max(0, to_s - (frames - 1) / rate_hz)
     job = {

@@ -290,6 +290,85 @@ job(
 )
 job("two runs", "city_square/nearest_exit", [drone([8, -3, 15], camera(-38, 90))], agents=120, at=12, runs=2)
 
+# What rules once took for a fault.
+job(
+    "smoke in the wind",
+    "station/emergency",
+    [drone([-6, -14, 6], camera(-8, 90, 60))],
+    at=20,
+    rate=0.7,
+    environment={"smoke": 0.3, "wind": {"speed_mps": 5, "direction_deg": 164}},
+)
+job(
+    "line of a platform",
+    "station/everyday",
+    [drone([0, -4, 6], camera(-60, 90, 50)), drone([6, -6, 5], camera(-40, 170, 60), "d2")],
+)
+job(
+    "sun at the horizon",
+    "bridge/everyday",
+    [drone([-20, -22, 14], camera(-22, 55, 75, 640, 400)), drone([0, -12, 8], camera(-25, 90, 85), "d2")],
+    at=14,
+    environment={"time_of_day": "19:40", "day_of_year": 172},
+)
+job(
+    "noise in fog",
+    "stadium_exit/emergency",
+    [drone([8, 40, 12], camera(-20, -90, 90, sensor={"iso": 6400, "exposure_s": 0.01}))],
+    at=14,
+    agents=400,
+    environment={"weather": "fog", "smoke": 0.3},
+)
+job(
+    "image circle",
+    "market_in_park/everyday",
+    [
+        {
+            "id": "d1",
+            "aim": {"height_m": 3},
+            "camera": {
+                "width": 480,
+                "height": 360,
+                "pitch_deg": -55,
+                "model": "fisheye",
+                "distortion": {"k1": -0.02, "k2": 0.004, "k3": -0.001, "k4": 0.0002},
+                "fx_px": 158.4,
+            },
+        }
+    ],
+    rate=1.6,
+    environment={"wind": {"speed_mps": 5, "direction_deg": 207}},
+)
+job(
+    "falls",
+    "station/emergency",
+    [
+        drone([-6, -14, 9], camera(-30, 80, 78)),
+        drone(
+            [-6, -10, 1.5],
+            camera(0, 0, 90),
+            "ram",
+            guidance={
+                "policy": "waypoints",
+                "waypoints": [[-6, -10, 1.5], [14, -8, 1.4], [-12, -16, 1.5]],
+                "speed_mps": 8,
+            },
+        ),
+    ],
+    agents=260,
+    crowd={"physical": True, "fall_impulse_ns": 1.5},
+    at=18,
+    rate=1,
+    frames=6,
+)
+job(
+    "strong compression",
+    "market_in_park/emergency",
+    [drone([0, -18, 8], camera(-22, 90, 75))],
+    at=16,
+    outputs={"annotations": GEOMETRY, "image": {"quality": 30}},
+)
+
 # Places of other kinds.
 for kind, seed in [("plaza", 5), ("street", 8), ("block", 3), ("campus", 6)]:
     job(f"generated {kind}", {"generate": {"kind": kind, "seed": seed}}, [drone([0, -20, 25], camera(-50, 90))], at=4)

@@ -1,6 +1,7 @@
 """`throng validate` finds nothing in the datasets of jobs drawn at random (random_jobs.py).
 
-usage: test_random_datasets.py THRONG [FIRST [COUNT]]    COUNT jobs from the seed FIRST on: 8, with $THRONG_LONG 60"""
+usage: test_random_datasets.py THRONG [FIRST [COUNT]]    COUNT jobs from the seed FIRST on: always the same 8; with
+$THRONG_LONG, 60 from a new seed, which is printed. `random_jobs.py SEED` prints the job of a seed."""
 import concurrent.futures
 import itertools
 import json
@@ -14,6 +15,12 @@ import time
 import random_jobs
 
 FIRST_SEED = 20261126
+LONG = bool(os.environ.get("THRONG_LONG"))
+
+
+def first_seed():
+    """New ones in long, so that its runs do not look for faults where there are none any more."""
+    return int.from_bytes(os.urandom(5), "big") if LONG else FIRST_SEED
 
 
 def result_of(throng, job, folder):
@@ -34,10 +41,12 @@ def result_of(throng, job, folder):
     return [] if done.returncode == 0 else (done.stdout + done.stderr).splitlines()
 
 
-def main(throng, first=FIRST_SEED, count=60 if os.environ.get("THRONG_LONG") else 8):
+def main(throng, first=None, count=60 if LONG else 8):
     started = time.monotonic()
+    first = first_seed() if first is None else int(first)
+    print(f"from the seed {first} on; random_jobs.py SEED prints a seed's job", flush=True)
     faulty, clean, refused = {}, 0, 0
-    seeds = itertools.count(int(first))
+    seeds = itertools.count(first)
     with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR")) as folder:
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             while (missing := int(count) - clean - len(faulty)) > 0:

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/files/files.h"
 #include "formats/validate/run_checks.h"
 #include "formats/validate/shot.h"
 #include "tests/formats/hand_made.h"
+#include "world/semantic_class.h"
 
 namespace throng::formats {
 namespace {
@@ -55,6 +57,77 @@ TEST(CrossChecks, StillPlacesKeepTheirBrightness) {
   EXPECT_THAT(faults(0.8, -0.6), IsEmpty()) << "another exposure";
 }
 
+/// Stripes of paint on what is called pavement, in these shades of gray.
+std::vector<std::string> marking_faults(std::uint8_t ground, std::uint8_t paint) {
+  Shot shot = ground_shot(4, 1);
+  for (std::size_t i = 0; i < shot.pixels.count(); ++i) {
+    const std::size_t row = i / hand_made::kWidth;
+    const bool is_painted = row % 8 < 2;
+    const auto on_ground =
+        is_painted ? world::SemanticClass::marking : world::SemanticClass::pavement;
+    const auto surface = row > 42 ? on_ground : world::SemanticClass::sky;
+    shot.pixels.semantic.push_back(static_cast<std::uint16_t>(surface));
+    std::fill_n(shot.pixels.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                is_painted ? paint : ground);
+  }
+  return found_by([&](Findings& findings) { check_surface_classes(shot, findings); });
+}
+
+TEST(CrossChecks, PaintIsOnRoadsWhereTheGroundIsAsDark) {
+  constexpr std::uint8_t kPaint = 202;
+  EXPECT_TRUE(any_with(marking_faults(113, kPaint), "as dark as roads"));
+  EXPECT_THAT(marking_faults(171, kPaint), IsEmpty()) << "the line of a platform of concrete";
+}
+
+/// Smoke in a box of the image, of a fire of 2 m ten meters below the camera and 60 m ahead of it,
+/// in a wind along +x.
+std::vector<std::string> smoke_faults(int x, double wind_mps) {
+  Shot shot = ground_shot(4, 1);
+  const nlohmann::json fire = {{"id", 0}, {"kind", "fire"}, {"position", {0, 60}}, {"radius_m", 2}};
+  shot.image.record["hazards"] = nlohmann::json::array({fire});
+  shot.image.record["environment"] = {
+      {"wind", {{"speed_mps", wind_mps}, {"direction_deg", 0}, {"profile", "uniform"}}}};
+  shot.pixels.hazard_opacity.assign(3 * shot.pixels.count(), 0);
+  for (int row = 35; row < 45; ++row) {
+    for (int column = x; column < x + 10; ++column) {
+      shot.pixels.hazard_opacity[3 * shot.pixels.at(column, row) + 1] = 200;
+    }
+  }
+  const DatasetInfo info = hand_made::info("");
+  HazardOpacityCheck check;
+  return found_by([&](Findings& findings) {
+    check.add_pixels(info, shot.image, shot.pixels, findings);
+    check.finish(info, findings);
+  });
+}
+
+TEST(CrossChecks, SmokeIsWhereTheWindCarriesIt) {
+  EXPECT_THAT(smoke_faults(45, 0), IsEmpty());
+  EXPECT_TRUE(any_with(smoke_faults(70, 0), "hazard-opacity"));
+  EXPECT_THAT(smoke_faults(70, 5), IsEmpty()) << "37 m in 15 s";
+  EXPECT_TRUE(any_with(smoke_faults(15, 5), "hazard-opacity")) << "against the wind";
+}
+
+TEST(CrossChecks, NoiseIsNoColor) {
+  const auto faults = [](double iso) {
+    Shot before = ground_shot(3, 1);
+    Shot after = ground_shot(4, 1);
+    // Red and blue change from pixel to pixel, in each image otherwise.
+    for (Shot* shot : {&before, &after}) {
+      shot->image.record["sensor"] = {{"iso", iso}, {"full_well_e", 8000}, {"read_noise_e", 3}};
+      for (std::size_t i = 0; i < shot->pixels.count(); ++i) {
+        const std::size_t mixed = (i * 2654435761U + (shot == &after ? 977 : 0) * i * i) >> 7U;
+        const int off = static_cast<int>(mixed % 41) - 20;
+        shot->pixels.rgb[3 * i] = static_cast<std::uint8_t>(120 + off);
+        shot->pixels.rgb[3 * i + 2] = static_cast<std::uint8_t>(120 - off);
+      }
+    }
+    return found_by([&](Findings& findings) { check_still_surfaces(before, after, findings); });
+  };
+  EXPECT_TRUE(any_with(faults(0), "image-colors"));
+  EXPECT_THAT(faults(6400), IsEmpty());
+}
+
 /// Twelve people who move by (2, -1) px, each with three keypoints, and flow that is off by
 /// `bias_px`.
 std::vector<std::string> keypoint_flow_faults(double bias_px) {
@@ -91,11 +164,13 @@ TEST(CrossChecks, FlowIsTheMotionOfKeypoints) {
 
 /// Sixteen people with tops of as many colors, of whom the image shows the torsos in half of the
 /// light; the label of one of them may be another, and an item may be carried.
-std::vector<std::string> clothes_faults(const std::string& first_label, bool shows_item = false) {
+std::vector<std::string> clothes_faults(const std::string& first_label, bool shows_item = false,
+                                        double sun_elevation_deg = 40) {
   constexpr std::array<const char*, 16> kColors = {
       "#a03030", "#30a030", "#3030a0", "#a0a030", "#a030a0", "#30a0a0", "#808080", "#c06040",
       "#4060c0", "#60c040", "#202020", "#e0e0e0", "#905030", "#305090", "#509030", "#b08060"};
   Shot shot = ground_shot(4, 1);
+  shot.image.record["environment"] = {{"sun_elevation_deg", sun_elevation_deg}};
   shot.pixels.parts.assign(shot.pixels.count(), 0);
   for (std::size_t i = 0; i < kColors.size(); ++i) {
     const int x = 2 + 12 * static_cast<int>(i % 8);
@@ -133,6 +208,10 @@ TEST(CrossChecks, EverybodysTopHasTheColorOfItsLabel) {
   EXPECT_THAT(clothes_faults("#902828"), IsEmpty()) << "nearly the same";
   EXPECT_TRUE(any_with(clothes_faults("#00ff00"), "colors-are-clothes track 2000001"));
   EXPECT_TRUE(any_with(clothes_faults("#3030a0"), "colors-are-clothes track 2000001"));
+}
+
+TEST(CrossChecks, ALowSunHidesTheColorsOfTops) {
+  EXPECT_THAT(clothes_faults("#00ff00", false, 0.4), IsEmpty()) << "the light has two colors";
 }
 
 TEST(CrossChecks, PeopleWithoutLuggageShowNone) {

@@ -197,10 +197,47 @@ TEST(BodyRules, KeypointsAreSeenWhereTheyAreInTheWorld) {
   Person& p = image.people[0];
   // (0, 20, 1) is seen at (49.5, 62), box coordinates (50, 62.5).
   p.keypoints = {{50, 62.5, 2}, {0, 0, 0}};
-  p.record["keypoints_3d"] = {{0, 20, 1}, {9, 9, 9}};
+  p.record["keypoints_3d"] = {{0, 20, 1}, {0, 20, 1.1}};
   EXPECT_FALSE(any_with(body_faults(image), "keypoint"));
   p.record["keypoints_3d"][0] = {0.05, 20, 1};  // 0.125 px
   EXPECT_TRUE(any_with(body_faults(image), "keypoint 1 is not where keypoints_3d is seen"));
+}
+
+/// Four walkers beside each other, whose rows a shutter reads while the image moves by 2 pixels to
+/// the right; the first one's middle is at the left border.
+Image with_rolled_walkers() {
+  Image image = hand_made::image();
+  image.record["sensor"] = {{"strips", 8}};
+  for (int i = 0; i < 4; ++i) {
+    const double x_m = -19.8 + 6 * i;
+    const double x_px = 50 + 2.5 * x_m + 2;  // at y = 20 m, a meter is 2.5 px wide
+    Person walker =
+        hand_made::person(i + 1, {std::max(0.0, x_px - 1), 60, 2, 5}, {x_px - 1, 60, 2, 5}, 1);
+    walker.position = {x_m, 20, 0};
+    walker.box_middle = {x_m, 20, 1};
+    walker.box_size = {0.4, 0.4, 2};
+    for (int joint = 0; joint < 17; ++joint) {
+      const double z_m = 0.2 + 0.1 * joint;
+      walker.record["keypoints_3d"].push_back({x_m, 20, z_m});
+      walker.keypoints.push_back({x_px, 40 + 2.5 * (10 - z_m), 2});
+    }
+    image.people.push_back(walker);
+  }
+  return image;
+}
+
+TEST(BodyRules, BoxesOfARollingShutterHoldWholeBodies) {
+  Image image = with_rolled_walkers();
+  EXPECT_FALSE(any_with(body_faults(image), "box-3d"));
+  EXPECT_FALSE(any_with(body_faults(image), "keypoints"));
+  // A box that ends with a strip of rows.
+  image.people[0].amodal.height = 1;
+  image.people[0].amodal.y = 69;
+  EXPECT_TRUE(any_with(body_faults(image), "the middle of box_3d does not project"));
+  EXPECT_TRUE(any_with(body_faults(image), "outside of bbox_amodal"));
+  // Without keypoints nobody knows how far the rows move.
+  for (Person& person : image.people) person.keypoints.clear();
+  EXPECT_FALSE(any_with(body_faults(image), "box-3d"));
 }
 
 TEST(CameraRules, CenterIsWhereTheRotationPutsIt) {

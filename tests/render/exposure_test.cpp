@@ -154,6 +154,69 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   EXPECT_NE(frame.id, street.still(flight, 0).id);
 }
 
+/// The same camera with half an image more on each side.
+camera::Camera with_surroundings(camera::Camera camera) {
+  camera::Intrinsics& k = camera.intrinsics;
+  k.cx_px += k.width / 2;
+  k.cy_px += k.height / 2;
+  k.width *= 2;
+  k.height *= 2;
+  return camera;
+}
+
+TEST(Exposure, MeasuresAllOfPeopleWhomABorderCuts) {
+  Street street;
+  int cut = 0;
+  // The person stands across each of the borders, upright and, with the camera on its side, lying.
+  for (const double roll_deg : {0.0, 50.0}) {
+    for (int step = 0; step < 36; ++step) {
+      const double around = 2 * EIGEN_PI * step / 36;
+      const double yaw_deg = 31 * std::cos(around);
+      const double pitch_deg = -28 + 27 * std::sin(around);
+      const auto flight = [&](bool is_wide) {
+        return [&, is_wide](double time_s) {
+          ShutterMoment moment = street.walking(0)(time_s);
+          moment.camera = camera_at({-4, 3 * time_s, 3}, yaw_deg, pitch_deg, 320, 240, 60);
+          camera::Pose& pose = moment.camera.pose;
+          const Eigen::Matrix3d roll =
+              Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+          pose.R = roll * pose.R;
+          pose.t = roll * pose.t;
+          if (is_wide) moment.camera = with_surroundings(moment.camera);
+          return moment;
+        };
+      };
+      // Rows of both images are read at the same times.
+      const Frame frame = street.expose(flight(false), {0, 0.05}).frame;
+      const Frame wide = street.expose(flight(true), {0, 0.1}).frame;
+      ASSERT_EQ(wide.people.size(), 1U);
+      const Eigen::AlignedBox2d whole =
+          wide.people[0].amodal_box.translated(Eigen::Vector2d(-160, -120));
+      constexpr double kSlackPx = 1.5;  // of strips of other heights
+      const Eigen::AlignedBox2d image(Eigen::Vector2d(0, 0), Eigen::Vector2d(320, 240));
+      if (frame.people.empty()) {
+        EXPECT_LT(whole.intersection(image).sizes().minCoeff(), kSlackPx);
+        continue;
+      }
+      const PersonInView& person = frame.people[0];
+      EXPECT_LT((person.amodal_box.min() - whole.min()).cwiseAbs().maxCoeff(), kSlackPx) << step;
+      EXPECT_LT((person.amodal_box.max() - whole.max()).cwiseAbs().maxCoeff(), kSlackPx) << step;
+      const auto area_px = static_cast<double>(wide.people[0].amodal_area_px);
+      EXPECT_NEAR(static_cast<double>(person.amodal_area_px), area_px, 3 + 0.03 * area_px) << step;
+      for (std::size_t i = 0; i < person.keypoints_px->size(); ++i) {
+        const Eigen::Vector2f off = (*person.keypoints_px)[i].head<2>() -
+                                    (*wide.people[0].keypoints_px)[i].head<2>() +
+                                    Eigen::Vector2f(160, 120);
+        // What is above or below the image has the time of the nearest row.
+        const float y = (*person.keypoints_px)[i].y();
+        if (y >= 0 && y <= 240) EXPECT_LT(off.norm(), kSlackPx) << step;
+      }
+      cut += image.contains(whole) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(cut, 20);
+}
+
 TEST(Exposure, BothAtOnceThroughALens) {
   Street street;
   const MomentAt flight = [inner = street.walking(2, 6)](double time_s) {

@@ -41,7 +41,8 @@ class Textures : public ::testing::Test {
   }
 
   std::vector<Seen> seen(std::uint32_t count, int people_positions) const {
-    return PeopleFinder(people_, places(people_positions)).find(crowd(people_, count), watching());
+    return PeopleFinder(people_, places(people_positions))
+        .find(crowd(people_, count), watching(), measured_pixels(watching().intrinsics));
   }
 
   skinning::Population people_ = synthetic_people();
@@ -75,9 +76,11 @@ TEST_F(Textures, AreForNobodyInACrush) {
 TEST_F(Textures, DoNotHangOnTheOrderOfThePeople) {
   Scene scene = crowd(people_, 160);
   const PeopleFinder finder(people_, places(200));
-  const std::vector<Seen> one = finder.find(scene, watching());
+  const std::vector<Seen> one =
+      finder.find(scene, watching(), measured_pixels(watching().intrinsics));
   std::reverse(scene.people.begin(), scene.people.end());
-  const std::vector<Seen> other = finder.find(scene, watching());
+  const std::vector<Seen> other =
+      finder.find(scene, watching(), measured_pixels(watching().intrinsics));
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].truth.agent, other[i].truth.agent);
@@ -144,7 +147,8 @@ void expect_boxes_fit(const skinning::Population& people) {
     person.pose.blend = i % 5 == 0 ? 0 : static_cast<float>(random.uniform());
     Scene scene;
     scene.people = {person};
-    for (const Seen& seen : finder.find(scene, camera_at({0, 0, 6}, 0, -20, 1280, 960, 90))) {
+    const camera::Camera above = camera_at({0, 0, 6}, 0, -20, 1280, 960, 90);
+    for (const Seen& seen : finder.find(scene, above, measured_pixels(above.intrinsics))) {
       const Misfit misfit = measure_misfit(people, person, seen.truth);
       EXPECT_LT(misfit.outside_m, 1e-4) << i;
       EXPECT_LT(misfit.loose_m, 1.2e-3) << i;

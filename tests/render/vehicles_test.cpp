@@ -1,6 +1,7 @@
 // Cars and trains as ground truth: boxes and whole masks, against images of each of them alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -175,6 +176,39 @@ TEST(Vehicles, HaveOneSetOfMasksInStripsOfARollingShutter) {
                                     object.amodal_box.max().array() + 1.5)
                     .contains(visible.box));
   }
+}
+
+TEST(Vehicles, AreMeasuredWholeWhereABorderCutsStripsOfARollingShutter) {
+  View view(parked());
+  // The car lies across the left border, diagonally, so that some strips have only its outside.
+  int cut = 0;
+  for (const double yaw_deg : {-22.0, -18.0, -14.0, 34.0, 38.0, 42.0}) {
+    const auto moments = [&](bool is_wide) {
+      return [&, is_wide](double time_s) {
+        Scene scene;
+        scene.time_s = time_s;
+        camera::Camera moved = camera_at({-6, -2 + 4 * time_s, 9}, yaw_deg, -40, 640, 480);
+        if (is_wide) {
+          moved.intrinsics.width *= 2;
+          moved.intrinsics.cx_px += 320;
+        }
+        return ShutterMoment{std::make_shared<const Scene>(scene), moved};
+      };
+    };
+    const Frame frame = expose(view.lens(), moments(false), 0, {0.002, 0.03}).frame;
+    const Frame wide = expose(view.lens(), moments(true), 0, {0.002, 0.03}).frame;
+    for (const ObjectInView& object : frame.objects) {
+      const auto whole = std::find_if(wide.objects.begin(), wide.objects.end(),
+                                      [&](const auto& other) { return other.id == object.id; });
+      ASSERT_NE(whole, wide.objects.end());
+      const Eigen::AlignedBox2d box = whole->amodal_box.translated(Eigen::Vector2d(-320, 0));
+      if (box.min().x() <= -320 || box.max().x() >= 960 || box.min().y() <= 0) continue;
+      EXPECT_LT((object.amodal_box.min() - box.min()).cwiseAbs().maxCoeff(), 2.5) << yaw_deg;
+      EXPECT_LT((object.amodal_box.max() - box.max()).cwiseAbs().maxCoeff(), 2.5) << yaw_deg;
+      cut += box.min().x() < 0 || box.max().x() > 640 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(cut, 2);
 }
 
 }  // namespace

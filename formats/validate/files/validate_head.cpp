@@ -52,7 +52,13 @@ bool has_object(const DatasetInfo& info, int category) {
                      [&](const annotate::ObjectCategory& known) { return known.id == category; });
 }
 
+std::string version_in(const json& head) {
+  return head.is_object() ? head.value("info", json::object()).value("version", "") : "";
+}
+
 }  // namespace
+
+std::string label_version(const DatasetInfo& info) { return version_in(head_of_file(info)); }
 
 void check_categories(const DatasetInfo& info, Findings& findings) {
   const json found = head_of_file(info);
@@ -60,7 +66,7 @@ void check_categories(const DatasetInfo& info, Findings& findings) {
     return findings.add("category", kCocoFile, "", "info and categories are no JSON");
   }
   check_category_names(found.value("categories", json()), findings);
-  if (found.value("info", json::object()).value("version", "") != annotate::kLabelVersion) return;
+  if (version_in(found) != annotate::kLabelVersion) return;
   const json expected = parse_json_or_discard(
       annotate::coco_head(info.name, {.keypoints = info.has(GroundTruth::keypoints),
                                       .drones = has_object(info, annotate::kDroneCategory),

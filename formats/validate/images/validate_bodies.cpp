@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "formats/dataset/mask.h"
@@ -108,7 +109,8 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
 }
 
 /// Each side of box_3d touches the body, so that bbox_amodal reaches what the side projects to.
-void check_box_is_tight(const Shot& shot, const Person& person, Findings& findings) {
+void check_box_is_tight(const Shot& shot, const Person& person, double shutter_px,
+                        Findings& findings) {
   const Eigen::Matrix<double, 3, 8> corners =
       shot.image.camera_matrix * corners_in_camera(shot.image, person);
   if (!(corners.row(2).minCoeff() > 0.5)) return;
@@ -123,7 +125,7 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
   constexpr double kSmallPx = 60;
   const double px_per_m = shot.image.camera_matrix(0, 0) / corners.row(2).minCoeff();
   const double slack_m = box.height < kSmallPx ? 0.09 : 0.05;
-  const double slack_px = 1.5 + slack_m * px_per_m;
+  const double slack_px = 1.5 + slack_m * px_per_m + shutter_px;
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       Eigen::AlignedBox2d face;
@@ -209,16 +211,18 @@ double pixels_per_pixel(const Shot& from, const Shot& to, int x, int y, double d
 }
 
 void check_whole_bodies(const Shot& shot, Findings& findings) {
+  const std::optional<double> shutter_px =
+      is_pinhole(shot.image) ? shutter_slack_px(shot.image) : std::nullopt;
   for (const Person& person : shot.image.people) {
     check_whole_mask_place(shot, person, findings);
     // Only characters have a known shape.
     if (!person.track->contains("attributes")) continue;
-    if (shot.is_plain) check_box_is_tight(shot, person, findings);
+    if (shutter_px) check_box_is_tight(shot, person, *shutter_px, findings);
     check_head(shot, person, findings);
   }
   for (const Person& object : shot.image.objects) {
-    if (shot.is_plain && object.track->contains("vehicle")) {
-      check_box_is_tight(shot, object, findings);
+    if (shutter_px && object.track->contains("vehicle")) {
+      check_box_is_tight(shot, object, *shutter_px, findings);
     }
   }
 }

@@ -22,10 +22,13 @@ namespace {
 constexpr std::uint16_t kTorso = 2;
 constexpr std::uint16_t kCarriedItem = 9;
 
-/// Redness and blueness against green, of linear light.
-Eigen::Vector2d chromaticity(const Eigen::Vector3d& rgb) {
-  constexpr double kDark = 0.005;
-  const Eigen::Vector3d light = (rgb.array() + kDark).log();
+constexpr double kDark = 0.005;
+/// Cloth reflects up to so much of the light without giving it its color (Fresnel's share of 4 %).
+constexpr double kGloss = 0.05;
+
+/// Redness and blueness against green, of linear light to which some without color is added.
+Eigen::Vector2d chromaticity(const Eigen::Vector3d& rgb, double added = kDark) {
+  const Eigen::Vector3d light = (rgb.array() + added).log();
   return {light[0] - light[1], light[2] - light[1]};
 }
 
@@ -43,10 +46,19 @@ std::optional<Eigen::Vector3d> recorded_color(const nlohmann::json& track) {
   return rgb;
 }
 
+/// Distance of a point from a segment.
+double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
+                           const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = to - from;
+  const double share = (point - from).dot(along) / std::max(1e-12, along.squaredNorm());
+  return (from + std::clamp(share, 0.0, 1.0) * along - point).norm();
+}
+
 /// Somebody's top: chroma of the label and of the image.
 struct Top {
   std::int64_t track;
   Eigen::Vector2d label;
+  Eigen::Vector2d glossy_label;  ///< with the most gloss, which makes dark tops gray
   Eigen::Vector2d image;
 };
 
@@ -67,6 +79,7 @@ void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& 
     const double image = median(std::move(images));
     for (Top& top : tops) {
       top.label[axis] -= label;
+      top.glossy_label[axis] -= label;
       top.image[axis] -= image;
     }
   }
@@ -82,7 +95,7 @@ void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& 
   constexpr double kMinSlope = 0.25;  // by night and in fog colors say little
   if (slope < kMinSlope) return;
   for (const Top& top : tops) {
-    const double off = (top.image - slope * top.label).norm();
+    const double off = distance_to_segment(top.image, slope * top.label, slope * top.glossy_label);
     constexpr double kMaxOff = 1.2;  // sound runs of 12 kinds: up to 0.8
     if (off <= kMaxOff) continue;
     findings.add("colors-are-clothes", kCocoFile, fmt::format("track {}", top.track),
@@ -100,11 +113,45 @@ double min_correlation(double people) {
   return std::min(kMaxMinimum, std::tanh(std::atanh(kSound) - 3 / std::sqrt(people - 3)));
 }
 
+/// Whether a pixel has only that torso around it. Others have some of the color of what is beside:
+/// JPEG has half of the image's resolution in color, and interpolates between its samples.
+bool is_inside_torso(const Pixels& pixels, std::size_t pixel) {
+  constexpr int kAroundPx = 2;
+  const auto width = static_cast<std::size_t>(pixels.width);
+  const int x = static_cast<int>(pixel % width);
+  const int y = static_cast<int>(pixel / width);
+  if (!pixels.holds(x, y, kAroundPx)) return false;
+  for (int v = y - kAroundPx; v <= y + kAroundPx; ++v) {
+    for (int u = x - kAroundPx; u <= x + kAroundPx; ++u) {
+      const std::size_t other = pixels.at(u, v);
+      if (pixels.ids[other] != pixels.ids[pixel] || pixels.parts[other] != kTorso) return false;
+    }
+  }
+  return true;
+}
+
+/// What counts as white in an image.
+double white_balance_k(const Image& image) {
+  constexpr double kDaylightK = 6500;
+  return image.record.value("sensor", nlohmann::json::object())
+      .value("white_balance_k", kDaylightK);
+}
+
+/// Whether all people are in the light of one color, so that differences are those of clothes. A
+/// low sun is red and the shadows beside are blue; by night each lamp lights those near it.
+bool is_in_one_light(const Image& image) {
+  const nlohmann::json environment = image.record.value("environment", nlohmann::json::object());
+  constexpr double kLowSunDeg = 5;
+  const double elevation_deg = environment.value("sun_elevation_deg", 90.0);
+  return elevation_deg > (environment.value("weather", "clear") == "clear" ? kLowSunDeg : 0.0);
+}
+
 }  // namespace
 
 void ClothesCheck::add(const Shot& shot) {
   const Pixels& pixels = shot.pixels;
   if (pixels.rgb.empty() || pixels.parts.empty() || pixels.ids.empty()) return;
+  const bool is_one_light = is_in_one_light(shot.image);
   std::map<std::uint32_t, const Person*> people;
   for (const Person& person : shot.image.people) people[instance_id(person)] = &person;
   for (std::size_t i = 0; i < pixels.parts.size(); ++i) {
@@ -120,11 +167,17 @@ void ClothesCheck::add(const Shot& shot) {
       }
       continue;
     }
-    Shirt& shirt = runs_[shot.image.run][person->second->track_id];
+    if (!is_one_light) continue;
+    Shirt& shirt = runs_[{shot.image.run, white_balance_k(shot.image)}][person->second->track_id];
     if (shirt.pixels++ == 0) shirt.label = recorded_color(*person->second->track);
+    Eigen::Vector3d light;
     for (int c = 0; c < 3; ++c) {
-      shirt.sum[c] += linear_from_srgb(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
+      light[c] = linear_from_srgb(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
     }
+    shirt.sum += light;
+    if (!is_inside_torso(pixels, i)) continue;
+    shirt.inner_sum += light;
+    ++shirt.inner_pixels;
   }
 }
 
@@ -134,19 +187,21 @@ void ClothesCheck::finish(Findings& findings) const {
                  fmt::format("carries nothing, but parts/ has {} pixels of a carried item",
                              carried_.at(track)));
   }
-  for (const auto& [run, shirts] : runs_) {
+  for (const auto& [run_and_white, shirts] : runs_) {
+    const std::string& run = run_and_white.first;
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, image
     Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
     Eigen::Vector2d mean_image = Eigen::Vector2d::Zero();
     constexpr std::size_t kMinPixels = 60;
-    constexpr std::size_t kManyPixels = 150;
+    constexpr std::size_t kManyPixels = 60;
     std::vector<Top> tops;
     for (const auto& [track, shirt] : shirts) {
       if (shirt.pixels < kMinPixels || !shirt.label) continue;
       pairs.emplace_back(chromaticity(*shirt.label),
                          chromaticity(shirt.sum / static_cast<double>(shirt.pixels)));
-      if (shirt.pixels >= kManyPixels) {
-        tops.push_back({track, pairs.back().first, pairs.back().second});
+      if (shirt.inner_pixels >= kManyPixels) {
+        tops.push_back({track, pairs.back().first, chromaticity(*shirt.label, kGloss),
+                        chromaticity(shirt.inner_sum / static_cast<double>(shirt.inner_pixels))});
       }
       mean_label += pairs.back().first;
       mean_image += pairs.back().second;

@@ -164,6 +164,19 @@ Bitmap whole_mask(const Shot& shot, const Person& person) {
   return shot.instance_mask(person);
 }
 
+/// Whether the border of what the lens shows cuts a body off, beyond which flow is unknown: a body
+/// that reaches it has a corner of its box outside, because that border is convex.
+bool reaches_lens_border(const Shot& shot, const Box& box) {
+  const camera::Intrinsics& lens = shot.camera.intrinsics;
+  if (!lens.distortion) return false;
+  for (const double x : {box.x - kFlowSlackPx, box.x + box.width + kFlowSlackPx}) {
+    for (const double y : {box.y - kFlowSlackPx, box.y + box.height + kFlowSlackPx}) {
+      if (!lens.direction_of({x - 0.5, y - 0.5})) return true;
+    }
+  }
+  return false;
+}
+
 void check_person_flow(const FlowPlane& plane, const Shot& before, const Shot& after,
                        const Person& then, const Person& now, Findings& findings) {
   const std::string file = plane.file(before);
@@ -176,8 +189,8 @@ void check_person_flow(const FlowPlane& plane, const Shot& before, const Shot& a
   const Eigen::Vector2d moved(box.x + box.width / 2 - then.amodal.x - then.amodal.width / 2,
                               box.y + box.height / 2 - then.amodal.y - then.amodal.height / 2);
   if (static_cast<double>(led.known) < 0.9 * static_cast<double>(led.pixels)) {
-    const bool is_cut =
-        reaches_amodal_limit(before.image, then.amodal) || reaches_amodal_limit(after.image, box);
+    const bool is_cut = reaches_amodal_limit(before.image, then.amodal) ||
+                        reaches_amodal_limit(after.image, box) || reaches_lens_border(after, box);
     if (!is_cut && moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
       findings.add("flow-leads-to-boxes", file, record,
                    fmt::format("flow of {} of {} pixels is unknown, but the person is in the next "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/dataset/image_camera.h"
 #include "formats/dataset/mask.h"
@@ -32,16 +33,17 @@ std::uint64_t pixels_in(const json& segmentation, const Shot& shot, const Box& b
   return count;
 }
 
-void check_head_place(const Shot& shot, const Person& person, Findings& findings) {
+void check_head_place(const Shot& shot, const Person& person, double shutter_px,
+                      Findings& findings) {
   constexpr double kRoundingPx = 0.05;
   // The middle of the head is where that of the average body is; meshes for small people are
   // coarse.
   constexpr double kSlackM = 0.08;
-  const double slack_px = kRoundingPx + pixels_across(shot.camera, person.box_middle, kSlackM);
+  const double slack_px =
+      kRoundingPx + pixels_across(shot.camera, person.box_middle, kSlackM) + shutter_px;
   const Box& box = *person.head_box;
   const auto fault = [&](const std::string& what) { findings.add("heads", person, what); };
-  // Rows of a rolling shutter see head and box at different times.
-  if (person.head && shot.at_once) {
+  if (person.head) {
     const auto is_held = [&](const Eigen::Vector2d& head) {
       return head.x() >= box.x - slack_px && head.x() <= box.x + box.width + slack_px &&
              head.y() >= box.y - slack_px && head.y() <= box.y + box.height + slack_px;
@@ -52,9 +54,9 @@ void check_head_place(const Shot& shot, const Person& person, Findings& findings
     }
   }
   const Box& body = person.amodal;
-  if (shot.at_once && (box.x < body.x - slack_px || box.y < body.y - slack_px ||
-                       box.x + box.width > body.x + body.width + slack_px ||
-                       box.y + box.height > body.y + body.height + slack_px)) {
+  if (box.x < body.x - slack_px || box.y < body.y - slack_px ||
+      box.x + box.width > body.x + body.width + slack_px ||
+      box.y + box.height > body.y + body.height + slack_px) {
     fault("head_box leaves bbox_amodal");
   }
 }
@@ -105,12 +107,13 @@ void check_head_visibility(const Shot& shot, const Person& person, Findings& fin
 }  // namespace
 
 void check_heads(const DatasetInfo& info, const Shot& shot, Findings& findings) {
+  const std::optional<double> shutter_px = shutter_slack_px(shot.image);
   for (const Person& person : shot.image.people) {
     if (info.has(GroundTruth::heads) != person.record.contains("head_box")) {
       findings.add("schema", person, "head_box is missing, or not of this job");
     }
     if (!person.head_box) continue;
-    check_head_place(shot, person, findings);
+    if (shutter_px) check_head_place(shot, person, *shutter_px, findings);
     check_head_size(shot, person, findings);
     check_head_visibility(shot, person, findings);
   }

@@ -86,7 +86,19 @@ std::optional<bool> leads_like_flow(const Shot& before, const Shot& after, int x
   return (seen.pixel - Eigen::Vector2d(x, y) - *flow).norm() <= slack_px + 0.01 * flow->norm();
 }
 
-/// The mean motion of somebody's pixels is that of their place, but for what limbs do.
+bool is_upright(const Person& person) {
+  return person.state != "lying" && person.state != "falling" && person.state != "getting_up";
+}
+
+/// How much farther than the place of somebody who falls or gets up their pixels may move on the
+/// average: bodies turn about their feet, and the visible half may be the upper one.
+double turn_m(const Person& then, const Person& now) {
+  if (is_upright(then) && is_upright(now)) return 0;
+  constexpr double kMiddleOfUpperHalf = 0.75;
+  return kMiddleOfUpperHalf * std::max(then.box_size.maxCoeff(), now.box_size.maxCoeff());
+}
+
+/// The mean motion of somebody's pixels is that of their place, but for what limbs and falls do.
 void check_people_move(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
   struct Sum {
@@ -111,7 +123,7 @@ void check_people_move(const Shot& before, const Shot& after, Findings& findings
     if (now == nullptr || sum == sums.end() || sum->second.pixels < kMinPixels) continue;
     const Eigen::Vector3d mean = sum->second.motion / static_cast<double>(sum->second.pixels);
     const Eigen::Vector3d moved = now->position - then.position;
-    const double slack_m = 0.3 + 0.3 * moved.norm();
+    const double slack_m = 0.3 + 0.3 * moved.norm() + turn_m(then, *now);
     if ((mean - moved).head<2>().norm() <= slack_m) continue;
     findings.add("scene-flow", raster_name("scene_flow", before.image),
                  fmt::format("annotation {}", then.id),

@@ -207,15 +207,36 @@ bool have_one_exposure(const Image& a, const Image& b) {
          gain_ratio < kMaxGainRatio && gain_ratio > 1 / kMaxGainRatio;
 }
 
+/// Variance of red minus blue of a pixel by the sensor's noise, as render/lens/sensor.cpp makes it.
+double warm_variance(const nlohmann::json& sensor, const std::uint8_t* rgb) {
+  const double iso = sensor.value("iso", 0.0);
+  if (!(iso > 0)) return 0;
+  constexpr double kBaseIso = 100;
+  const double electrons = sensor.value("full_well_e", 0.0) * kBaseIso / iso;
+  const double read_e = sensor.value("read_noise_e", 0.0);
+  double variance = 0;
+  for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
+    const double light = linear_from_srgb(rgb[c]);
+    const double sigma = std::sqrt(light * electrons + read_e * read_e) / std::max(electrons, 1.0);
+    // The curve of sRGB is steep where it is dark: the slope over one standard deviation.
+    const double brighter = srgb_from_linear(static_cast<float>(light + sigma));
+    variance += (brighter - rgb[c]) * (brighter - rgb[c]);
+  }
+  return variance;
+}
+
 /// A still point in two consecutive images of one camera.
 struct StillPoint {
   double ratio = 1;      ///< of its luminance now and then
   double warm_then = 0;  ///< red minus blue
   double warm_now = 0;
+  double noise_then = 0;  ///< variances of these
+  double noise_now = 0;
 };
 
 std::vector<StillPoint> still_points(const Shot& before, const Shot& after) {
   const Pixels& pixels = before.pixels;
+  const nlohmann::json sensor = before.image.record.value("sensor", nlohmann::json::object());
   const int step =
       std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxSamples)));
   std::vector<StillPoint> points;
@@ -235,7 +256,8 @@ std::vector<StillPoint> still_points(const Shot& before, const Shot& after) {
       const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
       constexpr double kDark = 1e-4;
       points.push_back({(luminance(b) + kDark) / (luminance(a) + kDark),
-                        static_cast<double>(a[0]) - a[2], static_cast<double>(b[0]) - b[2]});
+                        static_cast<double>(a[0]) - a[2], static_cast<double>(b[0]) - b[2],
+                        warm_variance(sensor, a), warm_variance(sensor, b)});
     }
   }
   return points;
@@ -265,6 +287,7 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   double both = 0;
   double then = 0;
   double now = 0;
+  double noise = 0;
   double number = 0;
   for (const StillPoint& point : points) {
     // Sun and shadow have different colors.
@@ -272,15 +295,19 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
     both += point.warm_then * point.warm_now;
     then += point.warm_then * point.warm_then;
     now += point.warm_now * point.warm_now;
+    noise += std::max(point.noise_then, point.noise_now);
     ++number;
   }
   if (number < kMinCount) return;
   const double strength = std::sqrt(std::max(then, now) / number);
   const double weakness = std::sqrt(std::min(then, now) / number);
   const double likeness = both / std::max(1e-9, std::sqrt(then * now));
-  // Gray places say nothing.
+  // Gray places say nothing, nor does noise, which is not the same in both images.
   constexpr double kColorful = 7;
-  if (strength < kColorful || (likeness > 0.3 && weakness > 0.3 * strength)) return;
+  const double color = std::sqrt(std::max(0.0, strength * strength - noise / number));
+  if (color < kColorful || color * color < noise / number ||
+      (likeness > 0.3 && weakness > 0.3 * strength))
+    return;
   findings.add("image-colors", after.image.file, after.record(),
                fmt::format("red minus blue of still points was {:.1f} (rms) in the image before "
                            "and is {:.1f}, with a correlation of {:.2f}",

@@ -1,11 +1,16 @@
 // Classes of still surfaces against their shape and neighbors: facades are upright, roofs and
-// doors at their heights, markings on roads, grass green.
+// doors at their heights, what is painted like a road is one, grass green.
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "base/compute/quantile.h"
+#include "base/compute/srgb.h"
+#include "formats/validate/median.h"
 #include "formats/validate/shares.h"
 #include "formats/validate/shot.h"
 #include "world/semantic_class.h"
@@ -35,7 +40,11 @@ struct ColorSum {
 
 class SurfaceCheck {
  public:
-  SurfaceCheck(const Shot& shot, Findings& findings) : shot_(shot), findings_(findings) {}
+  SurfaceCheck(const Shot& shot, Findings& findings)
+      : shot_(shot),
+        findings_(findings),
+        visibility_m_(shot.image.record.value("environment", nlohmann::json::object())
+                          .value("visibility_m", std::numeric_limits<double>::infinity())) {}
 
   void run() {
     const Pixels& pixels = shot_.pixels;
@@ -45,11 +54,10 @@ class SurfaceCheck {
     }
     constexpr double kMaxLow = 0.1;
     constexpr double kMaxUp = 0.4;
-    constexpr double kMaxPaved = 0.4;
     report(roofs_, kMaxLow, "of roofs are less than 1.5 m above the ground");
     report(doors_, kMaxLow, "of doors are more than 6 m above the ground");
     report(facades_, kMaxUp, "of facades face up");
-    report(markings_, kMaxPaved, "beside markings are pavement instead of road");
+    report_markings();
     constexpr std::size_t kMinPixels = 300;
     constexpr double kNoise = 0.01;
     if (grass_.pixels < kMinPixels || paved_.pixels < kMinPixels ||
@@ -65,12 +73,31 @@ class SurfaceCheck {
     return static_cast<SemanticClass>(shot_.pixels.semantic[shot_.pixels.at(x, y)]);
   }
 
+  /// Whether air, smoke, fire or gas, which have any color, give a pixel some of theirs.
+  bool is_veiled(std::size_t pixel) const {
+    const std::vector<std::uint16_t>& opacity = shot_.pixels.hazard_opacity;
+    // 2 % of a contrast are left at the visibility, two thirds at a tenth of it.
+    constexpr double kClearShare = 0.1;
+    constexpr double kUnknownDepthM = 100;
+    const bool has_depth = !shot_.pixels.depth_cm.empty();
+    const double away_m = has_depth ? shot_.pixels.depth_m(pixel) : kUnknownDepthM;
+    if (away_m > kClearShare * visibility_m_) return true;
+    return !opacity.empty() &&
+           (opacity[3 * pixel] | opacity[3 * pixel + 1] | opacity[3 * pixel + 2]) != 0;
+  }
+
+  double luminance_at(std::size_t pixel) const {
+    const std::uint8_t* rgb = &shot_.pixels.rgb[3 * pixel];
+    return 0.2126 * linear_from_srgb(rgb[0]) + 0.7152 * linear_from_srgb(rgb[1]) +
+           0.0722 * linear_from_srgb(rgb[2]);
+  }
+
   void look_at(int x, int y) {
     const Pixels& pixels = shot_.pixels;
     const std::size_t pixel = pixels.at(x, y);
     const SemanticClass surface = class_at(x, y);
     const bool is_paved = surface == SemanticClass::road || surface == SemanticClass::pavement;
-    if (!pixels.rgb.empty() && (is_paved || surface == SemanticClass::grass)) {
+    if (!pixels.rgb.empty() && !is_veiled(pixel) && (is_paved || surface == SemanticClass::grass)) {
       ColorSum& color = is_paved ? paved_ : grass_;
       for (std::size_t c = 0; c < 3; ++c) color.sum.at(c) += pixels.rgb[3 * pixel + c];
       ++color.pixels;
@@ -90,7 +117,9 @@ class SurfaceCheck {
     }
   }
 
-  /// The ground two pixels beside paint: nearer ones may be of both.
+  /// The ground two pixels beside paint: nearer ones may be of both. Paint may be on any ground, as
+  /// the lines of platforms are, but it is 3.6 times as bright as the asphalt of roads and less
+  /// than 1.7 times as bright as what is pavement, and both are in one light.
   void look_beside(int x, int y) {
     for (const auto& [dx, dy] :
          {std::pair(2, 0), std::pair(-2, 0), std::pair(0, 2), std::pair(0, -2)}) {
@@ -98,7 +127,19 @@ class SurfaceCheck {
       const SemanticClass beside = class_at(x + dx, y + dy);
       const bool is_pavement = beside == SemanticClass::pavement;
       if (is_pavement || beside == SemanticClass::road) markings_.add(is_pavement);
+      if (!is_pavement || shot_.pixels.rgb.empty()) continue;
+      constexpr double kDark = 1e-3;
+      const double paint = luminance_at(shot_.pixels.at(x, y)) + kDark;
+      contrasts_.push_back(paint / (luminance_at(shot_.pixels.at(x + dx, y + dy)) + kDark));
     }
+  }
+
+  void report_markings() const {
+    constexpr double kMaxPaved = 0.4;
+    constexpr double kMinOfAsphalt = 2.4;  // worn paint is darker
+    const double error = median_error(contrasts_);
+    if (!std::isfinite(error) || median(contrasts_) - error < kMinOfAsphalt) return;
+    report(markings_, kMaxPaved, "beside markings are pavement, but as dark as roads");
   }
 
   void report(const SurfaceTally& tally, double max_share, const char* what) const {
@@ -112,10 +153,12 @@ class SurfaceCheck {
 
   const Shot& shot_;
   Findings& findings_;
+  double visibility_m_;
   SurfaceTally roofs_;
   SurfaceTally doors_;
   SurfaceTally facades_;
   SurfaceTally markings_;
+  std::vector<double> contrasts_;  ///< of paint to the pavement beside it
   ColorSum grass_;
   ColorSum paved_;
 };

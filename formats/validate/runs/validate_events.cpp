@@ -13,6 +13,7 @@
 #include "base/files/files.h"
 #include "base/json/json_text.h"
 #include "formats/dataset/run_events.h"
+#include "formats/validate/door_checks.h"
 #include "formats/validate/run_checks.h"
 
 namespace throng::formats {
@@ -22,10 +23,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRule = "events";
-constexpr double kMaxSpeedMps = 15;
-constexpr double kMaxOffM = 0.05;
-constexpr double kEventSlackS = 1e-4;
+constexpr const char* kEventsRule = "events";
+constexpr double kMaxPersonMps = 15;
+constexpr double kMaxEventOffM = 0.05;
+constexpr double kFrameSlackS = 1e-4;
 
 using Frames = EventsCheck::Frames;
 
@@ -42,7 +43,7 @@ FrameTimes frame_times(const Frames& frames) {
 
 /// The last frame that is not after a time.
 std::optional<std::int64_t> frame_at(const FrameTimes& times, double time_s) {
-  const auto next = std::upper_bound(times.begin(), times.end(), time_s + kEventSlackS,
+  const auto next = std::upper_bound(times.begin(), times.end(), time_s + kFrameSlackS,
                                      [](double at, const auto& frame) { return at < frame.first; });
   if (next == times.begin()) return std::nullopt;
   return std::prev(next)->second;
@@ -58,7 +59,7 @@ std::string fault_of_place(const RunEvent& event, const EventsCheck::Frame& fram
   const Eigen::Vector2d place(position->at(0).get<double>(), position->at(1).get<double>());
   const double off_m = (place - seen->second).norm();
   const double passed_s = std::abs(event.time_s - frame.time_s);
-  if (off_m <= kMaxOffM + kMaxSpeedMps * passed_s) return "";
+  if (off_m <= kMaxEventOffM + kMaxPersonMps * passed_s) return "";
   return fmt::format("{:.2f} m from where an image shows the person {:.3f} s away", off_m,
                      passed_s);
 }
@@ -108,7 +109,7 @@ void check_presence(const std::vector<RunEvent>& events, const Frames& frames,
         const bool arrives = events[change].type == "arrives";
         constexpr double kStepS = 0.11;
         const double from_s = arrives ? events[change].time_s - kStepS : events[change].time_s;
-        if (frame.time_s <= from_s + kEventSlackS) break;
+        if (frame.time_s <= from_s + kFrameSlackS) break;
         is_here = arrives;
         last = change;
       }
@@ -138,20 +139,23 @@ void EventsCheck::finish(const DatasetInfo& info, Findings& findings) {
       const std::vector<RunEvent> events = read_run_events(info.root, run);
       const auto report = [&](std::size_t event, const std::string& fault) {
         const std::string line = event == kNoEvent ? "" : fmt::format("line {}", event + 1);
-        findings.add(kRule, file, line, fault);
+        findings.add(kEventsRule, file, line, fault);
       };
       check_event_records(events, report);
-      check_events_against_figures(events, run_figures(info.root, run), first_track(info, run),
-                                   report);
+      const json figures = run_figures(info.root, run);
+      const std::int64_t first = first_track(info, run);
+      check_events_against_figures(events, figures, first, report);
+      check_closures(info.root, run, events, figures, report);
+      check_escape_exits(info.root, run, events, figures, first, report);
       if (info.has(annotate::GroundTruth::trajectories)) {
         check_events_against_trajectories(events, read_run_trajectories(info.root, run), report);
       }
       check_order(events, runs_[run], report);
       check_presence(events, runs_[run], report);
     } catch (const InputError& error) {
-      findings.add(kRule, file, "", error.problems().front().found);
+      findings.add(kEventsRule, file, "", error.problems().front().found);
     } catch (const std::exception& error) {
-      findings.add(kRule, file, "", error.what());
+      findings.add(kEventsRule, file, "", error.what());
     }
   }
 }

@@ -106,21 +106,55 @@ class ExitFigures {
     }
   }
 
-  /// The predicted wait is the queue over a rate, which is between a third of one lane's capacity
-  /// and what the crossings of the last seconds would give with the whole door's (docs/metrics.md).
+  /// The longest time of the last seconds before a row that began with a queue, and the fewest
+  /// crossings outward in it.
+  struct Waiting {
+    double max_s = 0;
+    double min_crossed = 0;
+  };
+  Waiting waiting_before(std::size_t index) const {
+    const double from_s = rows_[index]["time_s"] - kWaitWindowS;
+    Waiting waiting;
+    double known_from_s = rows_[index]["time_s"];
+    for (std::size_t i = index; i > 0; --i) {
+      const ExitRow& then = rows_[i - 1];
+      const double length_s = known_from_s - std::max(then["time_s"], from_s);
+      // Between frames that are farther apart a queue may come and go.
+      constexpr double kNeighborsS = 1.1;
+      const bool are_near = rows_[i]["time_s"] - then["time_s"] <= kNeighborsS;
+      const bool may_wait = then["queue"] > 0 || rows_[i]["queue"] > 0 || !are_near;
+      if (may_wait) waiting.max_s += length_s;
+      known_from_s = std::max(then["time_s"], from_s);
+      if (then["time_s"] < from_s) break;
+      // Crossings count where the step before had a queue.
+      const bool waits = are_near && then["queue"] > 0 && rows_[i]["queue"] > 0;
+      if (waits)
+        waiting.min_crossed += std::max(rows_[i]["crossed_out"] - then["crossed_out"] - 1, 0.0);
+    }
+    waiting.max_s +=
+        std::max(std::min(known_from_s, rows_[0]["time_s"]) - std::max(from_s, 0.0), 0.0);
+    constexpr double kSlackS = 2;
+    waiting.max_s = std::min(waiting.max_s + kSlackS, kWaitWindowS);
+    return waiting;
+  }
+
+  /// The predicted wait is the queue over a rate, which is between what the crossings of the last
+  /// seconds give with one lane's capacity and with the whole door's (docs/metrics.md).
   void check_waits() const {
     const auto width = exit_.find("width_m");
     if (width == exit_.end() || !width->is_number()) return;
     const double capacity = kCapacityPerMs * width->get<double>();
     const double min_capacity = kCapacityPerMs * std::min(kMinLaneM, width->get<double>());
-    for (const ExitRow& row : rows_) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const ExitRow& row = rows_[i];
       const double time_s = row["time_s"];
       const double passed =
           crossed_until(time_s + 1e-3) -
           crossed_until(time_s - kWaitWindowS - kMaxDelayS - kMaxStepS - kRoundingS);
       const double min_wait_s = row["queue"] * kWaitPriorS / (passed + capacity * kWaitPriorS);
-      const double max_wait_s =
-          row["queue"] * (kWaitWindowS + kWaitPriorS) / (min_capacity * kWaitPriorS);
+      const Waiting waiting = waiting_before(i);
+      const double max_wait_s = row["queue"] * (waiting.max_s + kWaitPriorS) /
+                                (waiting.min_crossed + min_capacity * kWaitPriorS);
       const double wait_s = row["predicted_wait"];
       if (std::isnan(wait_s) ||
           (wait_s >= min_wait_s - kRoundingS && wait_s <= max_wait_s + kRoundingS)) {

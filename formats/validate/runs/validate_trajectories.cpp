@@ -16,9 +16,9 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr const char* kRule = "trajectories";
-constexpr double kMaxSpeedMps = 15;
-constexpr double kMaxOffM = 0.01;
+constexpr const char* kTrajectoriesRule = "trajectories";
+constexpr double kMaxTrackMps = 15;
+constexpr double kMaxTrackOffM = 0.01;
 constexpr double kMaxOffRad = 0.01;
 constexpr double kMaxOffS = 1e-3;
 constexpr double kStepS = 0.51;  ///< of the crowd, at most
@@ -47,7 +47,7 @@ std::string fault_of_values(const Recorded& recorded) {
       const double passed_s = recorded.times_s[frame] - recorded.times_s[frame - 1];
       const double way_m =
           (recorded.place(frame, person) - recorded.place(frame - 1, person)).norm();
-      if (way_m > kMaxSpeedMps * passed_s) {
+      if (way_m > kMaxTrackMps * passed_s) {
         return where + fmt::format("{:.2f} m in {:g} s", way_m, passed_s);
       }
     }
@@ -105,7 +105,7 @@ std::string fault_of_seen(const Recorded& recorded, std::size_t frame, std::size
                           const TrajectoriesCheck::Seen& seen) {
   if (!recorded.present(frame, person)) return "absent, but an image shows the person";
   const double off_m = (recorded.place(frame, person) - seen.position).norm();
-  if (off_m > kMaxOffM) return fmt::format("{:.2f} m from the position in an image", off_m);
+  if (off_m > kMaxTrackOffM) return fmt::format("{:.2f} m from the position in an image", off_m);
   const float* value = recorded.at(frame, person);
   const auto heading_rad = static_cast<double>(value[2]);
   if (std::abs(geometry::turn_rad(heading_rad, seen.heading_rad)) > kMaxOffRad) {
@@ -156,21 +156,22 @@ void TrajectoriesCheck::finish(const DatasetInfo& info, Findings& findings) {
       const Recorded recorded = read_run_trajectories(info.root, run);
       const std::string wrong_people =
           fault_of_people(recorded, run_figures(info.root, run), first_track(info, run));
-      if (!wrong_people.empty()) findings.add(kRule, file, "", wrong_people);
+      if (!wrong_people.empty()) findings.add(kTrajectoriesRule, file, "", wrong_people);
       const std::string wrong_times = fault_of_times(recorded, info);
-      if (!wrong_times.empty()) findings.add(kRule, file, "", wrong_times);
+      if (!wrong_times.empty()) findings.add(kTrajectoriesRule, file, "", wrong_times);
       const std::string what = fault_of_values(recorded);
-      if (!what.empty()) findings.add(kRule, file, "", what);
+      if (!what.empty()) findings.add(kTrajectoriesRule, file, "", what);
       for (const auto& entry : runs_[run]) {
         check_frame(recorded, static_cast<std::size_t>(entry.first), entry.second,
                     [&](const std::string& fault) {
-                      findings.add(kRule, file, fmt::format("frame {}", entry.first), fault);
+                      findings.add(kTrajectoriesRule, file, fmt::format("frame {}", entry.first),
+                                   fault);
                     });
       }
     } catch (const InputError& error) {
-      findings.add(kRule, file, "", error.problems().front().found);
+      findings.add(kTrajectoriesRule, file, "", error.problems().front().found);
     } catch (const std::exception& error) {
-      findings.add(kRule, file, "", error.what());
+      findings.add(kTrajectoriesRule, file, "", error.what());
     }
   }
 }

@@ -105,7 +105,7 @@ class ShardOutput {
     lap("jpeg");
     publication_.add(image.file_name, jpeg);
     lap("write");
-    write_kinds(frame, labels, image);
+    write_kinds(frame, labels, jpeg, image);
     if (has_preview(job_, frame.index)) {
       publication_.add("previews/" + place + ".jpg",
                        annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
@@ -136,11 +136,12 @@ class ShardOutput {
   }
 
   // Every kind of ground truth that is asked for.
-  void write_kinds(const render::Frame& frame, annotate::FrameLabels& labels,
+  void write_kinds(const render::Frame& frame, annotate::FrameLabels& labels, std::string_view jpeg,
                    annotate::CocoImage& image) {
     annotate::FrameOutput output{
         .frame = frame,
         .labels = labels,
+        .jpeg = jpeg,
         .record = image,
         .exits = pointer_to(views_.exits),
         .actions = pointer_to(views_.actions),

@@ -109,7 +109,7 @@ TEST_F(Coco, HoldsTheFieldsThatALoaderNeeds) {
     EXPECT_EQ(image.at("run"), "run001");
     EXPECT_EQ(image.at("camera_id"), "d1");
     EXPECT_EQ(image.at("frame"), i);
-    EXPECT_EQ(image.at("time_s"), frames[i].time_s);
+    EXPECT_DOUBLE_EQ(image.at("time_s"), frames[i].time_s);
     EXPECT_EQ(image.contains("density_file"), i > 0);
     if (i > 0) {
       EXPECT_EQ(image.at("density_file"), expected.density_file);

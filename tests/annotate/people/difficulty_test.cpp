@@ -144,6 +144,19 @@ TEST_F(Occluders, AreBySharesAndInstance) {
   EXPECT_DOUBLE_EQ(found[2].share, 0.1);
 }
 
+using DeliveredImage = Occluders;
+
+TEST_F(DeliveredImage, IsTheOneThatContrastsAreMeasuredIn) {
+  std::vector<std::uint8_t> rgb(frame_.rgb.size(), 255);
+  for (std::size_t i = 0; i < frame_.id.size(); ++i) {
+    if (frame_.id[i] == render::id_of_agent(0)) std::fill_n(rgb.begin() + 3 * i, 3, 0);
+  }
+  FrameLabels labels = label_people(frame_);
+  add_difficulty(frame_, {frame_.width(), frame_.height(), rgb}, labels);
+  EXPECT_NEAR(labels.people.at(0).difficulty->contrast, 100, 0.1) << "black on white";
+  EXPECT_NEAR(labels.people.at(0).difficulty->edge_contrast, 100, 0.1);
+}
+
 TEST(Lookalikes, AreNearAndOfNearlyTheSameColorsAboveAndBelow) {
   const Look blue_gray{{40, 10, -30}, {50, 0, 0}};
   const Look nearly{{42, 12, -27}, {47, 2, 1}};

@@ -11,6 +11,7 @@
 #include "annotate/rasters/density.h"
 #include "annotate/rasters/field_levels.h"
 #include "base/compute/random.h"
+#include "base/geometry/polygon.h"
 #include "camera/camera.h"
 
 namespace throng::annotate {
@@ -113,6 +114,26 @@ TEST(GroundField, OneKernelIsAGaussian) {
   EXPECT_NEAR(field.density[cell_at(grid, 0.8, 0.1)], peak * std::exp(-0.75 * 0.75 / 0.49),
               2e-3 * peak);
   EXPECT_EQ(field.density[cell_at(grid, 2.4, 0.1)], 0) << "beyond three times 0.7 m";
+}
+
+TEST(GroundField, VoronoiDensitiesSumToThePeople) {
+  // Some share a place, some stand beside buildings; all cells end before the grid does.
+  world::Trace trace = ground_crowd(60);
+  world::Scenario scenario = yard();
+  scenario.buildings.push_back({"round", {{-3, -1}, {-1, -1.3}, {0.1, 0.4}, {-2, 1.1}}, 10});
+  Random random(7, Stream::crowd_generator, 0);
+  for (Eigen::Vector2f& place : trace.position) {
+    do {
+      place = Eigen::Vector2d(random.uniform(-7.9, 7.9), random.uniform(-2.9, 3.3)).cast<float>();
+    } while (geometry::signed_distance_to(scenario.buildings[0].footprint, place.cast<double>()) <
+             0.05);
+  }
+  trace.position[4] = trace.position[5] = trace.position[6];
+  const GroundGrid grid(scenario);
+  const GroundField field = ground_field(trace, grid, 0);
+  ASSERT_EQ(field.people, 60);
+  EXPECT_NEAR(people_in(field.voronoi, grid), 60, 1e-4);
+  EXPECT_EQ(field.voronoi[cell_at(grid, -1.5, 0)], 0) << "nobody is in the building";
 }
 
 TEST(GroundField, HasMeanVelocitiesAndTheVoronoiDensityOfALattice) {

@@ -17,7 +17,7 @@ def edge_contrast_of_one_person_zero(d):
 
 @damage
 def difficulties_of_two_people_exchanged(d):
-    people = sorted((p for p in d.everybody if p["area"] >= 150), key=lambda p: p["difficulty"]["contrast"])
+    people = sorted(d.everybody, key=lambda p: p["difficulty"]["contrast"])
     people[0]["difficulty"], people[-1]["difficulty"] = people[-1]["difficulty"], people[0]["difficulty"]
     d.save_coco()
 
@@ -62,7 +62,7 @@ def occluder_shares_of_the_visible_area(d):
 
 def compared(d):
     """People of an image in which several are large enough for their colors to be compared."""
-    return max(([p for p in d.people(i) if p["area"] >= 80] for i in d.images), key=len)
+    return max(([p for p in d.people(i) if p["area"] >= 50] for i in d.images), key=len)
 
 
 @damage

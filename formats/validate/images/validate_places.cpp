@@ -1,0 +1,178 @@
+// Classes of surfaces by where they are: the land around the ground, doors at exits, and walls,
+// whose tops are seen from above.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/files/files.h"
+#include "base/json/json_text.h"
+#include "formats/files/json_vectors.h"
+#include "formats/validate/shares.h"
+#include "formats/validate/shot.h"
+#include "world/semantic_class.h"
+
+namespace throng::formats {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using nlohmann::json;
+using world::SemanticClass;
+
+namespace {
+
+constexpr double kClearM = 0.5;  ///< distance from the ground's border that rounded depth permits
+
+SemanticClass class_of(const Pixels& pixels, std::size_t pixel) {
+  return static_cast<SemanticClass>(pixels.semantic[pixel]);
+}
+
+/// The z of a pixel's normal.
+double upness(const Pixels& pixels, std::size_t pixel) {
+  return (pixels.normals[3 * pixel + 2] - 128.0) / 127.0;
+}
+
+}  // namespace
+
+const PlaceCheck::Areas& PlaceCheck::areas_of(const DatasetInfo& info, const std::string& run) {
+  const auto [entry, is_new] = areas_.try_emplace(run);
+  const std::filesystem::path file = info.root / "counts" / (run + ".json");
+  if (!is_new || !std::filesystem::is_regular_file(file)) return entry->second;
+  const json recorded = parse_own_json(read_file(file), file.string());
+  Areas& areas = entry->second;
+  for (const json& zone : recorded.at("zones")) {
+    if (zone.at("id") != "ground") continue;
+    for (const json& corner : zone.at("corners")) areas.ground.extend(numbers_at<2>(corner));
+  }
+  for (const json& line : recorded.at("lines")) {
+    areas.exits[line.at("id").get<std::string>()] = {numbers_at<2>(line.at("start")),
+                                                     numbers_at<2>(line.at("end"))};
+  }
+  return areas;
+}
+
+/// Land lies around the ground, and only there.
+void PlaceCheck::check_land(const Shot& shot, const Areas& areas, Findings& findings) {
+  if (areas.ground.isEmpty()) return;
+  const Pixels& pixels = shot.pixels;
+  std::array<std::size_t, 2> looked_at{};  // outside of the ground, and on it
+  std::array<std::size_t, 2> wrong{};
+  for (int y = 0; y < pixels.height; y += 2) {
+    for (int x = 0; x < pixels.width; x += 2) {
+      const std::size_t pixel = pixels.at(x, y);
+      if (pixels.ids[pixel] != kGround || pixels.depth_cm[pixel] == 0) continue;
+      const double z = pixels.depth_m(pixel);
+      const Vector3d point = shot.point_at(x, y, z);
+      if (!point.allFinite()) continue;
+      // Depth is rounded to a centimeter, and rows at the horizon are meters apart.
+      const Vector3d beside = shot.point_at(x, y, 1.01 * z + 0.02);
+      const double off_m = kClearM + (beside - point).head<2>().norm();
+      const double away_m = areas.ground.exteriorDistance(point.head<2>().eval());
+      const Vector2d edge =
+          (point.head<2>() - areas.ground.min()).cwiseMin(areas.ground.max() - point.head<2>());
+      const bool is_on = away_m == 0 && edge.minCoeff() > off_m;
+      if (!is_on && away_m < off_m) continue;
+      const bool is_land = class_of(pixels, pixel) == SemanticClass::terrain;
+      ++looked_at.at(is_on ? 1 : 0);
+      wrong.at(is_on ? 1 : 0) += is_land == is_on ? 1 : 0;
+    }
+  }
+  constexpr double kMaxShare = 0.1;
+  for (const std::size_t on : {0U, 1U}) {
+    if (!is_above_share(wrong.at(on), looked_at.at(on), kMaxShare)) continue;
+    findings.add("semantic", raster_name("semantic", shot.image), shot.record(),
+                 fmt::format("{} of {} pixels {} terrain", wrong.at(on), looked_at.at(on),
+                             on == 1 ? "on the scenario's ground are"
+                                     : "of the land around the scenario's ground are not"));
+  }
+}
+
+/// A wall that an exit lies in along its width has the exit's door there, and nothing else.
+void PlaceCheck::check_doors(const Shot& shot, const Areas& areas, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  for (const auto& [id, line] : areas.exits) {
+    const double length_m = (line.second - line.first).norm();
+    if (!(length_m > 0)) continue;
+    const Vector2d along = (line.second - line.first) / length_m;
+    const Vector2d across(-along.y(), along.x());
+    constexpr std::size_t kParts = 10;
+    std::array<std::size_t, kParts> parts{};
+    std::size_t looked_at = 0;
+    std::size_t others = 0;
+    for (int y = 0; y < pixels.height; ++y) {
+      for (int x = 0; x < pixels.width; ++x) {
+        const std::size_t pixel = pixels.at(x, y);
+        if (!is_building(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0) continue;
+        const Vector3d point = shot.point_at(x, y, pixels.depth_m(pixel));
+        constexpr double kLowM = 0.3;
+        constexpr double kHighM = 2;
+        constexpr double kOffM = 0.45;
+        constexpr double kUpright = 0.2;
+        const Vector2d off = point.head<2>() - line.first;
+        const double share = off.dot(along) / length_m;
+        if (!(share > 0.1 && share < 0.9) || std::abs(off.dot(across)) > kOffM ||
+            point.z() < kLowM || point.z() > kHighM || std::abs(upness(pixels, pixel)) > kUpright) {
+          continue;
+        }
+        // Sides of a passage stand across the exit.
+        const Vector2d normal(pixels.normals[3 * pixel] - 128.0,
+                              pixels.normals[3 * pixel + 1] - 128.0);
+        constexpr double kMinFacing = 0.98 * 127;
+        if (std::abs(normal.dot(across)) < kMinFacing) continue;
+        ++parts.at(static_cast<std::size_t>(share * kParts));
+        ++looked_at;
+        others += class_of(pixels, pixel) == SemanticClass::door ? 0 : 1;
+      }
+    }
+    // Beside a gap only some of the width has a wall, and no door.
+    const auto covered = std::count_if(parts.begin() + 1, parts.end() - 1,
+                                       [](std::size_t count) { return count > 0; });
+    constexpr double kMaxShare = 0.3;
+    if (covered < static_cast<std::ptrdiff_t>(kParts) - 2 ||
+        !is_above_share(others, looked_at, kMaxShare)) {
+      continue;
+    }
+    findings.add("semantic", raster_name("semantic", shot.image), shot.record(),
+                 fmt::format("{} of {} pixels of the wall that exit {} lies in are no door", others,
+                             looked_at, id));
+  }
+}
+
+/// Counts what faces up of each building.
+void PlaceCheck::look_at_tops(const Shot& shot) {
+  const Pixels& pixels = shot.pixels;
+  for (std::size_t pixel = 0; pixel < pixels.count(); ++pixel) {
+    constexpr double kUp = 0.9;
+    if (!is_building(pixels.ids[pixel]) || upness(pixels, pixel) < kUp) continue;
+    Tops& tops = tops_[{shot.image.scenario() + shot.image.run, pixels.ids[pixel]}];
+    ++tops.looked_at;
+    if (class_of(pixels, pixel) == SemanticClass::building && tops.facades++ == 0) {
+      tops.file = raster_name("semantic", shot.image);
+      tops.record = shot.record();
+    }
+  }
+}
+
+void PlaceCheck::add(const DatasetInfo& info, const Shot& shot, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  if (pixels.semantic.empty() || pixels.ids.empty() || !shot.at_once) return;
+  if (!pixels.normals.empty()) look_at_tops(shot);
+  if (pixels.depth_cm.empty() || !info.has(annotate::GroundTruth::counts)) return;
+  const Areas& areas = areas_of(info, shot.image.run);
+  check_land(shot, areas, findings);
+  if (!pixels.normals.empty()) check_doors(shot, areas, findings);
+}
+
+void PlaceCheck::finish(Findings& findings) const {
+  for (const auto& [building, tops] : tops_) {
+    constexpr double kMaxShare = 0.3;
+    if (!is_above_share(tops.facades, tops.looked_at, kMaxShare)) continue;
+    findings.add("semantic", tops.file, tops.record,
+                 fmt::format("{} of {} pixels of building {} that face up are a facade, expected "
+                             "roof, wall or hedge",
+                             tops.facades, tops.looked_at, building.second - kFirstBuilding));
+  }
+}
+
+}  // namespace throng::formats
