@@ -32,17 +32,13 @@ inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
 /// Levels that are drawn.
 inline constexpr std::size_t kDrawnLevels = kDetailLevels.size() - 1;
 
-/// The least factor on people's image height in the choice of their levels: that of drafts.
-inline constexpr double kMinDetail = 0.75;
-
 /// How far (m) a body at a drawn level may end, in any pose and direction, beside the finest ones:
 /// a pixel at the largest height in the image at which the level is drawn, or 1.5 cm if that is
 /// more.
 constexpr double extent_slack_m(std::size_t level, double stature_m) {
   constexpr double kMinSlackM = 0.015;
-  return level == 0
-             ? kMinSlackM
-             : std::max(kMinSlackM, kMinDetail * stature_m / kDetailLevels[level - 1].above_px);
+  return level == 0 ? kMinSlackM
+                    : std::max(kMinSlackM, stature_m / kDetailLevels[level - 1].above_px);
 }
 
 }  // namespace throng::skinning

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 20;
+constexpr int kBuilderVersion = 21;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -126,11 +126,12 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
 }
 
 // Adds the frames of a clip on which levels of detail are fitted: all of falls, in which bodies
-// bend most, and a few of the others, which are alike.
+// bend most, many of fast strides, and some of the others, which are alike.
 void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
                        std::vector<Palette>& poses) {
-  constexpr std::size_t kStep = 40;
-  const std::size_t step = clip.name.starts_with("fall") ? 1 : kStep;
+  const bool is_fast = clip.name == "run" || clip.name == "panic";
+  // No divisors of the frames of a stride.
+  const std::size_t step = clip.name.starts_with("fall") ? 1 : is_fast ? 3 : 7;
   for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
     if ((clip.first + frame) % step == 0) poses.push_back(palettes[frame]);
   }
@@ -139,7 +140,7 @@ void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
 // A little less than the permitted slack, since other poses and directions are a little farther
 // off than those that levels are fitted on.
 float bake_slack_m(std::size_t level, float stature_m) {
-  constexpr double kShare = 0.9;
+  constexpr double kShare = 0.72;
   return static_cast<float>(kShare * extent_slack_m(level, stature_m));
 }
 

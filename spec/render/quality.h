@@ -33,7 +33,7 @@ struct QualitySettings {
 inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
-    {"draft", false, 0, 0, 0, 0, false, false, 1, 0.75},
+    {"draft", false, 0, 0, 0, 0, false, false, 1, 1},
     {"standard", true, 1024, 2, 700, 2048, false, true, 1, 1},
     {"high", true, 2048, 7, 0, 4096, true, false, 2, 2},
 }};
