@@ -1,6 +1,7 @@
 // The levels of detail of characters, and the image heights at which they are used.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -15,8 +16,9 @@ struct DetailLevel {
 /// At each limit the triangles are about as small as a pixel (a person covers about a sixth of the
 /// squared height in pixels, and half of the triangles face the camera), so that more triangles
 /// would cost time without visible effect. tests/skinning/levels_test.cpp verifies that the change
-/// of levels is invisible, for all characters from all sides. The last level is never chosen by
-/// size: it is used for shadows and drafts.
+/// of levels is invisible, for all characters from all sides. Characters of the library have more
+/// triangles where they need them to keep their extent (extent_slack_m()). The last level has lost
+/// limbs and only casts shadows.
 inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {8000, 160},
     {3000, 110},
@@ -26,5 +28,17 @@ inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {170, 0},
     {64, 0},
 }};
+
+/// Levels that are drawn.
+inline constexpr std::size_t kDrawnLevels = kDetailLevels.size() - 1;
+
+/// How far (m) a body at a drawn level may end, in any pose and direction, beside the finest ones:
+/// a pixel at the largest height in the image at which the level is drawn, or 1.5 cm if that is
+/// more.
+constexpr double extent_slack_m(std::size_t level, double stature_m) {
+  constexpr double kMinSlackM = 0.015;
+  return level == 0 ? kMinSlackM
+                    : std::max(kMinSlackM, stature_m / kDetailLevels[level - 1].above_px);
+}
 
 }  // namespace throng::skinning

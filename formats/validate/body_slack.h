@@ -19,8 +19,9 @@ inline bool holds(const Box& outer, double x, double y, double slack) {
          y <= outer.y + outer.height + slack;
 }
 
-/// Joints of the skeleton may lie outside of the coarse meshes of small people, the coarsest of
-/// which have 64 triangles and no forearms.
+/// Joints of the skeleton may lie outside of the meshes of small people, which end within a pixel
+/// of the finest (skinning::extent_slack_m()) but have few triangles around thin limbs. More is
+/// permitted: older datasets have meshes of 64 triangles without forearms.
 inline double keypoint_slack_px(const camera::Camera& camera, const Person& person) {
   constexpr double kCoarseShare = 0.1;
   constexpr double kSmallPx = 120;

@@ -14,13 +14,13 @@
 
 namespace throng::render {
 
-/// The boxes of one character. They contain the vertices of all levels and do not depend on
-/// cameras. The extents of palettes are cached, since people of a crowd share poses. Not
-/// thread-safe.
+/// The boxes of one character. They contain the vertices of all levels
+/// that are drawn and do not depend on cameras. The extents of palettes are cached, since people of
+/// a crowd share poses. Not thread-safe.
 class BodyBoxes {
  public:
-  /// `levels` are the shapes of the character's levels. Population and shapes must outlive this
-  /// object.
+  /// `levels` are the shapes of the character's drawn levels. Population and shapes must outlive
+  /// this object.
   BodyBoxes(const skinning::Population& population, std::uint32_t character,
             std::span<const BodyShape> levels);
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "render/view.h"
+#include "skinning/levels.h"
 
 namespace throng::render {
 
@@ -46,7 +47,8 @@ PeopleFinder::PeopleFinder(const skinning::Population& population, const Quality
     landmarks_.push_back(skinning::find_landmarks(character));
   }
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    boxes_.emplace_back(population, i, bodies_[i]);
+    const std::size_t drawn = std::min(bodies_[i].size(), skinning::kDrawnLevels);
+    boxes_.emplace_back(population, i, std::span(bodies_[i]).first(drawn));
   }
 }
 
@@ -57,9 +59,7 @@ Shading PeopleFinder::shading_of(std::size_t level) const {
 
 PersonDraw PeopleFinder::draw_of(std::uint32_t person, double height_px, double depth_m,
                                  std::size_t levels) const {
-  const std::size_t level = height_px < quality_.proxy_below_px
-                                ? levels - 1
-                                : level_of_detail(quality_.detail * height_px, levels);
+  const std::size_t level = level_of_detail(quality_.detail * height_px, levels);
   return {person, static_cast<std::uint32_t>(level), shading_of(level),
           static_cast<float>(depth_m)};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +14,7 @@
 #include "base/files/hash.h"
 #include "base/json/json_text.h"
 #include "skinning/animate/clips.h"
+#include "skinning/bake/extent.h"
 #include "skinning/bake/hull.h"
 #include "skinning/bake/notice.h"
 #include "skinning/bake/workbench.h"
@@ -33,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 19;
+constexpr int kBuilderVersion = 21;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMaxCharacters = 1000;
@@ -123,6 +125,25 @@ std::map<std::string, int> number_textures(const DressedPerson& dressed) {
   return numbers;
 }
 
+// Adds the frames of a clip on which levels of detail are fitted: all of falls, in which bodies
+// bend most, many of fast strides, and some of the others, which are alike.
+void add_telling_poses(const Clip& clip, const std::vector<Palette>& palettes,
+                       std::vector<Palette>& poses) {
+  const bool is_fast = clip.name == "run" || clip.name == "panic";
+  // No divisors of the frames of a stride.
+  const std::size_t step = clip.name.starts_with("fall") ? 1 : is_fast ? 3 : 7;
+  for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
+    if ((clip.first + frame) % step == 0) poses.push_back(palettes[frame]);
+  }
+}
+
+// A little less than the permitted slack, since other poses and directions are a little farther
+// off than those that levels are fitted on.
+float bake_slack_m(std::size_t level, float stature_m) {
+  constexpr double kShare = 0.72;
+  return static_cast<float>(kShare * extent_slack_m(level, stature_m));
+}
+
 class Bakery {
  public:
   Bakery(const fs::path& package, const std::vector<PersonSpec>& people,
@@ -168,12 +189,25 @@ class Bakery {
     baked.character.tints = person.outfit.tints;
     Walker walker = make_walker(dressed.joints, dressed.stature_m, asset.levels.front());
     walker.manner = choose_manner(baked.character);
-    for (const Clip& clip : clips_) baked.motion += pack(dressed.joints, bake_clip(walker, clip));
+    std::vector<Palette> poses;
+    for (const Clip& clip : clips_) {
+      const std::vector<Palette> palettes = bake_clip(walker, clip);
+      baked.motion += pack(dressed.joints, palettes);
+      add_telling_poses(clip, palettes, poses);
+    }
+    const std::array<Mesh, 2> finest = {asset.levels.front(),
+                                        hull.level(kDetailLevels[1].triangles, image)};
+    const Extent extent(finest, std::move(poses));
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
-        asset.levels.push_back(hull.level(kDetailLevels[level].triangles - carried, image));
+        const std::size_t triangles = kDetailLevels[level].triangles - carried;
+        asset.levels.push_back(
+            level < kDrawnLevels
+                ? hull.level(triangles, image, extent, bake_slack_m(level, dressed.stature_m),
+                             level > 1 ? kDetailLevels[level - 1].triangles - carried : triangles)
+                : hull.level(triangles, image));
       }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }

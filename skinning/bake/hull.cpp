@@ -50,12 +50,6 @@ std::vector<PosedSurface> posed_by(const Palette& palette, const DressedPerson& 
   return posed;
 }
 
-BoneMatrix mixed(const Palette& palette, const BoneWeights& weights) {
-  BoneMatrix matrix = BoneMatrix::Zero();
-  for (std::size_t bone = 0; bone < kBoneCount; ++bone) matrix += weights[bone] * palette[bone];
-  return matrix;
-}
-
 Eigen::Vector3f moved_back(const Eigen::Vector3f& point, const BoneMatrix& matrix) {
   return matrix.leftCols<3>().inverse() * (point - matrix.col(3));
 }
@@ -172,17 +166,36 @@ void Hull::fit(ClosedSurface& coarse) const {
   }
 }
 
-Mesh Hull::level(std::size_t triangles, int image) const {
-  ClosedSurface coarse = simplified(fine_, triangles);
-  fit(coarse);
-  std::vector<Eigen::Vector3f> standing;
-  std::vector<BoneWeights> weights;
-  for (const Eigen::Vector3f& point : coarse.points) {
-    weights.push_back(weights_at(point));
-    const Eigen::Vector3f fitted = moved_back(point, mixed(apart_, weights.back()));
-    standing.push_back(move_point(fitted, weights.back(), person_->to_neutral));
-    standing.back().z() = std::max(standing.back().z(), 0.0F);
+Hull::Simplified Hull::standing_surface(std::size_t triangles) const {
+  Simplified simple;
+  simple.surface = simplified(fine_, triangles);
+  fit(simple.surface);
+  for (const Eigen::Vector3f& point : simple.surface.points) {
+    const BoneWeights weights = weights_at(point);
+    const Eigen::Vector3f fitted = moved_back(point, mixed(apart_, weights));
+    simple.standing.push_back(move_point(fitted, weights, person_->to_neutral));
+    simple.standing.back().z() = std::max(simple.standing.back().z(), 0.0F);
+    simple.weights.push_back(weights);
   }
+  return simple;
+}
+
+Mesh Hull::level(std::size_t triangles, int image) const {
+  return mesh_of(standing_surface(triangles), image);
+}
+
+Mesh Hull::level(std::size_t triangles, int image, const Extent& extent, float slack_m,
+                 std::size_t max_triangles) const {
+  for (std::size_t count = triangles;; count = std::min(count + count / 4, max_triangles)) {
+    Simplified simple = standing_surface(count);
+    const float off_m = extent.restore(simple.standing, simple.weights, slack_m);
+    if (off_m <= slack_m || count >= max_triangles) return mesh_of(simple, image);
+  }
+}
+
+Mesh Hull::mesh_of(const Simplified& simple, int image) const {
+  const ClosedSurface& coarse = simple.surface;
+  const std::vector<Eigen::Vector3f>& standing = simple.standing;
   const std::vector<Eigen::Vector3f> normals = vertex_normals(standing, coarse.indices);
   Mesh mesh;
   std::map<std::pair<std::uint32_t, bool>, std::uint32_t> place;
@@ -201,7 +214,7 @@ Mesh Hull::level(std::size_t triangles, int image) const {
       vertex.position = {standing[i].x(), standing[i].y(), standing[i].z()};
       vertex.normal = {normals[i].x(), normals[i].y(), normals[i].z()};
       vertex.uv = {uv.x(), uv.y()};
-      set_weights(vertex, weights[i]);
+      set_weights(vertex, simple.weights[i]);
       mesh.vertices.push_back(vertex);
     }
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "skinning/bake/carving.h"
+#include "skinning/bake/extent.h"
 #include "skinning/bake/portrait.h"
 #include "skinning/image.h"
 #include "skinning/population.h"
@@ -33,11 +34,25 @@ class Hull {
   /// first of the portrait's two images.
   Mesh level(std::size_t triangles, int image) const;
 
+  /// A level that reaches as far as `extent`, to within `slack_m`, with a quarter more triangles as
+  /// often as it needs them for that, up to `max_triangles`.
+  Mesh level(std::size_t triangles, int image, const Extent& extent, float slack_m,
+             std::size_t max_triangles) const;
+
  private:
   /// Skinning weights of a point of the surface: the mean of the nearest points of the dressed
   /// person.
   BoneWeights weights_at(const Eigen::Vector3f& point) const;
   void fit(ClosedSurface& coarse) const;
+
+  /// A simplified surface and its points as the person stands.
+  struct Simplified {
+    ClosedSurface surface;
+    std::vector<Eigen::Vector3f> standing;
+    std::vector<BoneWeights> weights;
+  };
+  Simplified standing_surface(std::size_t triangles) const;
+  Mesh mesh_of(const Simplified& simple, int image) const;
 
   const DressedPerson* person_;
   Palette apart_;  ///< from the A-pose to the pose of the hull

@@ -178,12 +178,14 @@ Eigen::AlignedBox3f bounding_box(const Mesh& mesh) {
   return bounds;
 }
 
-/// Whether a part that stood out, such as a leg, has been simplified away.
-bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
-  constexpr float kMaxShrink = 0.05F;  // of the largest extent
+/// Whether a part that stood out, such as a leg or a hand, has been simplified away.
+bool has_lost_limbs(const Mesh& simple, const Mesh& mesh, std::size_t level) {
+  constexpr float kMaxShadowShrink = 0.05F;  // of the largest extent
   const Eigen::AlignedBox3f now = bounding_box(simple);
   const Eigen::AlignedBox3f then = bounding_box(mesh);
-  const float max_shrink_m = kMaxShrink * then.sizes().maxCoeff();
+  const float max_shrink_m = level < kDrawnLevels
+                                 ? static_cast<float>(extent_slack_m(level, then.sizes().z()))
+                                 : kMaxShadowShrink * then.sizes().maxCoeff();
   return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_shrink_m ||
          (now.max() - then.max()).cwiseAbs().maxCoeff() > max_shrink_m;
 }
@@ -201,7 +203,7 @@ std::vector<Mesh> simplified_levels(const Mesh& mesh) {
       continue;
     }
     Mesh level = simplifier.simplified(triangles);
-    if (level.indices.empty() || has_lost_limbs(level, mesh)) level = before;
+    if (level.indices.empty() || has_lost_limbs(level, mesh, levels.size())) level = before;
     levels.push_back(std::move(level));
   }
   return levels;

@@ -80,6 +80,14 @@ Surface make_surface(std::span<const Quad> quads, std::span<const Eigen::Vector2
   return surface;
 }
 
+BoneMatrix mixed(const Palette& palette, const BoneWeights& weights) {
+  BoneMatrix matrix = BoneMatrix::Zero();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    if (weights[bone] > 0) matrix += weights[bone] * palette[bone];
+  }
+  return matrix;
+}
+
 Eigen::Vector3f move_point(const Eigen::Vector3f& point, const BoneWeights& weights,
                            const Palette& palette) {
   Eigen::Vector3f moved = Eigen::Vector3f::Zero();

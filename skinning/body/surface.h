@@ -35,6 +35,9 @@ Surface make_surface(std::span<const Quad> quads, std::span<const Eigen::Vector2
                      std::span<const Eigen::Vector3f> fitted, std::span<const BoneWeights> weights,
                      const Palette& to_neutral);
 
+/// The matrix of linear blend skinning with dense weights.
+BoneMatrix mixed(const Palette& palette, const BoneWeights& weights);
+
 /// Linear blend skinning with dense weights.
 Eigen::Vector3f move_point(const Eigen::Vector3f& point, const BoneWeights& weights,
                            const Palette& palette);

@@ -70,12 +70,16 @@ void add_box(Shape& shape, const Vector3f& center, const Vector3f& half, Bone bo
   };
   const BoneWeights weights = all_on(bone);
   std::vector<std::uint32_t> place;
+  // Boxes of few columns have their corners where the rounded edges are: between the sides and the
+  // corners of the box that they round, so that both are missed by as much.
+  const float corner = power(std::cos(kPi / static_cast<float>(columns)));
+  const float wide = 1 / std::sqrt(corner);
   for (int ring = 0; ring <= rings; ++ring) {
     const float up = kPi * (static_cast<float>(ring) / static_cast<float>(rings) - 0.5F);
     for (int column = 0; column <= columns; ++column) {
       const float turn =
           2 * kPi * (static_cast<float>(column) + 0.5F) / static_cast<float>(columns);
-      const float flat = power(std::cos(up));
+      const float flat = wide * power(std::cos(up));
       const Vector3f unit(flat * power(std::cos(turn)), flat * power(std::sin(turn)),
                           power(std::sin(up)));
       const Vector3f normal(std::cos(up) * std::cos(turn) / half.x(),
@@ -146,7 +150,7 @@ struct Site {
 // Straps would sink into the hulls of lower levels in places, and further levels are too coarse for
 // them altogether.
 constexpr int kStrapsUpTo = 1;
-float strap_lift_m(int shape) { return shape == 0 ? 0.009F : 0.02F; }
+float strap_lift_m(int shape) { return shape == 0 ? 0.009F : 0.01F; }
 
 // Points of a strap over the trunk where rays from `origin` leave it.
 void add_outline(const TrunkOutline& trunk, const Vector3f& origin, const Vector3f& direction,
@@ -161,7 +165,9 @@ void add_backpack(Shape& shape, const Site& site) {
   const Vector3f& chest = site.joint(Bone::chest);
   const Vector3f& shoulder = site.joint(Bone::left_upper_arm);
   const float s = std::clamp(site.scale, 0.72F, 1.1F);
-  const Vector3f half(0.085F * s, 0.15F * s, 0.22F * s);
+  // Coarse shapes have no pocket: they end as far behind the pack as before the pocket.
+  const float thick = site.shape < 3 ? 1 : 1.09F;
+  const Vector3f half(thick * 0.085F * s, 0.15F * s, 0.22F * s);
   const float middle = shoulder.z() - 0.03F * s - half.z();
   float back = chest.x();
   for (const float height : {-0.6F, 0.0F, 0.6F}) {
@@ -173,9 +179,10 @@ void add_backpack(Shape& shape, const Site& site) {
   const int columns = site.of_shape({12, 8, 8, 4, 4});
   const int rings = site.of_shape({8, 6, 4, 4, 3});
   add_box(shape, center, half, Bone::chest, rings, columns);
-  if (site.shape == 0) {  // a pocket
+  if (site.shape < 3) {  // a pocket
     add_box(shape, center - Vector3f(0.8F * half.x(), 0, 0.35F * half.z()),
-            Vector3f(0.5F * half.x(), 0.72F * half.y(), 0.45F * half.z()), Bone::chest, 6, 8);
+            Vector3f(0.5F * half.x(), 0.72F * half.y(), 0.45F * half.z()), Bone::chest,
+            site.of_shape({6, 6, 3, 0, 0}), site.of_shape({8, 8, 4, 0, 0}));
   }
   if (site.shape > kStrapsUpTo) return;
   const int steps = site.finer(9);

@@ -11,7 +11,7 @@ struct RenderCost {
   double per_megapixel_s;
   double per_person_s;  ///< in view; people small enough to be far away cost less
 };
-constexpr std::array kRenderCosts = {RenderCost{0.012, 0.000037}, RenderCost{0.051, 0.000076},
+constexpr std::array kRenderCosts = {RenderCost{0.0152, 0.000047}, RenderCost{0.051, 0.000076},
                                      RenderCost{0.345, 0.00086}};
 constexpr double kLensSetupMegapixelS = 2;
 constexpr double kLensMegapixelS = 0.08;

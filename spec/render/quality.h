@@ -27,16 +27,15 @@ struct QualitySettings {
   bool smooth_edges;
   int supersampling;  ///< color samples along each side of a pixel
   double detail;      ///< factor on people's image height in the choice of their levels of detail
-  double proxy_below_px;  ///< image height below which people have their coarsest level
 };
 
 /// Color samples per pixel on a GPU.
 inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
-    {"draft", false, 0, 0, 0, 0, false, false, 1, 0.5, 60},
-    {"standard", true, 1024, 2, 700, 2048, false, true, 1, 1, 0},
-    {"high", true, 2048, 7, 0, 4096, true, false, 2, 2, 0},
+    {"draft", false, 0, 0, 0, 0, false, false, 1, 1},
+    {"standard", true, 1024, 2, 700, 2048, false, true, 1, 1},
+    {"high", true, 2048, 7, 0, 4096, true, false, 2, 2},
 }};
 
 constexpr const QualitySettings& quality_settings(Quality quality) {

@@ -209,7 +209,9 @@ TEST(Exposure, MeasuresAllOfPeopleWhomABorderCuts) {
                                     Eigen::Vector2f(160, 120);
         // What is above or below the image has the time of the nearest row.
         const float y = (*person.keypoints_px)[i].y();
-        if (y >= 0 && y <= 240) EXPECT_LT(off.norm(), kSlackPx) << step;
+        if (y >= 0 && y <= 240) {
+          EXPECT_LT(off.norm(), kSlackPx) << step;
+        }
       }
       cut += image.contains(whole) ? 0 : 1;
     }

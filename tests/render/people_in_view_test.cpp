@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/compute/random.h"
+#include "skinning/levels.h"
 #include "tests/render/stage.h"
 
 namespace throng::render {
@@ -106,7 +107,9 @@ Misfit measure_misfit(const skinning::Population& people, const PersonInstance& 
   Eigen::Array3d above = Eigen::Array3d::Constant(1e9);  // of the nearest vertex to each side
   Eigen::Array3d below = above;
   Misfit misfit;
-  for (const skinning::Mesh& mesh : character.levels) {
+  for (std::size_t level = 0; level < character.levels.size(); ++level) {
+    if (level >= skinning::kDrawnLevels) break;  // casts shadows only
+    const skinning::Mesh& mesh = character.levels[level];
     for (const skinning::Part& part : select_parts(character, mesh, Share::body)) {
       for (std::uint32_t i = 0; i < part.index_count; ++i) {
         const skinning::Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + i]];

@@ -120,8 +120,9 @@ void check_box_is_tight(const Shot& shot, const Person& person, double shutter_p
         in_amodal_limit(shot.image, Eigen::Vector3d(corners.col(i)).hnormalized().array() + 0.5);
   }
   const Box& box = person.amodal;
-  // The box holds finer meshes than the drawn one: those of people who are small in the image may
-  // lose a twentieth of a stature (has_lost_limbs() in skinning/bake/mesh_levels.cpp).
+  // The box holds finer meshes than the drawn one, which ends beside them by up to a pixel
+  // (skinning::extent_slack_m()); those of people who are small in the image may have lost a
+  // twentieth of a stature in older datasets.
   constexpr double kSmallPx = 60;
   const double px_per_m = shot.image.camera_matrix(0, 0) / corners.row(2).minCoeff();
   const double slack_m = box.height < kSmallPx ? 0.09 : 0.05;
