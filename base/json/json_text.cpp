@@ -54,7 +54,8 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
       return fail(fmt::format("a number of {} characters", written.size()),
                   fmt::format("at most {}", limits_.max_number_chars));
     }
-    return add(value) != nullptr;
+    // A zero has no sign, so that it is written alike wherever it comes from.
+    return add(value + 0.0) != nullptr;
   }
   bool string(string_t& value) override { return add(std::move(value)) != nullptr; }
   bool binary(binary_t& value) override { return add(std::move(value)) != nullptr; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -139,6 +140,12 @@ class PlaceCheck {
     std::string record;
   };
 
+  /// Pixels around the ground, and on it.
+  struct Land {
+    std::array<std::size_t, 2> looked_at{};
+    std::array<std::size_t, 2> wrong{};  ///< those of other classes around it, land on it
+    std::array<std::string, 2> files;    ///< of the first wrong ones
+  };
   /// The ground beside a run's markings.
   struct Paint {
     std::size_t looked_at = 0;
@@ -149,12 +156,14 @@ class PlaceCheck {
   };
 
   const Areas& areas_of(const DatasetInfo& info, const std::string& run);
-  static void check_land(const Shot& shot, const Areas& areas, Findings& findings);
+  void look_at_land(const Shot& shot, const Areas& areas);
+  void report_land(Findings& findings) const;
   static void check_doors(const Shot& shot, const Areas& areas, Findings& findings);
   void look_at_tops(const Shot& shot);
   void look_at_paint(const Shot& shot);
   void report_paint(Findings& findings) const;
 
+  std::map<std::string, Land> land_;                            ///< by run
   std::map<std::string, Areas> areas_;                          ///< by run
   std::map<std::pair<std::string, std::uint32_t>, Tops> tops_;  ///< by run and building
   std::map<std::string, Paint> paint_;                          ///< by run

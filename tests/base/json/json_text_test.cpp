@@ -91,6 +91,10 @@ TEST(JsonText, NumbersFitADouble) {
   }
 }
 
+TEST(JsonText, ZeroHasNoSign) {
+  EXPECT_EQ(parse_json("[-0.0]", "job.json").dump(), "[0.0]");
+}
+
 // JSON Schema, draft 6 and later: a number without a fraction is an integer.
 TEST(JsonText, NumbersWithoutAFractionAreIntegers) {
   for (const char* text : {"2", "-7", "2.0", "20e-1", "0.2E1", "-7.0", "9007199254740992.0"}) {
