@@ -169,8 +169,8 @@ TEST(Exposure, MeasuresAllOfPeopleWhomABorderCuts) {
   int cut = 0;
   // The person stands across each of the borders, upright and, with the camera on its side, lying.
   for (const double roll_deg : {0.0, 50.0}) {
-    for (int step = 0; step < 36; ++step) {
-      const double around = 2 * EIGEN_PI * step / 36;
+    for (int step = 0; step < 14; ++step) {
+      const double around = 2 * EIGEN_PI * step / 14;
       const double yaw_deg = 31 * std::cos(around);
       const double pitch_deg = -28 + 27 * std::sin(around);
       const auto flight = [&](bool is_wide) {
@@ -221,7 +221,7 @@ TEST(Exposure, MeasuresAllOfPeopleWhomABorderCuts) {
       cut += image.contains(whole) ? 0 : 1;
     }
   }
-  EXPECT_GT(cut, 20);
+  EXPECT_GT(cut, 16);
 }
 
 TEST(Exposure, BothAtOnceThroughALens) {
