@@ -65,9 +65,9 @@ struct StateChange {
   std::string_view begins;
   std::string_view ends;
 };
-constexpr std::array kChanges = {StateChange{"arrives", "departs"}, StateChange{"lies_down", "gets_up"},
-                                 StateChange{"panic_begins", "panic_ends"},
-                                 StateChange{"following_begins", "following_ends"}};
+constexpr std::array kChanges = {
+    StateChange{"arrives", "departs"}, StateChange{"lies_down", "gets_up"},
+    StateChange{"panic_begins", "panic_ends"}, StateChange{"following_begins", "following_ends"}};
 
 std::optional<std::int64_t> event_track(const RunEvent& event) {
   const auto track = event.record.find("track_id");

@@ -73,7 +73,7 @@ int strips_for(double motion_px, int rows) {
 
 /// How far beside the image people are measured in each strip, because another strip may show them.
 /// Bodies may be much nearer to the camera than the places whose motion is known.
-int margin_of(double motion_px, const camera::Intrinsics& image) {
+int find_margin(double motion_px, const camera::Intrinsics& image) {
   constexpr double kNearer = 4;
   return std::min(static_cast<int>(std::ceil(std::min(kNearer * motion_px, 1e6))), image.width / 2);
 }
@@ -198,7 +198,7 @@ class PeopleInStrips {
     }
   }
 
-  /// Those who reach into the image in some strip.
+  /// People who reach into the image in some strip.
   std::vector<PersonInView> take(const Eigen::AlignedBox2d& image) const {
     std::vector<PersonInView> people;
     for (const auto& [agent, known] : people_) {
@@ -285,7 +285,7 @@ class ObjectsInStrips {
     }
   }
 
-  /// Those that reach into the image in some strip.
+  /// Objects that reach into the image in some strip.
   std::vector<ObjectInView> take(const Eigen::AlignedBox2d& image) const {
     std::vector<ObjectInView> objects;
     for (const auto& [id, known] : objects_) {
@@ -357,7 +357,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
     Frame strip =
         exposed_strip(lens, moment_at, exposure.exposure_s, exposed.gain,
                       {strip_s, exposed.samples, rows, shifted(neighbors, strip_s - time_s),
-                       strips == 1 ? 0 : margin_of(motion_px, camera.intrinsics)});
+                       strips == 1 ? 0 : find_margin(motion_px, camera.intrinsics)});
     if (strips == 1) {
       frame = std::move(strip);
       frame.time_s = time_s;

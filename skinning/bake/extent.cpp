@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 
 // Spread evenly over the sphere (a Fibonacci lattice), some 18 degrees apart, and turned as no
 // other pose's are: poses are alike, so that together they tell about all directions.
-std::vector<Vector3f> directions_of(std::size_t pose) {
+std::vector<Vector3f> spread_directions(std::size_t pose) {
   constexpr int kCount = 120;
   const auto number = static_cast<double>(pose);
   const Eigen::Quaterniond turn =
@@ -59,7 +59,7 @@ std::vector<const Vertex*> opaque_vertices(std::span<const Mesh> meshes) {
   return found;
 }
 
-BoneWeights weights_of(const Vertex& vertex) {
+BoneWeights drawn_weights(const Vertex& vertex) {
   BoneWeights weights{};
   for (std::size_t i = 0; i < vertex.bones.size(); ++i) {
     weights[vertex.bones[i]] += static_cast<float>(vertex.weights[i]) / 255;
@@ -71,7 +71,7 @@ BoneWeights weights_of(const Vertex& vertex) {
 BoneWeights as_drawn(const BoneWeights& weights) {
   Vertex vertex{};
   set_weights(vertex, weights);
-  return weights_of(vertex);
+  return drawn_weights(vertex);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ Extent::Extent(std::span<const Mesh> meshes, std::vector<Palette> poses)
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       points.row(static_cast<Eigen::Index>(i)) = skin(*vertices[i], pose, pose, 0).transpose();
     }
-    const Directions& directions = directions_.emplace_back(directions_of(directions_.size()));
+    const Directions& directions = directions_.emplace_back(spread_directions(directions_.size()));
     std::vector<Reach>& reach = reach_.emplace_back();
     for (const Vector3f& direction : directions) {
       Eigen::Index vertex = 0;
@@ -133,7 +133,7 @@ void Extent::compare(Fit& fit, std::size_t pose, float& max_off_m) const {
     const float off_m = reach.far_m - along(points, direction).maxCoeff(&point);
     max_off_m = std::max(max_off_m, std::abs(off_m));
     if (std::abs(off_m) <= 0.5F * fit.slack_m) continue;
-    // What is missing is where the finer body ends, not where the coarser one does.
+    // The missing part is where the finer body ends, not where the coarser one does.
     if (off_m > 0) point = nearest(points, reach.point);
     const float by_m = reach.far_m - points.row(point).dot(direction.transpose());
     const auto at = static_cast<std::size_t>(point);
@@ -169,7 +169,7 @@ void Extent::replace(Fit& fit) const {
     const Fit::Move& move = fit.moves[i];
     if (move.missing_m <= fit.slack_m) continue;
     (*fit.points)[i] = Vector3f(move.missing->position.data());
-    (*fit.weights)[i] = weights_of(*move.missing);
+    (*fit.weights)[i] = drawn_weights(*move.missing);
     for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
       fit.matrices[pose][i] = mixed(poses_[pose], (*fit.weights)[i]);
     }

@@ -14,8 +14,8 @@ namespace throng::skinning {
 /// How far a mesh reaches, in directions all around, in each of some poses.
 class Extent {
  public:
-  /// `meshes` are the finest ones of one person, `poses` palettes of that person. What is alpha
-  /// tested does not count: most of it is not there.
+  /// `meshes` are the finest ones of one person, `poses` palettes of that person. Parts that are
+  /// alpha tested do not count: most of them is not there.
   Extent(std::span<const Mesh> meshes, std::vector<Palette> poses);
 
   /// Moves points of a coarser surface of the same person (m, in the rest pose, with weights each)

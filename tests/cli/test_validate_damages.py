@@ -81,12 +81,14 @@ HAZARDS_JOB = {
     "outputs": {"annotations": ["coco", "hazards", "hazard_opacity", "depth"]},
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
-# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody.
+# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, nor the states of people who are never
+# seen and walk as the others do.
 NOT_FOUND = {
     "attributes of two people exchanged",
     "field one cell off",
     "flow of exits doubled",
     "picture without somebody",
+    "unseen people in other states",
 }
 # Nobody of this job is in a group, and fewer than a quarter have escaped.
 NOT_POSSIBLE = {"groups moved by one", "escape percentiles 20 percent less"}

@@ -212,7 +212,7 @@ TEST(Exposure, MeasuresAllOfPeopleWhomABorderCuts) {
         const Eigen::Vector2f off = (*person.keypoints_px)[i].head<2>() -
                                     (*wide.people[0].keypoints_px)[i].head<2>() +
                                     Eigen::Vector2f(160, 120);
-        // What is above or below the image has the time of the nearest row.
+        // Keypoints above or below the image have the time of the nearest row.
         const float y = (*person.keypoints_px)[i].y();
         if (y >= 0 && y <= 240) {
           EXPECT_LT(off.norm(), slack_px) << step;

@@ -31,7 +31,7 @@ Directions directions() {
 
 /// Vertices of a body without umbrella; without what is alpha tested, most of which is not there,
 /// where only what surely is there counts.
-std::vector<const Vertex*> body_of(const Character& character, const Mesh& mesh, bool surely) {
+std::vector<const Vertex*> opaque_body(const Character& character, const Mesh& mesh, bool surely) {
   std::vector<char> is_used(mesh.vertices.size(), 0);
   for (const Part& part : mesh.parts) {
     if (is_apart(character, part) || (surely && part.alpha_tested)) continue;
@@ -59,7 +59,7 @@ Eigen::VectorXf reach(const std::vector<const Vertex*>& body, const Palette& pal
 using LevelExtentsTest = BakedPeopleTest;
 
 /// Frames of every motion, those of falls more densely.
-std::vector<std::uint32_t> frames_of(const Population& people) {
+std::vector<std::uint32_t> test_frames(const Population& people) {
   std::vector<std::uint32_t> frames;
   for (const Clip& clip : people.clips) {
     const std::uint32_t step = clip.name.starts_with("fall") ? 3 : 17;
@@ -72,15 +72,15 @@ std::vector<std::uint32_t> frames_of(const Population& people) {
 
 TEST_F(LevelExtentsTest, AreThoseOfTheFinestLevels) {
   const Directions all = directions();
-  const std::vector<std::uint32_t> frames = frames_of(*people_);
+  const std::vector<std::uint32_t> frames = test_frames(*people_);
   ASSERT_GT(frames.size(), 60U);
   std::array<float, kDrawnLevels> max_off_m{};
   for (std::size_t person = 0; person < people_->characters.size(); ++person) {
     const Character& character = people_->characters[person];
-    const auto finest = body_of(character, character.levels[0], true);
+    const auto finest = opaque_body(character, character.levels[0], true);
     std::vector<std::vector<const Vertex*>> bodies;
     for (std::size_t level = 0; level < kDrawnLevels; ++level) {
-      bodies.push_back(body_of(character, character.levels[level], false));
+      bodies.push_back(opaque_body(character, character.levels[level], false));
     }
     std::array<float, kDrawnLevels> off_m{};
     for (std::size_t i = person % 4; i < frames.size(); i += 4) {  // all of them within four people

@@ -168,25 +168,28 @@ std::vector<Moved> all_moves(const Shot& shot, const std::vector<Border>& border
   return moves;
 }
 
-/// Places some pixels away are those where the outlines do not lie on themselves again, as those of
-/// a fence do along it, much more than at most places: there the image has edges, too.
+/// Where outlines lie on themselves again in many places, as those of a fence do along it, the
+/// image has edges there, too: these places do not count among the others.
 Alignment align(const Shot& shot, const std::vector<Border>& borders) {
   constexpr int kAwayPx = 4;
   constexpr double kMuchMore = 0.15;
+  constexpr double kLineShare = 0.18;
   const std::vector<Moved> moves = all_moves(shot, borders);
   double again = 0;
   for (const Moved& moved : moves) again += moved.again / static_cast<double>(moves.size());
+  const auto lies_on_itself = [&](const Moved& moved) {
+    return moved.away() >= kAwayPx && moved.again > again + kMuchMore;
+  };
   Alignment alignment;
+  alignment.is_line =
+      static_cast<double>(std::count_if(moves.begin(), moves.end(), lies_on_itself)) >
+      kLineShare * static_cast<double>(moves.size());
   double sum = 0;
   double squares = 0;
   int count = 0;
-  int along = 0;
   for (const Moved& moved : moves) {
     if (moved.away() <= kNearPx) alignment.here = std::max(alignment.here, moved.mean);
-    if (moved.away() >= kAwayPx && moved.again > again + kMuchMore) {
-      ++along;
-      continue;
-    }
+    if (alignment.is_line && lies_on_itself(moved)) continue;
     if (moved.mean > alignment.best) {
       alignment.best = moved.mean;
       alignment.best_x = moved.dx;
@@ -197,8 +200,6 @@ Alignment align(const Shot& shot, const std::vector<Border>& borders) {
     squares += moved.mean * moved.mean;
     ++count;
   }
-  constexpr double kLineShare = 0.05;
-  alignment.is_line = along > kLineShare * (along + count);
   alignment.others = sum / count;
   alignment.deviation =
       std::sqrt(std::max(0.0, squares / count - alignment.others * alignment.others));

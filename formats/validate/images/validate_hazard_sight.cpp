@@ -1,4 +1,4 @@
-// What a hazard in the open must show: fire, smoke or gas by its kind and age.
+// Checks that a hazard in the open shows fire, smoke or gas by its kind and age.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ std::array<int, 3> max_of_image(const Pixels& pixels) {
 }
 
 /// Least of the greatest opacities, 0 where there may be none.
-struct LeastOpacity {
+struct MinOpacity {
   std::array<int, 3> in_column{};  ///< at the points that look_at() looks at
   std::array<int, 3> in_image{};   ///< if the image shows the surroundings
 };
@@ -97,14 +97,14 @@ struct LeastOpacity {
 /// seven places, smoke from 0.15 to 1, in still air and in wind: fires have 174 or more of 255 in
 /// the column, and from 3 s on smoke and gas have 60 a unit of smoke there; with half or more of
 /// the smoke they have 160 or more in the image from 5 s on.
-LeastOpacity least_opacity(const std::string& kind, double age_s, double smoke) {
+MinOpacity min_opacity(const std::string& kind, double age_s, double smoke) {
   constexpr double kGrownS = 3;  // until then few puffs have risen
   constexpr double kThickS = 5;
   constexpr double kLittleSmoke = 0.15;
   constexpr double kMuchSmoke = 0.5;
   constexpr int kFire = 135;
   constexpr int kThick = 140;
-  LeastOpacity least;
+  MinOpacity least;
   if (age_s < kGrownS) return least;
   const bool is_fire = kind == "fire";
   if (is_fire) least.in_column[0] = smoke < kLittleSmoke ? 1 : kFire;
@@ -164,7 +164,7 @@ void HazardSightCheck::add_pixels(const DatasetInfo& /*info*/, const Image& imag
             kMinRadiusPx) {
       continue;
     }
-    const LeastOpacity least = least_opacity(kind, age_s, smoke);
+    const MinOpacity least = min_opacity(kind, age_s, smoke);
     const bool is_whole = shows_surroundings(pixels, camera, hazard);
     for (std::size_t channel = 0; channel < kMatterNames.size(); ++channel) {
       const bool is_enough = sight.max_opacity.at(channel) >= least.in_column.at(channel) &&

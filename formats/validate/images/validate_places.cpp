@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kClearM = 0.5;  ///< distance from the ground's border that rounded depth permits
 
-SemanticClass class_of(const Pixels& pixels, std::size_t pixel) {
+SemanticClass surface_class(const Pixels& pixels, std::size_t pixel) {
   return static_cast<SemanticClass>(pixels.semantic[pixel]);
 }
 
@@ -74,7 +74,7 @@ void PlaceCheck::look_at_land(const Shot& shot, const Areas& areas) {
           (point.head<2>() - areas.ground.min()).cwiseMin(areas.ground.max() - point.head<2>());
       const bool is_on = away_m == 0 && edge.minCoeff() > off_m;
       if (!is_on && away_m < off_m) continue;
-      const bool is_land = class_of(pixels, pixel) == SemanticClass::terrain;
+      const bool is_land = surface_class(pixels, pixel) == SemanticClass::terrain;
       ++land.looked_at.at(is_on ? 1 : 0);
       if (is_land == is_on && land.wrong.at(is_on ? 1 : 0)++ == 0) {
         land.files.at(is_on ? 1 : 0) = raster_name("semantic", shot.image);
@@ -132,7 +132,7 @@ void PlaceCheck::check_doors(const Shot& shot, const Areas& areas, Findings& fin
         if (std::abs(normal.dot(across)) < kMinFacing) continue;
         ++parts.at(static_cast<std::size_t>(share * kParts));
         ++looked_at;
-        others += class_of(pixels, pixel) == SemanticClass::door ? 0 : 1;
+        others += surface_class(pixels, pixel) == SemanticClass::door ? 0 : 1;
       }
     }
     // Beside a gap only some of the width has a wall, and no door.
@@ -157,7 +157,7 @@ void PlaceCheck::look_at_tops(const Shot& shot) {
     if (!is_building(pixels.ids[pixel]) || upness(pixels, pixel) < kUp) continue;
     Tops& tops = tops_[{shot.image.scenario() + shot.image.run, pixels.ids[pixel]}];
     ++tops.looked_at;
-    if (class_of(pixels, pixel) == SemanticClass::building && tops.facades++ == 0) {
+    if (surface_class(pixels, pixel) == SemanticClass::building && tops.facades++ == 0) {
       tops.file = raster_name("semantic", shot.image);
       tops.record = shot.record();
     }
@@ -171,12 +171,12 @@ void PlaceCheck::look_at_paint(const Shot& shot) {
   for (int y = 0; y < pixels.height; ++y) {
     for (int x = 0; x < pixels.width; ++x) {
       const std::size_t pixel = pixels.at(x, y);
-      if (class_of(pixels, pixel) != SemanticClass::marking) continue;
+      if (surface_class(pixels, pixel) != SemanticClass::marking) continue;
       for (const auto& [dx, dy] : {std::pair(kBesidePx, 0), std::pair(-kBesidePx, 0),
                                    std::pair(0, kBesidePx), std::pair(0, -kBesidePx)}) {
         if (!pixels.holds(x + dx, y + dy)) continue;
         const std::size_t other = pixels.at(x + dx, y + dy);
-        const SemanticClass beside = class_of(pixels, other);
+        const SemanticClass beside = surface_class(pixels, other);
         const bool is_pavement = beside == SemanticClass::pavement;
         if (!is_pavement && beside != SemanticClass::road) continue;
         Paint& paint = paint_[shot.image.run];

@@ -130,7 +130,7 @@ void ActionsCheck::finish(const DatasetInfo& info, Findings& findings) {
   }
 }
 
-/// Those who are together are of one group.
+/// People who are together are of one group.
 void ActionsCheck::check_groups(const CsvTable& table, const std::string& file,
                                 Findings& findings) const {
   constexpr std::size_t kOther = 2;

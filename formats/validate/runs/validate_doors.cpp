@@ -27,7 +27,7 @@ struct DoorState {
 };
 using DoorStates = std::map<std::string, std::vector<DoorState>>;  ///< by exit
 
-/// Of exits/RUN.csv; empty without that table.
+/// Reads exits/RUN.csv; empty without that table.
 DoorStates read_states(const fs::path& root, const std::string& run) {
   DoorStates states;
   const fs::path file = root / annotate::ground_truth_file(annotate::GroundTruth::exits, run);
@@ -117,7 +117,7 @@ std::map<std::int64_t, std::vector<LineCrossing>> read_crossings(const fs::path&
   return crossings;
 }
 
-std::set<std::string> exits_of(const json& figures) {
+std::set<std::string> exit_ids(const json& figures) {
   std::set<std::string> exits;
   for (const json& exit : figures.value("exits", json::array())) exits.insert(exit.value("id", ""));
   return exits;
@@ -174,7 +174,7 @@ void check_escape_exits(const fs::path& root, const std::string& run,
                                                             exits[i].get<std::string>()};
   }
   const auto crossings = read_crossings(root, run);
-  const std::set<std::string> all_exits = exits_of(figures);
+  const std::set<std::string> all_exits = exit_ids(figures);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const json& record = events[i].record;
     if (events[i].type != "escapes" || !record.contains("exit")) continue;

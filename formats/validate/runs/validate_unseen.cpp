@@ -97,7 +97,7 @@ class UnseenRun {
     return is_above_share(unseen_headings.unlike, unseen_headings.looked_at,
                           std::max(kMaxShare, 2 * seen_headings.share()));
   }
-  /// States last: whoever comes into view, or leaves it, has the state that they had.
+  /// States last: people who come into view, or leave it, have the state that they had.
   bool have_other_states() const {
     constexpr double kMaxShare = 0.4;
     return is_above_share(border_states.unlike, border_states.looked_at,

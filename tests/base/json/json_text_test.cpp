@@ -91,9 +91,7 @@ TEST(JsonText, NumbersFitADouble) {
   }
 }
 
-TEST(JsonText, ZeroHasNoSign) {
-  EXPECT_EQ(parse_json("[-0.0]", "job.json").dump(), "[0.0]");
-}
+TEST(JsonText, ZeroHasNoSign) { EXPECT_EQ(parse_json("[-0.0]", "job.json").dump(), "[0.0]"); }
 
 // JSON Schema, draft 6 and later: a number without a fraction is an integer.
 TEST(JsonText, NumbersWithoutAFractionAreIntegers) {

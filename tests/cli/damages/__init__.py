@@ -157,8 +157,7 @@ TABLE = {
         notices_half_a_second_early escapes_called_notices notices_of_others somebody_departs_twice
         event_of_unknown_type unseen_people_2_m_off unseen_people_mirrored somebody_unseen_left_out
         somebody_unseen_absent_for_a_frame unseen_people_in_other_frames unseen_people_look_back
-        unseen_people_in_other_states one_hidden_person_left_out escapes_by_another_exit everybody_male parts_all_head
-        semantic_land_called_pavement semantic_doors_called_facades
+        unseen_people_in_other_states one_hidden_person_left_out everybody_male parts_all_head
         semantic_roofs_and_facades_exchanged semantic_doors_and_facades_exchanged
         semantic_road_and_pavement_exchanged_in_one_image""",
     hazards: """
@@ -171,7 +170,7 @@ TABLE = {
         vehicle_category_exchanged vehicle_track_and_category_exchanged vehicle_tracks_exchanged_in_one_image
         vehicle_mask_moved vehicle_box_3d_1_m_off vehicle_boxes_3d_turned_by_90_degrees vehicle_boxes_3d_twice_as_high
         vehicle_in_motion vehicle_place_jumps vehicle_visibility_is_a_half vehicle_amodal_box_is_5_px_off
-        semantic_walls_called_facades semantic_road_and_pavement_exchanged semantic_grass_and_road_exchanged""",
+        semantic_land_called_pavement semantic_walls_called_facades semantic_road_and_pavement_exchanged semantic_grass_and_road_exchanged""",
 }
 #: Damages that need a dataset with cars, or one in which a disaster has begun.
 OF_VEHICLES = {name.replace("_", " ") for name in TABLE[vehicles].split()}

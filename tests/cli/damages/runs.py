@@ -270,34 +270,11 @@ def one_hidden_person_left_out(d):
 
 
 @damage
-def escapes_by_another_exit(d):
-    def change(events):
-        exits = sorted({e["exit"] for e in events if "exit" in e})
-        assert len(exits) > 1, "one exit"
-        for event in events:
-            if event["type"] == "escapes":
-                event["exit"] = exits[(exits.index(event["exit"]) + 1) % len(exits)]
-        return events
-
-    change_events(d, change)
-
-
-@damage
 def everybody_male(d):
     for track in d.coco["tracks"]:
         if "attributes" in track:
             track["attributes"]["sex"] = "male"
     d.save_coco()
-
-
-@damage
-def semantic_land_called_pavement(d):
-    change_class(d, TERRAIN, PAVEMENT)
-
-
-@damage
-def semantic_doors_called_facades(d):
-    change_class(d, DOOR, BUILDING)
 
 
 @damage

@@ -2,7 +2,7 @@
 import numpy
 
 from .dataset import damage
-from .runs import BUILDING, GRASS, PAVEMENT, ROAD, WALL, change_class, exchange_classes
+from .runs import BUILDING, GRASS, PAVEMENT, ROAD, TERRAIN, WALL, change_class, exchange_classes
 from .rasters import mask_of, segmentation_of
 from .shapes import shifted
 
@@ -131,6 +131,11 @@ def vehicle_visibility_is_a_half(d):
 def vehicle_amodal_box_is_5_px_off(d):
     largest(d)["bbox_amodal"][0] -= 5
     d.save_coco()
+
+
+@damage
+def semantic_land_called_pavement(d):
+    change_class(d, TERRAIN, PAVEMENT)
 
 
 @damage
