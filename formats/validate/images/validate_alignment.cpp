@@ -168,8 +168,8 @@ std::vector<Moved> all_moves(const Shot& shot, const std::vector<Border>& border
   return moves;
 }
 
-/// Where outlines lie on themselves again in many places, as those of a fence do along it, the
-/// image has edges there, too: these places do not count among the others.
+/// Outlines may lie on themselves again in many places, as those of a fence do along it. The image
+/// has edges there, too, so that these places do not count among the others.
 Alignment align(const Shot& shot, const std::vector<Border>& borders) {
   constexpr int kAwayPx = 4;
   constexpr double kMuchMore = 0.15;
