@@ -18,21 +18,22 @@ using nlohmann::json;
 
 namespace {
 
-void check_contrast(const Shot& shot, const Person& person, const json& difficulty,
+/// Whether both contrasts are the image's.
+bool check_contrast(const Shot& shot, const Person& person, const json& difficulty,
                     Findings& findings) {
-  if (shot.pixels.rgb.empty() || !shot.has_current_labels) return;
+  if (shot.pixels.rgb.empty() || !shot.has_current_labels) return true;
   const annotate::Contrast seen =
       annotate::measure_contrast({shot.pixels.width, shot.pixels.height, shot.pixels.rgb},
                                  to_pixel_mask(shot.instance_mask(person)));
   const auto compare = [&](const char* key, double expected) {
     constexpr double kRounding = 0.1;  // of the records, to one digit, and of sums
     const double found = difficulty.at(key).get<double>();
-    if (std::abs(found - expected) <= kRounding) return;
+    if (std::abs(found - expected) <= kRounding) return true;
     findings.add("difficulty", person,
                  fmt::format("{} {}, but the image has {:.1f}", key, found, expected));
+    return false;
   };
-  compare("contrast", seen.region);
-  compare("edge_contrast", seen.edge);
+  return compare("contrast", seen.region) && compare("edge_contrast", seen.edge);
 }
 
 /// How far the middle of a body moves in the image during the exposure, but for the camera's turn.
@@ -133,6 +134,8 @@ void check_occluders(const Shot& shot, const Person& person, const json& occlude
 }  // namespace
 
 void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findings) {
+  // Nobody has the contrasts of another image: one finding says so, and leaves room for others.
+  bool are_contrasts_right = true;
   for (const Person& person : shot.image.people) {
     for (const auto& [kind, key] : {std::pair(GroundTruth::difficulty, "difficulty"),
                                     std::pair(GroundTruth::occluders, "occluded_by")}) {
@@ -140,7 +143,7 @@ void check_difficulty(const DatasetInfo& info, const Shot& shot, Findings& findi
       findings.add("schema", person, fmt::format("{} is missing, or not of this job", key));
     }
     if (const auto found = person.record.find("difficulty"); found != person.record.end()) {
-      check_contrast(shot, person, *found, findings);
+      are_contrasts_right = are_contrasts_right && check_contrast(shot, person, *found, findings);
       check_blur(shot, person, found->at("blur_px").get<double>(), findings);
       check_visible_keypoints(person, found->at("visible_keypoints").get<int>(), findings);
     }
