@@ -82,9 +82,10 @@ HAZARDS_JOB = {
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
 # taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, nor the states of people who are never
-# seen and walk as the others do.
+# seen and walk as the others do, nor who is a woman where nobody wears what women wear.
 NOT_FOUND = {
     "attributes of two people exchanged",
+    "everybody male",
     "field one cell off",
     "flow of exits doubled",
     "picture without somebody",
@@ -97,7 +98,7 @@ NOT_POSSIBLE = {"groups moved by one", "escape percentiles 20 percent less"}
 ONE_PER_RULE = {
     "actions": "two motions at once",
     "area-is-mask": "amodal masks moved",
-    "attributes": "attributes of two people exchanged",
+    "attributes": "sex of one person",
     "bones": "elbows and wrists of one person exchanged",
     "box-3d": "all places 50 cm higher",
     "box-is-mask-bounds": "boxes 2 px to the right",

@@ -268,12 +268,15 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
   }
 }
 
-/// Most of those who wear what women wear are female. A library of a user's own may have others.
+/// Most characters who wear women's clothes are female, and so are some where anybody wears them. A
+/// user's own library may have a few others.
 void ConstancyCheck::check_sexes(Findings& findings) const {
   constexpr std::array kOfWomen = {"dress", "skirt", "straight skirt", "blouse"};
   std::size_t wearers = 0;
   std::size_t males = 0;
+  bool has_females = false;
   for (const auto& [character, known] : characters_) {
+    has_females = has_females || known.second.value("sex", "") == "female";
     const json clothes = known.second.value("clothes", json::array());
     const bool wears = std::any_of(clothes.begin(), clothes.end(), [&](const json& clothing) {
       return std::find(kOfWomen.begin(), kOfWomen.end(), clothing.value("type", "")) !=
@@ -284,7 +287,10 @@ void ConstancyCheck::check_sexes(Findings& findings) const {
     males += known.second.value("sex", "") == "male" ? 1 : 0;
   }
   constexpr std::size_t kMinWearers = 3;
-  if (wearers < kMinWearers || 2 * males <= wearers) return;
+  constexpr std::size_t kMinCharacters = 6;
+  const bool are_mostly_male = wearers >= kMinWearers && 2 * males > wearers;
+  const bool are_all_male = males > 0 && !has_females && characters_.size() >= kMinCharacters;
+  if (!are_mostly_male && !are_all_male) return;
   findings.add("attributes", kCocoFile, "tracks",
                fmt::format("sex is male of {} of {} characters who wear dresses, skirts or blouses",
                            males, wearers));

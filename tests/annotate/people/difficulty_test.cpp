@@ -151,6 +151,7 @@ TEST_F(DeliveredImage, IsTheOneThatContrastsAreMeasuredIn) {
   for (std::size_t i = 0; i < frame_.id.size(); ++i) {
     if (frame_.id[i] == render::id_of_agent(0)) std::fill_n(rgb.begin() + 3 * i, 3, 0);
   }
+  frame_.depth_m.assign(frame_.id.size(), 10);
   FrameLabels labels = label_people(frame_);
   add_difficulty(frame_, {frame_.width(), frame_.height(), rgb}, labels);
   EXPECT_NEAR(labels.people.at(0).difficulty->contrast, 100, 0.1) << "black on white";
