@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace throng::skinning {
 
@@ -198,11 +199,11 @@ float Extent::restore(std::vector<Vector3f>& points, std::vector<BoneWeights>& w
     float best_round_m = std::numeric_limits<float>::infinity();
     for (int round = 0; round < kRounds && best_round_m > 0.9F * slack_m; ++round) {
       const float done = static_cast<float>(search * kRounds + round) / (kSearches * kRounds);
-      const std::vector<Vector3f> before = points;
+      std::vector<Vector3f> before = points;
       const float off_m = move(fit, 0.7F - 0.6F * done);
       if (off_m < best_round_m) {
         best_round_m = off_m;
-        best_round = before;
+        best_round = std::move(before);
       }
     }
     points = best_round;
