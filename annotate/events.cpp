@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -44,12 +46,15 @@ class EventList {
       : trace_(trace), scenario_(scenario), run_(run) {}
 
   std::vector<Event> all() {
+    const std::vector<metrics::PersonRecord> people =
+        metrics::person_records(trace_, scenario_, world::find_alarm(scenario_));
+    for (const metrics::PersonRecord& person : people) {
+      if (person.left_by) exits_used_[person.agent] = scenario_.exits.at(*person.left_by).id;
+    }
     for (const world::TraceEvent& event : trace_.events) {
       time_s_ = event.time_s;
       std::visit([&](const auto& kind) { add(world::to_string(event.kind), kind); }, event.kind);
     }
-    const std::vector<metrics::PersonRecord> people =
-        metrics::person_records(trace_, scenario_, world::find_alarm(scenario_));
     for (const metrics::PersonRecord& person : people) {
       if (!person.noticed_s) continue;
       time_s_ = *person.noticed_s;
@@ -134,8 +139,12 @@ class EventList {
     return record;
   }
 
+  /// Escapes have the exit that was used; people who turn back head for another one at that time.
   void add(std::string_view /*type*/, const world::AgentEscaped& event) {
-    put_exit(event.exit, add_person("escapes", event.agent));
+    ordered_json& record = add_person("escapes", event.agent);
+    const auto used = exits_used_.find(static_cast<std::size_t>(event.agent));
+    if (used == exits_used_.end()) return put_exit(event.exit, record);
+    record["exit"] = used->second;
   }
   void add(std::string_view /*type*/, const world::ExitClosed& event) {
     put_exit(event.exit, add_record("exit_closes"));
@@ -224,7 +233,8 @@ class EventList {
   const world::Trace& trace_;
   const world::Scenario& scenario_;
   int run_;
-  double time_s_ = 0;  ///< of the event in the making
+  std::map<std::size_t, std::string> exits_used_;  ///< by agent
+  double time_s_ = 0;                              ///< of the event in the making
   std::vector<Event> events_;
 };
 

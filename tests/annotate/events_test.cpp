@@ -97,5 +97,29 @@ TEST(Events, HavePersonDronePlaceAndValues) {
   EXPECT_EQ(events[8].at("position"), json::parse("[-3.0, 3.0]")) << "where the person was last";
 }
 
+TEST(Events, EscapesHaveTheExitThatWasUsed) {
+  world::Trace trace = eventful_trace();
+  trace.header.exit_ids = {"north", "east"};
+  trace.events = {{1.5, world::AgentEscaped{1, 0}}};  // heads for the north, but has gone east
+  world::Scenario scenario;
+  scenario.inside = {{-50, -50}, {2.6, 50}};
+  scenario.exits.resize(2);
+  scenario.exits[0].id = "north";
+  scenario.exits[0].from = {-2, 40};
+  scenario.exits[0].to = {2, 40};
+  scenario.exits[0].outward = {0, 1};
+  scenario.exits[1].id = "east";
+  scenario.exits[1].from = {2.5, 0};
+  scenario.exits[1].to = {2.5, 4};
+  scenario.exits[1].outward = {1, 0};
+  std::istringstream lines(events_jsonl(trace, scenario, 3, std::vector<double>{}));
+  std::string exit;
+  for (std::string line; std::getline(lines, line);) {
+    const json event = json::parse(line);
+    if (event.at("type") == "escapes") exit = event.at("exit");
+  }
+  EXPECT_EQ(exit, "east");
+}
+
 }  // namespace
 }  // namespace throng::annotate
