@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
+#include <utility>
 
 #include "base/files/files.h"
+#include "formats/dataset/instances.h"
+#include "formats/validate/ground_truth_checks.h"
+#include "formats/validate/pixels.h"
 #include "formats/validate/run_checks.h"
 #include "spec/annotate/table_columns.h"
 #include "tests/formats/hand_made.h"
