@@ -56,6 +56,18 @@ class SkeletonCheck {
     }
   }
 
+  /// Whether a place is so near to where the lens's model ends that its rounding decides.
+  bool is_at_domain_border(const Eigen::Vector3d& place) const {
+    constexpr double kRoundingM = 0.002;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double off_m : {-kRoundingM, kRoundingM}) {
+        const Eigen::Vector3d beside = place + off_m * Eigen::Vector3d::Unit(axis);
+        if (!shot_.camera.project(beside).visible) return true;
+      }
+    }
+    return false;
+  }
+
   /// Joints in the image are where the camera sees those in the world.
   void check_places() const {
     if (!shot_.at_once) return;
@@ -63,7 +75,7 @@ class SkeletonCheck {
       const auto seen = shot_.camera.project(in_world_[i]);
       const Eigen::Vector2d expected = seen.pixel.array() + 0.5;
       constexpr double kNearM = 0.3;
-      if (!seen.visible || seen.depth_m < kNearM) continue;
+      if (!seen.visible || seen.depth_m < kNearM || is_at_domain_border(in_world_[i])) continue;
       // Places in the world are rounded to millimeters.
       const double slack_px =
           0.02 + 0.002 * shot_.camera.intrinsics.fx_px / seen.depth_m * (shot_.is_plain ? 1 : 2);
