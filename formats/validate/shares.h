@@ -19,4 +19,17 @@ inline bool is_above_share(std::size_t wrong, std::size_t looked_at, double max_
   return static_cast<double>(wrong) > max_share * count + kSigmas * deviation;
 }
 
+/// Counts of samples, and of the wrong ones among them.
+struct WrongTally {
+  std::size_t looked_at = 0;
+  std::size_t wrong = 0;
+  void add(bool is_wrong) {
+    ++looked_at;
+    wrong += is_wrong ? 1 : 0;
+  }
+  double share() const {
+    return looked_at == 0 ? 0 : static_cast<double>(wrong) / static_cast<double>(looked_at);
+  }
+};
+
 }  // namespace throng::formats

@@ -76,6 +76,39 @@ TEST(PlaceRules, TopsAreNoFacades) {
                        "of building 3 that face up are a facade"));
 }
 
+/// Faults where a wall 20 m ahead, with an exit of 16 m in it, has this class; `width_m` of it is
+/// there.
+std::vector<std::string> wall_faults(SemanticClass surface, double width_m = 40) {
+  const throng::testing::TemporaryFolder folder;
+  DatasetInfo info = hand_made::info(folder.path());
+  info.annotations.emplace_back("counts");
+  write_file_atomically(folder.path() / "counts/run002.json",
+                        json{{"zones", json::array()},
+                             {"lines", {{{"id", "north"}, {"start", {-8, 20}}, {"end", {8, 20}}}}}}
+                            .dump());
+  Shot shot;
+  shot.image = hand_made::image();
+  shot.camera = image_camera(shot.image);
+  Pixels& pixels = shot.pixels;
+  pixels.width = hand_made::kWidth;
+  pixels.height = hand_made::kHeight;
+  for (std::size_t i = 0; i < pixels.count(); ++i) {
+    const double x_m = (static_cast<double>(i % hand_made::kWidth) - 49.5) / 50 * 20;
+    const bool is_wall = std::abs(x_m) < width_m / 2;
+    pixels.ids.push_back(is_wall ? kFirstBuilding : 0);
+    pixels.depth_cm.push_back(is_wall ? 2000 : 0);
+    for (const std::uint16_t n : {128, 1, 128}) pixels.normals.push_back(n);
+    pixels.semantic.push_back(static_cast<std::uint16_t>(surface));
+  }
+  return found_by([&](Findings& findings) { PlaceCheck().add(info, shot, findings); });
+}
+
+TEST(PlaceRules, WallsWithAnExitAreItsDoor) {
+  EXPECT_THAT(wall_faults(SemanticClass::door), IsEmpty());
+  EXPECT_TRUE(any_with(wall_faults(SemanticClass::building), "exit north lies in are no door"));
+  EXPECT_THAT(wall_faults(SemanticClass::building, 10), IsEmpty()) << "beside a gap";
+}
+
 /// Rows of exits/run000.csv, one a second, in which the exit closes at 3 s.
 constexpr const char* kStates =
     "time_s,exit,state\n1,north,idle\n2,north,flowing\n3,north,closed\n4,north,closed\n"

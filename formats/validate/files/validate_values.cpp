@@ -52,10 +52,6 @@ void check_samples(const char* kind, const Image& image, const Pixels& pixels,
                fmt::format("{} pixels {}", wrong, what));
 }
 
-}  // namespace
-
-namespace {
-
 /// A body that is whole and not small shows several parts.
 void check_several_parts(const Image& image, const Pixels& pixels, Findings& findings) {
   constexpr std::size_t kParts = 10;

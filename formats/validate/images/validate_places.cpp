@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "base/compute/quantile.h"
 #include "base/files/files.h"
@@ -98,58 +100,82 @@ void PlaceCheck::report_land(Findings& findings) const {
   }
 }
 
+namespace {
+
+/// The wall that an exit lies in, as an image shows it.
+struct ExitWall {
+  static constexpr std::size_t kParts = 10;
+  std::string exit;
+  Vector2d from = Vector2d::Zero();
+  Vector2d along = Vector2d::Zero();  ///< of length 1
+  double length_m = 0;
+  std::array<std::size_t, kParts> parts{};  ///< pixels by their place along the exit
+  WrongTally no_door;
+
+  void add(const Vector3d& point, const Vector2d& normal, bool is_door) {
+    constexpr double kOffM = 0.45;
+    constexpr double kMinFacing = 0.98;  // sides of a passage stand across the exit
+    const Vector2d across(-along.y(), along.x());
+    const Vector2d off = point.head<2>() - from;
+    const double share = off.dot(along) / length_m;
+    if (!(share > 0.1 && share < 0.9) || std::abs(off.dot(across)) > kOffM ||
+        std::abs(normal.dot(across)) < kMinFacing) {
+      return;
+    }
+    ++parts.at(static_cast<std::size_t>(share * kParts));
+    no_door.add(!is_door);
+  }
+  /// Whether the wall is there along the whole width, but for the ends: beside a gap only some of
+  /// the width has a wall, and no door.
+  bool is_whole() const {
+    return std::all_of(parts.begin() + 1, parts.end() - 1,
+                       [](std::size_t count) { return count > 0; });
+  }
+};
+
+}  // namespace
+
 /// A wall that an exit lies in along its width has the exit's door there, and nothing else.
 void PlaceCheck::check_doors(const Shot& shot, const Areas& areas, Findings& findings) {
-  const Pixels& pixels = shot.pixels;
+  std::vector<ExitWall> walls;
   for (const auto& [id, line] : areas.exits) {
     const double length_m = (line.second - line.first).norm();
     if (!(length_m > 0)) continue;
-    const Vector2d along = (line.second - line.first) / length_m;
-    const Vector2d across(-along.y(), along.x());
-    constexpr std::size_t kParts = 10;
-    std::array<std::size_t, kParts> parts{};
-    std::size_t looked_at = 0;
-    std::size_t others = 0;
-    for (int y = 0; y < pixels.height; ++y) {
-      for (int x = 0; x < pixels.width; ++x) {
-        const std::size_t pixel = pixels.at(x, y);
-        if (!is_building(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0) continue;
-        const Vector3d point = shot.point_at(x, y, pixels.depth_m(pixel));
-        constexpr double kLowM = 0.3;
-        constexpr double kHighM = 2;
-        constexpr double kOffM = 0.45;
-        constexpr double kUpright = 0.2;
-        const Vector2d off = point.head<2>() - line.first;
-        const double share = off.dot(along) / length_m;
-        if (!(share > 0.1 && share < 0.9) || std::abs(off.dot(across)) > kOffM ||
-            point.z() < kLowM || point.z() > kHighM || std::abs(upness(pixels, pixel)) > kUpright) {
-          continue;
-        }
-        // Sides of a passage stand across the exit.
-        const Vector2d normal(pixels.normals[3 * pixel] - 128.0,
-                              pixels.normals[3 * pixel + 1] - 128.0);
-        constexpr double kMinFacing = 0.98 * 127;
-        if (std::abs(normal.dot(across)) < kMinFacing) continue;
-        ++parts.at(static_cast<std::size_t>(share * kParts));
-        ++looked_at;
-        others += surface_class(pixels, pixel) == SemanticClass::door ? 0 : 1;
+    walls.push_back({id, line.first, (line.second - line.first) / length_m, length_m, {}, {}});
+  }
+  const Pixels& pixels = shot.pixels;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      constexpr double kLowM = 0.3;
+      constexpr double kHighM = 2;
+      constexpr double kUpright = 0.2;
+      const std::size_t pixel = pixels.at(x, y);
+      if (!is_building(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0 ||
+          std::abs(upness(pixels, pixel)) > kUpright) {
+        continue;
+      }
+      const Vector3d point = shot.point_at(x, y, pixels.depth_m(pixel));
+      if (!(point.z() > kLowM && point.z() < kHighM)) continue;
+      const Vector2d normal(pixels.normals[3 * pixel] - 128.0,
+                            pixels.normals[3 * pixel + 1] - 128.0);
+      for (ExitWall& wall : walls) {
+        wall.add(point, normal / 127, surface_class(pixels, pixel) == SemanticClass::door);
       }
     }
-    // Beside a gap only some of the width has a wall, and no door.
-    const auto covered = std::count_if(parts.begin() + 1, parts.end() - 1,
-                                       [](std::size_t count) { return count > 0; });
+  }
+  for (const ExitWall& wall : walls) {
     constexpr double kMaxShare = 0.3;
-    if (covered < static_cast<std::ptrdiff_t>(kParts) - 2 ||
-        !is_above_share(others, looked_at, kMaxShare)) {
+    if (!wall.is_whole() ||
+        !is_above_share(wall.no_door.wrong, wall.no_door.looked_at, kMaxShare)) {
       continue;
     }
     findings.add("semantic", raster_name("semantic", shot.image), shot.record(),
-                 fmt::format("{} of {} pixels of the wall that exit {} lies in are no door", others,
-                             looked_at, id));
+                 fmt::format("{} of {} pixels of the wall that exit {} lies in are no door",
+                             wall.no_door.wrong, wall.no_door.looked_at, wall.exit));
   }
 }
 
-/// Counts what faces up of each building.
+/// Counts the pixels of each building that face up.
 void PlaceCheck::look_at_tops(const Shot& shot) {
   const Pixels& pixels = shot.pixels;
   for (std::size_t pixel = 0; pixel < pixels.count(); ++pixel) {

@@ -18,16 +18,6 @@ namespace {
 
 using world::SemanticClass;
 
-/// Pixels of a class, and those of them that are not as it is.
-struct SurfaceTally {
-  std::size_t looked_at = 0;
-  std::size_t wrong = 0;
-  void add(bool is_wrong) {
-    ++looked_at;
-    wrong += is_wrong ? 1 : 0;
-  }
-};
-
 /// Sums of linear color, for a mean.
 struct ColorSum {
   std::array<double, 3> sum{};
@@ -106,7 +96,7 @@ class SurfaceCheck {
     }
   }
 
-  void report(const SurfaceTally& tally, double max_share, const char* what) const {
+  void report(const WrongTally& tally, double max_share, const char* what) const {
     if (!is_above_share(tally.wrong, tally.looked_at, max_share)) return;
     fault(fmt::format("{} of {} pixels {}", tally.wrong, tally.looked_at, what));
   }
@@ -118,9 +108,9 @@ class SurfaceCheck {
   const Shot& shot_;
   Findings& findings_;
   double visibility_m_;
-  SurfaceTally roofs_;
-  SurfaceTally doors_;
-  SurfaceTally facades_;
+  WrongTally roofs_;
+  WrongTally doors_;
+  WrongTally facades_;
   ColorSum grass_;
   ColorSum paved_;
 };

@@ -19,21 +19,8 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kNeighborFramesS =
-    1.1;  ///< frames farther apart say little about headings and states
-
-/// Counts of samples and of those among them that are unlike the others.
-struct UnlikeTally {
-  std::size_t looked_at = 0;
-  std::size_t unlike = 0;
-  void add(bool is_unlike) {
-    ++looked_at;
-    unlike += is_unlike ? 1 : 0;
-  }
-  double share() const {
-    return looked_at == 0 ? 0 : static_cast<double>(unlike) / static_cast<double>(looked_at);
-  }
-};
+/// Frames farther apart say little about headings and states.
+constexpr double kNeighborFramesS = 1.1;
 
 /// Whether the ground at a place is inside of the image, by so much that a body there reaches into
 /// it whatever its pose.
@@ -94,13 +81,13 @@ class UnseenRun {
   /// People who walk look where they go, seen or not.
   bool have_other_headings() const {
     constexpr double kMaxShare = 0.2;
-    return is_above_share(unseen_headings.unlike, unseen_headings.looked_at,
+    return is_above_share(unseen_headings.wrong, unseen_headings.looked_at,
                           std::max(kMaxShare, 2 * seen_headings.share()));
   }
   /// States last: people who come into view, or leave it, have the state that they had.
   bool have_other_states() const {
     constexpr double kMaxShare = 0.4;
-    return is_above_share(border_states.unlike, border_states.looked_at,
+    return is_above_share(border_states.wrong, border_states.looked_at,
                           std::max(kMaxShare, 2 * seen_states.share()), 1);
   }
 
@@ -122,10 +109,10 @@ class UnseenRun {
     return "";
   }
 
-  UnlikeTally seen_headings;
-  UnlikeTally unseen_headings;
-  UnlikeTally seen_states;
-  UnlikeTally border_states;  ///< of people who are seen in one of two frames
+  WrongTally seen_headings;
+  WrongTally unseen_headings;
+  WrongTally seen_states;
+  WrongTally border_states;  ///< of people who are seen in one of two frames
 
  private:
   bool is_seen(std::size_t frame, std::size_t person) const {
@@ -159,8 +146,8 @@ class UnseenRun {
 
   const RunTrajectories& recorded_;
   const std::map<std::int64_t, UnseenCheck::Frame>& frames_;
-  std::map<float, UnlikeTally> seen_motion_;  ///< who stands, by state
-  std::map<float, UnlikeTally> unseen_motion_;
+  std::map<float, WrongTally> seen_motion_;  ///< share of people who stand, by state
+  std::map<float, WrongTally> unseen_motion_;
 };
 
 }  // namespace
@@ -190,7 +177,7 @@ void UnseenCheck::finish(const DatasetInfo& info, Findings& findings) {
         findings.add("trajectories", file, "",
                      fmt::format("{} of {} headings of people who walk unseen are not where they "
                                  "go",
-                                 run.unseen_headings.unlike, run.unseen_headings.looked_at));
+                                 run.unseen_headings.wrong, run.unseen_headings.looked_at));
       }
       if (const std::string state = run.state_of_other_motion(); !state.empty()) {
         findings.add("trajectories", file, "",
@@ -200,8 +187,8 @@ void UnseenCheck::finish(const DatasetInfo& info, Findings& findings) {
         findings.add("trajectories", file, "",
                      fmt::format("{} of {} states change where people come into view or leave it, "
                                  "{} of {} while they are seen",
-                                 run.border_states.unlike, run.border_states.looked_at,
-                                 run.seen_states.unlike, run.seen_states.looked_at));
+                                 run.border_states.wrong, run.border_states.looked_at,
+                                 run.seen_states.wrong, run.seen_states.looked_at));
       }
     } catch (const std::exception&) {
       // TrajectoriesCheck reports a file that cannot be read.
