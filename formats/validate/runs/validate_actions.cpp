@@ -26,13 +26,6 @@ constexpr std::array kOthers = {"look_around", "use_phone", "look_at_drone", "pa
 /// The table has steps of the crowd, and a pose between two of them may be of the next motion.
 constexpr double kActionStepS = 0.25;
 
-/// The exposure of a run's first image is about its time, with which the table begins.
-bool begins_before_table(const Image& image) {
-  const json sensor = image.record.value("sensor", json::object());
-  return image.frame == 0 &&
-         (sensor.value("exposure_s", 0.0) > 0 || sensor.value("readout_s", 0.0) > 0);
-}
-
 template <typename Names>
 bool is_among(const std::string& name, const Names& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -52,7 +45,6 @@ void ActionsCheck::add(const DatasetInfo& info, const Image& image, Findings& fi
     if (found == person.record.end()) continue;
     check_names(person, *found, findings);
     check_together(person, by_track, findings);
-    if (begins_before_table(image)) continue;
     seen_[image.run].push_back(
         {person.id, person.track_id, image.time_s, found->get<std::set<std::string>>()});
   }

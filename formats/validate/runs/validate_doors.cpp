@@ -89,29 +89,24 @@ void check_time_in_state(const json& figures, const json& exit, const Closures& 
                      closed_s, expected_s));
 }
 
-struct LineCrossing {
-  double time_s = 0;  ///< of the frame after it
-  std::string line;
-};
+/// Lines that each track crosses outward, in order of time.
+using Crossings = std::map<std::int64_t, std::vector<std::string>>;
 
-/// Everybody's crossings of lines outward in counts/RUN.csv, by track and time; empty without that
-/// file.
-std::map<std::int64_t, std::vector<LineCrossing>> read_crossings(const fs::path& root,
-                                                                 const std::string& run) {
-  std::map<std::int64_t, std::vector<LineCrossing>> crossings;
+/// Reads counts/RUN.csv; empty without that file.
+Crossings read_crossings(const fs::path& root, const std::string& run) {
+  Crossings crossings;
   const fs::path file = root / annotate::ground_truth_file(annotate::GroundTruth::counts, run);
   if (!fs::is_regular_file(file)) return crossings;
   const CsvTable table = read_csv(file);
-  const std::size_t time = table.find("time_s");
   const std::size_t kind = table.find("kind");
   const std::size_t id = table.find("id");
   const std::size_t left = table.find("left");
-  if (std::max({time, kind, id, left}) >= table.columns.size()) return crossings;
+  if (std::max({kind, id, left}) >= table.columns.size()) return crossings;
   for (const std::vector<std::string>& row : table.rows) {
     if (row[kind] != "line") continue;
     std::istringstream tracks(row[left]);
     for (std::int64_t track = 0; tracks >> track;) {
-      crossings[track].push_back({parse_number(row[time]), row[id]});
+      crossings[track].push_back(row[id]);
     }
   }
   return crossings;
@@ -125,15 +120,14 @@ std::set<std::string> exit_ids(const json& figures) {
 
 /// Another exit whose line somebody crossed outward, who never crossed that of `exit`; "" if there
 /// is none. Lines that the job adds are no exits.
-std::string crossed_instead(const std::map<std::int64_t, std::vector<LineCrossing>>& crossings,
-                            const std::set<std::string>& exits, std::int64_t track,
-                            const std::string& exit) {
+std::string crossed_instead(const Crossings& crossings, const std::set<std::string>& exits,
+                            std::int64_t track, const std::string& exit) {
   const auto own = crossings.find(track);
   std::string other;
   if (own == crossings.end()) return other;
-  for (const LineCrossing& crossing : own->second) {
-    if (crossing.line == exit) return "";
-    if (exits.contains(crossing.line)) other = crossing.line;
+  for (const std::string& line : own->second) {
+    if (line == exit) return "";
+    if (exits.contains(line)) other = line;
   }
   return other;
 }
