@@ -81,8 +81,8 @@ HAZARDS_JOB = {
     "outputs": {"annotations": ["coco", "hazards", "hazard_opacity", "depth"]},
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
-# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, nor the states of people who are never
-# seen and walk as the others do, nor who is a woman where nobody wears what women wear.
+# taken over 4 s, and these images span 2 s. Nothing tells the ground behind a person who is painted over, nor the states of people who are never
+# seen and walk as the others do, nor the sex of people where nobody wears women's clothes.
 NOT_FOUND = {
     "attributes of two people exchanged",
     "everybody male",
