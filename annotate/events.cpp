@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -48,17 +47,20 @@ class EventList {
   std::vector<Event> all() {
     const std::vector<metrics::PersonRecord> people =
         metrics::person_records(trace_, scenario_, world::find_alarm(scenario_));
-    for (const metrics::PersonRecord& person : people) {
-      if (person.left_by) exits_used_[person.agent] = scenario_.exits.at(*person.left_by).id;
-    }
     for (const world::TraceEvent& event : trace_.events) {
       time_s_ = event.time_s;
       std::visit([&](const auto& kind) { add(world::to_string(event.kind), kind); }, event.kind);
     }
     for (const metrics::PersonRecord& person : people) {
-      if (!person.noticed_s) continue;
-      time_s_ = *person.noticed_s;
-      add_person("notices", static_cast<std::int32_t>(person.agent));
+      const auto agent = static_cast<std::int32_t>(person.agent);
+      if (person.noticed_s) {
+        time_s_ = *person.noticed_s;
+        add_person("notices", agent);
+      }
+      if (!person.escaped_s) continue;
+      time_s_ = *person.escaped_s;
+      ordered_json& record = add_person("escapes", agent);
+      if (person.left_by) record["exit"] = scenario_.exits.at(*person.left_by).id;
     }
     for (std::size_t agent = 0; agent < trace_.agents(); ++agent) {
       const world::AgentRole role = trace_.header.role[agent];
@@ -139,13 +141,8 @@ class EventList {
     return record;
   }
 
-  /// Escapes have the exit that was used; people who turn back head for another one at that time.
-  void add(std::string_view /*type*/, const world::AgentEscaped& event) {
-    ordered_json& record = add_person("escapes", event.agent);
-    const auto used = exits_used_.find(static_cast<std::size_t>(event.agent));
-    if (used == exits_used_.end()) return put_exit(event.exit, record);
-    record["exit"] = used->second;
-  }
+  /// Not an escape: it is also the event of people who come back or were never in the place.
+  void add(std::string_view /*type*/, const world::AgentEscaped& /*event*/) {}
   void add(std::string_view /*type*/, const world::ExitClosed& event) {
     put_exit(event.exit, add_record("exit_closes"));
   }
@@ -233,8 +230,7 @@ class EventList {
   const world::Trace& trace_;
   const world::Scenario& scenario_;
   int run_;
-  std::map<std::size_t, std::string> exits_used_;  ///< by agent
-  double time_s_ = 0;                              ///< of the event in the making
+  double time_s_ = 0;  ///< of the event in the making
   std::vector<Event> events_;
 };
 

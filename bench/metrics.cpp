@@ -20,7 +20,7 @@ constexpr int kDoors = 5;
 world::Scenario wall_with_doors() {
   world::Scenario scenario;
   scenario.id = "bench";
-  scenario.inside = {{-100, -100}, {5, 100}};
+  scenario.inside.bounds = {{-100, -100}, {5, 100}};
   for (int i = 0; i < kDoors; ++i) {
     world::Exit exit;
     exit.id = "door" + std::to_string(i);

@@ -94,7 +94,9 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   metrics.alarm_s = alarm.at_s;
   metrics.escapes = escape_times(people, metrics.duration_s);
   metrics.escape_curve =
-      escape_curve(escape_times_of_run(people), metrics.people, metrics.duration_s);
+      escape_curve(escape_times_of_run(people),
+                   metrics.people - metrics.escapes.turned_back - metrics.escapes.never_inside,
+                   metrics.duration_s);
   for (const int percent : kPercents) {
     metrics.percentiles.push_back({percent, metrics.escapes.percentile_s(percent)});
   }

@@ -31,7 +31,7 @@ struct RunMetrics {
   std::optional<double> alarm_s;  ///< by the run's clock; nothing: no alarm
   PeopleCounts counts;            ///< numbers of people by outcome
   EscapeTimes escapes;            ///< from the later of alarm and arrival
-  /// Share of people who have left Scenario::inside by 0, 1, 2, ... s of the run's clock.
+  /// Share of the people of the place who have escaped by 0, 1, 2, ... s of the run's clock.
   std::vector<double> escape_curve;
   /// Times by which the kPercents have escaped, from `escapes`; nothing if not reached.
   struct Percentile {
@@ -75,7 +75,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
 
 /// The definitions version, which grows when the meaning of a value in metrics.json or exits.csv
 /// changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 10;
+inline constexpr int kDefinitionsVersion = 11;
 
 /// The content of metrics.json, with the definitions version.
 nlohmann::json to_json(const RunMetrics& metrics);

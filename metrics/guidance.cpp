@@ -88,6 +88,7 @@ LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_gu
     while (other != plain.end() && other->agent < person.agent) ++other;
     // Somebody who had not arrived by the end of one of the runs has no time to compare.
     if (other == plain.end() || other->agent != person.agent) continue;
+    if (!person.is_evacuee() || !other->is_evacuee()) continue;
     const double sooner_s = out_by(*other) - out_by(person);
     effect.all_s += sooner_s;
     if (person.followed_s > 0) effect.led_s += sooner_s;

@@ -20,6 +20,7 @@
 #include "base/json/json_text.h"
 #include "base/schemas/schemas.h"
 #include "base/text/suggest.h"
+#include "world/exit_opening.h"
 #include "world/exit_overlap.h"
 #include "world/extended_document.h"
 #include "world/json_reader.h"
@@ -63,13 +64,41 @@ Rectangle read_rectangle(const JsonValue& value) {
   return area;
 }
 
-// The side of the exit that leads out: as given, or away from the middle of the scenario.
-Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit, const Rectangle& inside) {
+geometry::Region read_region(const JsonValue& value) {
+  if (!value["corners"].exists()) {
+    value.fields({"min", "max"}, {"corners"});
+    return {read_rectangle(value)};
+  }
+  value.fields({"corners"}, {});
+  geometry::Region region;
+  for (const JsonValue& corner : value["corners"].items(3)) {
+    region.outline.push_back(corner.vector2(kMaxCoordinateM));
+  }
+  if (region.outline.size() < 3) return region;
+  if (!geometry::is_simple(region.outline)) {
+    value["corners"].reject("edges that touch each other",
+                            "a polygon whose corners all differ and whose edges do not cross");
+  } else if (geometry::signed_area(region.outline) < 0) {
+    std::reverse(region.outline.begin(), region.outline.end());
+  }
+  region.bounds = geometry::bounding_box(region.outline);
+  return region;
+}
+
+// The side of the exit that leads out: as given, out of the polygon on whose border it lies, or
+// away from the middle of the scenario.
+Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit,
+                             const geometry::Region& inside) {
   const Eigen::Vector2d along = exit.to - exit.from;
   const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
   if (!value.exists()) {
-    const Eigen::Vector2d from_middle = exit.middle() - 0.5 * (inside.min + inside.max);
-    return normal.dot(from_middle) >= 0 ? normal : -normal;
+    constexpr double kBesideM = 0.1;
+    const bool is_in_front = inside.contains(exit.middle() - kBesideM * normal);
+    const bool is_in_behind = inside.contains(exit.middle() + kBesideM * normal);
+    if (!inside.outline.empty() && is_in_front != is_in_behind) {
+      return is_in_front ? normal : -normal;
+    }
+    return normal.dot(exit.middle() - inside.bounds.center()) >= 0 ? normal : -normal;
   }
   const Eigen::Vector2d given = value.vector2(kMaxCoordinateM);
   constexpr double kCosineOfADegree = 0.99985;
@@ -79,7 +108,7 @@ Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit, const Rec
   return given.dot(normal) >= 0 ? normal : -normal;
 }
 
-std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
+std::vector<Exit> read_exits(const JsonValue& list, const geometry::Region& inside) {
   std::vector<Exit> exits;
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
@@ -91,7 +120,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     exit.id = ids.read(item["id"]);
     exit.from = item["from"].vector2(kMaxCoordinateM);
     exit.to = item["to"].vector2(kMaxCoordinateM);
-    if (item["from"].exists() && item["to"].exists() && exit.width_m() < kNarrowestExitM) {
+    if (item["from"].exists() && item["to"].exists() && exit.length_m() < kNarrowestExitM) {
       item["to"].reject(fmt::format("an end at least {} m from \"from\"", kNarrowestExitM));
     } else {
       exit.outward = read_outward(item["outward"], exit, inside);
@@ -276,7 +305,6 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   const bool has_crowd = root["crowd"].exists();
   if (has_crowd) root["crowd"].fields({"scene", "behavior"}, {"model"});
   root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
-  root["inside"].fields({"min", "max"});
 
   Scenario scenario;
   scenario.id = std::move(id);
@@ -289,11 +317,12 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   if (root["crowd"]["model"].exists()) scenario.crowd_model = root["crowd"]["model"].text();
   scenario.ground = read_rectangle(root["ground"]);
   scenario.ground_material = read_ground_material(root["ground"]["material"]);
-  scenario.inside = read_rectangle(root["inside"]);
+  scenario.inside = read_region(root["inside"]);
   const std::size_t problems_before = problems.size();
   scenario.exits = read_exits(root["exits"], scenario.inside);
   if (problems.size() == problems_before) reject_overlaps(root["exits"], scenario.exits);
   scenario.buildings = read_buildings(root["buildings"]);
+  trim_to_openings(scenario.buildings, scenario.exits);
   scenario.drones = read_drones(root["drones"], scenario.buildings);
   scenario.props = read_props(root["props"], root["scatter"], scenario);
   scenario.placed_props = root["props"].items().size();

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/geometry/rectangle.h"
+#include "base/geometry/region.h"
 #include "world/alarm.h"
 #include "world/disasters.h"
 #include "world/ground.h"
@@ -33,7 +34,8 @@ struct GoalRef {
   bool operator==(const GoalRef&) const = default;
 };
 
-/// A door: a segment on the ground that people cross to get out.
+/// A door: a segment on the ground that people cross to get out, without its ends that lie in
+/// buildings (world/exit_opening.h).
 struct Exit {
   std::string id;
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
@@ -44,13 +46,19 @@ struct Exit {
   std::vector<GoalRef> goals;    ///< an agent that heads for one of these goals intends this exit
   /// Time at which a disaster reaches and closes the exit (s).
   double closes_at_s = std::numeric_limits<double>::infinity();
+  /// The width that buildings leave free, if it is less than the length.
+  std::optional<double> free_m = std::nullopt;
+  /// The length of the segment in the file, if it is more.
+  std::optional<double> drawn_m = std::nullopt;
 
   /// Whether people can leave here at the time of a step (s).
   bool is_open(double time_s) const {
     constexpr double kRoundingS = 1e-6;
     return open && time_s < closes_at_s - kRoundingS;
   }
-  double width_m() const { return (to - from).norm(); }
+  double length_m() const { return (to - from).norm(); }
+  /// The width that people can pass, on which all figures are based.
+  double width_m() const { return free_m.value_or(length_m()); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
@@ -103,7 +111,7 @@ struct Scenario {
   std::string crowd_model;      ///< pedestrian model for which the crowd was tuned; empty: any
   Rectangle ground;             ///< what is rendered as ground
   std::string ground_material;  ///< "pavers", "asphalt", "grass", "concrete" or "dirt"
-  Rectangle inside;             ///< people who leave this rectangle have escaped
+  geometry::Region inside;      ///< people who leave it have escaped
   std::vector<Exit> exits;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;

@@ -58,7 +58,7 @@ void check_somebody_inside(const world::Trace& trace, const world::Scenario& sce
     min = min.cwiseMin(trace.position[i]);
     max = max.cwiseMax(trace.position[i]);
   }
-  const world::Rectangle& place = scenario.inside;
+  const world::Rectangle& place = scenario.inside.bounds;
   throw InputError(
       {file, "",
        fmt::format(

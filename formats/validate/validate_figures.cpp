@@ -52,7 +52,7 @@ struct Evacuation {
   std::size_t all = 0;
   std::size_t evacuees = 0;
   std::size_t casualties = 0;
-  std::size_t never_inside = 0;
+  std::size_t never_inside = 0;  ///< people who turned back included
   std::size_t vanished = 0;
   std::vector<double> escapes;    ///< since each one's start, sorted
   std::vector<double> escaped_s;  ///< by the run's clock
@@ -72,7 +72,8 @@ Evacuation read_evacuation(const json& run) {
   for (std::size_t i = 0; i < people.all; ++i) {
     const std::optional<double> start = read_cell(columns, "start_s", i);
     const std::optional<double> escaped = read_cell(columns, "escaped_s", i);
-    if (read_word(columns, "outcome", i) == "never_inside") {
+    const std::string outcome = read_word(columns, "outcome", i);
+    if (outcome == "never_inside" || outcome == "turned_back") {
       ++people.never_inside;
       continue;
     }
@@ -142,7 +143,7 @@ void check_people_counts(const json& run, const Report& fault) {
   for (const auto& [name, outcome] :
        {std::pair{"left_by_no_exit", "left_by_no_exit"}, std::pair{"inside", "inside"},
         std::pair{"casualties", "casualty"}, std::pair{"vanished_inside", "vanished"},
-        std::pair{"never_inside", "never_inside"}}) {
+        std::pair{"turned_back", "turned_back"}, std::pair{"never_inside", "never_inside"}}) {
     follows(fault, std::string("people_counts.") + name, number_in(counts, name),
             number_of[outcome], kCountSlack);
   }
@@ -157,14 +158,15 @@ void check_curve(const json& run, const Evacuation& people, const Report& fault)
   const json curve =
       run.value("escape_curve", json::object()).value("escaped_share", json::array());
   const double end_s = number_in(run, "duration_s");
-  for (std::size_t i = 0; i < curve.size() && people.all > 0; ++i) {
+  const std::size_t in_place = people.all - people.never_inside;
+  for (std::size_t i = 0; i < curve.size() && in_place > 0; ++i) {
     const auto at_s = static_cast<double>(i);
     if (at_s > end_s || !curve[i].is_number()) continue;
     // Steps are not exactly at whole seconds.
     const auto out_by = [&](double time_s) {
       return static_cast<double>(std::count_if(people.escaped_s.begin(), people.escaped_s.end(),
                                                [&](double t) { return t <= time_s; })) /
-             static_cast<double>(people.all);
+             static_cast<double>(in_place);
     };
     const double share = curve[i].get<double>();
     if (share >= out_by(at_s - kFigureSlackS) - 1e-9 &&

@@ -92,7 +92,7 @@ double SteppedJob::dt_s() const { return state_->run->dt_s(); }
 double SteppedJob::time_s() const { return state_->run->time_s(); }
 double SteppedJob::duration_s() const { return state_->spec.duration_s; }
 bool SteppedJob::is_over() const { return state_->done >= state_->steps; }
-const world::Rectangle& SteppedJob::area() const { return state_->scenario.inside; }
+const world::Rectangle& SteppedJob::area() const { return state_->scenario.inside.bounds; }
 const world::CrowdStep& SteppedJob::people() const { return state_->newest.people(); }
 const DroneRows& SteppedJob::drones() const { return state_->newest.drones(); }
 std::vector<world::TraceEvent> SteppedJob::take_events() { return state_->newest.take_events(); }

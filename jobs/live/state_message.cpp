@@ -85,7 +85,7 @@ json make_hello(const Flight& flight, const world::Scenario& scenario, double sm
           {"states", header.state_names},
           {"drones", drones_json(flight)},
           {"ground", rectangle(scenario.ground)},
-          {"inside", rectangle(scenario.inside)},
+          {"inside", rectangle(scenario.inside.bounds)},
           {"buildings", buildings_json(scenario)},
           {"exits", exits_json(scenario)},
           {"smoke", smoke},

@@ -72,8 +72,8 @@ json scenario_figures(const world::Scenario& scenario) {
     exits.push_back(
         {{"id", exit.id}, {"from", point(exit.from)}, {"to", point(exit.to)}, {"open", exit.open}});
   }
-  return {{"min", point(scenario.inside.min)},
-          {"max", point(scenario.inside.max)},
+  return {{"min", point(scenario.inside.bounds.min)},
+          {"max", point(scenario.inside.bounds.max)},
           {"buildings", std::move(buildings)},
           {"exits", std::move(exits)}};
 }
@@ -130,7 +130,7 @@ struct FieldMap {
 };
 
 std::vector<metrics::NearPerson> people_at(const world::Trace& trace, std::size_t step,
-                                           const world::Rectangle& inside) {
+                                           const geometry::Region& inside) {
   std::vector<metrics::NearPerson> people;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person || !trace.present(step, agent)) {
@@ -154,7 +154,7 @@ struct GroundFigures {
 };
 
 GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scenario) {
-  GroundFigures figures{FieldMap(scenario.inside), FieldMap(scenario.inside), {}};
+  GroundFigures figures{FieldMap(scenario.inside.bounds), FieldMap(scenario.inside.bounds), {}};
   const metrics::VoronoiCutter cutter(scenario.buildings);
   int samples = 0;
   for (std::size_t step = 0; step < run.trace.steps(); step += steps_per_second(run.trace)) {

@@ -56,8 +56,8 @@ std::string people_table(const std::vector<MeasuredRun>& runs) {
   for (const auto& exit : runs.front().metrics.counts.left_by) {
     html += header("people_counts", "left by " + exit.exit_id);
   }
-  for (const char* name :
-       {"by no exit", "inside at the end", "casualties", "vanished inside", "never inside"}) {
+  for (const char* name : {"by no exit", "inside at the end", "casualties", "vanished inside",
+                           "turned back", "never inside"}) {
     html += header("people_counts", name);
   }
   html += "</tr>\n";
@@ -65,9 +65,9 @@ std::string people_table(const std::vector<MeasuredRun>& runs) {
     const metrics::PeopleCounts& counts = run.metrics.counts;
     html += fmt::format("<tr><td>{}</td><td>{}</td>", escaped_markup(run.name), counts.people);
     for (const auto& exit : counts.left_by) html += fmt::format("<td>{}</td>", exit.people);
-    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         counts.left_by_no_exit, counts.inside, counts.casualties,
-                        counts.vanished_inside, counts.never_inside);
+                        counts.vanished_inside, counts.turned_back, counts.never_inside);
   }
   html += "</table>\n";
   for (const MeasuredRun& run : runs) {

@@ -68,7 +68,7 @@ bool covers(const std::vector<Eigen::Vector2d>& footprint, const Eigen::Vector2d
 ControlZone::ControlZone(const world::Exit& exit, std::span<const world::Building> buildings)
     : middle_(exit.middle()),
       outward_(exit.outward),
-      radius_m_(std::max(exit.width_m(), 2.0) + 1.0) {
+      radius_m_(std::max(exit.length_m(), 2.0) + 1.0) {
   // Faces of walls lie on the line of a door, where differences of polygons fail: a little
   // inward nothing does.
   constexpr double kOffLineM = 1e-7;

@@ -1,13 +1,23 @@
 #include "metrics/basis/crossings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/geometry/polygon.h"
 
 namespace throng::metrics {
 
-ExitLine::ExitLine(const world::Exit& exit, double margin_m)
+ExitLine::ExitLine(const world::Exit& exit, double margin_from_m, double margin_to_m)
     : middle_(exit.middle()),
       outward_(exit.outward),
-      half_width_m_(0.5 * exit.width_m() + margin_m) {}
+      min_along_m_(-0.5 * exit.length_m() - margin_from_m),
+      max_along_m_(0.5 * exit.length_m() + margin_to_m) {
+  if (along_m(exit.from) > along_m(exit.to)) {
+    min_along_m_ = -0.5 * exit.length_m() - margin_to_m;
+    max_along_m_ = 0.5 * exit.length_m() + margin_from_m;
+  }
+}
 
 double ExitLine::beyond_m(const Eigen::Vector2d& point) const {
   return (point - middle_).dot(outward_);
@@ -17,15 +27,32 @@ bool ExitLine::leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2
   const double from = beyond_m(a);
   const double to = beyond_m(b);
   const Eigen::Vector2d hit = a + (from / (from - to)) * (b - a);
-  return std::abs(along_m(hit)) <= half_width_m_;
+  return is_in_width(along_m(hit));
 }
 
 bool ExitLine::is_in_doorway(const Eigen::Vector2d& point) const {
-  return std::abs(along_m(point)) <= half_width_m_ && std::abs(beyond_m(point)) <= kDoorwayM;
+  return is_in_width(along_m(point)) && std::abs(beyond_m(point)) <= kDoorwayM;
 }
 
 double ExitLine::along_m(const Eigen::Vector2d& point) const {
   return (point - middle_).dot(Eigen::Vector2d(outward_.y(), -outward_.x()));
+}
+
+std::vector<ExitLine> exit_lines(const std::vector<world::Exit>& exits, double margin_m) {
+  std::vector<ExitLine> lines;
+  for (std::size_t e = 0; e < exits.size(); ++e) {
+    const auto margin_at = [&](const Eigen::Vector2d& end) {
+      double margin = margin_m;
+      for (std::size_t other = 0; other < exits.size(); ++other) {
+        if (other == e) continue;
+        const double gap_m = geometry::distance_to_segment(exits[other].from, exits[other].to, end);
+        margin = std::min(margin, 0.5 * gap_m);
+      }
+      return margin;
+    };
+    lines.emplace_back(exits[e], margin_at(exits[e].from), margin_at(exits[e].to));
+  }
+  return lines;
 }
 
 int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position, double time_s,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "world/scenario.h"
 
@@ -11,8 +12,8 @@ namespace throng::metrics {
 /// The line of an exit, and the frame of the exit: along the line and outward.
 class ExitLine {
  public:
-  /// `margin_m` widens the door at both jambs, since the discs of people overlap them slightly.
-  ExitLine(const world::Exit& exit, double margin_m);
+  /// The margins (m) widen the door beyond its ends `from` and `to`.
+  ExitLine(const world::Exit& exit, double margin_from_m, double margin_to_m);
 
   /// Signed distance from the line (m), positive outside.
   double beyond_m(const Eigen::Vector2d& point) const;
@@ -26,11 +27,19 @@ class ExitLine {
 
  private:
   double along_m(const Eigen::Vector2d& point) const;
+  bool is_in_width(double along_m) const {
+    return min_along_m_ <= along_m && along_m < max_along_m_;
+  }
 
   Eigen::Vector2d middle_;
   Eigen::Vector2d outward_;
-  double half_width_m_;
+  double min_along_m_, max_along_m_;
 };
+
+/// The lines of the exits, widened by `margin_m` at both jambs, since the discs of people overlap
+/// them slightly; between exits that are nearer to each other, by half of the distance, so that a
+/// person who passes there is counted at one of them.
+std::vector<ExitLine> exit_lines(const std::vector<world::Exit>& exits, double margin_m);
 
 /// Detects the crossings of one person, with hysteresis: a crossing counts once the person has
 /// passed the door and is kHysteresisM beyond the line, outside of the scenario, or absent. The

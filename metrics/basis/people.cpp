@@ -1,8 +1,8 @@
 #include "metrics/basis/people.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -18,6 +18,21 @@ namespace {
 // A state without a name in the header has none of the properties that follow from names.
 bool holds(const std::vector<bool>& states, std::uint8_t state) {
   return state < states.size() && states[state];
+}
+
+/// Whether no building stands between two points. One that covers the second, as behind a door
+/// drawn on its wall, is none between them.
+bool is_in_sight(const Vector2d& from, const Vector2d& to,
+                 const std::vector<world::Building>& buildings) {
+  return std::none_of(buildings.begin(), buildings.end(), [&](const world::Building& building) {
+    const auto& corners = building.footprint;
+    if (geometry::distance_to(corners, to) <= 0) return false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector2d& next = corners[i + 1 < corners.size() ? i + 1 : 0];
+      if (geometry::segments_cross(from, to, corners[i], next)) return true;
+    }
+    return false;
+  });
 }
 
 }  // namespace
@@ -54,8 +69,7 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
     is_aware_.push_back(std::find(aware.begin(), aware.end(), name) != aware.end());
   }
   is_down_ = header.lying_states();
-  const double margin_m = mean_radius_m(header);
-  for (const world::Exit& exit : scenario.exits) lines_.emplace_back(exit, margin_m);
+  lines_ = exit_lines(scenario.exits, mean_radius_m(header));
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
     if (header.role[agent] != world::AgentRole::person) continue;
     Person& person = people_.emplace_back();
@@ -71,85 +85,122 @@ void PeopleTracker::step(const PeopleStep& step) {
     if (present) arrive(person, step);
     if (!person.seen) continue;
     if (present || person.present_before) count_doors(person, step, present);
-    if (person.record.was_inside && !person.record.escaped_s) follow(person, step, present);
+    if (present && scenario_.inside.contains(place_of(person, step))) {
+      observe(person, step);
+    } else if (person.was_in_bounds) {
+      leave(person, step, present);
+    }
     if (present) person.last_place = step.position[person.record.agent].cast<double>();
     person.present_before = present;
   }
   ++steps_;
 }
 
+Vector2d PeopleTracker::place_of(const Person& person, const PeopleStep& step) {
+  return step.position[person.record.agent].cast<double>();
+}
+
 bool PeopleTracker::all_escaped() const {
   return std::all_of(people_.begin(), people_.end(),
-                     [](const Person& person) { return person.record.has_ended() && person.seen; });
+                     [](const Person& person) { return person.is_settled; });
 }
 
 void PeopleTracker::arrive(Person& person, const PeopleStep& step) {
   PersonRecord& record = person.record;
-  const bool is_inside = scenario_.inside.contains(step.position[record.agent].cast<double>());
-  if (person.seen && (record.was_inside || !is_inside)) return;
+  const Vector2d place = place_of(person, step);
+  const bool is_in_bounds = scenario_.inside.contains(place);
+  if (is_in_bounds && !record.was_inside) {
+    // Who comes from outside enters like somebody who crosses the line, and does not touch it only.
+    record.was_inside = !is_at_an_exit(place, person.seen ? CrossingCounter::kHysteresisM : 0);
+  }
+  if (person.seen && (person.was_in_bounds || !is_in_bounds)) return;
   person.seen = true;
-  record.was_inside = is_inside;
+  person.was_in_bounds = is_in_bounds;
   record.first_step = steps_;
   record.arrived_s = step.time_s;
   record.start_s = std::max(alarm_.at_s.value_or(step.time_s), step.time_s);
-  person.is_before_doors = true;
 }
 
-std::optional<std::size_t> PeopleTracker::nearest_exit_if_beyond(const Vector2d& place) const {
-  std::optional<std::size_t> nearest;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < scenario_.exits.size(); ++e) {
-    const world::Exit& exit = scenario_.exits[e];
-    const double distance_m = geometry::distance_to_segment(exit.from, exit.to, place);
-    if (distance_m >= nearest_m) continue;
-    nearest_m = distance_m;
-    nearest = e;
-  }
-  if (nearest && lines_[*nearest].beyond_m(place) < 0) return std::nullopt;
-  return nearest;
+/// Whether a place lies less than `margin_m` on the inner side of the line of the nearest exit, or
+/// beyond it, with no building between the place and the ground behind the exit.
+bool PeopleTracker::is_at_an_exit(const Vector2d& place, double margin_m) const {
+  const auto distance_m = [&](const world::Exit& exit) {
+    return geometry::distance_to_segment(exit.from, exit.to, place);
+  };
+  const auto& exits = scenario_.exits;
+  const auto nearest = std::min_element(
+      exits.begin(), exits.end(),
+      [&](const auto& one, const auto& other) { return distance_m(one) < distance_m(other); });
+  if (nearest == exits.end()) return false;
+  const ExitLine& line = lines_[static_cast<std::size_t>(nearest - exits.begin())];
+  if (line.beyond_m(place) < -margin_m) return false;
+  const std::array ends = {nearest->from, nearest->middle(), nearest->to};
+  constexpr double kBehindM = 1;
+  return std::any_of(ends.begin(), ends.end(), [&](const Vector2d& end) {
+    return is_in_sight(place, end + kBehindM * nearest->outward, scenario_.buildings);
+  });
 }
 
-std::optional<std::size_t> PeopleTracker::exit_of_escape(const Person& person,
-                                                         const Vector2d& place) const {
+/// The exit whose line the person passed last, if the person has not come back through it.
+std::optional<std::size_t> PeopleTracker::passed_exit(const Person& person) const {
   std::optional<std::size_t> passed;
   for (std::size_t e = 0; e < lines_.size(); ++e) {
     const CrossingCounter& counter = person.counters[e];
     if (!counter.has_left()) continue;
     if (!passed || counter.crossed_at_s() > person.counters[*passed].crossed_at_s()) passed = e;
   }
-  if (passed) return passed;
-  if (person.is_before_doors) return nearest_exit_if_beyond(place);
-  // Recordings end anywhere; the crowd removes people at doors.
-  if (is_recorded_ && scenario_.inside.contains(place)) return std::nullopt;
-  // The place, or a person's way, ends before the line of the door.
+  return passed;
+}
+
+/// The exit in whose doorway a place lies.
+std::optional<std::size_t> PeopleTracker::exit_at(const Vector2d& place) const {
   for (std::size_t e = 0; e < lines_.size(); ++e) {
     if (lines_[e].is_in_doorway(place)) return e;
   }
   return std::nullopt;
 }
 
-void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present) {
+/// A step outside of Scenario::inside, or absent.
+void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) {
+  if (person.is_settled) return;
   PersonRecord& record = person.record;
-  const Vector2d place = step.position[record.agent].cast<double>();
+  if (present) add_motion(person, step);
+  const Vector2d place = present ? place_of(person, step) : person.last_place;
+  const std::optional<std::size_t> passed = passed_exit(person);
+  // Recordings end anywhere; the crowd removes people at doors.
+  const bool may_end_anywhere = is_recorded_ && scenario_.inside.contains(place);
+  const std::optional<std::size_t> exit = passed || may_end_anywhere ? passed : exit_at(place);
+  person.is_settled = passed || !present;
+  if (!record.was_inside) {
+    if (!may_end_anywhere) record.turned_back_s = step.time_s;
+    return;
+  }
+  // Beyond the border without having passed an exit, the person may still come to one.
+  const bool comes_to_exit = person.is_settled && exit;
+  if (!record.escaped_s ? present || exit : comes_to_exit) {
+    record.escaped_s = step.time_s;
+    record.left_by = exit;
+    record.hurt_s.reset();
+  } else if (!record.escaped_s && !record.vanished_s) {
+    record.vanished_s = step.time_s;
+  }
+}
+
+/// A step in Scenario::inside.
+void PeopleTracker::observe(Person& person, const PeopleStep& step) {
+  PersonRecord& record = person.record;
+  person.is_settled = false;
+  record.escaped_s.reset();
+  record.left_by.reset();
+  record.turned_back_s.reset();
+  record.vanished_s.reset();
+  const Vector2d place = place_of(person, step);
   const bool has_started = step.time_s >= record.start_s - world::kTimeSlackS;
-  if (present && has_started && !person.started) {
+  if (has_started && !person.started) {
     person.started = true;
     record.start_place = place;
   }
-  if (present) add_motion(person, step);
-  if (!present || !scenario_.inside.contains(place)) {
-    record.left_by = exit_of_escape(person, present ? place : person.last_place);
-    if (present || record.left_by) {
-      record.escaped_s = step.time_s;
-      record.turned_back = record.left_by && person.is_before_doors;
-      record.hurt_s.reset();
-    } else if (!record.vanished_s) {
-      record.vanished_s = step.time_s;
-    }
-    return;
-  }
-  record.vanished_s.reset();
-  person.is_before_doors = person.is_before_doors && nearest_exit_if_beyond(place);
+  add_motion(person, step);
   const std::uint8_t state = step.state[record.agent];
   if (!holds(is_down_, state)) {
     record.hurt_s.reset();
@@ -199,7 +250,7 @@ void PeopleTracker::count_doors(Person& person, const PeopleStep& step, bool pre
     if (crossing == 0) continue;
     const double crossed_s = counter.crossed_at_s();
     // A crossing is known 0.2 m beyond the line only, by when the person may have escaped.
-    const bool before_escape = !record.escaped_s || crossed_s <= *record.escaped_s;
+    const bool before_escape = !person.is_settled || crossed_s <= record.escaped_s.value_or(0);
     if (crossing < 0 || crossed_s < record.start_s || !before_escape) continue;
     if (!record.last_out || crossed_s > record.last_out->time_s) {
       record.last_out = DoorPassage{e, crossed_s};

@@ -25,17 +25,20 @@ struct DoorPassage {
 struct PersonRecord {
   std::size_t agent = 0;
   std::size_t first_step = 0;  ///< first step at which the person is present
-  double arrived_s = 0;        ///< first time inside; if never inside, first time present
+  double arrived_s = 0;        ///< first time in Scenario::inside; if never, first time present
   double start_s = 0;          ///< the later of alarm and arrival, start of the escape time
-  bool was_inside = false;     ///< inside at any time; other people are no evacuees
+  /// Whether the person has been in the place: in Scenario::inside, and not just beyond the line of
+  /// the exit at which the person arrived. Other people are no evacuees.
+  bool was_inside = false;
   Eigen::Vector2d start_place = Eigen::Vector2d::Zero();  ///< at the first step from start_s on, m
   std::optional<double> noticed_s;                        ///< when the person noticed the alarm
   Eigen::Vector2d noticed_place = Eigen::Vector2d::Zero();
-  /// First time outside of Scenario::inside after having been inside, or absent for good behind a
-  /// door.
+  /// The time from which on the person was out for good: outside of Scenario::inside and past the
+  /// line of an exit if the person passed one, or absent behind an exit.
   std::optional<double> escaped_s;
   std::optional<std::size_t> left_by;  ///< exit of the escape; nothing: not through an exit
-  bool turned_back = false;            ///< arrived outside of the exits and did not enter
+  /// When a person who had arrived at an exit and had not entered left Scenario::inside for good.
+  std::optional<double> turned_back_s;
   /// Absent for good although inside, as at the end of a recording.
   std::optional<double> vanished_s;
   std::optional<double> hurt_s;  ///< start of the casualty state that lasts until the end
@@ -51,8 +54,6 @@ struct PersonRecord {
   bool left_before_alarm() const { return escaped_s && *escaped_s < start_s - world::kTimeSlackS; }
   /// Whether the person's escape is measured.
   bool is_evacuee() const { return was_inside && !left_before_alarm(); }
-  /// Whether the person has escaped or vanished.
-  bool has_ended() const { return escaped_s || vanished_s; }
 };
 
 /// The state of all agents at one step, from a trace or a running simulation. Spans have one
@@ -95,7 +96,7 @@ class PeopleTracker {
 
   /// The records of all people who have been present so far, in the order of agents.
   std::vector<PersonRecord> records() const;
-  /// Whether all people of the header have arrived and escaped or vanished.
+  /// Whether all people of the header have arrived, and have left by an exit or are absent.
   bool all_escaped() const;
   double time_s() const { return time_s_; }  ///< time of the last step
 
@@ -103,21 +104,22 @@ class PeopleTracker {
   struct Person {
     PersonRecord record;
     bool seen = false;
+    bool was_in_bounds = false;  ///< in Scenario::inside at any time
+    bool is_settled = false;     ///< has left by an exit or is absent, and has not come back
     bool started = false;
     bool present_before = false;
     Eigen::Vector2d last_place = Eigen::Vector2d::Zero();
     std::int8_t intent_before_alarm = -1;
     std::vector<CrossingCounter> counters;  ///< per exit
-    /// The person arrived beyond the line of the nearest exit and has been beyond the line of the
-    /// nearest exit at all times since, that is, has not entered.
-    bool is_before_doors = false;
   };
 
+  static Eigen::Vector2d place_of(const Person& person, const PeopleStep& step);
   void arrive(Person& person, const PeopleStep& step);
-  std::optional<std::size_t> nearest_exit_if_beyond(const Eigen::Vector2d& place) const;
-  void follow(Person& person, const PeopleStep& step, bool present);
-  std::optional<std::size_t> exit_of_escape(const Person& person,
-                                            const Eigen::Vector2d& place) const;
+  bool is_at_an_exit(const Eigen::Vector2d& place, double margin_m) const;
+  void observe(Person& person, const PeopleStep& step);
+  void leave(Person& person, const PeopleStep& step, bool present);
+  std::optional<std::size_t> passed_exit(const Person& person) const;
+  std::optional<std::size_t> exit_at(const Eigen::Vector2d& place) const;
   void add_motion(Person& person, const PeopleStep& step);
   bool notices(const Person& person, const PeopleStep& step) const;
   void count_doors(Person& person, const PeopleStep& step, bool present);

@@ -109,7 +109,7 @@ bool WalkingDistance::straight_path_is_free(const Vector2d& from, const Vector2d
 }
 
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario) {
-  world::Rectangle ground = scenario.inside;
+  world::Rectangle ground = scenario.inside.bounds;
   for (const world::Exit& exit : scenario.exits) {
     ground.extend(exit.from);
     ground.extend(exit.to);

@@ -270,10 +270,4 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   return out_s;
 }
 
-double exit_path_m(const world::Rectangle& inside, const Vector2d& place) {
-  const Vector2d to_min = place - inside.min;
-  const Vector2d to_max = inside.max - place;
-  return std::max(0.0, std::min(to_min.minCoeff(), to_max.minCoeff()));
-}
-
 }  // namespace throng::metrics

@@ -28,7 +28,4 @@ struct Departures {
 /// that no time is overestimated.
 std::vector<double> earliest_out_s(const Departures& departures);
 
-/// Distance (m) from a point to the nearest side of the rectangle; 0 outside.
-double exit_path_m(const world::Rectangle& inside, const Eigen::Vector2d& point);
-
 }  // namespace throng::metrics

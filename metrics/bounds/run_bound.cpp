@@ -124,8 +124,8 @@ double max_speed_mps(const std::vector<const PersonRecord*>& people,
 
 // How long it takes at least from anywhere in a door to beyond the scenario.
 double beyond_s(const world::Scenario& scenario, const world::Exit& exit, double speed_mps) {
-  const double from_m = exit_path_m(scenario.inside, exit.from);
-  return std::min(from_m, exit_path_m(scenario.inside, exit.to)) / speed_mps;
+  const double from_m = scenario.inside.distance_to_border(exit.from);
+  return std::min(from_m, scenario.inside.distance_to_border(exit.to)) / speed_mps;
 }
 
 /// Whether a person got out by a door after having set out.
@@ -189,7 +189,7 @@ class LowerBound {
     if (!std::isfinite(out.time_s)) return traveler;
     const double speed_mps = person.max_speed_mps;
     if (person.escaped_s && !went_by_door(person, out)) {
-      const double side_m = exit_path_m(scenario_.inside, out.point);
+      const double side_m = scenario_.inside.distance_to_border(out.point);
       const double beside_s = speed_mps > 0 ? out.time_s + side_m / speed_mps : kNever;
       traveler.beside_s = std::min(beside_s, *person.escaped_s);
       return traveler;
@@ -260,7 +260,7 @@ std::optional<BestTimes> reference_times(const world::Scenario& scenario,
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     doors.capacity_per_s.push_back(exit.open ? capacity_per_s[e] : 0);
-    doors.on_s.push_back(exit_path_m(scenario.inside, exit.middle()) / max_mps);
+    doors.on_s.push_back(scenario.inside.distance_to_border(exit.middle()) / max_mps);
     doors.closes_at_s.push_back(exit.closes_at_s);
   }
   std::vector<Traveler> travelers;

@@ -19,12 +19,19 @@ constexpr std::size_t kAcross = 9;
 
 }  // namespace
 
-GroundPressure::GroundPressure(const world::Rectangle& ground,
+GroundPressure::GroundPressure(const geometry::Region& ground,
                                std::span<const world::Building> buildings, double dt_s)
-    : lattice_(lattice_over(ground, kGroundLatticeM, kMaxPositions)),
+    : lattice_(lattice_over(ground.bounds, kGroundLatticeM, kMaxPositions)),
       covered_(covered_by(buildings, lattice_)),
       sums_(lattice_.size()),
-      window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1 / dt_s)))) {}
+      window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1 / dt_s)))) {
+  for (std::size_t i = 0; i < covered_.size(); ++i) {
+    const auto columns = static_cast<std::size_t>(lattice_.columns);
+    const Vector2d place =
+        lattice_.place(static_cast<int>(i % columns), static_cast<int>(i / columns));
+    covered_[i] = covered_[i] || !ground.contains(place);
+  }
+}
 
 void GroundPressure::add(const Vector2d& place, const Vector2d& velocity) {
   const auto range = [&](double at, int count, int& low, int& high) {

@@ -12,12 +12,12 @@
 
 namespace throng::metrics {
 
-/// The pressure of pressure_at(), averaged over the last second, on a lattice over a rectangle with
-/// a pitch of 0.5 m, or coarser to limit it to 250 000 points. Points that buildings cover are
-/// skipped.
+/// The pressure of pressure_at(), averaged over the last second, on a lattice over a region with a
+/// pitch of 0.5 m, or coarser to limit it to 250 000 points. Points outside of the region and those
+/// that buildings cover are skipped.
 class GroundPressure {
  public:
-  GroundPressure(const world::Rectangle& ground, std::span<const world::Building> buildings,
+  GroundPressure(const geometry::Region& ground, std::span<const world::Building> buildings,
                  double dt_s);
 
   /// Adds a person of the current step (m, m/s).

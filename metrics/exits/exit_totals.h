@@ -16,7 +16,7 @@ namespace throng::metrics {
 /// Totals of one exit; docs/metrics.md defines them.
 struct ExitTotals {
   std::string exit_id;
-  double width_m = 0;
+  double width_m = 0;              ///< that people can pass
   double capacity_per_s = 0;       ///< mean over the run; 0 while closed
   DoorCounts crossings;            ///< numbers of crossings
   double share = 0;                ///< share of the sum of net_out() over all exits

@@ -51,9 +51,9 @@ std::optional<std::size_t> find_intent(const Trace& trace, const std::string& ex
 // Measures one exit from the first step to the last.
 class ExitObserver {
  public:
-  ExitObserver(const Trace& trace, const world::Exit& exit, const world::Rectangle& inside,
-               const ControlZone& zone, const std::vector<std::size_t>& people,
-               const VoronoiCutter& cutter)
+  ExitObserver(const Trace& trace, const world::Exit& exit, const ExitLine& line,
+               const geometry::Region& inside, const ControlZone& zone,
+               const std::vector<std::size_t>& people, const VoronoiCutter& cutter)
       : trace_(trace),
         people_(people),
         cutter_(cutter),
@@ -62,7 +62,7 @@ class ExitObserver {
         inside_(inside),
         intent_(find_intent(trace, exit.id)),
         mean_radius_m_(mean_radius_m(trace.header)),
-        line_(exit, mean_radius_m_),
+        line_(line),
         capacity_per_s_(capacity_per_s(exit.width_m())),
         state_(exit.width_m()),
         pressure_(zone, trace.header.dt_s),
@@ -237,7 +237,7 @@ class ExitObserver {
   const VoronoiCutter& cutter_;
   const ControlZone& zone_;
   const world::Exit& exit_;
-  const world::Rectangle& inside_;
+  const geometry::Region& inside_;
   std::optional<std::size_t> intent_;  ///< empty: the trace has no intents for this exit
   double mean_radius_m_;
   ExitLine line_;
@@ -297,12 +297,14 @@ std::string to_string(ExitState state) {
 
 std::vector<ExitSeries> exit_series(const Trace& trace, const world::Scenario& scenario) {
   const std::vector<ControlZone> zones = control_zones(scenario);
+  const std::vector<ExitLine> lines = exit_lines(scenario.exits, mean_radius_m(trace.header));
   const std::vector<std::size_t> people = list_people(trace);
   const VoronoiCutter cutter(scenario.buildings);
   std::vector<ExitSeries> series(scenario.exits.size());
   parallel_ranges(series.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      series[i] = ExitObserver(trace, scenario.exits[i], scenario.inside, zones[i], people, cutter)
+      series[i] = ExitObserver(trace, scenario.exits[i], lines[i], scenario.inside, zones[i],
+                               people, cutter)
                       .observe();
     }
   });

@@ -77,7 +77,7 @@ EscapeTimes escape_times(const std::vector<PersonRecord>& people, double end_s) 
   for (const PersonRecord& person : people) {
     ++times.people;
     if (!person.was_inside) {
-      ++times.never_inside;
+      ++(person.turned_back_s ? times.turned_back : times.never_inside);
     } else if (person.left_before_alarm()) {
       ++times.left_before_alarm;
     } else if (person.escaped_s) {
@@ -105,19 +105,17 @@ json to_json(const EscapeTimes& times) {
   for (const EscapeTimes::Casualty& casualty : times.casualties) {
     casualties.push_back({{"watched_s", casualty.watched_s}, {"hurt_s", casualty.hurt_s}});
   }
-  return {{"people", times.people},
-          {"left_before_alarm", times.left_before_alarm},
-          {"never_inside", times.never_inside},
-          {"vanished", times.vanished},
-          {"escape_s", times.escape_s},
-          {"inside_s", times.inside_s},
-          {"casualties", std::move(casualties)}};
+  return {{"people", times.people},           {"left_before_alarm", times.left_before_alarm},
+          {"turned_back", times.turned_back}, {"never_inside", times.never_inside},
+          {"vanished", times.vanished},       {"escape_s", times.escape_s},
+          {"inside_s", times.inside_s},       {"casualties", std::move(casualties)}};
 }
 
 EscapeTimes escape_times_from(const json& value) {
   EscapeTimes times;
   value.at("people").get_to(times.people);
   value.at("left_before_alarm").get_to(times.left_before_alarm);
+  value.at("turned_back").get_to(times.turned_back);
   value.at("never_inside").get_to(times.never_inside);
   value.at("vanished").get_to(times.vanished);
   value.at("escape_s").get_to(times.escape_s);

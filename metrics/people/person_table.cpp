@@ -16,8 +16,8 @@ json person_table(const std::vector<PersonRecord>& people, const std::vector<Jou
                   const PeopleCounts& counts) {
   json table = json::object();
   for (const char* column :
-       {"agent", "arrived_s", "start_s", "noticed_s", "escaped_s", "vanished_s", "hurt_s",
-        "followed_s", "followed_m", "outcome", "exit", "walked_m", "shortest_to_used_m",
+       {"agent", "arrived_s", "start_s", "noticed_s", "escaped_s", "vanished_s", "turned_back_s",
+        "hurt_s", "followed_s", "followed_m", "outcome", "exit", "walked_m", "shortest_to_used_m",
         "shortest_to_nearest_m", "speed_ratio", "stops"}) {
     table[column] = json::array();
   }
@@ -29,6 +29,7 @@ json person_table(const std::vector<PersonRecord>& people, const std::vector<Jou
     table["noticed_s"].push_back(nullable(person.noticed_s));
     table["escaped_s"].push_back(nullable(person.escaped_s));
     table["vanished_s"].push_back(nullable(person.vanished_s));
+    table["turned_back_s"].push_back(nullable(person.turned_back_s));
     table["hurt_s"].push_back(nullable(person.hurt_s));
     table["followed_s"].push_back(person.followed_s);
     table["followed_m"].push_back(person.followed_m);

@@ -219,7 +219,8 @@ class Trace:
         return Table(columns)
 
     def evacuation(self) -> tuple[FloatArray, NDArray[np.int64]]:
-        """Times at which people escaped, sorted, and how many had by then."""
+        """Times at which people first left the scenario's `inside`, sorted, and how many had by then. Escapes for good
+        are in metrics.json (by_person)."""
         times = np.sort(self.events().where(type="agent_escaped")["time_s"].astype(np.float64))
         return times, np.arange(1, len(times) + 1)
 

@@ -40,7 +40,7 @@ double ground_distance_m(const DroneMission& mission) {
 }
 
 Vector2d place_inside(const world::Scenario& scenario, Random& random) {
-  const world::Rectangle& inside = scenario.inside;
+  const world::Rectangle& inside = scenario.inside.bounds;
   return {random.uniform(inside.min.x(), inside.max.x()),
           random.uniform(inside.min.y(), inside.max.y())};
 }

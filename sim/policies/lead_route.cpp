@@ -20,7 +20,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
     const Vector2d point = middle + depth_m * exit.outward;
     const bool between_walls =
         std::any_of(buildings.begin(), buildings.end(), [&](const world::Building& building) {
-          return geometry::distance_to(building.footprint, point) <= 0.6 * exit.width_m();
+          return geometry::distance_to(building.footprint, point) <= 0.6 * exit.length_m();
         });
     if (between_walls) walls_end_m = depth_m;
     if (depth_m > walls_end_m + kBeyondM) break;

@@ -41,7 +41,7 @@ class SurveyPolicy : public Policy {
     const GuidanceSpec& guidance = context.mission.guidance;
     const double seen_m =
         2 * context.start.z() * std::tan(0.5 * context.mission.camera.pinhole_hfov_rad());
-    path_ = lanes_over(guidance.area.value_or(context.scenario->inside),
+    path_ = lanes_over(guidance.area.value_or(context.scenario->inside.bounds),
                        seen_m * (1 - guidance.overlap.value_or(kUsualOverlap)));
     glide_.go(path_[0], speed_mps_);
   }

@@ -13,7 +13,7 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       moving_goals_(moving_goals),
       intents_(roles.size(), -1),
       led_(roles.size(), false),
-      arrived_(roles.size(), false),
+      was_inside_(roles.size(), false),
       escaped_(roles.size(), false),
       down_(roles.size(), false) {}
 
@@ -50,7 +50,8 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   const auto positions = crowd.positions();
   const auto present = crowd.present();
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    arrived_[i] = arrived_[i] || present[i] != 0;
+    was_inside_[i] = was_inside_[i] ||
+                     (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>()));
     update_intent(i, crowd.goals()[i], positions[i].cast<double>());
   }
   world::CrowdStep step = crowd.now();
@@ -63,7 +64,7 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   for (std::size_t i = 0; i < down_.size(); ++i) down_[i] = down_states_[step.state[i]];
   observer.step(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;
+    if (roles_[i] != AgentRole::person || escaped_[i] || !was_inside_[i]) continue;
     if (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>())) continue;
     escaped_[i] = true;
     observer.event({time_s, world::AgentEscaped{static_cast<std::int32_t>(i), intents_[i]}});

@@ -38,7 +38,7 @@ class CrowdRecorder {
   const std::vector<world::GoalRef>& moving_goals_;
   std::vector<std::int8_t> intents_;
   std::vector<bool> led_;  ///< follows a drone
-  std::vector<bool> arrived_;
+  std::vector<bool> was_inside_;
   std::vector<bool> escaped_;
   std::vector<bool> down_;
   std::vector<bool> down_states_;  ///< by index of the state; set by the first record()

@@ -21,7 +21,7 @@ double beyond(const world::Exit& exit, const Vector2d& place) {
 
 bool within_door(const world::Exit& exit, const Vector2d& place) {
   const Vector2d along = (exit.to - exit.from).normalized();
-  return std::abs((place - exit.middle()).dot(along)) <= 0.5 * exit.width_m() + kDoorMarginM;
+  return std::abs((place - exit.middle()).dot(along)) <= 0.5 * exit.length_m() + kDoorMarginM;
 }
 
 }  // namespace

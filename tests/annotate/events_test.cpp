@@ -60,7 +60,7 @@ world::Trace eventful_trace() {
 
 std::vector<json> record_events(const world::Trace& trace, const std::vector<double>& frames_s) {
   world::Scenario scenario;
-  scenario.inside = {{-50, -50}, {50, 50}};
+  scenario.inside.bounds = {{-50, -50}, {50, 50}};
   scenario.alarm = world::Alarm{};
   std::istringstream lines(events_jsonl(trace, scenario, 3, frames_s));
   std::vector<json> events;
@@ -76,8 +76,8 @@ TEST(Events, AreInOrderOfTimeWithTheFrameBefore) {
     frames.push_back(event.value("frame", -1));
   }
   EXPECT_THAT(types, ElementsAre("arrives", "near_miss", "falls", "collision", "lies_down",
-                                 "escapes", "exit_closes", "gets_up", "departs"));
-  EXPECT_THAT(frames, ElementsAre(-1, 0, 1, 1, 1, 1, 2, 2, 2));
+                                 "exit_closes", "gets_up", "departs"));
+  EXPECT_THAT(frames, ElementsAre(-1, 0, 1, 1, 1, 2, 2, 2));
 }
 
 TEST(Events, HavePersonDronePlaceAndValues) {
@@ -92,9 +92,15 @@ TEST(Events, HavePersonDronePlaceAndValues) {
                                        "position": [2.0, 2.0], "cause": "drone",
                                        "impulse_ns": 31.5})"));
   EXPECT_EQ(events[3].at("other_drone"), "d2");
-  EXPECT_EQ(events[5].at("exit"), "north");
-  EXPECT_EQ(events[6], json::parse(R"({"time_s": 1.75, "type": "exit_closes", "exit": "north"})"));
-  EXPECT_EQ(events[8].at("position"), json::parse("[-3.0, 3.0]")) << "where the person was last";
+  EXPECT_EQ(events[5], json::parse(R"({"time_s": 1.75, "type": "exit_closes", "exit": "north"})"));
+  EXPECT_EQ(events[7].at("position"), json::parse("[-3.0, 3.0]")) << "where the person was last";
+}
+
+// As in metrics: the person who departs far from any exit has vanished, and nobody else leaves.
+TEST(Events, VanishingIsNoEscape) {
+  for (const json& event : record_events(eventful_trace(), {})) {
+    EXPECT_NE(event.at("type"), "escapes");
+  }
 }
 
 TEST(Events, EscapesHaveTheExitThatWasUsed) {
@@ -102,7 +108,7 @@ TEST(Events, EscapesHaveTheExitThatWasUsed) {
   trace.header.exit_ids = {"north", "east"};
   trace.events = {{1.5, world::AgentEscaped{1, 0}}};  // heads for the north, but has gone east
   world::Scenario scenario;
-  scenario.inside = {{-50, -50}, {2.6, 50}};
+  scenario.inside.bounds = {{-50, -50}, {2.6, 50}};
   scenario.exits.resize(2);
   scenario.exits[0].id = "north";
   scenario.exits[0].from = {-2, 40};
@@ -113,12 +119,14 @@ TEST(Events, EscapesHaveTheExitThatWasUsed) {
   scenario.exits[1].to = {2.5, 4};
   scenario.exits[1].outward = {1, 0};
   std::istringstream lines(events_jsonl(trace, scenario, 3, std::vector<double>{}));
-  std::string exit;
+  std::vector<json> escapes;
   for (std::string line; std::getline(lines, line);) {
     const json event = json::parse(line);
-    if (event.at("type") == "escapes") exit = event.at("exit");
+    if (event.at("type") == "escapes") escapes.push_back(event);
   }
-  EXPECT_EQ(exit, "east");
+  ASSERT_EQ(escapes.size(), 1U);
+  EXPECT_EQ(escapes[0].at("exit"), "east");
+  EXPECT_EQ(escapes[0].at("time_s"), 1.5);
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ TEST(ExposureFigures, TheGreatestPressureIsDensityTimesVariance) {
 
 // For a second somebody stands still beside somebody who walks; then nobody is there.
 TEST(ExposureFigures, ThePressureIsAMeanOverASecond) {
-  const world::Rectangle ground{{-5, -5}, {5, 5}};
+  const geometry::Region ground{{{-5, -5}, {5, 5}}};
   GroundPressure always(ground, {}, 0.1);
   GroundPressure half(ground, {}, 0.1);
   double most_always = 0;

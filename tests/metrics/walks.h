@@ -83,8 +83,15 @@ inline void add_alarm(world::Scenario& scenario, double at_s) {
 inline world::Scenario place_with_door(double width_m) {
   world::Scenario scenario;
   scenario.id = "test";
-  scenario.inside = {{-20, -20}, {10, 20}};
+  scenario.inside.bounds = {{-20, -20}, {10, 20}};
   scenario.exits.push_back(door(width_m));
+  return scenario;
+}
+
+/// The same place, whose door is at its border, x = 10.
+inline world::Scenario place_with_door_at_border(double width_m) {
+  world::Scenario scenario = place_with_door(width_m);
+  scenario.exits[0].from.x() = scenario.exits[0].to.x() = 10;
   return scenario;
 }
 

@@ -22,7 +22,7 @@ constexpr double kChestM = 1.2;
 world::Scenario open_field() {
   world::Scenario scenario;
   scenario.ground = {{-60, -60}, {60, 60}};
-  scenario.inside = {{-40, -40}, {40, 40}};
+  scenario.inside.bounds = {{-40, -40}, {40, 40}};
   return scenario;
 }
 

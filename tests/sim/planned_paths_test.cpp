@@ -12,7 +12,7 @@ namespace {
 world::Scenario meadow() {
   world::Scenario scenario;
   scenario.ground = {{-60, -60}, {60, 60}};
-  scenario.inside = {{-40, -40}, {40, 40}};
+  scenario.inside.bounds = {{-40, -40}, {40, 40}};
   scenario.exits = {{"gate", {9, -1}, {9, 1}, {1, 0}, true, {}}};
   return scenario;
 }

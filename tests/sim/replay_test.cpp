@@ -83,7 +83,7 @@ class Steps : public RunObserver {
 
 TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {
   world::Scenario scenario;  // without a crowd of its own: nothing of it is read
-  scenario.inside = {{-10, -10}, {10, 10}};
+  scenario.inside.bounds = {{-10, -10}, {10, 10}};
   scenario.exits = {{"east", {10, -1}, {10, 1}, {1, 0}, true, {{0, 0}}}};
   scenario.disaster_agents = {99};
   RunSpec spec;

@@ -124,7 +124,7 @@ TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
   world::Scenario street =
       scenarios::find_scenario(source_folder() / "scenarios", "shopping_street/emergency");
   // So small that he is outside of it as soon as he walks.
-  street.inside = {{4, -1}, {6, 1}};
+  street.inside.bounds = {{4, -1}, {6, 1}};
   RecordingObserver recorded;
   watch(street, 6, recorded);
   ASSERT_EQ(recorded.header.role.at(0), AgentRole::attacker);

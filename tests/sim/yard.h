@@ -13,7 +13,7 @@ namespace throng::sim::testing {
 /// 40 m x 40 m; the left door is 2 m wide, the right one 3 m.
 inline world::Scenario yard() {
   world::Scenario scenario;
-  scenario.inside = {{-20, -20}, {20, 20}};
+  scenario.inside.bounds = {{-20, -20}, {20, 20}};
   scenario.exits = {{"left", {-20, -1}, {-20, 1}, {-1, 0}, true, {{3, 0}}},
                     {"right", {20, -1.5}, {20, 1.5}, {1, 0}, true, {{3, 1}}}};
   return scenario;

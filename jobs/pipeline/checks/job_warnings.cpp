@@ -93,7 +93,7 @@ double ground_distance_m(const world::Rectangle& area, const Eigen::Vector3d& po
 void check_distances(const JobSpec& job, const world::Scenario& scenario, int run,
                      std::vector<Problem>& warnings) {
   world::Rectangle area = scenario.ground;
-  area.extend(scenario.inside);
+  area.extend(scenario.inside.bounds);
   const auto paths = sim::planned_paths(scenario, run_spec(job, run));
   for (std::size_t i = 0; i < paths.size(); ++i) {
     double max_distance_m = 0;

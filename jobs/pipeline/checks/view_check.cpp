@@ -45,7 +45,7 @@ double reached_s(const Vector2d& place, const StartingCrowd& crowd, double half_
 
 std::vector<Cell> occupied_cells(const world::Scenario& scenario, const StartingCrowd& crowd) {
   world::Rectangle area = scenario.ground;
-  area.extend(scenario.inside);
+  area.extend(scenario.inside.bounds);
   const Vector2d size = (area.max - area.min) / kCellsPerSide;
   std::vector<Cell> cells;
   for (int y = 0; y < kCellsPerSide; ++y) {

@@ -25,18 +25,35 @@ struct Counted {
   int in_header = 0;
   int people = 0;
   int left_before = 0;
-  int inside = 0;  ///< at the end, hurt or not
+  int turned_back = 0;  ///< came to an exit from outside, and left again
+  int at_exits = 0;     ///< came, and are still before an exit
+  int inside = 0;       ///< at the end, hurt or not
   int hurt = 0;
   std::vector<double> escape_s;  ///< in order
   double mean_s = 0;
 
+  int evacuees() const { return people - left_before - turned_back - at_exits; }
   double percentile_s(int percent) const {
-    const double evacuees = people - left_before;
-    const auto needed = static_cast<std::size_t>(std::ceil(evacuees * percent / 100 - 1e-9));
+    const auto needed = static_cast<std::size_t>(std::ceil(evacuees() * percent / 100.0 - 1e-9));
     const double never = std::numeric_limits<double>::infinity();
     return needed == 0 || needed > escape_s.size() ? never : escape_s[needed - 1];
   }
 };
+
+/// Whether a place is on the inner side of its nearest exit.
+bool is_within(const world::Scenario& scenario, const Eigen::Vector2d& place) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  bool is_inner = true;
+  for (const world::Exit& exit : scenario.exits) {
+    for (int i = 0; i <= 1000; ++i) {
+      const Eigen::Vector2d point = exit.from + i / 1000.0 * (exit.to - exit.from);
+      if ((place - point).norm() >= nearest_m) continue;
+      nearest_m = (place - point).norm();
+      is_inner = (place - point).dot(exit.outward) < 0;
+    }
+  }
+  return is_inner;
+}
 
 Counted counted(const world::Trace& trace, const world::Scenario& scenario,
                 const std::optional<double>& alarm_s) {
@@ -47,22 +64,31 @@ Counted counted(const world::Trace& trace, const world::Scenario& scenario,
     ++counted.in_header;
     double arrived_s = -1;
     double escaped_s = -1;
+    bool has_entered = false;
     bool hurt = false;
     for (std::size_t step = 0; step < trace.steps(); ++step) {
       const bool there = (trace.flags[step * trace.agents() + agent] & 1) != 0;
       if (there && arrived_s < 0) arrived_s = trace.time_s[step];
-      if (arrived_s < 0 || escaped_s >= 0) continue;
+      if (arrived_s < 0) continue;
       const Eigen::Vector2f& place = trace.position[step * trace.agents() + agent];
-      const bool inside =
-          place.x() >= scenario.inside.min.x() && place.x() <= scenario.inside.max.x() &&
-          place.y() >= scenario.inside.min.y() && place.y() <= scenario.inside.max.y();
+      const bool inside = place.x() >= scenario.inside.bounds.min.x() &&
+                          place.x() <= scenario.inside.bounds.max.x() &&
+                          place.y() >= scenario.inside.bounds.min.y() &&
+                          place.y() <= scenario.inside.bounds.max.y();
+      if (there && inside) escaped_s = -1;
+      if (escaped_s >= 0) continue;
       if (!there || !inside) escaped_s = trace.time_s[step];
+      has_entered = has_entered || (there && inside && is_within(scenario, place.cast<double>()));
       const std::string& state =
           trace.header.state_names.at(trace.state[step * trace.agents() + agent]);
       hurt = state.find("asualty") != std::string::npos || state.find("allen") != std::string::npos;
     }
     if (arrived_s < 0) continue;
     ++counted.people;
+    if (!has_entered) {
+      ++(escaped_s >= 0 ? counted.turned_back : counted.at_exits);
+      continue;
+    }
     const double start_s = std::max(arrived_s, alarm_s.value_or(0));
     if (escaped_s >= 0 && escaped_s < start_s - 1e-6) {
       ++counted.left_before;
@@ -77,7 +103,7 @@ Counted counted(const world::Trace& trace, const world::Scenario& scenario,
     sum_s += std::max(0.0, (escaped_s >= 0 ? escaped_s : trace.duration_s()) - start_s);
   }
   std::sort(counted.escape_s.begin(), counted.escape_s.end());
-  const int evacuees = counted.people - counted.left_before;
+  const int evacuees = counted.evacuees();
   counted.mean_s = evacuees > 0 ? sum_s / evacuees : 0;
   return counted;
 }
@@ -133,10 +159,11 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
         << scenario.exits[e].id;
     left_by_exits += run.counts.left_by[e].people;
   }
-  EXPECT_EQ(left_by_exits, expected.people - expected.inside);
+  EXPECT_EQ(left_by_exits, expected.evacuees() + expected.left_before - expected.inside);
+  EXPECT_EQ(run.counts.turned_back, expected.turned_back);
   EXPECT_EQ(run.counts.left_by_no_exit, 0);
   EXPECT_EQ(run.counts.vanished_inside, 0);
-  EXPECT_EQ(run.counts.never_inside, 0);
+  EXPECT_EQ(run.counts.never_inside, expected.at_exits);
   EXPECT_EQ(run.guidance.led, outcome.followed);
   for (const metrics::PersonRecord& person : run.persons) {
     EXPECT_GE(person.noticed_s.value_or(person.start_s), person.start_s) << person.agent;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 int net_crossings(const std::vector<Vector2d>& path, double width_m = 2, double margin_m = 0.2) {
-  const ExitLine line(door(width_m), margin_m);
+  const ExitLine line(door(width_m), margin_m, margin_m);
   CrossingCounter counter;
   int net = 0;
   for (const Vector2d& position : path) net += counter.step(line, position);

@@ -15,7 +15,7 @@ namespace {
 // Alarm at 5 s. One leaves before, one at 9 s; one arrives at 8 s and leaves at 14 s, one at 12 s
 // and stays; one was there all the time and stays. The run ends at 20 s.
 TEST(EscapeTimes, RunFromTheLaterOfAlarmAndArrival) {
-  world::Scenario scenario = place_with_door(2);
+  world::Scenario scenario = place_with_door_at_border(2);
   add_alarm(scenario, 5);
   CrowdOfTest crowd;
   crowd.duration_s = 20;

@@ -11,6 +11,7 @@ export interface Metrics {
     inside: number;
     casualties: number;
     vanished_inside: number;
+    turned_back: number;
     never_inside: number;
   };
   warnings?: string[];

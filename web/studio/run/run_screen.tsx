@@ -75,6 +75,7 @@ function countsOf({ people, not_escaped, people_counts: counts }: Metrics): Figu
     count("by no exit", counts.left_by_no_exit),
     count("casualties", counts.casualties),
     count("vanished inside", counts.vanished_inside),
+    count("turned back", counts.turned_back),
     count("never inside", counts.never_inside),
   ];
   return [

@@ -34,7 +34,7 @@ constexpr int kAwaySet = 1;
 Node door_goal(const Exit& exit, std::size_t id) {
   constexpr double kBehindM = 0.3;
   constexpr double kDeepM = 1;
-  const double jamb_m = std::min(0.3, 0.2 * exit.width_m());
+  const double jamb_m = std::min(0.3, 0.2 * exit.length_m());
   Vector2d from = exit.from;
   Vector2d along = (exit.to - exit.from).normalized();
   // The box's second axis, to the left of the first, leads out.
@@ -48,14 +48,14 @@ Node door_goal(const Exit& exit, std::size_t id) {
                        {"type", "OBB"},
                        {"x", decimals_text(pivot.x(), 3)},
                        {"y", decimals_text(pivot.y(), 3)},
-                       {"width", decimals_text(exit.width_m() - 2 * jamb_m, 3)},
+                       {"width", decimals_text(exit.length_m() - 2 * jamb_m, 3)},
                        {"height", decimals_text(kDeepM, 3)},
                        {"angle", decimals_text(angle_deg, 3)},
                        {"weight", significant_text(exit.width_m(), 3)}});
 }
 
 /// Straight out of a door, where one has left the scenario.
-Vector2d beyond(const Exit& exit, const world::Rectangle& inside) {
+Vector2d beyond(const Exit& exit, const geometry::Region& inside) {
   constexpr double kStepM = 0.5;
   constexpr double kFartherM = 4;
   Vector2d at = exit.middle();

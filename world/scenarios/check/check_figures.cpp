@@ -14,15 +14,15 @@ using world::Exit;
 using world::Scenario;
 
 void check_drawn_ground(const Scenario& scenario, Findings& findings) {
-  if (scenario.ground.contains(scenario.inside.min) &&
-      scenario.ground.contains(scenario.inside.max)) {
+  if (scenario.ground.contains(scenario.inside.bounds.min) &&
+      scenario.ground.contains(scenario.inside.bounds.max)) {
     return;
   }
   findings.warning(
       "/ground",
       fmt::format("ground from {} to {}, smaller than \"inside\", from {} to {}",
                   point_text(scenario.ground.min), point_text(scenario.ground.max),
-                  point_text(scenario.inside.min), point_text(scenario.inside.max)),
+                  point_text(scenario.inside.bounds.min), point_text(scenario.inside.bounds.max)),
       "ground wherever people walk who have not escaped",
       "enlarge \"ground\": images show nothing under people beyond it; or \"inside\" is too large");
 }

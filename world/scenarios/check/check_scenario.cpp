@@ -106,7 +106,7 @@ void check_sizes(const Scenario& scenario, Findings& findings) {
   constexpr double kMaxSizeM = 20'000;
   constexpr double kMaxExitWidthM = 200;
   constexpr double kMaxHeightM = 500;
-  const Vector2d inside = scenario.inside.max - scenario.inside.min;
+  const Vector2d inside = scenario.inside.bounds.max - scenario.inside.bounds.min;
   if (inside.minCoeff() < kMinSizeM || inside.maxCoeff() > kMaxSizeM) {
     findings.error("/inside", fmt::format("{:.4g} m by {:.4g} m", inside.x(), inside.y()),
                    fmt::format("a scenario of {} m to {} m", kMinSizeM, kMaxSizeM),

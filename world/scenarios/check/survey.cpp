@@ -48,7 +48,7 @@ float cell_size_m(const world::Scenario& scenario, double radius_m) {
     cell_m = std::min(cell_m, (exit.width_m() - 2 * radius_m) / 3);
   }
   const Vector2d size =
-      scenario.inside.max - scenario.inside.min + Vector2d::Constant(2 * kMarginM);
+      scenario.inside.bounds.max - scenario.inside.bounds.min + Vector2d::Constant(2 * kMarginM);
   return static_cast<float>(
       std::max({cell_m, kFinestCellM, std::sqrt(size.x() * size.y() / kMaxCells)}));
 }
@@ -198,7 +198,7 @@ Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded) {
   Routes routes;
   const float radius_m = min_radius_m(loaded);
   const Vector2d margin = Vector2d::Constant(kMarginM);
-  world::Rectangle around = scenario.inside;
+  world::Rectangle around = scenario.inside.bounds;
   for (const world::Exit& exit : scenario.exits) {
     around.extend(exit.from);
     around.extend(exit.to);

@@ -46,11 +46,8 @@ void draw_ground(const Scenario& scenario, Sheet& sheet) {
                                           marking.from + side},
                   kPaint, drawing::kTransparent);
   }
-  const world::Rectangle& in = scenario.inside;
   constexpr Color kEdge{{120, 120, 120}, 0.5};
-  sheet.polygon(std::array{in.min, Vector2d(in.max.x(), in.min.y()), in.max,
-                           Vector2d(in.min.x(), in.max.y())},
-                drawing::kTransparent, kEdge);
+  sheet.polygon(scenario.inside.corners(), drawing::kTransparent, kEdge);
 }
 
 void draw_props(const Scenario& scenario, Sheet& sheet) {
