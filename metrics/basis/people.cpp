@@ -110,7 +110,7 @@ void PeopleTracker::arrive(Person& person, const PeopleStep& step) {
   const Vector2d place = place_of(person, step);
   const bool is_in_bounds = scenario_.inside.contains(place);
   if (is_in_bounds && !record.was_inside) {
-    // Who comes from outside enters like somebody who crosses the line, and does not touch it only.
+    // People who come from outside must cross the line; touching it is not enough.
     record.was_inside = !is_at_an_exit(place, person.seen ? CrossingCounter::kHysteresisM : 0);
   }
   if (person.seen && (person.was_in_bounds || !is_in_bounds)) return;

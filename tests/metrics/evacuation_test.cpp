@@ -52,7 +52,7 @@ TEST(RunMetrics, PeopleStillInsideCountUntilTheEnd) {
   EXPECT_NEAR(metrics.mean_escape_time_s, (55 + 10 * 10.5) / 20, 0.051);
 }
 
-TEST(RunMetrics, WhoComesBackHasNotEscaped) {
+TEST(RunMetrics, APersonWhoComesBackHasNotEscaped) {
   const Walk out_and_back = [](double time_s) -> Eigen::Vector2d {
     return {time_s > 1 && time_s < 5 ? 12 : 0, 0};
   };

@@ -113,7 +113,7 @@ TEST(PeopleCounts, TurningBackAtTheDoorIsNoEscape) {
   EXPECT_DOUBLE_EQ(metrics.escape_curve.back(), 1);
 }
 
-TEST(PeopleCounts, PeopleBesideAnExitAroundACornerAreInThePlace) {
+TEST(PeopleCounts, PeopleBesideAnExitAroundACornerAreInside) {
   // An exit in the inner corner of an L: this person is beyond its line, but behind a wall.
   world::Scenario scenario = place_with_door(2);
   scenario.buildings.push_back(box({0, -5}, {10, -4}));
@@ -163,7 +163,7 @@ TEST(PeopleCounts, AnExitFarBeyondTheBorderCountsThoseWhoPassItAfterwards) {
   EXPECT_NEAR(people[2].escaped_s.value(), 9, 0.11);
 }
 
-TEST(PeopleCounts, AnLShapedPlaceEndsAtItsPolygon) {
+TEST(PeopleCounts, AnLShapedScenarioEndsAtItsPolygon) {
   world::Scenario scenario = place_with_door(2);
   scenario.inside.outline = {{-20, -20}, {0, -20}, {0, 2}, {10, 2}, {10, 20}, {-20, 20}};
   const std::vector<PersonRecord> people =
