@@ -34,6 +34,13 @@ bool ExitLine::is_in_doorway(const Eigen::Vector2d& point) const {
   return is_in_width(along_m(point)) && std::abs(beyond_m(point)) <= kDoorwayM;
 }
 
+bool ExitLine::is_just_before(const Eigen::Vector2d& point) const {
+  const double along = along_m(point);
+  const double beside_m = along - std::clamp(along, min_along_m_, max_along_m_);
+  const double beyond = beyond_m(point);
+  return beyond < 0 && std::hypot(beside_m, beyond) <= kDoorwayM;
+}
+
 double ExitLine::along_m(const Eigen::Vector2d& point) const {
   return (point - middle_).dot(Eigen::Vector2d(outward_.y(), -outward_.x()));
 }

@@ -22,6 +22,8 @@ class ExitLine {
   bool leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   /// Whether the point lies in front of or behind the door, within kDoorwayM of its line.
   bool is_in_doorway(const Eigen::Vector2d& point) const;
+  /// Whether the point lies on the inner side within kDoorwayM of the door.
+  bool is_just_before(const Eigen::Vector2d& point) const;
 
   static constexpr double kDoorwayM = 2;
 

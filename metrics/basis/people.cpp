@@ -85,7 +85,7 @@ void PeopleTracker::step(const PeopleStep& step) {
     if (present) arrive(person, step);
     if (!person.seen) continue;
     if (present || person.present_before) count_doors(person, step, present);
-    if (present && scenario_.inside.contains(place_of(person, step))) {
+    if (present && is_in(person, place_of(person, step))) {
       observe(person, step);
     } else if (person.was_in_bounds) {
       leave(person, step, present);
@@ -141,6 +141,14 @@ bool PeopleTracker::is_at_an_exit(const Vector2d& place, double margin_m) const 
   });
 }
 
+/// Whether the person is in Scenario::inside, or between its border and an exit not yet passed.
+bool PeopleTracker::is_in(const Person& person, const Vector2d& place) const {
+  if (scenario_.inside.contains(place)) return true;
+  if (!person.was_in_bounds || passed_exit(person)) return false;
+  return std::any_of(lines_.begin(), lines_.end(),
+                     [&](const ExitLine& line) { return line.is_just_before(place); });
+}
+
 /// The exit whose line the person passed last, if the person has not come back through it.
 std::optional<std::size_t> PeopleTracker::passed_exit(const Person& person) const {
   std::optional<std::size_t> passed;
@@ -160,7 +168,7 @@ std::optional<std::size_t> PeopleTracker::exit_at(const Vector2d& place) const {
   return std::nullopt;
 }
 
-/// A step outside of Scenario::inside, or absent.
+/// A step outside, or absent.
 void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) {
   if (person.is_settled) return;
   PersonRecord& record = person.record;
@@ -186,7 +194,7 @@ void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) 
   }
 }
 
-/// A step in Scenario::inside.
+/// A step inside.
 void PeopleTracker::observe(Person& person, const PeopleStep& step) {
   PersonRecord& record = person.record;
   person.is_settled = false;

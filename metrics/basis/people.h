@@ -115,6 +115,7 @@ class PeopleTracker {
 
   static Eigen::Vector2d place_of(const Person& person, const PeopleStep& step);
   void arrive(Person& person, const PeopleStep& step);
+  bool is_in(const Person& person, const Eigen::Vector2d& place) const;
   bool is_at_an_exit(const Eigen::Vector2d& place, double margin_m) const;
   void observe(Person& person, const PeopleStep& step);
   void leave(Person& person, const PeopleStep& step, bool present);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "metrics/evacuation.h"
@@ -47,7 +48,7 @@ TEST(PeopleCounts, ThePlaceMayEndAtOrBeforeTheLineOfTheDoor) {
     world::Scenario scenario = place_with_door(2);
     scenario.inside.bounds.max.x() = end_m;
     CrowdOfTest crowd;
-    crowd.duration_s = 7.5 + end_m;  // the run ends soon after the escape
+    crowd.duration_s = 7.5 + std::max(0.0, end_m);  // the run ends soon after the escape
     const world::Trace trace =
         make_trace({walking({-7, 0}, {1, 0}), walking({-7, 3}, {1, 0})}, crowd);
     const PeopleCounts counts = count_people_in(trace, scenario);
@@ -161,6 +162,16 @@ TEST(PeopleCounts, AnExitFarBeyondTheBorderCountsThoseWhoPassItAfterwards) {
   EXPECT_NEAR(people[1].escaped_s.value(), 3.1, 0.11) << "beside the exit: at the border";
   EXPECT_EQ(people[2].left_by, 0) << "removed just before the line";
   EXPECT_NEAR(people[2].escaped_s.value(), 9, 0.11);
+}
+
+TEST(PeopleCounts, PeopleBetweenTheBorderAndTheExitAreInside) {
+  world::Scenario scenario = place_with_door(2);
+  scenario.inside.bounds.max.x() = -1;
+  const Walk waits_before_the_door = [](double time_s) -> Eigen::Vector2d {
+    return {std::min(-5 + time_s, -0.3), 1.5};
+  };
+  const PeopleCounts counts = count_people_in(make_trace({waits_before_the_door}), scenario);
+  EXPECT_EQ(counts.inside, 1);
 }
 
 TEST(PeopleCounts, AnLShapedScenarioEndsAtItsPolygon) {
