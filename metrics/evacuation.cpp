@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/compute/quantile.h"
 #include "metrics/basis/percents.h"
 #include "metrics/basis/walking_distance.h"
 #include "metrics/definitions.h"
@@ -50,6 +51,21 @@ RunMetrics::Horizon summarize_horizon(const EscapeTimes& escapes, double at_s) {
 
 json seconds_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+}
+
+/// For how long people who turned back were in the scenario.
+json turned_back_json(const std::vector<PersonRecord>& people) {
+  std::vector<double> stays_s;
+  for (const PersonRecord& person : people) {
+    if (!person.was_inside && person.turned_back_s) {
+      stays_s.push_back(*person.turned_back_s - person.arrived_s);
+    }
+  }
+  if (stays_s.empty()) return nullptr;
+  std::sort(stays_s.begin(), stays_s.end());
+  return {{"people", stays_s.size()},
+          {"median_stay_s", quantile_of_sorted(stays_s, 0.5)},
+          {"max_stay_s", stays_s.back()}};
 }
 
 json horizons_json(const std::vector<RunMetrics::Horizon>& horizons) {
@@ -158,6 +174,7 @@ json to_json(const RunMetrics& metrics) {
            {{"rate_hz", 1},
             {"escaped_share", metrics.escape_curve},
             {"escaped_share_since_start", metrics.escapes.curve()}}},
+          {"turned_back", turned_back_json(metrics.persons)},
           {"exits", exits},
           {"exit_balance", to_json(metrics.balance)},
           {"drones", drones},

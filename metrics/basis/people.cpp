@@ -180,7 +180,7 @@ void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) 
   const std::optional<std::size_t> exit = passed || may_end_anywhere ? passed : exit_at(place);
   person.is_settled = passed || !present;
   if (!record.was_inside) {
-    if (!may_end_anywhere) record.turned_back_s = step.time_s;
+    if (!may_end_anywhere && !record.turned_back_s) record.turned_back_s = step.time_s;
     return;
   }
   // Beyond the border without having passed an exit, the person may still come to one.

@@ -20,7 +20,7 @@ job() {
       | .outputs.previews = 1' "$root/scenarios/$1/$file.job.json"
 }
 
-printf '| scenario | variant | people | out after 60 s | simulated and rendered in |\n|---|---|---|---|---|\n'
+printf '| scenario | variant | people | turned back at an exit | out after 60 s | simulated and rendered in |\n|---|---|---|---|---|---|\n'
 for scenario in "${scenarios[@]}"; do
   for variant in everyday emergency; do
     out="$folder/${scenario}_$variant"
@@ -32,7 +32,9 @@ for scenario in "${scenarios[@]}"; do
       "$throng" validate "$out/dataset" > "$out.validation"
     fi
     jq -r --arg scenario "$scenario" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \
-      '.runs[0] | "| \($scenario) | \($variant) | \(.people) | \(.people - .not_escaped - .casualties) | \($seconds) s |"' \
+      '.runs[0] | .people_counts as $counts
+        | "| \($scenario) | \($variant) | \(.people - $counts.turned_back - $counts.never_inside) | \($counts.turned_back) | \(
+            $counts.left_by_no_exit + ([$counts.left_by_exit[].people] | add)) | \($seconds) s |"' \
       "$out/dataset/metrics.json"
   done
 done

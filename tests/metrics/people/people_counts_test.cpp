@@ -112,6 +112,9 @@ TEST(PeopleCounts, TurningBackAtTheDoorIsNoEscape) {
   EXPECT_EQ(metrics.remaining.total(), 0);
   EXPECT_NEAR(metrics.percentiles.front().time_s.value(), 13.1, 0.11) << "14 m to the border";
   EXPECT_DOUBLE_EQ(metrics.escape_curve.back(), 1);
+  const nlohmann::json turned_back = to_json(metrics).at("turned_back");
+  EXPECT_EQ(turned_back.at("people"), 2);
+  EXPECT_NEAR(turned_back.at("max_stay_s"), 13.2, 0.11) << "touches the line at 3.1 s";
 }
 
 TEST(PeopleCounts, PeopleBesideAnExitAroundACornerAreInside) {

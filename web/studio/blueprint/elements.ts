@@ -199,3 +199,11 @@ export function rectangleOf(document: JsonObject, name: string): [number, number
   const [high] = pointOf(valueAt(document, [name, "max"]));
   return low && high && low[0] < high[0] && low[1] < high[1] ? [...low, ...high] : null;
 }
+
+/** The corners of "inside": those of its rectangle or of its polygon; none while it has neither. */
+export function insideCorners(document: JsonObject): Point[] {
+  const rectangle = rectangleOf(document, "inside");
+  if (rectangle) return boxCorners(rectangle);
+  const corners = valueAt(document, ["inside", "corners"]);
+  return Array.isArray(corners) ? corners.flatMap(pointOf) : [];
+}

@@ -2,7 +2,18 @@
 import type { TargetedKeyboardEvent, TargetedPointerEvent } from "preact";
 import { useMemo, useRef, useState } from "preact/hooks";
 import type { JsonObject } from "../form/json";
-import { added, boxCorners, type Element, moved, rectangleOf, removed, withCorner, withNewCorner, withoutCorner } from "./elements";
+import {
+  added,
+  boxCorners,
+  type Element,
+  insideCorners,
+  moved,
+  rectangleOf,
+  removed,
+  withCorner,
+  withNewCorner,
+  withoutCorner,
+} from "./elements";
 import type { History } from "./history";
 import { type Kind, kindNamed, type Point } from "./kinds";
 import { placedNames } from "./names";
@@ -47,12 +58,14 @@ export const kindOfTool = (tool: Tool): Kind => kindNamed(tool === "wall" ? "bui
 
 function Ground({ document, unit }: { document: JsonObject; unit: number }) {
   const ground = rectangleOf(document, "ground");
-  const inside = rectangleOf(document, "inside");
+  const inside = insideCorners(document).map(([x, y]) => `${x},${-y}`);
   const box = ([x0, y0, x1, y1]: [number, number, number, number]) => ({ x: x0, y: -y1, width: x1 - x0, height: y1 - y0 });
   return (
     <>
       {ground && <rect class="plan-ground" {...box(ground)} />}
-      {inside && <rect class="plan-inside" {...box(inside)} stroke-width={0.2 * unit} stroke-dasharray={`${unit} ${0.6 * unit}`} />}
+      {inside.length > 2 && (
+        <polygon class="plan-inside" points={inside.join(" ")} stroke-width={0.2 * unit} stroke-dasharray={`${unit} ${0.6 * unit}`} />
+      )}
     </>
   );
 }

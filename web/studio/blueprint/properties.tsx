@@ -184,7 +184,7 @@ export function Properties({ document, element, onChange, onRemove }: Properties
   );
 }
 
-/** Name, ground, and the rectangle that people escape from. */
+/** Name, ground, and the rectangle or polygon that people escape from. */
 export function BlueprintFields({ document, onChange }: { document: JsonObject; onChange: (document: JsonObject) => void }) {
   const set = (path: Path, value: Json | undefined) => onChange((withValue(document, path, value) ?? {}) as JsonObject);
   const corner = (rectangle: string, end: string, axis: number, label: string) => {
@@ -230,7 +230,11 @@ export function BlueprintFields({ document, onChange }: { document: JsonObject; 
         onChange={(value) => set(["ground", "material"], value)}
       />
       {rectangle("ground", "Drawn ground")}
-      {rectangle("inside", "Inside: who leaves it has escaped")}
+      {valueAt(document, ["inside", "corners"]) === undefined ? (
+        rectangle("inside", "Inside: people who leave it have escaped")
+      ) : (
+        <p>Inside is a polygon of the file; people who leave it have escaped.</p>
+      )}
     </section>
   );
 }
