@@ -109,6 +109,23 @@ TEST_F(ScenarioFile, ReadsEverything) {
   EXPECT_THAT(s.disaster_agents, ElementsAre(7));
 }
 
+TEST_F(ScenarioFile, InsideMayBeAPolygon) {
+  json document = valid_scenario();
+  document["inside"] = {{"corners", {{-10, -10}, {-10, 10}, {0, 10}, {0, 2}, {10, 2}, {10, -10}}}};
+  document["exits"][0] = {{"id", "inner"}, {"from", {0, 4}}, {"to", {0, 6}}, {"goals", {{3, 0}}}};
+  const Scenario s = load(document);
+  EXPECT_EQ(s.inside.bounds.max, Eigen::Vector2d(10, 10));
+  EXPECT_TRUE(s.inside.contains({-5, 5}));
+  EXPECT_FALSE(s.inside.contains({5, 5}));
+  EXPECT_EQ(s.exits[0].outward, Eigen::Vector2d(1, 0)) << "out of the polygon";
+  json both = document;
+  both["inside"]["min"] = {-10, -10};
+  EXPECT_EQ(list_problems(both.dump()).front().where, "/inside/min");
+  json bow_tie = document;
+  bow_tie["inside"]["corners"] = {{0, 0}, {4, 4}, {4, 0}, {0, 4}};
+  EXPECT_EQ(list_problems(bow_tie.dump()).front().where, "/inside/corners");
+}
+
 TEST_F(ScenarioFile, ADoorMayCloseAtATime) {
   json document = valid_scenario();
   document["exits"][0]["closes_at_s"] = 12.5;
