@@ -53,17 +53,17 @@ json seconds_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? json(*value) : json(nullptr);
 }
 
-/// For how long people who turned back were in the scenario.
+/// For how long people who turned back and were gone by the end had been in the scenario.
 json turned_back_json(const std::vector<PersonRecord>& people) {
   std::vector<double> stays_s;
   for (const PersonRecord& person : people) {
-    if (!person.was_inside && person.turned_back_s) {
+    if (person.turned_back_s) {
       stays_s.push_back(*person.turned_back_s - person.arrived_s);
     }
   }
   if (stays_s.empty()) return nullptr;
   std::sort(stays_s.begin(), stays_s.end());
-  return {{"people", stays_s.size()},
+  return {{"gone", stays_s.size()},
           {"median_stay_s", quantile_of_sorted(stays_s, 0.5)},
           {"max_stay_s", stays_s.back()}};
 }

@@ -322,7 +322,6 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   scenario.exits = read_exits(root["exits"], scenario.inside);
   if (problems.size() == problems_before) reject_overlaps(root["exits"], scenario.exits);
   scenario.buildings = read_buildings(root["buildings"]);
-  trim_to_openings(scenario.buildings, scenario.exits);
   scenario.drones = read_drones(root["drones"], scenario.buildings);
   scenario.props = read_props(root["props"], root["scatter"], scenario);
   scenario.placed_props = root["props"].items().size();
@@ -340,6 +339,7 @@ Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, st
   if (root["guides_alert"].exists()) scenario.guides_alert = root["guides_alert"].boolean();
   schemas::add_schema_problems(schemas::Kind::scenario, document, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
+  trim_to_openings(scenario.buildings, scenario.exits);
   nlohmann::json kept = document;
   for (const char* field : {"crowd", "$schema"}) kept.erase(field);
   scenario.document = kept.dump();

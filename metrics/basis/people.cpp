@@ -87,7 +87,7 @@ void PeopleTracker::step(const PeopleStep& step) {
     if (present || person.present_before) count_doors(person, step, present);
     if (present && is_in(person, place_of(person, step))) {
       observe(person, step);
-    } else if (person.was_in_bounds) {
+    } else if (person.record.came_to_exit) {
       leave(person, step, present);
     }
     if (present) person.last_place = step.position[person.record.agent].cast<double>();
@@ -113,9 +113,9 @@ void PeopleTracker::arrive(Person& person, const PeopleStep& step) {
     // People who come from outside must cross the line; touching it is not enough.
     record.was_inside = !is_at_an_exit(place, person.seen ? CrossingCounter::kHysteresisM : 0);
   }
-  if (person.seen && (person.was_in_bounds || !is_in_bounds)) return;
+  if (person.seen && (person.record.came_to_exit || !is_in_bounds)) return;
   person.seen = true;
-  person.was_in_bounds = is_in_bounds;
+  record.came_to_exit = is_in_bounds;
   record.first_step = steps_;
   record.arrived_s = step.time_s;
   record.start_s = std::max(alarm_.at_s.value_or(step.time_s), step.time_s);
@@ -144,7 +144,7 @@ bool PeopleTracker::is_at_an_exit(const Vector2d& place, double margin_m) const 
 /// Whether the person is in Scenario::inside, or between its border and an exit not yet passed.
 bool PeopleTracker::is_in(const Person& person, const Vector2d& place) const {
   if (scenario_.inside.contains(place)) return true;
-  if (!person.was_in_bounds || passed_exit(person)) return false;
+  if (!person.record.came_to_exit || passed_exit(person)) return false;
   return std::any_of(lines_.begin(), lines_.end(),
                      [&](const ExitLine& line) { return line.is_just_before(place); });
 }

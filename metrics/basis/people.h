@@ -30,6 +30,7 @@ struct PersonRecord {
   /// Whether the person has been in the place: in Scenario::inside, and not just beyond the line of
   /// the exit at which the person arrived. Other people are no evacuees.
   bool was_inside = false;
+  bool came_to_exit = false;  ///< in Scenario::inside at any time, even if only beyond an exit
   Eigen::Vector2d start_place = Eigen::Vector2d::Zero();  ///< at the first step from start_s on, m
   std::optional<double> noticed_s;                        ///< when the person noticed the alarm
   Eigen::Vector2d noticed_place = Eigen::Vector2d::Zero();
@@ -104,8 +105,7 @@ class PeopleTracker {
   struct Person {
     PersonRecord record;
     bool seen = false;
-    bool was_in_bounds = false;  ///< in Scenario::inside at any time
-    bool is_settled = false;     ///< has left by an exit or is absent, and has not come back
+    bool is_settled = false;  ///< has left by an exit or is absent, and has not come back
     bool started = false;
     bool present_before = false;
     Eigen::Vector2d last_place = Eigen::Vector2d::Zero();

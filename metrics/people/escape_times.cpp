@@ -77,7 +77,7 @@ EscapeTimes escape_times(const std::vector<PersonRecord>& people, double end_s) 
   for (const PersonRecord& person : people) {
     ++times.people;
     if (!person.was_inside) {
-      ++(person.turned_back_s ? times.turned_back : times.never_inside);
+      ++(person.came_to_exit ? times.turned_back : times.never_inside);
     } else if (person.left_before_alarm()) {
       ++times.left_before_alarm;
     } else if (person.escaped_s) {

@@ -15,7 +15,7 @@ namespace throng::metrics {
 struct EscapeTimes {
   int people = 0;             ///< all people who were present at any time
   int left_before_alarm = 0;  ///< people who left before the alarm; no evacuees
-  int turned_back = 0;        ///< people who turned back at an exit; no evacuees
+  int turned_back = 0;        ///< people who came to an exit and did not enter; no evacuees
   int never_inside = 0;       ///< other people who were never inside; no evacuees
   int vanished = 0;           ///< number of `inside_s` that end when the person vanished
   /// Sorted escape times of the people who escaped (s).

@@ -18,7 +18,7 @@ int PeopleCounts::left() const {
 }
 
 const char* outcome_name(const PersonRecord& person) {
-  if (!person.was_inside) return person.turned_back_s ? "turned_back" : "never_inside";
+  if (!person.was_inside) return person.came_to_exit ? "turned_back" : "never_inside";
   if (person.escaped_s) return "left";
   if (person.hurt_s) return "casualty";
   return person.vanished_s ? "vanished" : "inside";
@@ -31,7 +31,7 @@ PeopleCounts count_people(const std::vector<PersonRecord>& people,
   for (const world::Exit& exit : exits) counts.left_by.push_back({exit.id, 0});
   for (const PersonRecord& person : people) {
     if (!person.was_inside) {
-      ++(person.turned_back_s ? counts.turned_back : counts.never_inside);
+      ++(person.came_to_exit ? counts.turned_back : counts.never_inside);
     } else if (person.escaped_s) {
       ++(person.left_by ? counts.left_by[*person.left_by].people : counts.left_by_no_exit);
     } else if (person.hurt_s) {
@@ -60,11 +60,8 @@ std::vector<std::string> count_warnings(const PeopleCounts& counts) {
   say(counts.vanished_inside,
       "vanished inside the place, where their recording ends or the crowd removes them: they have "
       "not escaped, and count until then");
-  say(counts.turned_back,
-      "arrived at an exit and turned back without entering: no figure of escape counts them");
   say(counts.never_inside,
-      "were never in the place (`inside` of the scenario, up to its exits): no figure of escape "
-      "counts them");
+      "were never inside the place (`inside` of the scenario): no figure of escape counts them");
   return warnings;
 }
 

@@ -22,7 +22,7 @@ struct PeopleCounts {
   int inside = 0;               ///< unhurt, at the end
   int casualties = 0;           ///< casualties inside at the end
   int vanished_inside = 0;      ///< became absent for good without having passed an exit
-  int turned_back = 0;          ///< arrived at an exit, did not enter, and left again
+  int turned_back = 0;          ///< came to an exit and had not entered by the end
   int never_inside = 0;         ///< others who were never in the place
 
   int left() const;  ///< through exits or otherwise
@@ -36,8 +36,8 @@ const char* outcome_name(const PersonRecord& person);
 PeopleCounts count_people(const std::vector<PersonRecord>& people,
                           const std::vector<world::Exit>& exits);
 
-/// A sentence for each count that a reader of the figures must know: people who left through no
-/// exit, vanished, turned back, or were never inside. Empty without such people.
+/// A sentence for each count that suggests a mistake: people who left through no exit, vanished, or
+/// were never inside. Empty without such people.
 std::vector<std::string> count_warnings(const PeopleCounts& counts);
 
 nlohmann::json to_json(const PeopleCounts& counts);

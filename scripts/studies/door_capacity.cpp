@@ -90,7 +90,7 @@ std::vector<int> passages(const std::string& model, double width_m, std::uint64_
   exit.from = {0, -0.5 * width_m};
   exit.to = {0, 0.5 * width_m};
   constexpr double kMarginM = 0.22;
-  const metrics::ExitLine line(exit, kMarginM);
+  const metrics::ExitLine line(exit, kMarginM, kMarginM);
   std::vector<metrics::CrossingCounter> counters(crowd.agent_count());
   std::vector<int> out = {0};
   const int enough = static_cast<int>(0.8 * static_cast<double>(crowd.agent_count()));

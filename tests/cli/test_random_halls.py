@@ -87,7 +87,7 @@ def outcome_of(places, present, time_s, hall, radius_m, alarm_s):
     result["start_s"] = max(alarm_s, time_s[first_in])
     is_out = last_in + 1 < len(places)
     if not entered.any():
-        return result | {"outcome": "turned_back" if is_out else "never_inside"}
+        return result | {"outcome": "turned_back"}
     if not is_out:
         return result | {"outcome": "inside"}
     outward = [(step, name) for _, step, sign, name in crossings if sign > 0]

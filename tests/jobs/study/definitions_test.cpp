@@ -25,14 +25,13 @@ struct Counted {
   int in_header = 0;
   int people = 0;
   int left_before = 0;
-  int turned_back = 0;  ///< came to an exit from outside, and left again
-  int at_exits = 0;     ///< came, and are still before an exit
+  int turned_back = 0;  ///< came to an exit and did not enter
   int inside = 0;       ///< at the end, hurt or not
   int hurt = 0;
   std::vector<double> escape_s;  ///< in order
   double mean_s = 0;
 
-  int evacuees() const { return people - left_before - turned_back - at_exits; }
+  int evacuees() const { return people - left_before - turned_back; }
   double percentile_s(int percent) const {
     const auto needed = static_cast<std::size_t>(std::ceil(evacuees() * percent / 100.0 - 1e-9));
     const double never = std::numeric_limits<double>::infinity();
@@ -86,7 +85,7 @@ Counted counted(const world::Trace& trace, const world::Scenario& scenario,
     if (arrived_s < 0) continue;
     ++counted.people;
     if (!has_entered) {
-      ++(escaped_s >= 0 ? counted.turned_back : counted.at_exits);
+      ++counted.turned_back;
       continue;
     }
     const double start_s = std::max(arrived_s, alarm_s.value_or(0));
@@ -163,7 +162,7 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   EXPECT_EQ(run.counts.turned_back, expected.turned_back);
   EXPECT_EQ(run.counts.left_by_no_exit, 0);
   EXPECT_EQ(run.counts.vanished_inside, 0);
-  EXPECT_EQ(run.counts.never_inside, expected.at_exits);
+  EXPECT_EQ(run.counts.never_inside, 0);
   EXPECT_EQ(run.guidance.led, outcome.followed);
   for (const metrics::PersonRecord& person : run.persons) {
     EXPECT_GE(person.noticed_s.value_or(person.start_s), person.start_s) << person.agent;
