@@ -67,10 +67,11 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
   try {
     const LoadedCrowd loaded = load_scenario_crowd(scenario);
     const Routes routes = find_routes(scenario, loaded);
-    check_exits(scenario, loaded, routes, findings);
+    const OutlineSurvey outline = survey_outline(scenario, loaded, routes);
+    check_exits(scenario, loaded, routes, outline.is_closed(), findings);
     check_walls(scenario, routes, findings);
     check_ground(scenario, routes, findings);
-    check_outline(scenario, loaded, routes, findings);
+    check_outline(scenario, outline, findings);
     check_outsiders(scenario, loaded, findings);
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
@@ -91,7 +92,8 @@ std::vector<Finding> check_figures(const world::Scenario& scenario, const std::s
   if (!scenario.has_crowd()) return findings.take();
   try {
     const LoadedCrowd loaded = load_scenario_crowd(scenario);
-    check_outline(scenario, loaded, find_routes(scenario, loaded), findings);
+    check_outline(scenario, survey_outline(scenario, loaded, find_routes(scenario, loaded)),
+                  findings);
     check_outsiders(scenario, loaded, findings);
   } catch (const InputError&) {
     return {};  // said when the crowd is loaded for a run

@@ -5,7 +5,6 @@
 
 #include "base/geometry/polygon.h"
 #include "world/scenarios/check/check_scenario.h"
-#include "world/scenarios/check/outline.h"
 #include "world/scenarios/check/sufferers.h"
 
 namespace throng::scenarios {
@@ -44,9 +43,7 @@ void check_outsiders(const Scenario& scenario, const LoadedCrowd& loaded, Findin
                    "move their generators, or enlarge \"inside\"");
 }
 
-void check_outline(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
-                   Findings& findings) {
-  const OutlineSurvey survey = survey_outline(scenario, loaded, routes);
+void check_outline(const Scenario& scenario, const OutlineSurvey& survey, Findings& findings) {
   const std::string expected = "walls with no way out but the exits, which count people";
   if (survey.is_open) {
     findings.warning("/crowd/scene",

@@ -43,62 +43,6 @@ double overlap_m2(const Building& a, const Building& b) {
   return area;
 }
 
-/// Whether somebody could head for an exit: one of its goals is in a set that a state chooses from.
-bool has_demand(const Exit& exit, const crowd::Goals& goals) {
-  return std::any_of(exit.goals.begin(), exit.goals.end(), [&](const world::GoalRef& goal) {
-    const int set = goals.find_set(goal.set);
-    return set >= 0 && goals.is_used(set) && goals.find_goal(goal.set, goal.goal) >= 0;
-  });
-}
-
-void check_goals(const Exit& exit, const std::string& where, const crowd::Goals& goals,
-                 Findings& findings) {
-  for (std::size_t i = 0; i < exit.goals.size(); ++i) {
-    const world::GoalRef& goal = exit.goals[i];
-    if (goals.find_goal(goal.set, goal.goal) >= 0) continue;
-    findings.error(
-        fmt::format("{}/goals/{}", where, i),
-        fmt::format("[{}, {}], which the behavior file does not have", goal.set, goal.goal),
-        "a goal set and goal of the behavior file",
-        "add the <Goal> to the behavior file, or correct the numbers");
-  }
-}
-
-bool anybody_reaches(std::size_t exit, const LoadedCrowd& loaded, const Routes& routes) {
-  if (routes.reached_from_exit[exit] == 0) return false;
-  // Somebody reaches this exit where any exit is reached and both are connected: from the door
-  // inwards, the ground has a way on to somebody.
-  std::vector<std::uint8_t> seen(routes.grid.walkable.size(), 0);
-  std::vector<int> open;
-  for (std::size_t cell = 0; cell < seen.size(); ++cell) {
-    if (routes.nearest_exit[cell] == static_cast<int>(exit) && routes.distance_m[cell] == 0) {
-      open.push_back(static_cast<int>(cell));
-      seen[cell] = 1;
-    }
-  }
-  while (!open.empty()) {
-    const int cell = open.back();
-    open.pop_back();
-    const int column = cell % routes.grid.columns;
-    const int row = cell / routes.grid.columns;
-    for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-      const int x = column + dx;
-      const int y = row + dy;
-      if (x < 0 || y < 0 || x >= routes.grid.columns || y >= routes.grid.rows) continue;
-      const std::size_t next = routes.grid.index(x, y);
-      if (seen[next] != 0 || routes.grid.walkable[next] == 0) continue;
-      seen[next] = 1;
-      open.push_back(static_cast<int>(next));
-    }
-  }
-  for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
-    if (!is_to_arrive_or_there(loaded, agent)) continue;
-    const int cell = routes.cell_at(loaded.start(agent));
-    if (cell == Routes::kNone || seen[static_cast<std::size_t>(cell)] != 0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void check_sizes(const Scenario& scenario, Findings& findings) {
@@ -119,12 +63,12 @@ void check_sizes(const Scenario& scenario, Findings& findings) {
                    "give all lengths in meters, and draw no more ground than a camera sees");
   }
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
-    if (scenario.exits[i].width_m() <= kMaxExitWidthM) continue;
-    findings.error(
-        fmt::format("/exits/{}", i),
-        fmt::format("exit \"{}\" {:.4g} m wide", scenario.exits[i].id, scenario.exits[i].width_m()),
-        fmt::format("a door of at most {} m", kMaxExitWidthM),
-        "give all lengths in meters, or make several exits of it");
+    if (scenario.exits[i].length_m() <= kMaxExitWidthM) continue;
+    findings.error(fmt::format("/exits/{}", i),
+                   fmt::format("exit \"{}\" {:.4g} m wide", scenario.exits[i].id,
+                               scenario.exits[i].length_m()),
+                   fmt::format("a door of at most {} m", kMaxExitWidthM),
+                   "give all lengths in meters, or make several exits of it");
   }
   for (std::size_t i = 0; i < scenario.buildings.size(); ++i) {
     if (scenario.buildings[i].height_m <= kMaxHeightM) continue;
@@ -285,44 +229,6 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
                                "exit can be reached",
                                area, point_text(first)),
                    "ground that people can leave", "fill it with an obstacle or open a way out");
-}
-
-void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
-                 Findings& findings) {
-  constexpr double kMinWidthM = 0.5;
-  bool any_demand = false;
-  bool any_open = false;
-  for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
-    const Exit& exit = scenario.exits[i];
-    const std::string where = fmt::format("/exits/{}", i);
-    if (!exit.open) continue;
-    check_goals(exit, where, loaded.crowd.goals, findings);
-    any_open = true;
-    if (exit.width_m() < kMinWidthM) {
-      findings.error(where, fmt::format("exit \"{}\" {:.2g} m wide", exit.id, exit.width_m()),
-                     fmt::format("at least {} m", kMinWidthM),
-                     "widen it, or give its ends in meters");
-    } else if (!is_passable(exit, routes)) {
-      findings.error(where, fmt::format("exit \"{}\" blocked by the scene's obstacles", exit.id),
-                     "a way through", "open the obstacle, move the exit or say \"open\": false");
-    } else if (!anybody_reaches(i, loaded, routes)) {
-      findings.error(where, fmt::format("exit \"{}\", which nobody can reach", exit.id),
-                     "an exit with a way to it", "open a way through the obstacles to it");
-    }
-    if (has_demand(exit, loaded.crowd.goals)) {
-      any_demand = true;
-    } else {
-      findings.warning(where, fmt::format("exit \"{}\", which no state heads for", exit.id),
-                       "a <GoalSelector> with the goal set of one of its goals",
-                       "choose among the exits' goals somewhere, or take the exit away");
-    }
-  }
-  if (!any_open) {
-    findings.error("/exits", "no open exit", "at least one", "add an exit, or open one");
-  } else if (!any_demand) {
-    findings.error("/exits", "no exit that anybody heads for", "at least one",
-                   "let a state of the behavior file choose among the exits' goals");
-  }
 }
 
 }  // namespace throng::scenarios

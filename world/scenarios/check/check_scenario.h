@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "world/scenarios/check/check.h"
+#include "world/scenarios/check/outline.h"
 #include "world/scenarios/check/survey.h"
 
 namespace throng::scenarios {
@@ -50,9 +51,10 @@ void check_ground(const world::Scenario& scenario, const Routes& routes, Finding
 void check_outsiders(const world::Scenario& scenario, const LoadedCrowd& loaded,
                      Findings& findings);
 /// Checks whether people can leave the scenario without passing an exit.
-void check_outline(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
+void check_outline(const world::Scenario& scenario, const OutlineSurvey& outline,
                    Findings& findings);
+/// Checks where the exits are and what they lead to. `is_closed`: the outline has no gaps.
 void check_exits(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
-                 Findings& findings);
+                 bool is_closed, Findings& findings);
 
 }  // namespace throng::scenarios

@@ -39,8 +39,8 @@ ClosedGround::ClosedGround(const world::Scenario& scenario, const LoadedCrowd& l
   }
   for (const world::Exit& exit : scenario.exits) {
     if (!exit.open) continue;
-    add_side(exit, -exit.outward, inner_);
-    add_side(exit, exit.outward, outer_);
+    for (const int cell : beside(exit, -exit.outward)) inner_.push_back(cell);
+    for (const int cell : beside(exit, exit.outward)) outer_.push_back(cell);
   }
   closed_ = free_;
 }
@@ -169,10 +169,10 @@ std::size_t ClosedGround::first_on(const Chord& line, const std::vector<int>& wa
   return static_cast<std::size_t>(found - way.begin());
 }
 
-void ClosedGround::add_side(const world::Exit& exit, const Vector2d& towards,
-                            std::vector<int>& cells) {
+std::vector<int> ClosedGround::beside(const world::Exit& exit, const Vector2d& towards) const {
   constexpr double kDepthM = 1;
-  const int across = 1 + static_cast<int>(exit.width_m() / cell_m());
+  std::vector<int> cells;
+  const int across = 1 + static_cast<int>(exit.length_m() / cell_m());
   for (int i = 0; i <= across; ++i) {
     const Vector2d at = exit.from + static_cast<double>(i) / across * (exit.to - exit.from);
     for (double s = 1.5 * cell_m(); s <= kDepthM; s += 0.5 * cell_m()) {
@@ -182,6 +182,36 @@ void ClosedGround::add_side(const world::Exit& exit, const Vector2d& towards,
       break;
     }
   }
+  return cells;
+}
+
+std::vector<int> ClosedGround::parts() const {
+  std::vector<int> parts(free_.size(), Routes::kNone);
+  std::vector<int> open;
+  int count = 1;  // part 0 has the border
+  const auto add = [&](int cell, int part) {
+    if (!is_free(cell) || parts[static_cast<std::size_t>(cell)] != Routes::kNone) return false;
+    open.push_back(cell);
+    parts[static_cast<std::size_t>(cell)] = part;
+    while (!open.empty()) {
+      const int from = open.back();
+      open.pop_back();
+      for (const int other : neighbors(from)) {
+        if (!is_free(other) || parts[static_cast<std::size_t>(other)] != Routes::kNone) continue;
+        parts[static_cast<std::size_t>(other)] = part;
+        open.push_back(other);
+      }
+    }
+    return true;
+  };
+  const auto cells = static_cast<int>(free_.size());
+  for (int cell = 0; cell < cells; ++cell) {
+    if (is_on_border(cell)) add(cell, 0);
+  }
+  for (int cell = 0; cell < cells; ++cell) {
+    if (add(cell, count)) ++count;
+  }
+  return parts;
 }
 
 bool ClosedGround::is_on_border(int cell) const {

@@ -43,6 +43,13 @@ class ClosedGround {
   /// The cells that can be reached from a cell.
   Cells reached_from(int start) const;
 
+  /// The nearest free cells on one side of a door, along its width.
+  std::vector<int> beside(const world::Exit& exit, const Eigen::Vector2d& towards) const;
+
+  /// The connected part of the ground that each cell belongs to: 0 for all cells with a way to the
+  /// border, kNone for those that are not free.
+  std::vector<int> parts() const;
+
   /// Closes these lines and the exits, and opens all other lines.
   void close(const std::vector<Chord>& lines);
 
@@ -66,9 +73,6 @@ class ClosedGround {
   static constexpr int kUnseen = -1;
 
   bool is_free(int cell) const { return cell >= 0 && free_[static_cast<std::size_t>(cell)] != 0; }
-
-  // Adds the nearest free cells on one side of a door, along its width.
-  void add_side(const world::Exit& exit, const Eigen::Vector2d& towards, std::vector<int>& cells);
 
   bool is_on_border(int cell) const;
 

@@ -17,6 +17,9 @@ struct Gap {
 
 /// Result of survey_outline().
 struct OutlineSurvey {
+  /// Whether people leave by exits only.
+  bool is_closed() const { return gaps.empty() && !is_open; }
+
   /// Gaps by width, the widest first; empty if people leave by exits only.
   std::vector<Gap> gaps;
   /// Whether people can leave where there are no walls between which a gap could be closed.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
+#include "base/geometry/polygon.h"
 #include "crowd/elements/element.h"
 #include "crowd/model.h"
 #include "crowd/scene.h"
@@ -42,13 +44,13 @@ std::uint32_t walls_of_people(const LoadedCrowd& loaded) {
 }
 
 /// Fine enough for the narrowest door, coarse enough for memory.
-float cell_size_m(const world::Scenario& scenario, double radius_m) {
+float cell_size_m(const world::Scenario& scenario, const world::Rectangle& around,
+                  double radius_m) {
   double cell_m = kUsualCellM;
   for (const world::Exit& exit : scenario.exits) {
     cell_m = std::min(cell_m, (exit.width_m() - 2 * radius_m) / 3);
   }
-  const Vector2d size =
-      scenario.inside.bounds.max - scenario.inside.bounds.min + Vector2d::Constant(2 * kMarginM);
+  const Vector2d size = around.max - around.min + Vector2d::Constant(2 * kMarginM);
   return static_cast<float>(
       std::max({cell_m, kFinestCellM, std::sqrt(size.x() * size.y() / kMaxCells)}));
 }
@@ -56,7 +58,7 @@ float cell_size_m(const world::Scenario& scenario, double radius_m) {
 /// The cells on a door's line that somebody can stand in.
 std::vector<int> cells_of_door(const world::Exit& exit, const Routes& routes) {
   std::vector<int> cells;
-  const int samples = 1 + static_cast<int>(2 * exit.width_m() / routes.grid.cell_m);
+  const int samples = 1 + static_cast<int>(2 * exit.length_m() / routes.grid.cell_m);
   for (int i = 0; i <= samples; ++i) {
     const double t = static_cast<double>(i) / samples;
     const int cell = routes.cell_at((1 - t) * exit.from + t * exit.to);
@@ -65,6 +67,36 @@ std::vector<int> cells_of_door(const world::Exit& exit, const Routes& routes) {
     }
   }
   return cells;
+}
+
+/// For each cell of a door: whether somebody in it gets 1 m away from the door on one side,
+/// straight or around obstacles.
+std::vector<std::uint8_t> gets_away(const std::vector<int>& door, const world::Exit& exit,
+                                    const Vector2d& towards, const Routes& routes) {
+  constexpr double kAwayM = 1;
+  const crowd::WalkableGrid& grid = routes.grid;
+  std::vector<std::uint8_t> result;
+  for (const int start : door) {
+    std::set<int> seen{start};
+    std::vector<int> open{start};
+    bool is_away = false;
+    while (!open.empty() && !is_away) {
+      const Vector2d at = routes.cell_center(open.back());
+      open.pop_back();
+      for (const auto& [x, y] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+        const Vector2d next = at + grid.cell_m * Vector2d(x, y);
+        if ((next - exit.from).dot(towards) < -grid.cell_m) continue;  // on the other side
+        const int cell = routes.cell_at(next);
+        is_away = is_away || cell == Routes::kNone ||
+                  (grid.walkable[static_cast<std::size_t>(cell)] != 0 &&
+                   geometry::distance_to_segment(exit.from, exit.to, next) >= kAwayM);
+        if (cell == Routes::kNone || grid.walkable[static_cast<std::size_t>(cell)] == 0) continue;
+        if (seen.insert(cell).second) open.push_back(cell);
+      }
+    }
+    result.push_back(is_away ? 1 : 0);
+  }
+  return result;
 }
 
 using Open = std::pair<float, int>;  // m, cell
@@ -174,38 +206,37 @@ Vector2d Routes::cell_center(int cell) const {
   return grid.center(cell % grid.columns, cell / grid.columns).cast<double>();
 }
 
+crowd::WalkableGrid walkable_ground(const world::Scenario& scenario, const LoadedCrowd& loaded,
+                                    const world::Rectangle& around) {
+  const float radius_m = min_radius_m(loaded);
+  const Vector2d margin = Vector2d::Constant(kMarginM);
+  const crowd::Box box{(around.min - margin).cast<float>(), (around.max + margin).cast<float>()};
+  return crowd::mark_walkable(loaded.crowd.obstacles, walls_of_people(loaded), box,
+                              cell_size_m(scenario, around, radius_m), radius_m);
+}
+
+world::Rectangle bounds_with_exits(const world::Scenario& scenario) {
+  world::Rectangle around = scenario.inside.bounds;
+  for (const world::Exit& exit : scenario.exits) {
+    around.extend(exit.from);
+    around.extend(exit.to);
+  }
+  return around;
+}
+
 bool is_passable(const world::Exit& exit, const Routes& routes) {
-  constexpr double kDepthM = 1;
-  const double step_m = 0.5 * routes.grid.cell_m;
-  const auto is_free = [&](const Vector2d& point) {
-    const int cell = routes.cell_at(point);
-    return cell == Routes::kNone || routes.grid.walkable[static_cast<std::size_t>(cell)] != 0;
-  };
-  const int across = 1 + static_cast<int>(exit.width_m() / step_m);
-  for (int i = 0; i <= across; ++i) {
-    const double t = static_cast<double>(i) / across;
-    const Vector2d at = (1 - t) * exit.from + t * exit.to;
-    bool free = true;
-    for (double s = -kDepthM; s <= kDepthM && free; s += step_m) {
-      free = is_free(at + s * exit.outward);
-    }
-    if (free) return true;
+  const std::vector<int> door = cells_of_door(exit, routes);
+  const std::vector<std::uint8_t> in = gets_away(door, exit, -exit.outward, routes);
+  const std::vector<std::uint8_t> out = gets_away(door, exit, exit.outward, routes);
+  for (std::size_t i = 0; i < door.size(); ++i) {
+    if (in[i] != 0 && out[i] != 0) return true;
   }
   return false;
 }
 
 Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded) {
   Routes routes;
-  const float radius_m = min_radius_m(loaded);
-  const Vector2d margin = Vector2d::Constant(kMarginM);
-  world::Rectangle around = scenario.inside.bounds;
-  for (const world::Exit& exit : scenario.exits) {
-    around.extend(exit.from);
-    around.extend(exit.to);
-  }
-  const crowd::Box box{(around.min - margin).cast<float>(), (around.max + margin).cast<float>()};
-  routes.grid = crowd::mark_walkable(loaded.crowd.obstacles, walls_of_people(loaded), box,
-                                     cell_size_m(scenario, radius_m), radius_m);
+  routes.grid = walkable_ground(scenario, loaded, bounds_with_exits(scenario));
   routes.nearest_exit.assign(routes.grid.walkable.size(), Routes::kNone);
   routes.distance_m.assign(routes.grid.walkable.size(), std::numeric_limits<float>::infinity());
   routes.reached_from_exit.assign(scenario.exits.size(), 0);

@@ -47,8 +47,15 @@ struct Routes {
 
 Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded);
 
-/// Whether a person can pass a door: a straight path from 1 m in front of it to 1 m behind it is
-/// free at some point of its width.
+/// The walkable cells of a rectangle with a margin, for the person with the smallest radius.
+crowd::WalkableGrid walkable_ground(const world::Scenario& scenario, const LoadedCrowd& loaded,
+                                    const world::Rectangle& around);
+
+/// The bounding box of `inside` and the exits.
+world::Rectangle bounds_with_exits(const world::Scenario& scenario);
+
+/// Whether a person can pass a door: from some point of its width, free ground leads 1 m away from
+/// it on both sides, straight or around obstacles.
 bool is_passable(const world::Exit& exit, const Routes& routes);
 
 }  // namespace throng::scenarios

@@ -33,6 +33,29 @@ class CheckYard : public ::testing::Test {
     EXPECT_THAT(texts, HasSubstr(words));
   }
 
+  /// Expects nothing but one warning, at this place and with these words.
+  void expect_warning(const std::string& where, const std::string& words) {
+    const std::vector<Finding> found = findings();
+    ASSERT_EQ(found.size(), 1U) << (found.empty() ? "" : found.back().text());
+    EXPECT_EQ(found[0].severity, Severity::warning);
+    EXPECT_EQ(found[0].problem.where, where);
+    EXPECT_THAT(found[0].problem.found, HasSubstr(words));
+  }
+
+  /// Walls from (11, -6) to (20, 6) that enclose a court behind the yard's gate, with a gap in the
+  /// east as wide as the gate.
+  static std::string court() {
+    return Yard::box(11, 5, 20, 6) + Yard::box(11, -6, 20, -5) + Yard::box(19, 1.5, 20, 5) +
+           Yard::box(19, -5, 20, -1.5);
+  }
+
+  void add_exit(const char* id, const nlohmann::json& from, const nlohmann::json& to) {
+    yard.scenario["exits"].push_back(
+        {{"id", id}, {"from", from}, {"to", to}, {"goals", nlohmann::json::parse("[[3, 1]]")}});
+    yard.goals = R"(<GoalSet id="3"><Goal id="0" type="point" x="14" y="0"/>
+                    <Goal id="1" type="point" x="5" y="6"/></GoalSet>)";
+  }
+
   TemporaryFolder folder;
   Yard yard;
 };
@@ -63,15 +86,79 @@ TEST_F(CheckYard, LetsPeopleStandBesideWallsOnLargeGround) {
 }
 
 TEST_F(CheckYard, SeesAnExitWithoutAWayToIt) {
-  yard.scenario["exits"].push_back({{"id", "far"},
-                                    {"from", {4, 5}},
-                                    {"to", {4, 7}},
-                                    {"goals", nlohmann::json::parse("[[3, 1]]")}});
-  yard.goals = R"(<GoalSet id="3"><Goal id="0" type="point" x="14" y="0"/>
-                  <Goal id="1" type="point" x="5" y="6"/></GoalSet>)";
+  add_exit("far", {4, 5}, {4, 7});
   yard.obstacles += Yard::box(2, 3, 6, 3.4) + Yard::box(2, 8.6, 6, 9) +
                     Yard::box(2, 3.4, 2.3, 8.6) + Yard::box(5.7, 3.4, 6, 8.6);
   expect_error("/exits/1", "which nobody can reach");
+}
+
+TEST_F(CheckYard, LetsPeopleWalkAroundAnObstacleBehindADoor) {
+  yard.obstacles += Yard::box(12, -3, 12.5, 3);
+  EXPECT_THAT(findings(), IsEmpty());
+}
+
+TEST_F(CheckYard, SeesAWallDirectlyBehindADoor) {
+  yard.obstacles += Yard::box(11.2, -3, 12, 3);
+  const std::vector<Finding> found = findings();
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found[0].problem.found, HasSubstr("blocked"));
+}
+
+TEST_F(CheckYard, SeesAnExitIntoAClosedCourt) {
+  yard.obstacles += court() + Yard::box(19, -1.5, 20, 1.5);
+  expect_error("/exits/0", "behind which walls enclose the ground");
+}
+
+TEST_F(CheckYard, ACourtWithTwoDoorsOfTheYardIsClosed) {
+  const auto wall = yard.obstacles.find(Yard::box(10, 1.5, 11, 10));
+  ASSERT_NE(wall, std::string::npos);
+  yard.obstacles.replace(wall, Yard::box(10, 1.5, 11, 10).size(),
+                         Yard::box(10, 1.5, 11, 2.5) + Yard::box(10, 4.5, 11, 10));
+  yard.obstacles += court() + Yard::box(19, -1.5, 20, 1.5);
+  add_exit("other", {10, 2.5}, {10, 4.5});
+  const std::vector<Finding> found = findings();
+  ASSERT_GE(found.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(found[i].problem.where, "/exits/" + std::to_string(i));
+    EXPECT_THAT(found[i].problem.found, HasSubstr("behind which walls enclose the ground"));
+  }
+}
+
+TEST_F(CheckYard, ACourtWithAGapOrAnExitOfItsOwnIsNotClosed) {
+  const auto expect_open = [&] {
+    for (const Finding& finding : findings()) {
+      EXPECT_EQ(finding.severity, Severity::warning) << finding.text();
+    }
+  };
+  yard.obstacles += court();
+  expect_open();
+  add_exit("own", {19, -1.5}, {19, 1.5});
+  expect_open();
+}
+
+TEST_F(CheckYard, WarnsOfAnExitAroundWhichPeopleCanWalk) {
+  add_exit("middle", {5, -2}, {5, 2});
+  expect_warning("/exits/1", "around which people can walk");
+}
+
+TEST_F(CheckYard, WarnsOfAnExitBeyondTheInside) {
+  yard.scenario["inside"] = {{"min", {-12, -12}}, {"max", {8, 12}}};
+  expect_warning("/exits/0", "exit \"gate\" 2.0 m outside of \"inside\"");
+}
+
+TEST_F(CheckYard, WarnsOfAnExitThatIsWiderThanItsOpening) {
+  yard.scenario["exits"][0]["from"] = {10, -5};
+  yard.scenario["exits"][0]["to"] = {10, 5};
+  for (const double side : {1, -1}) {
+    yard.scenario["buildings"].push_back({{"id", side > 0 ? "north" : "south"},
+                                          {"footprint",
+                                           {{10, side * 5.75 - 4.25},
+                                            {11, side * 5.75 - 4.25},
+                                            {11, side * 5.75 + 4.25},
+                                            {10, side * 5.75 + 4.25}}},
+                                          {"height_m", 4}});
+  }
+  expect_warning("/exits/0", "10 m wide, of which buildings leave 3 m free: figures count 3 m");
 }
 
 TEST_F(CheckYard, SeesAnExitThatIsTooNarrow) {
