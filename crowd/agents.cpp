@@ -18,6 +18,7 @@ void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   preferred_speed.resize(count, 0);
   for (std::vector<float>& values : properties) values.resize(count, 0);
   obstacle_mask.resize(count, std::numeric_limits<std::uint32_t>::max());
+  unseen_mask.resize(count, 0);
   agent_class.resize(count, 0);
   profile.resize(count, 0);
   model_parameters.resize(model_parameter_count);

@@ -64,6 +64,11 @@ struct Agents {
     return properties[static_cast<std::size_t>(property)];
   }
 
+  /// The classes of obstacles around which the agent plans its way.
+  std::uint32_t known_mask(std::size_t agent) const {
+    return obstacle_mask[agent] & ~unseen_mask[agent];
+  }
+
   std::vector<std::uint8_t> present;  ///< 1: takes part
   std::vector<std::uint8_t> awaited;  ///< 1: still to arrive, see Arrivals
   std::vector<std::uint8_t> panicked;
@@ -82,6 +87,7 @@ struct Agents {
 
   std::array<std::vector<float>, kPropertyCount> properties;
   std::vector<std::uint32_t> obstacle_mask;  ///< classes of obstacles that the agent avoids
+  std::vector<std::uint32_t> unseen_mask;    ///< those of them that its plans do not know of yet
   std::vector<std::int32_t> agent_class;
   std::vector<std::uint32_t> profile;  ///< index of the <AgentProfile> in the scene
   /// Indexed by parameter of the pedestrian model's table, then by agent.

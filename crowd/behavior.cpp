@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "crowd/behavior/closing_door.h"
 #include "crowd/behavior/diagnosis.h"
 #include "crowd/behavior/events.h"
 #include "crowd/behavior/panic.h"
@@ -231,13 +232,16 @@ void load_child(const Element& child, Loading& loading) {
     load_events(child, context);
   } else if (child.name() == "Task") {
     make_another(task_registry(), child, context, context.processes);
+  } else if (child.name() == "ClosingDoor") {
+    context.processes.push_back(make_closing_door(child, context));
   } else if (child.name() == "Panic") {
     const PanicSpec panic = load_panic(child);
     context.processes.push_back(make_panic_contagion(panic, context.seed));
     loading.behavior.modifiers.push_back(make_panic_modifier(panic));
   } else {
     child.fail_unknown(
-        "<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem>, <Task> or <Panic>");
+        "<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem>, <Task>, <ClosingDoor> or "
+        "<Panic>");
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "crowd/agents.h"
 #include "crowd/behavior.h"
+#include "crowd/behavior/closing_door.h"
 #include "crowd/behavior/events.h"
 #include "crowd/behavior/goals.h"
 #include "crowd/behavior/panic.h"
@@ -219,6 +220,8 @@ std::vector<VocabularyKind> vocabulary() {
       of(action_registry(), "Actions", "<Action> in <State>"),
       of(condition_registry(), "Conditions", "<Condition> in <Transition>"),
       of(target_registry(), "Targets", "<Target> in <Transition>"),
+      one("ClosingDoor", "an element of <BFSM>", "a door that nobody passes from a time on",
+          closing_door_attributes()),
       one("Panic", "an element of <BFSM>", "how panic spreads and what it does",
           panic_attributes()),
       of(task_registry(), "Tasks", "<Task> in <BFSM>"),

@@ -31,7 +31,7 @@ class Machine {
 
   /// Replaces the goal that the state's selector chose.
   void change_goal(Crowd& crowd, std::size_t agent, int goal);
-  const GoalSelector* goal_selector(std::uint8_t state) const {
+  GoalSelector* goal_selector(std::uint8_t state) const {
     return behavior_.states[state].goal->selector();
   }
 

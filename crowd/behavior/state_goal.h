@@ -40,7 +40,7 @@ class StateGoal {
   /// Replaces the assigned goal.
   void change(Crowd& crowd, std::size_t agent, int goal);
 
-  const GoalSelector* selector() const { return selector_.get(); }
+  GoalSelector* selector() const { return selector_.get(); }
 
  private:
   GoalSelector::Choice choose(Crowd& crowd, std::size_t agent);

@@ -88,7 +88,7 @@ NavMesh::Location AutoNavigation::destination(const NavMesh& mesh, const Eigen::
 /// The ground that fits the agent; makes one for all that it may share it with if there is none.
 int AutoNavigation::ground_for(const Crowd& crowd, std::size_t agent) {
   const Agents& agents = crowd.agents;
-  const std::uint32_t mask = agents.obstacle_mask[agent] & all_classes_;
+  const std::uint32_t mask = agents.known_mask(agent) & all_classes_;
   const float agent_radius = agents[Property::radius][agent];
   for (std::size_t i = 0; i < grounds_.size(); ++i) {
     const Ground& ground = *grounds_[i];

@@ -368,7 +368,8 @@ std::string state_name(Doing doing) {
 
 std::string state_towards(const Exit& exit) { return "To_" + exit.id; }
 
-crowd::BehaviorDescription describe_behavior(const Scenario& scenario, const People& people) {
+crowd::BehaviorDescription describe_behavior(const Scenario& scenario, const People& people,
+                                             const std::vector<ClosingDoor>& doors) {
   const Everyday everyday(scenario, people);
   const bool emergency = !people.dangers.empty();
   const bool leaving = emergency || everyday.anybody_leaves();
@@ -387,6 +388,7 @@ crowd::BehaviorDescription describe_behavior(const Scenario& scenario, const Peo
     everyday.add_transitions(behavior);
   }
   if (leaving) behavior.add_transition("Away", "Out", describe::goal_reached(1));
+  for (const ClosingDoor& door : doors) behavior.add(closing_element(door));
   if (any_panic(people)) {
     behavior.add(
         Node("Panic", {{"radius", 3}, {"rate", 0.1}, {"recovery", 0.02}, {"speed_factor", 1.2}}));

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "crowd/description/description.h"
+#include "world/scenarios/blueprint/closing_doors.h"
 #include "world/scenarios/blueprint/people.h"
 
 namespace throng::scenarios {
@@ -15,6 +17,7 @@ std::string state_towards(const world::Exit& exit);
 
 /// Describes the behavior: states of everyday activities and, with disasters, of noticing,
 /// pre-movement, flight and following a drone.
-crowd::BehaviorDescription describe_behavior(const world::Scenario& scenario, const People& people);
+crowd::BehaviorDescription describe_behavior(const world::Scenario& scenario, const People& people,
+                                             const std::vector<ClosingDoor>& doors);
 
 }  // namespace throng::scenarios

@@ -11,6 +11,7 @@
 #include "crowd/description/builder.h"
 #include "crowd/description/options.h"
 #include "world/scenarios/blueprint/blocked.h"
+#include "world/scenarios/blueprint/closing_doors.h"
 #include "world/scenarios/blueprint/crowd_behavior.h"
 
 namespace throng::scenarios {
@@ -162,7 +163,7 @@ void add_sources(const Scenario& scenario, const People& people, const Solids& s
     double closed_s = std::numeric_limits<double>::infinity();
     if (source.exit) {
       const Exit& exit = scenario.exits[*source.exit];
-      closed_s = reached_s(exit.from, exit.to, discs);
+      closed_s = closing_time_s(exit, discs);
       from = exit.from + kSourceBehindM * exit.outward;
       to = exit.to + kSourceBehindM * exit.outward;
     }
@@ -195,18 +196,8 @@ std::vector<Vector2d> octagon(const Vector2d& middle, double disc_m) {
   return corners;
 }
 
-/// The obstacle that closes a door: from its line to beyond the goal of those who take it.
-std::vector<Vector2d> shutter(const Exit& exit) {
-  constexpr double kDeepM = 1.4;
-  const Vector2d along = exit.to - exit.from;
-  const bool leads_left = Vector2d(-along.y(), along.x()).dot(exit.outward) > 0;
-  const Vector2d right = leads_left ? exit.from : exit.to;
-  const Vector2d left = leads_left ? exit.to : exit.from;
-  return {right, left, left + kDeepM * exit.outward, right + kDeepM * exit.outward};
-}
-
 void add_obstacles(const Scenario& scenario, const People& people, const Solids& solids,
-                   SceneBuilder& scene) {
+                   const std::vector<ClosingDoor>& doors, SceneBuilder& scene) {
   scene.add_obstacles(solids.outlines(), 1, kOutlineDecimals);
   const std::vector<BlockedDisc> discs = blocked_discs(people);
   if (!discs.empty()) {
@@ -218,6 +209,11 @@ void add_obstacles(const Scenario& scenario, const People& people, const Solids&
       if (first_to_reach(exit, discs) == &disc) outlines.push_back(shutter(exit));
     }
     scene.add_obstacles(outlines, static_cast<int>(disc.obstacle_class), kOutlineDecimals);
+  }
+  if (!doors.empty()) scene.comment("Exits that are closed or close.");
+  for (const ClosingDoor& door : doors) {
+    scene.add_obstacles({shutter(door.exit)}, static_cast<int>(door.obstacle_class),
+                        kOutlineDecimals);
   }
 }
 
@@ -278,13 +274,21 @@ void add_dangers(const People& people, SceneBuilder& scene) {
   }
 }
 
-/// Strollers' goals if the blueprint names none: some of the points where they start.
-std::vector<Vector2d> usual_spots(const People& people, const Solids& solids) {
+/// Strollers' goals if the blueprint names none: some of the points where they start, or anywhere
+/// inside if all of them arrive later.
+std::vector<Vector2d> usual_spots(const Scenario& scenario, const People& people,
+                                  const Solids& solids) {
   constexpr int kSpots = 24;
   std::vector<Vector2d> spots;
   for (const Group& group : people.groups) {
     if (group.doing != Doing::stroll) continue;
     stand(group.area, kSpots, solids, 2 * kClearanceM, spots);
+  }
+  const bool any_arrive = std::any_of(
+      people.sources.begin(), people.sources.end(),
+      [](const Source& source) { return source.doing == Doing::stroll && !source.towards; });
+  if (spots.empty() && any_arrive) {
+    stand(scenario.inside.corners(), kSpots, solids, 2 * kClearanceM, spots);
   }
   return spots;
 }
@@ -295,7 +299,7 @@ crowd::CrowdDescription crowd_of_people(const Scenario& scenario, const People& 
                                         std::vector<Problem>& problems) {
   const Solids solids(scenario);
   People complete = people;
-  if (complete.spots.empty()) complete.spots = usual_spots(people, solids);
+  if (complete.spots.empty()) complete.spots = usual_spots(scenario, people, solids);
   SceneBuilder scene;
   if (people.in_groups > 0) {
     scene.add(Node("SocialGroups", {{"share", significant_text(people.in_groups, 3)}}));
@@ -306,8 +310,10 @@ crowd::CrowdDescription crowd_of_people(const Scenario& scenario, const People& 
   add_lines(people, taken, scene);
   add_groups(people, solids, taken, problems, scene);
   add_sources(scenario, people, solids, problems, scene);
-  add_obstacles(scenario, people, solids, scene);
-  return {scene.build(), describe_behavior(scenario, complete)};
+  const std::vector<ClosingDoor> doors =
+      closing_doors(scenario.exits, blocked_discs(people), problems);
+  add_obstacles(scenario, people, solids, doors, scene);
+  return {scene.build(), describe_behavior(scenario, complete, doors)};
 }
 
 }  // namespace throng::scenarios
