@@ -38,7 +38,7 @@ class ClosingDoor : public Process {
     note_near(crowd.agents);
   }
 
-  /// Whatever the pedestrian model does to those who were too fast to stop.
+  /// Puts those back who were too fast to stop, in every pedestrian model.
   void after_motion(Crowd& crowd, Machine&) override {
     if (!closed_) return;
     Agents& agents = crowd.agents;
