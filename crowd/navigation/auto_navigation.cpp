@@ -51,7 +51,8 @@ void AutoNavigation::enter(const Crowd& crowd, std::size_t agent) {
   Route& route = routes_[agent];
   route.known = false;
   const int ground = ground_for(crowd, agent);
-  if (ground != route.ground) route.polygon = -1;
+  // An agent may leave the state again before it has planned on the new ground.
+  if (ground != route.ground) route.polygon = route.field = -1;
   route.ground = ground;
   want_field(crowd, agent, route);
 }
