@@ -125,6 +125,16 @@ TEST(RobotReader, AMissingIncludeIsAnErrorSinceItsMassIsMissing) {
   EXPECT_NE(text.find("nowhere"), std::string::npos) << text;
 }
 
+TEST(RobotReader, WhatFollowsFromAMissingIncludeIsNotSaid) {
+  const std::string text = find_refusal(
+      "r.sdf",
+      "<sdf version='1.9'><model name='m'>\n<include><name>x</name><uri>model://nowhere</uri>"
+      "</include>\n<link name='l'/><joint name='j' type='fixed'><parent>l</parent>"
+      "<child>x::base</child></joint></model></sdf>");
+  EXPECT_NE(text.find("nowhere"), std::string::npos) << text;
+  EXPECT_EQ(text.find("does not fit"), std::string::npos) << text;
+}
+
 TEST(RobotReader, AModelThatIncludesItselfIsRefused) {
   const TemporaryFolder folder;
   for (const auto& [name, other] : {std::pair("a", "b"), std::pair("b", "a")}) {
