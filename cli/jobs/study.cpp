@@ -41,6 +41,12 @@ void run_study(const StudyArguments& arguments) {
         interrupt.token());
   }
   study::write_report(study, outcomes, arguments.output);
+  const auto warnings = study::case_warnings(study, outcomes, study::summarize(study, outcomes));
+  for (std::size_t c = 0; c < warnings.size(); ++c) {
+    for (const std::string& warning : warnings[c]) {
+      fmt::print(stderr, "throng: warning: {}: {}\n", study.cases[c].title, warning);
+    }
+  }
   fmt::print("{}/summary.md\n", arguments.output);
 }
 

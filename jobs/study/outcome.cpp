@@ -53,6 +53,7 @@ json to_json(const Outcome& outcome) {
   return {{"escapes", metrics::to_json(outcome.escapes)},
           {"people_counts", metrics::to_json(outcome.counts)},
           {"followed", outcome.followed},
+          {"warnings", outcome.warnings},
           {"bound", best_json(outcome.bound)},
           {"reference", best_json(outcome.reference)}};
 }
@@ -62,6 +63,7 @@ Outcome outcome_from(const json& value) {
   outcome.escapes = metrics::escape_times_from(value.at("escapes"));
   outcome.counts = metrics::people_counts_from(value.at("people_counts"));
   value.at("followed").get_to(outcome.followed);
+  outcome.warnings = value.value("warnings", outcome.warnings);  // older results have none
   outcome.bound = best_from(value.at("bound"));
   outcome.reference = best_from(value.at("reference"));
   return outcome;

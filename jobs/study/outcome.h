@@ -25,11 +25,12 @@ struct BestFigures {
 
 /// Result of one run.
 struct Outcome {
-  metrics::EscapeTimes escapes;  ///< as in metrics.json
-  metrics::PeopleCounts counts;  ///< as in metrics.json
-  int followed = 0;              ///< people who followed a guide at some time
-  BestFigures bound;             ///< lower bound, if all people know of the alarm at once
-  BestFigures reference;         ///< reference times of metrics::ReferenceSpec
+  metrics::EscapeTimes escapes;            ///< as in metrics.json
+  metrics::PeopleCounts counts;            ///< as in metrics.json
+  int followed = 0;                        ///< people who followed a guide at some time
+  std::vector<std::string> warnings = {};  ///< of the simulation
+  BestFigures bound;                       ///< lower bound, if all people know of the alarm at once
+  BestFigures reference;                   ///< reference times of metrics::ReferenceSpec
 
   /// The time by which `percent` % of the people are out; infinite if never.
   double percentile_s(int percent) const;

@@ -1,6 +1,7 @@
 #include "jobs/study/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +28,28 @@ constexpr int kConvergencePercent = 95;
 struct Summary {
   std::vector<SummaryRow> rows;
   std::vector<CaseDifference> case_differences;
+  std::vector<std::vector<std::string>> warnings;  ///< per case
 };
 
-std::string summary_csv(const Study& study, const std::vector<SummaryRow>& rows) {
+Summary make_summary(const Study& study, const Outcomes& outcomes) {
+  std::vector<SummaryRow> rows = summarize(study, outcomes);
+  auto warnings = case_warnings(study, outcomes, rows);
+  return {std::move(rows), compare_cases(study, outcomes), std::move(warnings)};
+}
+
+/// A field of CSV in quotes.
+std::string quoted(const std::string& text) {
+  std::string field = "\"";
+  for (const char letter : text) field += letter == '"' ? "\"\"" : std::string(1, letter);
+  return field + "\"";
+}
+
+/// A figure with some digits; empty if it is not known.
+std::string known(double value, int digits) {
+  return std::isnan(value) ? "" : fmt::format("{:.{}f}", value, digits);
+}
+
+std::string summary_csv(const Study& study, const Summary& summary) {
   std::string csv = "case,policy,runs";
   for (const int percent : kSummaryPercents) {
     csv += fmt::format(",t{0}_median_s,t{0}_low_s,t{0}_high_s", percent);
@@ -48,8 +68,8 @@ std::string summary_csv(const Study& study, const std::vector<SummaryRow>& rows)
         ",t{0}_mean_s,t{0}_mean_low_s,t{0}_mean_high_s,t{0}_p95_s,t{0}_p95_low_s,t{0}_p95_high_s",
         percent);
   }
-  csv += "\n";
-  for (const SummaryRow& row : rows) {
+  csv += ",warnings\n";
+  for (const SummaryRow& row : summary.rows) {
     csv += fmt::format("{},{},{}", study.cases[row.one_case].id, study.policies[row.policy].id,
                        row.runs);
     for (const EscapePercentile& time : row.percentiles) {
@@ -58,21 +78,23 @@ std::string summary_csv(const Study& study, const std::vector<SummaryRow>& rows)
     }
     csv += fmt::format(",{},{:.2f},{:.2f}", row.all_out, row.not_escaped, row.casualties);
     for (const MeanAtHorizon& at : row.means) {
+      const auto p_value = [](double p) { return std::isnan(p) ? "" : fmt::format("{:.3g}", p); };
       csv += fmt::format(
-          ",{:.6g},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f},{:.4f},{:.3f},{:.3f},{:.3f},{:.3g},{:.3g}",
-          at.at_s, at.spread.median, at.spread.low, at.spread.high, at.mean_s, at.inside,
-          at.ratio_to_baseline, at.difference_s, at.difference_95.low, at.difference_95.high,
-          at.test.p_value, at.holm_p);
+          ",{:.6g},{},{},{},{},{:.2f},{},{},{},{},{},{}", at.at_s, known(at.spread.median, 3),
+          known(at.spread.low, 3), known(at.spread.high, 3), known(at.mean_s, 3), at.inside,
+          known(at.ratio_to_baseline, 4), known(at.difference_s, 3), known(at.difference_95.low, 3),
+          known(at.difference_95.high, 3), p_value(at.test.p_value), p_value(at.holm_p));
     }
     csv += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.1f}", row.t90_to_bound, row.mean_to_bound,
                        row.t90_to_reference, row.mean_to_reference, row.followed);
     for (const int percent : kIntervalPercents) {
       const EscapePercentile& time = find_percentile(row, percent);
-      csv +=
-          fmt::format(",{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f}", time.mean_s, time.mean_95.low,
-                      time.mean_95.high, time.high_s, time.high_95.low, time.high_95.high);
+      for (const double value : {time.mean_s, time.mean_95.low, time.mean_95.high, time.high_s,
+                                 time.high_95.low, time.high_95.high}) {
+        csv += "," + known(value, 2);
+      }
     }
-    csv += "\n";
+    csv += "," + quoted(fmt::format("{}", fmt::join(summary.warnings[row.one_case], "; "))) + "\n";
   }
   return csv;
 }
@@ -96,8 +118,8 @@ std::string report_markdown(const Study& study, const Summary& summary) {
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     text += fmt::format("\n## {}\n\n", study.cases[c].title) +
             markdown_table(case_table(study, summary.rows, c));
-    for (const std::string& warning : case_warnings(study, summary.rows, c)) {
-      text += "\n" + warning + "\n";
+    for (const std::string& warning : summary.warnings[c]) {
+      text += "\nWarning: " + warning + "\n";
     }
   }
   text += fmt::format("\n## {}\n\n{}\n\n", kIntervalTitle, interval_explanation()) +
@@ -150,7 +172,8 @@ json mean_json(const MeanAtHorizon& at) {
           {"ratio_to_baseline", time_json(at.ratio_to_baseline)},
           {"difference_s", time_json(at.difference_s)},
           {"difference_95_s", {time_json(at.difference_95.low), time_json(at.difference_95.high)}},
-          {"wilcoxon", {{"n", at.test.n}, {"w_plus", at.test.w_plus}, {"p", at.test.p_value}}},
+          {"wilcoxon",
+           {{"n", at.test.n}, {"w_plus", at.test.w_plus}, {"p", time_json(at.test.p_value)}}},
           {"holm_p", time_json(at.holm_p)}};
 }
 
@@ -183,11 +206,15 @@ json report_json(const Study& study, const Summary& summary) {
                     {"exit_use", std::move(exits)},
                     {"left_by_no_exit", row.left_by_no_exit}});
   }
-  json document = {{"name", study.name},
-                   {"seed", study.seed},
-                   {"generator", kGenerator},
-                   {"baseline", study.policies[study.baseline].id},
-                   {"rows", std::move(list)}};
+  json warnings = json::array();
+  for (std::size_t c = 0; c < study.cases.size(); ++c) {
+    for (const std::string& text : summary.warnings[c]) {
+      warnings.push_back({{"case", study.cases[c].id}, {"text", text}});
+    }
+  }
+  json document = {{"name", study.name},      {"seed", study.seed},
+                   {"generator", kGenerator}, {"baseline", study.policies[study.baseline].id},
+                   {"rows", std::move(list)}, {"warnings", std::move(warnings)}};
   if (!study.baseline_case) return document;
   document["baseline_case"] = study.cases[*study.baseline_case].id;
   document["case_differences"] = json::array();
@@ -288,8 +315,8 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
         {{"curves", std::move(curves)}, {"convergence", convergence_json(study, outcomes[c])}});
     page.body += fmt::format("<h2>{}</h2>\n", escaped_markup(study.cases[c].title)) +
                  html_table(case_table(study, summary.rows, c));
-    for (const std::string& warning : case_warnings(study, summary.rows, c)) {
-      page.body += fmt::format("<p>{}</p>\n", escaped_markup(warning));
+    for (const std::string& warning : summary.warnings[c]) {
+      page.body += fmt::format("<p class=\"warning\">Warning: {}</p>\n", escaped_markup(warning));
     }
     page.body +=
         chart_frame("People out", fmt::format("data-chart=\"policies\" data-case=\"{}\"", c));
@@ -310,14 +337,14 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes, const Su
 }  // namespace
 
 json summary_json(const Study& study, const Outcomes& outcomes) {
-  return report_json(study, {summarize(study, outcomes), compare_cases(study, outcomes)});
+  return report_json(study, make_summary(study, outcomes));
 }
 
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
-  const Summary summary{summarize(study, outcomes), compare_cases(study, outcomes)};
+  const Summary summary = make_summary(study, outcomes);
   write_file_atomically(folder / kReportName, html_of_study(study, outcomes, summary));
-  write_file_atomically(folder / kCsvName, summary_csv(study, summary.rows));
+  write_file_atomically(folder / kCsvName, summary_csv(study, summary));
   write_file_atomically(folder / kMarkdownName, report_markdown(study, summary));
   write_file_atomically(folder / kValuesName, values_json(study, all_runs(outcomes)).dump() + "\n");
   write_file_atomically(folder / kSummaryName, report_json(study, summary).dump(2) + "\n");

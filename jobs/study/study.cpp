@@ -13,6 +13,7 @@
 #include "base/schemas/schemas.h"
 #include "base/version.h"
 #include "crowd/description/menge_files/write.h"
+#include "jobs/pipeline/checks/rehearsal.h"
 #include "jobs/pipeline/checks/resolve.h"
 #include "world/json_reader.h"
 #include "world/scenario_crowd.h"
@@ -287,7 +288,13 @@ Study load_study(const fs::path& file, const fs::path& scenarios) {
   } catch (const EnvironmentError&) {
     throw InputError({source, "", "no readable file", "a study's file"});
   }
-  return read_study(text, source, scenarios);
+  Study study = read_study(text, source, scenarios);
+  for (Case& one : study.cases) {
+    for (const Problem& problem : jobs::scenario_findings(one.scenario)) {
+      one.findings.push_back(problem.text());
+    }
+  }
+  return study;
 }
 
 Study read_study(std::string_view text, const std::string& source, const fs::path& scenarios,

@@ -26,6 +26,8 @@ struct Case {
   metrics::ReferenceSpec reference;
   /// Horizons of the restricted means, the shorter one first (s from the alarm).
   std::array<double, 2> horizons_s{};
+  /// Findings of scenarios::check() about the scenario; only load_study() looks for them.
+  std::vector<std::string> findings = {};
 };
 
 /// One guidance policy, or none.

@@ -1,9 +1,13 @@
 #include "jobs/study/summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "base/error.h"
 
@@ -68,16 +72,24 @@ MeanAtHorizon mean_at(double at_s, const std::vector<Outcome>& runs,
   const auto mean_s = [at_s](const Outcome& run) { return run.restricted_mean_s(at_s); };
   MeanAtHorizon result;
   result.at_s = at_s;
-  result.spread = compute_spread(each(runs, mean_s));
-  result.mean_s = mean(each(runs, mean_s));
+  const std::vector<double> means_s = each(runs, mean_s);
+  const std::vector<double> baseline_s = each(baseline, mean_s);
   result.inside = mean(
       each(runs, [at_s](const Outcome& run) -> double { return run.escapes.inside_after(at_s); }));
-  result.ratio_to_baseline = result.mean_s / mean(each(baseline, mean_s));
+  result.mean_s = mean(means_s);
+  result.spread = {kNotKnown, kNotKnown, kNotKnown};
+  if (all_finite(means_s)) result.spread = compute_spread(means_s);
+  result.ratio_to_baseline = result.mean_s / mean(baseline_s);
   std::vector<double> differences;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    differences.push_back(mean_s(runs[i]) - mean_s(baseline[i]));
+    differences.push_back(means_s[i] - baseline_s[i]);
   }
   result.difference_s = mean(differences);
+  if (!all_finite(differences)) {
+    result.difference_95 = {kNotKnown, kNotKnown};
+    result.test.p_value = kNotKnown;
+    return result;
+  }
   result.difference_95 = bootstrap_mean(differences, kConfidence, seed);
   result.test = wilcoxon_signed_rank(differences);
   return result;
@@ -134,6 +146,17 @@ void adjust_p_values(std::size_t baseline, std::vector<SummaryRow>& rows) {
   }
 }
 
+/// The number of runs with each warning.
+std::map<std::string, std::size_t> runs_by_warning(const std::vector<Outcome>& runs) {
+  std::map<std::string, std::size_t> counts;
+  for (const Outcome& run : runs) {
+    for (const std::string& text : std::set(run.warnings.begin(), run.warnings.end())) {
+      ++counts[text];
+    }
+  }
+  return counts;
+}
+
 CaseDifference case_difference(const std::vector<double>& times, const std::vector<double>& base) {
   CaseDifference result;
   std::vector<double> differences;
@@ -168,6 +191,34 @@ std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) 
   }
   adjust_p_values(study.baseline, rows);
   return rows;
+}
+
+std::vector<std::vector<std::string>> case_warnings(const Study& study, const Outcomes& outcomes,
+                                                    const std::vector<SummaryRow>& rows) {
+  std::vector<std::vector<std::string>> warnings;
+  for (const Case& one : study.cases) warnings.push_back(one.findings);
+  for (const SummaryRow& row : rows) {
+    const std::vector<Outcome>& runs = outcomes[row.one_case][row.policy];
+    std::vector<std::string>& of_case = warnings[row.one_case];
+    const std::string under = fmt::format("under \"{}\"", study.policies[row.policy].title);
+    for (const auto& [text, count] : runs_by_warning(runs)) {
+      of_case.push_back(fmt::format("{} in {} of {} runs: {}", under, count, runs.size(), text));
+    }
+    if (row.left_by_no_exit > 0) {
+      of_case.push_back(fmt::format(
+          "{} {:.1f} people per run left where there is no exit. They are among the escape times, "
+          "but no exit counts them (`throng scenario check` finds gaps in the outline).",
+          under, row.left_by_no_exit));
+    }
+    for (const MeanAtHorizon& at : row.means) {
+      if (std::isfinite(at.mean_s)) continue;
+      of_case.push_back(
+          fmt::format("{} the mean to {:.0f} s is not known: a run ends before anybody has been "
+                      "inside for so long, counted from the arrival, or nobody was inside at all.",
+                      under, at.at_s));
+    }
+  }
+  return warnings;
 }
 
 std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& outcomes) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "jobs/study/statistics.h"
@@ -28,7 +29,8 @@ struct EscapePercentile {
   double runs_for_5_percent = 0;  ///< number of runs for which mean_95 would be the mean +- 5 %
 };
 
-/// The restricted mean of the escape times up to a horizon, compared with the baseline.
+/// The restricted mean of the escape times up to a horizon, compared with the baseline. What
+/// depends on a run in which nobody was watched for so long is NaN.
 struct MeanAtHorizon {
   double at_s = 0;               ///< the horizon
   Spread spread;                 ///< over the runs
@@ -83,6 +85,11 @@ inline constexpr int kIntervalPercents[] = {50, 90, 95};  ///< percentages with 
 
 /// One row for each case and policy with outcomes, in the study's order.
 std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
+
+/// The warnings of each case: findings about its scenario, warnings of its runs, people who left
+/// where there is no exit, and means that are not known.
+std::vector<std::vector<std::string>> case_warnings(const Study& study, const Outcomes& outcomes,
+                                                    const std::vector<SummaryRow>& rows);
 
 /// Compares every other case with Study::baseline_case; empty if the study does not compare cases.
 std::vector<CaseDifference> compare_cases(const Study& study, const Outcomes& outcomes);

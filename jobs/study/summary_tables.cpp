@@ -9,6 +9,8 @@ namespace throng::study {
 
 namespace {
 
+constexpr const char* kDash = "–";  // a warning of the case says why
+
 std::string time_text(double seconds) {
   return std::isfinite(seconds) ? fmt::format("{:.0f}", seconds) : std::string("never");
 }
@@ -62,10 +64,16 @@ std::vector<std::string> case_cells(const Study& study, const SummaryRow& row) {
   cells.push_back(fmt::format("{:.1f}", row.not_escaped));
   for (const MeanAtHorizon& at : row.means) {
     cells.push_back(
-        fmt::format("{:.1f} [{:.1f}-{:.1f}]", at.spread.median, at.spread.low, at.spread.high));
+        std::isfinite(at.spread.median)
+            ? fmt::format("{:.1f} [{:.1f}-{:.1f}]", at.spread.median, at.spread.low, at.spread.high)
+            : kDash);
     if (!compares_policies(study)) continue;
     if (row.policy == study.baseline) {
       cells.insert(cells.end(), {"", "", "", ""});
+      continue;
+    }
+    if (!std::isfinite(at.difference_s)) {
+      cells.insert(cells.end(), {kDash, kDash, kDash, kDash});
       continue;
     }
     cells.push_back(fmt::format("{:.2f}", at.ratio_to_baseline));
@@ -88,20 +96,6 @@ Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::s
     if (row.one_case == one_case) table.rows.push_back(case_cells(study, row));
   }
   return table;
-}
-
-std::vector<std::string> case_warnings(const Study& study, const std::vector<SummaryRow>& rows,
-                                       std::size_t one_case) {
-  std::vector<std::string> warnings;
-  for (const SummaryRow& row : rows) {
-    if (row.one_case != one_case || row.left_by_no_exit <= 0) continue;
-    warnings.push_back(fmt::format(
-        "Warning: under \"{}\" {:.1f} people per run left where there is no exit. They are among "
-        "the escape times, but no exit counts them (`throng scenario check` finds gaps in the "
-        "outline).",
-        study.policies[row.policy].title, row.left_by_no_exit));
-  }
-  return warnings;
 }
 
 Table interval_table(const Study& study, const std::vector<SummaryRow>& rows) {

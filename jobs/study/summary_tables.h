@@ -16,10 +16,6 @@ struct Table {
 /// The table of one case: one row per policy with medians, quartiles and comparisons.
 Table case_table(const Study& study, const std::vector<SummaryRow>& rows, std::size_t one_case);
 
-/// One sentence for each policy of the case in whose runs people left where there is no exit.
-std::vector<std::string> case_warnings(const Study& study, const std::vector<SummaryRow>& rows,
-                                       std::size_t one_case);
-
 /// T50, T90 and T95 of all cases and policies with the intervals of their means, and whether the
 /// number of runs suffices.
 Table interval_table(const Study& study, const std::vector<SummaryRow>& rows);

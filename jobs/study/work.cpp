@@ -42,8 +42,10 @@ Outcome simulate(const Study& study, const StudyRun& run, const std::stop_token&
   const sim::RunSpec spec = jobs::run_spec(study.jobs[run.one_case][run.policy], run.run);
   OutcomeObserver observer(one.scenario, one.alarm, one.reference,
                            sim::model_for(one.scenario, spec.crowd));
-  sim::simulate(one.scenario, spec, observer, {}, stop);
-  return observer.take();
+  const std::vector<Problem> warnings = sim::simulate(one.scenario, spec, observer, {}, stop);
+  Outcome outcome = observer.take();
+  for (const Problem& warning : warnings) outcome.warnings.push_back(warning.text());
+  return outcome;
 }
 
 Outcome run_result(const Study& study, const fs::path& folder, const StudyRun& run,

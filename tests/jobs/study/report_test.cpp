@@ -159,6 +159,40 @@ TEST(Report, WritesDesignsAndTheirDifferences) {
   EXPECT_THAT(page, HasSubstr("\"mean_s\":[40.5,41.0,"));
 }
 
+TEST(Report, SaysTheWarningsOfScenariosAndRunsEverywhere) {
+  Example example;
+  example.study.cases[0].findings = {"error: a \"court\""};
+  example.outcomes[0][1][2].warnings = {"nobody noticed"};
+  example.outcomes[0][1][3].warnings = {"nobody noticed"};
+  const throng::testing::TemporaryFolder folder;
+  write_report(example.study, example.outcomes, folder.path());
+  const std::string run = "under \"quick\" in 2 of 8 runs: nobody noticed";
+  EXPECT_THAT(read_file(folder.path() / "summary.md"), HasSubstr("Warning: " + run));
+  EXPECT_THAT(read_file(folder.path() / "summary.csv"),
+              HasSubstr("\"error: a \"\"court\"\"; under"));
+  EXPECT_THAT(read_file(folder.path() / "report.html"), HasSubstr("2 of 8 runs: nobody noticed"));
+  const auto summary = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
+  EXPECT_EQ(summary["warnings"][0]["text"], "error: a \"court\"");
+  EXPECT_EQ(summary["warnings"][1]["case"], "yard");
+  EXPECT_EQ(summary["warnings"][1]["text"], run);
+  EXPECT_EQ(outcome_from(to_json(example.outcomes[0][1][2])).warnings.size(), 1U);
+}
+
+TEST(Report, AMeanThatIsNotKnownIsADashAndSaysWhy) {
+  Example example;
+  example.study.cases[0].horizons_s = {30, 200};  // longer than the one who stays is watched
+  const throng::testing::TemporaryFolder folder;
+  write_report(example.study, example.outcomes, folder.path());
+  for (const char* file : {"summary.md", "summary.csv"}) {
+    const std::string text = read_file(folder.path() / file);
+    EXPECT_THAT(text, Not(HasSubstr("nan"))) << file;
+    EXPECT_THAT(text, HasSubstr("the mean to 200 s is not known")) << file;
+  }
+  EXPECT_THAT(read_file(folder.path() / "summary.md"), HasSubstr("| – |"));
+  const auto summary = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
+  EXPECT_TRUE(summary["rows"][0]["restricted_means"][1]["mean_s"].is_null());
+}
+
 TEST(Report, WritesTableAndCharts) {
   const Example example;
   const throng::testing::TemporaryFolder folder;
