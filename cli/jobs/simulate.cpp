@@ -51,7 +51,7 @@ void simulate(const SimulateArguments& arguments) {
         },
         interrupt.token(), arguments.pilot_logs);
   }
-  for (const Problem& warning : jobs::with_figure_warnings(std::move(warnings), scenario)) {
+  for (const Problem& warning : jobs::with_scenario_findings(std::move(warnings), scenario)) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
   fmt::print("{}\n", arguments.trace_file);

@@ -32,7 +32,10 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
     if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) {
       problems.push_back({"", place, names[i] + " once more", "each format once"});
     }
-    for (const GroundTruth need : std::set{GroundTruth::coco, format->needs, format->needs_also}) {
+    std::set<GroundTruth> needs = {format->needs};
+    if (annotate::needs_images(annotate::ground_truth_kind(format->needs)))
+      needs.insert({GroundTruth::coco, format->needs_also});
+    for (const GroundTruth need : needs) {
       if (annotate::holds(annotations, need)) continue;
       problems.push_back({"", place, names[i],
                           fmt::format("\"{}\" among outputs.annotations, which {} is made of",

@@ -73,7 +73,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   };
   const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
   std::vector<std::string> warnings;
-  for (const Problem& warning : with_figure_warnings(
+  for (const Problem& warning : with_scenario_findings(
            sim::simulate(scenario, run_spec(job, run), trace, progress, stop), scenario)) {
     warnings.push_back(without_folders(warning.text(), {folder.path(), scenarios}));
   }
@@ -112,7 +112,10 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
       scenario_of_run(in_scenario_of_run(job, run), scenarios, trace.header);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
-  const nlohmann::json figures = metrics::to_json(measured);
+  nlohmann::json figures = metrics::to_json(measured);
+  std::vector<std::string> warnings = task_warnings(folder.output_of({Task::Kind::simulate, run}));
+  for (const nlohmann::json& warning : figures.at("warnings")) warnings.push_back(warning);
+  figures["warnings"] = std::move(warnings);
   keep_warnings(folder.output_of({Task::Kind::measure, run}),
                 metrics::count_warnings(measured.counts));
 

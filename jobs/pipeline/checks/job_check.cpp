@@ -28,7 +28,9 @@ constexpr std::size_t kRecordedSteps = 200;  // that are looked at, evenly sprea
 StartingCrowd recorded_crowd(const world::Trace& recording) {
   StartingCrowd crowd{.max_speed_mps = kRecordedSpeedMps};
   const std::size_t stride = std::max<std::size_t>(1, recording.steps() / kRecordedSteps);
+  crowd.times = 0;
   for (std::size_t step = 0; step < recording.steps(); step += stride) {
+    ++crowd.times;
     for (std::size_t agent = 0; agent < recording.agents(); ++agent) {
       if (!recording.present(step, agent)) continue;
       crowd.places.push_back(recording.position[recording.at(step, agent)].cast<double>());
@@ -93,21 +95,26 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   const auto all = static_cast<double>(std::max<std::int64_t>(1, checked.expected.people));
   if (job.agents) checked.expected.people = *job.agents;
   const double taking_part = static_cast<double>(checked.expected.people) / all;
-  const double at_start = taking_part * static_cast<double>(crowd.places.size());
+  const auto places = static_cast<double>(crowd.places.size());
+  const double at_start =
+      taking_part * places / static_cast<double>(std::max<std::size_t>(1, crowd.times));
+  const auto everybody = static_cast<double>(checked.expected.people);
+  // At one time there are as many recorded people as at another; the others come and leave.
   const double arrivals =
-      expected_arrivals(static_cast<double>(checked.expected.people), at_start, job.capture.to_s);
-  checked.taking_part = at_start + arrivals;
+      job.recorded ? 0 : expected_arrivals(everybody, at_start, job.capture.to_s);
+  checked.taking_part = job.recorded ? everybody : at_start + arrivals;
   // Others leave meanwhile.
   constexpr double kShareThere = 0.45;
   checked.expected.at_a_time = at_start + kShareThere * arrivals;
-  const double scale = taking_part * checked.expected.at_a_time / std::max(1.0, at_start);
+  const double scale = checked.expected.at_a_time / std::max(1.0, places);
   for (std::optional<CameraView>& view : views_of_run(job, scenario, crowd, run)) {
     checked.expected.in_view.push_back(view ? std::optional(scale * view->mean_people)
                                             : std::nullopt);
     if (view) checked.views.push_back(std::move(*view));
   }
   checked.warnings = scenario_warnings(job, scenario, crowd, run);
-  for (Problem& warning : figure_warnings(scenario)) checked.warnings.push_back(std::move(warning));
+  for (Problem& warning : scenario_findings(scenario))
+    checked.warnings.push_back(std::move(warning));
   for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {
     checked.warnings.push_back(std::move(warning));
   }

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "jobs/pipeline/pipeline.h"
@@ -41,19 +43,29 @@ class Rehearsal : public sim::RunObserver {
 
 }  // namespace
 
-std::vector<Problem> figure_warnings(const world::Scenario& scenario) {
-  std::vector<Problem> warnings;
-  for (const scenarios::Finding& finding : scenarios::check_figures(scenario, scenario.id)) {
-    warnings.push_back({"", "/scenario",
-                        fmt::format("{} in {}", finding.problem.found, scenario.id),
-                        finding.problem.expected});
+std::vector<Problem> scenario_findings(const world::Scenario& scenario) {
+  std::vector<Problem> found;
+  for (const scenarios::Finding& finding : scenarios::check(scenario, scenario.id)) {
+    const Problem& problem = finding.problem;
+    const char* severity = finding.severity == scenarios::Severity::error ? "error" : "warning";
+    found.push_back(
+        {"", "/scenario",
+         fmt::format("{} in {}, {}: {}", severity, problem.source, problem.where, problem.found),
+         problem.expected});
   }
-  return warnings;
+  return found;
 }
 
-std::vector<Problem> with_figure_warnings(std::vector<Problem> warnings,
-                                          const world::Scenario& scenario) {
-  for (Problem& warning : figure_warnings(scenario)) warnings.push_back(std::move(warning));
+std::vector<Problem> with_scenario_findings(std::vector<Problem> warnings,
+                                            const world::Scenario& scenario) {
+  std::set<std::string> said;  // of the crowd's files, which a run reads, too
+  for (const Problem& warning : warnings) said.insert(warning.found);
+  for (Problem& finding : scenario_findings(scenario)) {
+    const bool is_said = std::any_of(said.begin(), said.end(), [&](const std::string& found) {
+      return finding.found.ends_with(": " + found);
+    });
+    if (!is_said) warnings.push_back(std::move(finding));
+  }
   return warnings;
 }
 

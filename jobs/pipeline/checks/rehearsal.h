@@ -1,4 +1,4 @@
-// Warnings about the metrics of a run before it is simulated as a whole: from its scenario and from
+// Warnings about a run before it is simulated as a whole: from its scenario and from
 // its first seconds.
 #pragma once
 
@@ -11,12 +11,13 @@
 
 namespace throng::jobs {
 
-/// Findings of scenarios::check_figures() about a job's scenario, as warnings at /scenario.
-std::vector<Problem> figure_warnings(const world::Scenario& scenario);
+/// All findings of scenarios::check() about a job's scenario, as warnings at /scenario that say
+/// which of them are errors.
+std::vector<Problem> scenario_findings(const world::Scenario& scenario);
 
-/// `warnings` of a run followed by figure_warnings() of its scenario.
-std::vector<Problem> with_figure_warnings(std::vector<Problem> warnings,
-                                          const world::Scenario& scenario);
+/// `warnings` of a run followed by scenario_findings() of its scenario.
+std::vector<Problem> with_scenario_findings(std::vector<Problem> warnings,
+                                            const world::Scenario& scenario);
 
 /// Simulates a run of a job in its scenario until a person notices the alarm. If nobody does,
 /// returns the warnings of such a run (sim/people/people_watch.h). The effort is limited to about a

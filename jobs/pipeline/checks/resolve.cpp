@@ -165,6 +165,10 @@ void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
            fmt::format("\"{}\"", outputs.annotations[i]));
   }
   for (std::size_t i = 0; i < outputs.formats.size(); ++i) {
+    const formats::Format* format = formats::find_format(outputs.formats[i]);
+    if (format == nullptr || !annotate::needs_images(annotate::ground_truth_kind(format->needs))) {
+      continue;
+    }
     refuse(fmt::format("/outputs/formats/{}", i), fmt::format("\"{}\"", outputs.formats[i]));
   }
   if (outputs.previews != OutputSpec().previews && outputs.previews > 0) {
@@ -339,9 +343,8 @@ ResolvedJob resolved(JobSpec job, const std::vector<world::Scenario>& scenarios,
   if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
     check_no_drones_are_meant(job, scenarios, problems);
     make_job_for_figures(job, problems);
-  } else {
-    check_formats(job.outputs, problems);
   }
+  if (!job.is_without_drones || problems.empty()) check_formats(job.outputs, problems);
   check_image_count(job, problems);
   check_filters(job, problems);
   check_ground_outputs(job.outputs, scenarios, problems);

@@ -16,6 +16,7 @@ namespace throng::jobs {
 /// People at the start of a run.
 struct StartingCrowd {
   std::vector<Eigen::Vector2d> places = {};  ///< positions, m
+  std::size_t times = 1;                     ///< number of times at which these were taken
   double max_speed_mps = 0;                  ///< greatest preferred speed
   bool has_arrivals = false;                 ///< people arrive later, at unknown positions
 };
@@ -25,7 +26,7 @@ struct CameraView {
   std::string drone;          ///< id
   double max_area_share = 0;  ///< greatest share of the scenario's `inside` in one image, 0 to 1
   double max_person_px = 0;   ///< greatest height of a person in an image, pixels; 0: nobody
-  double mean_people = 0;     ///< mean number of people of StartingCrowd per image
+  double mean_people = 0;     ///< mean number of places of StartingCrowd per image
 };
 
 /// The views of a run's cameras; std::nullopt for drones whose paths depend on the people they see.

@@ -14,6 +14,10 @@ namespace throng::jobs {
 /// Throws EnvironmentError.
 void keep_warnings(const std::filesystem::path& output, const std::vector<std::string>& texts);
 
+/// Reads what keep_warnings() wrote for a task; nothing if there is no such file, or none that can
+/// be read.
+std::vector<std::string> task_warnings(const std::filesystem::path& output);
+
 /// Reads the warnings of the first `runs` runs of a job. Each text is returned once, with the first
 /// run that has it: "run000: ...". Skips files that cannot be read.
 std::vector<std::string> kept_warnings(const JobFolder& folder, int runs);

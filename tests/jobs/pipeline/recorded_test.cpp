@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files/files.h"
+#include "jobs/pipeline/checks/job_check.h"
 #include "jobs/pipeline/checks/resolve.h"
 #include "jobs/pipeline/frames/recording.h"
 #include "jobs/pipeline/pipeline.h"
@@ -113,6 +115,33 @@ TEST_F(RecordedJob, TakesAsManyOfThemAsItAsksFor) {
   const world::Trace run = world::read_trace(made.output_of({Task::Kind::simulate, 0}));
   EXPECT_EQ(std::count(run.header.role.begin(), run.header.role.end(), world::AgentRole::person),
             5);
+}
+
+TEST_F(RecordedJob, ItsCheckCountsPeopleAndNotTheirPlaces) {
+  const CheckedJob checked =
+      check_job(job().dump(), (folder.path() / "job.json").string(), folder.path());
+  EXPECT_EQ(checked.people, 12);
+}
+
+TEST_F(RecordedJob, FindingsAboutItsScenarioAreInItsCheckAndInItsMetrics) {
+  const auto has_finding = [](const std::vector<std::string>& texts) {
+    return std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
+      return text.find("/scenario: found error in yard, /exits/0/goals/0: [0, 0]") !=
+             std::string::npos;
+    });
+  };
+  std::vector<std::string> texts;
+  for (const Problem& warning : check_job(R"({"scenario": "yard"})", "", folder.path()).warnings) {
+    texts.push_back(warning.text());
+  }
+  EXPECT_TRUE(has_finding(texts));
+  const ResolvedJob resolved = resolve(job());
+  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
+  simulate_run(made, resolved.spec(), folder.path(), 0);
+  measure_run(made, resolved.spec(), folder.path(), 0);
+  const json figures = json::parse(
+      read_file(made.output_of({Task::Kind::measure, 0}) / "files/metrics/run000.json"));
+  EXPECT_TRUE(has_finding(figures["warnings"])) << figures["warnings"];
 }
 
 TEST_F(RecordedJob, ReportsMistakes) {

@@ -84,23 +84,6 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
   return all;
 }
 
-std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source) {
-  Findings findings(source);
-  check_sizes(scenario, findings);
-  if (any_error(findings.take())) return {};
-  check_drawn_ground(scenario, findings);
-  if (!scenario.has_crowd()) return findings.take();
-  try {
-    const LoadedCrowd loaded = load_scenario_crowd(scenario);
-    check_outline(scenario, survey_outline(scenario, loaded, find_routes(scenario, loaded)),
-                  findings);
-    check_outsiders(scenario, loaded, findings);
-  } catch (const InputError&) {
-    return {};  // said when the crowd is loaded for a run
-  }
-  return findings.take();
-}
-
 std::vector<Finding> check_files(const fs::path& file_or_folder) {
   if (fs::is_regular_file(file_or_folder)) return check_file(file_or_folder);
   if (!fs::is_directory(file_or_folder)) {

@@ -28,14 +28,11 @@ struct Finding {
 
 /// Checks a scenario and its crowd: sizes that suggest wrong units; overlapping buildings; people
 /// who start in walls, buildings or props or cannot get out; exits that are too narrow, walled up,
-/// or that nobody can reach or heads for; gaps through which people leave without passing an exit;
-/// drones in walls or in each other. `source` names the scenario's file in the findings. Errors in
-/// Menge files are findings, too. Throws EnvironmentError if a file cannot be read.
+/// lead nowhere, lie off the border, or that nobody can reach or heads for; gaps through which
+/// people leave without passing an exit; drones in walls or in each other. `source` names the
+/// scenario's file in the findings. Errors in Menge files are findings, too. Throws
+/// EnvironmentError if a file cannot be read.
 std::vector<Finding> check(const world::Scenario& scenario, const std::string& source);
-
-/// The warnings of check() that concern the metrics of runs: missing ground, gaps in the outline,
-/// people outside. Empty for a scenario with errors in its sizes or its crowd.
-std::vector<Finding> check_figures(const world::Scenario& scenario, const std::string& source);
 
 /// Runs check() for a scenario file or for all scenarios below a folder. A scenario that cannot be
 /// loaded is a finding. Throws InputError if the file or folder does not exist or has no scenario.

@@ -193,6 +193,16 @@ TEST_F(Resolve, AJobForFiguresNeedsNoDrone) {
               ElementsAre());
 }
 
+TEST_F(Resolve, FormatsOfTrajectoriesNeedNoDrone) {
+  const JobSpec job = resolved(R"({"scenario": "yard", "drones": [],
+                                   "outputs": {"annotations": ["trajectories"],
+                                               "formats": ["jupedsim", "eth-ucy", "trajnet"]}})");
+  EXPECT_EQ(job.outputs.formats.size(), 3U);
+  EXPECT_THAT(pointers_of(R"({"scenario": "yard", "drones": [],
+                              "outputs": {"annotations": ["exits"], "formats": ["jupedsim"]}})"),
+              ElementsAre("/outputs/formats/0"));
+}
+
 TEST_F(Resolve, AJobOfSeveralScenariosIsCheckedInEach) {
   const std::string drones = R"("drones": [{"id": "view", "aim": {"height_m": 15}}])";
   const JobSpec job = resolved(R"({"scenario": ["yard", {"generate": {"kind": "plaza", "seed": 3}}],

@@ -220,17 +220,6 @@ TEST_F(CheckYard, WarnsOfGroundThatIsSmallerThanTheInside) {
                                          "smaller than \"inside\", from [-12, -12] to [12, 12]"));
 }
 
-TEST_F(CheckYard, FiguresAreCheckedByThemselves) {
-  yard.scenario["ground"]["max"] = {11, 30};
-  yard.scenario["drones"][0]["start"] = {-6, 6, 3.9};
-  yard.scenario["drones"][0]["start"][1] = 8.2;
-  const world::Scenario scenario = world::load_scenario(yard.write(folder), "yard");
-  EXPECT_EQ(check(scenario, "yard").size(), 2U);
-  const std::vector<Finding> figures = check_figures(scenario, "yard");
-  ASSERT_EQ(figures.size(), 1U);
-  EXPECT_EQ(figures[0].problem.where, "/ground");
-}
-
 TEST_F(CheckYard, SeesPeopleInProps) {
   yard.scenario["props"] = nlohmann::json::parse(R"([{"kind": "stall", "position": [-3, -3]}])");
   expect_error("/crowd/scene", "in prop 0");
