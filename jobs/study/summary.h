@@ -29,8 +29,8 @@ struct EscapePercentile {
   double runs_for_5_percent = 0;  ///< number of runs for which mean_95 would be the mean +- 5 %
 };
 
-/// The restricted mean of the escape times up to a horizon, compared with the baseline. What
-/// depends on a run in which nobody was watched for so long is NaN.
+/// The restricted mean of the escape times up to a horizon, compared with the baseline. Values
+/// that depend on a run in which nobody was watched for so long are NaN.
 struct MeanAtHorizon {
   double at_s = 0;               ///< the horizon
   Spread spread;                 ///< over the runs

@@ -117,7 +117,7 @@ TEST_F(RecordedJob, TakesAsManyOfThemAsItAsksFor) {
             5);
 }
 
-TEST_F(RecordedJob, ItsCheckCountsPeopleAndNotTheirPlaces) {
+TEST_F(RecordedJob, ItsCheckCountsPeopleAndNotTheirPositions) {
   const CheckedJob checked =
       check_job(job().dump(), (folder.path() / "job.json").string(), folder.path());
   EXPECT_EQ(checked.people, 12);

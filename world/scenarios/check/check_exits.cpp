@@ -98,7 +98,7 @@ void check_use(std::size_t index, const Scenario& scenario, const LoadedCrowd& l
   }
 }
 
-/// Where an exit is drawn, on which all figures about it depend.
+/// The line of an exit, on which all figures about it depend.
 void check_line(const Exit& exit, const std::string& where, const Scenario& scenario,
                 const ExitSides& sides, Findings& findings) {
   constexpr double kSlackM = 0.5;  // a wall's thickness
@@ -138,7 +138,7 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     const std::string where = fmt::format("/exits/{}", i);
     if (!exit.open) continue;
     any_open = true;
-    // Where the outline has gaps, check_outline() says how people get around the exits.
+    // check_outline() says how people get around exits by gaps in the outline.
     sides[i].has_way_around = sides[i].has_way_around && is_closed;
     check_goals(exit, where, loaded.crowd.goals, findings);
     check_use(i, scenario, loaded, routes, sides[i], findings);

@@ -1,4 +1,4 @@
-// What lies on the two sides of each exit of a scenario.
+// The ground on the two sides of each exit of a scenario.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct ExitSides {
   bool has_way_around = false;
 };
 
-/// The sides of each exit. Neither flag is set for exits that are closed or blocked. What lies
+/// The sides of each exit. Neither flag is set for exits that are closed or blocked. Ground
 /// farther than 100 m from `inside` and the exits counts as open ground.
 std::vector<ExitSides> survey_exit_sides(const world::Scenario& scenario,
                                          const LoadedCrowd& loaded);

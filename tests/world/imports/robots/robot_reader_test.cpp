@@ -125,7 +125,7 @@ TEST(RobotReader, AMissingIncludeIsAnErrorSinceItsMassIsMissing) {
   EXPECT_NE(text.find("nowhere"), std::string::npos) << text;
 }
 
-TEST(RobotReader, WhatFollowsFromAMissingIncludeIsNotSaid) {
+TEST(RobotReader, SaysOnlyThatAnIncludeIsMissing) {
   const std::string text = find_refusal(
       "r.sdf",
       "<sdf version='1.9'><model name='m'>\n<include><name>x</name><uri>model://nowhere</uri>"
