@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -52,13 +51,6 @@ bool is_about_looks(const sdf::Error& error) {
     default:
       return true;
   }
-}
-
-/// Whether a file is missing, of which other errors may be the consequence: joints to its links.
-bool is_missing_file(const sdf::Error& error) {
-  const std::array kCodes = {sdf::ErrorCode::URI_LOOKUP, sdf::ErrorCode::URI_INVALID,
-                             sdf::ErrorCode::FILE_READ, sdf::ErrorCode::DIRECTORY_NONEXISTANT};
-  return std::find(kCodes.begin(), kCodes.end(), error.Code()) != kCodes.end();
 }
 
 double total_mass_kg(const sdf::Model& model) {
@@ -115,9 +107,8 @@ void RobotSource::load_urdf(const std::string& text, const sdf::ParserConfig& co
 
 void RobotSource::take_errors(const sdf::Errors& errors) {
   std::vector<Problem> problems;
-  const bool is_incomplete = std::any_of(errors.begin(), errors.end(), is_missing_file);
+  Cause cause = Cause::consequence;  // of the problems
   for (const sdf::Error& error : errors) {
-    if (is_incomplete && !is_missing_file(error)) continue;
     const std::string path = error.FilePath().value_or("");
     int line = error.LineNumber().value_or(0);
     const bool is_own = is_given_text(path);
@@ -129,8 +120,15 @@ void RobotSource::take_errors(const sdf::Errors& errors) {
       complaints_.push_back({is_own ? file_.string() : path, line, "SDF", wrong.text()});
       continue;
     }
-    problems.push_back({is_own ? file_.string() : path,
-                        line > 0 ? fmt::format("line {}", line) : "", wrong.found, wrong.expected});
+    if (wrong.cause > cause) continue;  // it follows from the others
+    if (wrong.cause < cause) problems.clear();
+    cause = wrong.cause;
+    Problem problem{is_own ? file_.string() : path, line > 0 ? fmt::format("line {}", line) : "",
+                    wrong.found, wrong.expected};
+    const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+      return other.text() == problem.text();
+    });
+    if (!is_known) problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <map>
+#include <regex>
 #include <sdf/sdf.hh>
 
 namespace throng::imports {
@@ -46,6 +47,20 @@ std::string expected_value(const std::string& element) {
                                 : found->second;
 }
 
+/// A name that an element refers to and nothing has; of other errors, that there is one.
+Complaint unfit(const sdf::Error& error, const std::string& element) {
+  static const std::regex kReference(R"(name\[(.*)\] specified by (\w+) with name\[(.*?)\])");
+  const std::string message = error.Message();
+  std::smatch said;
+  if (!std::regex_search(message, said, kReference)) {
+    return {fmt::format("{} that does not fit to the rest", element), "a world as SDF has it",
+            Cause::consequence};
+  }
+  return {fmt::format("\"{}\", to which {} \"{}\" refers, but nothing of that name", said.str(1),
+                      said.str(2), said.str(3)),
+          "the name of a link, joint, frame or model there"};
+}
+
 }  // namespace
 
 Complaint plain_complaint(const sdf::Error& error, const std::string& value) {
@@ -73,15 +88,16 @@ Complaint plain_complaint(const sdf::Error& error, const std::string& value) {
     case sdf::ErrorCode::URI_INVALID:
     case sdf::ErrorCode::URI_LOOKUP:
       return {fmt::format("no file for \"{}\"", name),
-              "a file in the folders of the world and models (nothing is fetched: see --models)"};
+              "a file in the folders of the world and models (nothing is fetched: see --models)",
+              Cause::missing_file};
     case sdf::ErrorCode::FILE_READ:
     case sdf::ErrorCode::DIRECTORY_NONEXISTANT:
       return {fmt::format("\"{}\" cannot be read", name),
-              "a model of SDF (model.config names its file)"};
+              "a model of SDF (model.config names its file)", Cause::missing_file};
     case sdf::ErrorCode::STRING_READ:
       return {"no world or model can be read", "a world of SDF"};
     default:
-      return {fmt::format("{} that does not fit to the rest", element), "a world as SDF has it"};
+      return unfit(error, element);
   }
 }
 

@@ -128,11 +128,21 @@ TEST(RobotReader, AMissingIncludeIsAnErrorSinceItsMassIsMissing) {
 TEST(RobotReader, SaysOnlyThatAnIncludeIsMissing) {
   const std::string text = find_refusal(
       "r.sdf",
-      "<sdf version='1.9'><model name='m'>\n<include><name>x</name><uri>model://nowhere</uri>"
-      "</include>\n<link name='l'/><joint name='j' type='fixed'><parent>l</parent>"
-      "<child>x::base</child></joint></model></sdf>");
-  EXPECT_NE(text.find("nowhere"), std::string::npos) << text;
-  EXPECT_EQ(text.find("does not fit"), std::string::npos) << text;
+      "<sdf version='1.9'><model name='m'>\n<include><uri>model://nowhere</uri></include>\n"
+      "<link name='l'/><joint name='j' type='fixed'><parent>nowhere::l</parent><child>l</child>"
+      "</joint></model></sdf>");
+  EXPECT_NE(text.find("line 2: found no file for \"model://nowhere\""), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+}
+
+TEST(RobotReader, NamesThatNothingHasAreSaidOnce) {
+  const std::string text = find_refusal(
+      "r.sdf",
+      "<sdf version='1.9'><model name='m'><link name='l'/><frame name='f' attached_to='q'/>"
+      "<joint name='j' type='fixed'><parent>l</parent><child>y</child></joint></model></sdf>");
+  EXPECT_NE(text.find("found \"q\", to which frame \"f\" refers"), std::string::npos) << text;
+  EXPECT_NE(text.find("found \"y\", to which joint \"j\" refers"), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
 TEST(RobotReader, AModelThatIncludesItselfIsRefused) {
