@@ -116,6 +116,7 @@ Part read_part(const fs::path& root, std::size_t first_run) {
   try {
     for (const json& run : part.manifest.at("runs")) part.runs.push_back(run.at("run"));
     const DatasetInfo info = describe_dataset(root, part.manifest, export_options(part.manifest));
+    check_images_have_labels(info);
     for (const std::string& run : part.runs) {
       part.splits[part.new_name(run)] = info.split_of(run);
     }

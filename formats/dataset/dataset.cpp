@@ -331,11 +331,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
   }
   const json drones = manifest.at("job").value("drones", json());
   info.sensor_noise = read_sensor_noise(drones);
-  const bool has_images = !drones.is_array() || !drones.empty();
-  if (has_images && !info.has(annotate::GroundTruth::coco)) {
-    throw InputError({root.string(), "", "no COCO annotations",
-                      "a dataset whose job has coco among outputs.annotations"});
-  }
+  info.has_images = !drones.is_array() || !drones.empty();
   for (const auto& [run, split] : options.splits.runs) {
     if (std::find(info.runs.begin(), info.runs.end(), run) == info.runs.end()) {
       throw InputError({"", fmt::format("split {}", to_string(split)), run,
@@ -347,6 +343,12 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     info.categories.push_back(renamed == options.classes.names.end() ? value : renamed->second);
   }
   return info;
+}
+
+void check_images_have_labels(const DatasetInfo& info) {
+  if (!info.has_images || info.has(annotate::GroundTruth::coco)) return;
+  throw InputError({info.root.string(), "", "no COCO annotations",
+                    "a dataset whose job has coco among outputs.annotations"});
 }
 
 /// The records of one array of the COCO file: one per line.

@@ -115,6 +115,7 @@ struct DatasetInfo {
   /// Errors of the drones' sensors, by drone; those of datasets that were merged may be unknown.
   std::map<std::string, sim::SensorNoise> sensor_noise;
   std::int64_t frames_per_camera = 0;
+  bool has_images = true;  ///< false: of a job without drones
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
   std::vector<std::string> formats;      ///< exports below formats/
@@ -141,10 +142,13 @@ nlohmann::json webdataset_sample(const Image& image, const DatasetInfo& info);
 /// The splits, filters and classes with which the dataset's exports were written.
 ExportOptions export_options(const nlohmann::json& manifest);
 
-/// Describes a dataset from its manifest. Throws InputError if it has no COCO annotations, or if
-/// the options name runs that it does not have.
+/// Describes a dataset from its manifest. Throws InputError if the options name runs that it does
+/// not have.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
                              const ExportOptions& options);
+
+/// Throws InputError if a dataset has images without COCO annotations.
+void check_images_have_labels(const DatasetInfo& info);
 
 /// Reads manifest.json. Throws InputError if `root` is not a finished dataset.
 nlohmann::json read_manifest(const std::filesystem::path& root);

@@ -14,6 +14,10 @@ namespace throng::formats {
 
 using annotate::GroundTruth;
 
+bool Format::needs_images() const {
+  return annotate::needs_images(annotate::ground_truth_kind(needs));
+}
+
 std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
                                           const std::vector<std::string>& annotations,
                                           const std::string& where) {
@@ -33,8 +37,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
       problems.push_back({"", place, names[i] + " once more", "each format once"});
     }
     std::set<GroundTruth> needs = {format->needs};
-    if (annotate::needs_images(annotate::ground_truth_kind(format->needs)))
-      needs.insert({GroundTruth::coco, format->needs_also});
+    if (format->needs_images()) needs.insert({GroundTruth::coco, format->needs_also});
     for (const GroundTruth need : needs) {
       if (annotate::holds(annotations, need)) continue;
       problems.push_back({"", place, names[i],
@@ -74,11 +77,13 @@ std::vector<Problem> export_dataset(const DatasetInfo& info,
   for (const Format* format : formats) {
     exporters.push_back(format->make(info, Output(output / format->name)));
   }
-  DatasetReader reader(info);
-  Image image;
-  while (reader.next(image)) {
-    for (const auto& exporter : exporters) exporter->add(image);
-    if (also != nullptr) also->add(image);
+  if (info.has(GroundTruth::coco)) {
+    DatasetReader reader(info);
+    Image image;
+    while (reader.next(image)) {
+      for (const auto& exporter : exporters) exporter->add(image);
+      if (also != nullptr) also->add(image);
+    }
   }
   std::vector<Problem> warnings;
   for (const auto& exporter : exporters) {

@@ -37,6 +37,9 @@ struct Format {
   /// Creates an exporter. `info` must outlive it.
   std::unique_ptr<Exporter> (*make)(const DatasetInfo& info, Output output);
   annotate::GroundTruth needs_also = annotate::GroundTruth::coco;  ///< second required kind
+
+  /// Whether it is made of images or their labels, which jobs without drones do not have.
+  bool needs_images() const;
 };
 
 /// The table of all formats (format_table.cpp).
@@ -56,9 +59,9 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
 std::vector<Problem> split_warnings(const DatasetInfo& info,
                                     const std::vector<const Format*>& formats);
 
-/// Writes all formats in one pass over the dataset, each to the folder `output`/NAME. `also`, if
-/// not null, receives the same images. Returns the formats' warnings. Throws InputError and
-/// EnvironmentError.
+/// Writes all formats in one pass over the dataset's labels, if it has any, each to the folder
+/// `output`/NAME. `also`, if not null, receives the same images. Returns the formats' warnings.
+/// Throws InputError and EnvironmentError.
 std::vector<Problem> export_dataset(const DatasetInfo& info,
                                     const std::vector<const Format*>& formats,
                                     const std::filesystem::path& output, Exporter* also = nullptr);

@@ -258,6 +258,7 @@ Validation validate_dataset(const fs::path& root) {
     check_manifest(root, manifest, findings);
     return describe_dataset(root, manifest, export_options(manifest));
   });
+  check_images_have_labels(info);
   IdCheck ids;
   FormatCheck other_formats;
   RecordChecks records(manifest);

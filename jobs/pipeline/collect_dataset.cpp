@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "annotate/people/coco.h"
@@ -60,7 +61,9 @@ class Collector {
       list(path);
     }
     json manifest = manifest_of(std::move(runs));
-    if (wants(job_, annotate::GroundTruth::coco)) add_exports(manifest);
+    if (wants(job_, annotate::GroundTruth::coco) || !job_.outputs.formats.empty()) {
+      add_exports(manifest);
+    }
     write_manifest(std::move(manifest));
     staging_.commit();
   }
@@ -160,20 +163,26 @@ class Collector {
             {"failed_runs", std::move(failed)}};
   }
 
-  // Other formats, and what the dataset says of itself: one pass over its annotations.
+  // Other formats, and what the dataset says of its images: one pass over its annotations.
   void add_exports(const json& manifest) {
     const formats::DatasetInfo info =
         formats::describe_dataset(staging_.path(), manifest, job_.outputs.exports);
-    formats::DatasetCard card(info, manifest, formats::Output(staging_.path()));
+    std::optional<formats::DatasetCard> card;
+    if (info.has(annotate::GroundTruth::coco)) {
+      card.emplace(info, manifest, formats::Output(staging_.path()));
+    }
     const fs::path folder = staging_.path() / "formats";
     const auto chosen = formats::choose_formats(job_.outputs.formats, job_.outputs.annotations, "");
     for (const Problem& warning : formats::split_warnings(info, chosen)) {
       fmt::print(stderr, "warning: {}\n", warning.text());
     }
-    for (const Problem& warning : formats::export_dataset(info, chosen, folder, &card)) {
+    for (const Problem& warning :
+         formats::export_dataset(info, chosen, folder, card ? &*card : nullptr)) {
       fmt::print(stderr, "warning: {}\n", warning.text());
     }
-    for (const char* path : {"dataset.json", "README.md"}) list(path);
+    if (card) {
+      for (const char* path : {"dataset.json", "README.md"}) list(path);
+    }
     if (!fs::exists(folder)) return;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_regular_file()) list(entry.path().lexically_relative(staging_.path()).string());

@@ -135,12 +135,27 @@ class Check(unittest.TestCase):
 
     def test_a_run_for_figures(self):
         job = {"scenario": "city_square/huang2016/second_nearest", "drones": [], "capture": {"to_s": 15}}
-        file = self.write({**job, "outputs": {"annotations": ["exits", "events", "counts", "trajectories"]}})
+        file = self.write(
+            {
+                **job,
+                "outputs": {
+                    "annotations": ["exits", "events", "counts", "trajectories"],
+                    "formats": ["jupedsim", "trajnet"],
+                },
+            }
+        )
         out = self.folder / "out"
         done = subprocess.run([THRONG, "run", file, "-o", out], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("warning: run000: /scenario: found an alarm at 0 s that none of 260 people noticed", done.stderr)
-        for name in ("metrics.json", "exits/run000.csv", "events/run000.jsonl", "trajectories/run000.npy"):
+        for name in (
+            "metrics.json",
+            "exits/run000.csv",
+            "events/run000.jsonl",
+            "trajectories/run000.npy",
+            "formats/jupedsim/train/run000.txt",
+            "formats/trajnet/train/run000.ndjson",
+        ):
             self.assertTrue((out / "dataset" / name).is_file(), name)
         self.assertFalse((out / "dataset/images").exists())
         validate = [THRONG, "validate", out / "dataset"]

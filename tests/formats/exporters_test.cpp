@@ -400,6 +400,14 @@ TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
   }
 }
 
+TEST_F(Exports, TrajectoriesNeedNoImages) {
+  for (const char* format : {"jupedsim", "eth-ucy", "trajnet"}) {
+    EXPECT_NO_THROW(choose_formats({format}, {"trajectories"}, "")) << format;
+    EXPECT_THROW(choose_formats({format}, {"coco"}, ""), InputError) << format;
+  }
+  EXPECT_THROW(choose_formats({"depth-exr"}, {"depth"}, ""), InputError);
+}
+
 TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
   std::string text = read_file(root_ / kCocoFile);
   text.replace(text.find("\"bbox\""), 6, "\"bbux\"");

@@ -166,9 +166,7 @@ void make_job_for_figures(JobSpec& job, std::vector<Problem>& problems) {
   }
   for (std::size_t i = 0; i < outputs.formats.size(); ++i) {
     const formats::Format* format = formats::find_format(outputs.formats[i]);
-    if (format == nullptr || !annotate::needs_images(annotate::ground_truth_kind(format->needs))) {
-      continue;
-    }
+    if (format == nullptr || !format->needs_images()) continue;
     refuse(fmt::format("/outputs/formats/{}", i), fmt::format("\"{}\"", outputs.formats[i]));
   }
   if (outputs.previews != OutputSpec().previews && outputs.previews > 0) {
