@@ -16,6 +16,7 @@
 #include "cli/shell/input_file.h"
 #include "cli/shell/scenario_named.h"
 #include "cli/shell/trace_file.h"
+#include "jobs/queue/dataset/run_warnings.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits/exits.h"
 #include "metrics/trajectories/trajectory_file.h"
@@ -118,9 +119,13 @@ void measure(const MetricsArguments& arguments) {
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
-  for (const std::string& warning : metrics::count_warnings(measured.counts)) {
-    fmt::print(stderr, "warning: {}\n", warning);
+  std::vector<std::string> warnings;
+  if (!recorded) warnings = jobs::task_warnings(arguments.trace);
+  for (std::string& warning : metrics::count_warnings(measured.counts)) {
+    warnings.push_back(std::move(warning));
   }
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  figures["warnings"] = std::move(warnings);
   if (!arguments.without_guides.empty()) {
     metrics::add_to_json(
         metrics::lead_effect(trace, read_trace_file(arguments.without_guides), scenario),

@@ -20,6 +20,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/scenario_named.h"
 #include "cli/shell/trace_file.h"
+#include "jobs/queue/dataset/run_warnings.h"
 #include "jobs/queue/store/job_id.h"
 #include "jobs/study/run_report.h"
 #include "world/trace.h"
@@ -91,7 +92,8 @@ std::string report_of_traces(const ReportArguments& arguments) {
       throw InputError({named.file.string(), "", trace.header.scenario_id,
                         fmt::format("a run of {}, as the first one", id)});
     }
-    runs.push_back(study::measured(named.name, std::move(trace), *scenario));
+    runs.push_back(
+        study::measured(named.name, std::move(trace), *scenario, jobs::task_warnings(named.file)));
   }
   return study::html_report(*scenario, runs);
 }

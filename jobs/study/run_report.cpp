@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/words.h"
 #include "base/version.h"
 #include "jobs/study/metric_table.h"
 #include "jobs/study/page.h"
@@ -69,12 +71,27 @@ std::string people_table(const std::vector<MeasuredRun>& runs) {
                         counts.left_by_no_exit, counts.inside, counts.casualties,
                         counts.vanished_inside, counts.turned_back, counts.never_inside);
   }
-  html += "</table>\n";
+  return html + "</table>\n";
+}
+
+/// Each warning once, with the first run that has it and the number of others.
+std::string warning_list(const std::vector<MeasuredRun>& runs) {
+  std::map<std::string, std::vector<std::string>> runs_of;
+  std::vector<std::string> texts;
   for (const MeasuredRun& run : runs) {
-    for (const std::string& warning : metrics::count_warnings(run.metrics.counts)) {
-      html += fmt::format("<p class=\"warning\">{}: {}.</p>\n", escaped_markup(run.name),
-                          escaped_markup(warning));
+    for (const std::string& text : run.warnings) {
+      std::vector<std::string>& names = runs_of[text];
+      if (names.empty()) texts.push_back(text);
+      names.push_back(run.name);
     }
+  }
+  std::string html;
+  for (const std::string& text : texts) {
+    const std::vector<std::string>& names = runs_of[text];
+    const std::string others =
+        names.size() > 1 ? fmt::format(" and {}", counted(names.size() - 1, "other")) : "";
+    html += fmt::format("<p class=\"warning\">{}{}: {}.</p>\n", escaped_markup(names.front()),
+                        others, escaped_markup(text));
   }
   return html;
 }
@@ -150,17 +167,21 @@ std::string all_runs(const std::vector<MeasuredRun>& runs) {
   figures.reserve(runs.size());
   for (const MeasuredRun& run : runs) figures.push_back(&run.metrics);
   return fmt::format("<h2>{}</h2>\n{}{}", runs.size() == 1 ? "Run" : "All runs", people_table(runs),
-                     runs_table(runs)) +
+                     warning_list(runs) + runs_table(runs)) +
          chart_frame("People who have escaped", "data-chart=\"escape\"") + "<h3>Figures</h3>\n" +
          metric_table(figures);
 }
 
 }  // namespace
 
-MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario& scenario) {
-  MeasuredRun run{std::move(name), std::move(trace), {}, {}};
+MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario& scenario,
+                     std::vector<std::string> warnings) {
+  MeasuredRun run{std::move(name), std::move(trace), {}, {}, std::move(warnings)};
   run.exits = metrics::exit_series(run.trace, scenario);
   run.metrics = metrics::run_metrics(run.trace, scenario, run.exits);
+  for (std::string& warning : metrics::count_warnings(run.metrics.counts)) {
+    run.warnings.push_back(std::move(warning));
+  }
   return run;
 }
 

@@ -11,7 +11,7 @@ import urllib.request
 from service import start_service
 
 THRONG = sys.argv.pop(1)
-SQUARE = {"scenario": "city_square/nearest_exit", "capture": {"to_s": 5}}
+SQUARE = {"scenario": "city_square/second_nearest", "capture": {"to_s": 5}}
 
 
 class Check(unittest.TestCase):
@@ -199,15 +199,27 @@ class Check(unittest.TestCase):
         run = [THRONG, "run", job, "-o", self.folder / "hall"]
         done = subprocess.run(run, capture_output=True, text=True, env=environment)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn('found a gap 6.0 m wide at [10, 4], nearest to exit "east"', done.stderr)
-        counts = json.loads((self.folder / "hall/dataset/metrics/run000.json").read_text())["people_counts"]
+        gap = 'a gap 6.0 m wide at [10, 4], nearest to exit "east"'
+        self.assertIn(gap, done.stderr)
+        figures = json.loads((self.folder / "hall/dataset/metrics/run000.json").read_text())
+        counts = figures["people_counts"]
+        self.assertIn(gap, figures["warnings"][0])
+        done_again = subprocess.run(
+            [THRONG, "metrics", self.folder / "hall/work/run000/trace.h5"], capture_output=True, text=True
+        )
+        self.assertIn(gap, done_again.stderr)
+        self.assertEqual(json.loads(done_again.stdout)["warnings"], figures["warnings"])
+        page = self.folder / "hall.html"
+        subprocess.run([THRONG, "report", self.folder / "hall", "-o", page], check=True, capture_output=True)
+        self.assertIn("a gap 6.0 m wide at [10, 4]", page.read_text())
         self.assertGreater(counts["left_by_no_exit"], 0)
         self.assertIn(f"warning: run000: {counts['left_by_no_exit']} of 60 people left the place where", done.stderr)
 
     def test_an_alarm_that_nobody_notices(self):
         paper = {"scenario": "city_square/huang2016/second_nearest", "capture": {"to_s": 60}}
         self.assertIn("that none of 260 people noticed", self.warned(**paper)["/scenario"])
-        self.assertEqual(self.warned(**paper, crowd={"compat": "huang2016"}), {})
+        follows = self.warned(**paper, crowd={"compat": "huang2016"})["/scenario"]
+        self.assertIn("agents that start inside of it", follows, "what `scenario check` says of its files")
 
     def test_text(self):
         done = self.check({**SQUARE, "environment": {"rain_mm_per_h": 20}})

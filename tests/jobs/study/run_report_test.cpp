@@ -52,6 +52,17 @@ TEST(RunReport, HoldsChartsAndTables) {
   EXPECT_EQ(html, html_report(scenario, two_runs(scenario)));
 }
 
+TEST(RunReport, SaysTheWarningsOfSimulationsOnce) {
+  const world::Scenario scenario = metrics::place_with_door(2);
+  std::vector<MeasuredRun> runs = two_runs(scenario);
+  for (MeasuredRun& run : runs) run.warnings = {"an exit <into> a court"};
+  runs[1].warnings.emplace_back("an alarm that nobody noticed");
+  const std::string html = html_report(scenario, runs);
+  EXPECT_EQ(count(html, "fast&lt;&amp;&gt; and 1 other: an exit &lt;into&gt; a court."), 1U);
+  EXPECT_EQ(count(html, "slow: an alarm that nobody noticed."), 1U);
+  EXPECT_EQ(count(html, "class=\"warning\""), 2U);
+}
+
 TEST(RunReport, RunsItsOwnScriptOnly) {
   const world::Scenario scenario = metrics::place_with_door(2);
   const std::string html = html_report(scenario, two_runs(scenario));
