@@ -44,13 +44,24 @@ void print_view(const json& view) {
   fmt::print("{}\n", line);
 }
 
+/// A job whose scenario has errors runs, with figures that may say nothing.
+std::string headline(const json& warnings) {
+  const auto errors = std::count_if(warnings.begin(), warnings.end(), [](const json& warning) {
+    return warning["found"].get<std::string>().starts_with("error in ");
+  });
+  if (errors > 0) {
+    return fmt::format("valid, but its scenario has {}",
+                       counted(static_cast<std::size_t>(errors), "error"));
+  }
+  return warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning");
+}
+
 }  // namespace
 
 void print_job_summary(const json& answer, const std::string& file, int cores) {
   const json& estimate = answer["estimate"];
   const json& warnings = answer["warnings"];
-  fmt::print("{}: {}\n", file,
-             warnings.empty() ? "valid" : "valid, " + counted(warnings.size(), "warning"));
+  fmt::print("{}: {}\n", file, headline(warnings));
   fmt::print("  {:<10}{}, {}\n", "people", answer["people"].get<std::int64_t>(),
              counted(answer["runs"], "run"));
   const std::int64_t images = answer["frames"];

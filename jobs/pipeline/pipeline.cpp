@@ -113,7 +113,11 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
-  std::vector<std::string> warnings = task_warnings(folder.output_of({Task::Kind::simulate, run}));
+  // Not those kept beside the trace, which may be gone: resumed jobs have the same bytes.
+  std::vector<std::string> warnings;
+  for (const Problem& finding : scenario_findings(scenario)) {
+    warnings.push_back(without_folders(finding.text(), {folder.path(), scenarios}));
+  }
   for (const nlohmann::json& warning : figures.at("warnings")) warnings.push_back(warning);
   figures["warnings"] = std::move(warnings);
   keep_warnings(folder.output_of({Task::Kind::measure, run}),

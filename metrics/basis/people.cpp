@@ -186,7 +186,8 @@ void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) 
   // Beyond the border without having passed an exit, the person may still come to one.
   const bool comes_to_exit = person.is_settled && exit;
   if (!record.escaped_s ? present || exit : comes_to_exit) {
-    record.escaped_s = step.time_s;
+    // Somebody who is gone behind an exit was out before.
+    record.escaped_s = passed ? step.time_s : record.escaped_s.value_or(step.time_s);
     record.left_by = exit;
     record.hurt_s.reset();
   } else if (!record.escaped_s && !record.vanished_s) {

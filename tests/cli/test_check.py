@@ -221,6 +221,50 @@ class Check(unittest.TestCase):
         follows = self.warned(**paper, crowd={"compat": "huang2016"})["/scenario"]
         self.assertIn("agents that start inside of it", follows, "what `scenario check` says of its files")
 
+    def test_an_error_of_the_scenario(self):
+        """The run goes on, and warns of it, as does the check: the only exit leads into a court without a way out."""
+
+        def wall(name, *box):
+            return {"id": name, "box": box, "height_m": 3}
+
+        hall = {
+            "name": "Hall",
+            "ground": {"min": [-30, -30], "max": [30, 30], "material": "concrete"},
+            "inside": {"min": [-10, -7], "max": [10, 7]},
+            "exits": [{"id": "east", "from": [10, -1], "to": [10, 1]}],
+            "buildings": [
+                wall("north", -10, 7, 20, 7.3),
+                wall("south", -10, -7.3, 20, -7),
+                wall("west", -10.3, -7.3, -10, 7.3),
+                wall("north_east", 10, 1, 10.3, 7),
+                wall("south_east", 10, -7, 10.3, -1),
+                wall("court", 20, -7.3, 20.3, 7.3),
+            ],
+            "people": {"groups": [{"doing": "leave", "box": [-9, -6, 9, 6], "count": 9}]},
+        }
+        (self.folder / "court.blueprint.json").write_text(json.dumps(hall))
+        job = self.write(
+            {
+                "scenario": "court",
+                "drones": [],
+                "capture": {"to_s": 20},
+                "outputs": {"annotations": ["trajectories"], "formats": ["jupedsim", "eth-ucy", "trajnet"]},
+            }
+        )
+        environment = {**os.environ, "THRONG_SCENARIOS": str(self.folder)}
+        run = {"capture_output": True, "text": True, "env": environment}
+        done = subprocess.run([THRONG, "check", job], **run)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("valid, but its scenario has 1 error", done.stdout)
+        out = self.folder / "court"
+        done = subprocess.run([THRONG, "run", job, "-o", out], **run)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('exit "east", behind which walls enclose the ground', done.stderr)
+        metrics = json.loads((out / "dataset/metrics/run000.json").read_text())
+        self.assertTrue(any('exit "east", behind which' in warning for warning in metrics["warnings"]))
+        for written in ("jupedsim", "eth-ucy", "trajnet"):
+            self.assertTrue(any((out / "dataset/formats" / written).rglob("run000*")), written)
+
     def test_text(self):
         done = self.check({**SQUARE, "environment": {"rain_mm_per_h": 20}})
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -89,7 +89,8 @@ std::string fault_of_people(const Recorded& recorded, const nlohmann::json& figu
     const double arrived_s = time_of("arrived_s", i, 0);
     constexpr double kNever = 1e9;
     const double left_s =
-        std::min(time_of("escaped_s", i, kNever), time_of("vanished_s", i, kNever));
+        std::min({time_of("escaped_s", i, kNever), time_of("vanished_s", i, kNever),
+                  time_of("turned_back_s", i, kNever)});
     for (std::size_t frame = 0; frame < recorded.times_s.size(); ++frame) {
       const double time_s = recorded.times_s[frame];
       if (time_s < arrived_s + kMaxOffS || time_s > left_s - kStepS) continue;
