@@ -87,6 +87,22 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
 
 namespace {
 
+/// What scenarios::check() finds, and not what is kept beside the trace, which may be gone: resumed
+/// jobs have the same bytes. Nothing for traces whose scenario is not here.
+std::vector<std::string> findings_of_run(const JobFolder& folder, const JobSpec& job,
+                                         const fs::path& scenarios, int run) {
+  std::vector<std::string> texts;
+  try {
+    const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
+    for (const Problem& finding : scenario_findings(scenario)) {
+      texts.push_back(without_folders(finding.text(), {folder.path(), scenarios}));
+    }
+  } catch (const InputError&) {
+    return {};
+  }
+  return texts;
+}
+
 // The calibration of every camera.
 void add_cameras(const JobSpec& job, int run, Publication& output) {
   const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
@@ -113,11 +129,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
-  // Not those kept beside the trace, which may be gone: resumed jobs have the same bytes.
-  std::vector<std::string> warnings;
-  for (const Problem& finding : scenario_findings(scenario)) {
-    warnings.push_back(without_folders(finding.text(), {folder.path(), scenarios}));
-  }
+  std::vector<std::string> warnings = findings_of_run(folder, job, scenarios, run);
   for (const nlohmann::json& warning : figures.at("warnings")) warnings.push_back(warning);
   figures["warnings"] = std::move(warnings);
   keep_warnings(folder.output_of({Task::Kind::measure, run}),
