@@ -87,7 +87,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
 
 namespace {
 
-/// What scenarios::check() finds, and not what is kept beside the trace, which may be gone: resumed
+/// The findings of scenarios::check(), not those kept beside the trace, which may be gone: resumed
 /// jobs have the same bytes. Nothing for traces whose scenario is not here.
 std::vector<std::string> findings_of_run(const JobFolder& folder, const JobSpec& job,
                                          const fs::path& scenarios, int run) {
