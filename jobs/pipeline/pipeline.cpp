@@ -23,6 +23,7 @@
 #include "metrics/evacuation.h"
 #include "metrics/exits/exits.h"
 #include "render/lens/lens_map.h"
+#include "sim/recording/trace_recorder.h"
 #include "sim/run.h"
 #include "spec/bucket/address.h"
 #include "spec/job/environment.h"
@@ -73,11 +74,14 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   };
   const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
   std::vector<std::string> warnings;
+  sim::TraceRecorder recorder(trace);
   for (const Problem& warning : with_scenario_findings(
-           sim::simulate(scenario, run_spec(job, run), trace, progress, stop), scenario)) {
+           sim::simulate(scenario, run_spec(job, run), recorder, progress, stop), scenario)) {
     warnings.push_back(without_folders(warning.text(), {folder.path(), scenarios}));
   }
+  // Before the trace gets its name, with which the task is done: its metrics have them.
   keep_warnings(trace, warnings);
+  recorder.finish();
   seal_trace(trace);
   // All runs of a scenario read the same files.
   const std::vector<int> first = first_runs(job);
@@ -86,22 +90,6 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
 }
 
 namespace {
-
-/// The findings of scenarios::check(), not those kept beside the trace, which may be gone: resumed
-/// jobs have the same bytes. Nothing for traces whose scenario is not here.
-std::vector<std::string> findings_of_run(const JobFolder& folder, const JobSpec& job,
-                                         const fs::path& scenarios, int run) {
-  std::vector<std::string> texts;
-  try {
-    const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
-    for (const Problem& finding : scenario_findings(scenario)) {
-      texts.push_back(without_folders(finding.text(), {folder.path(), scenarios}));
-    }
-  } catch (const InputError&) {
-    return {};
-  }
-  return texts;
-}
 
 // The calibration of every camera.
 void add_cameras(const JobSpec& job, int run, Publication& output) {
@@ -129,7 +117,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
-  std::vector<std::string> warnings = findings_of_run(folder, job, scenarios, run);
+  std::vector<std::string> warnings = task_warnings(folder.output_of({Task::Kind::simulate, run}));
   for (const nlohmann::json& warning : figures.at("warnings")) warnings.push_back(warning);
   figures["warnings"] = std::move(warnings);
   keep_warnings(folder.output_of({Task::Kind::measure, run}),

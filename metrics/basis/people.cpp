@@ -8,6 +8,7 @@
 
 #include "base/geometry/polygon.h"
 #include "base/text/words.h"
+#include "metrics/basis/walking_distance.h"
 
 namespace throng::metrics {
 
@@ -25,13 +26,8 @@ bool holds(const std::vector<bool>& states, std::uint8_t state) {
 bool is_in_sight(const Vector2d& from, const Vector2d& to,
                  const std::vector<world::Building>& buildings) {
   return std::none_of(buildings.begin(), buildings.end(), [&](const world::Building& building) {
-    const auto& corners = building.footprint;
-    if (geometry::distance_to(corners, to) <= 0) return false;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vector2d& next = corners[i + 1 < corners.size() ? i + 1 : 0];
-      if (geometry::segments_cross(from, to, corners[i], next)) return true;
-    }
-    return false;
+    return geometry::distance_to(building.footprint, to) > 0 &&
+           crosses_outline(building.footprint, from, to);
   });
 }
 
@@ -113,7 +109,7 @@ void PeopleTracker::arrive(Person& person, const PeopleStep& step) {
     // People who come from outside must cross the line; touching it is not enough.
     record.was_inside = !is_at_an_exit(place, person.seen ? CrossingCounter::kHysteresisM : 0);
   }
-  if (person.seen && (person.record.came_to_exit || !is_in_bounds)) return;
+  if (person.seen && (record.came_to_exit || !is_in_bounds)) return;
   person.seen = true;
   record.came_to_exit = is_in_bounds;
   record.first_step = steps_;
@@ -186,7 +182,7 @@ void PeopleTracker::leave(Person& person, const PeopleStep& step, bool present) 
   // Beyond the border without having passed an exit, the person may still come to one.
   const bool comes_to_exit = person.is_settled && exit;
   if (!record.escaped_s ? present || exit : comes_to_exit) {
-    // Somebody who is gone behind an exit was out before.
+    // A person who is absent behind an exit was out before.
     record.escaped_s = passed ? step.time_s : record.escaped_s.value_or(step.time_s);
     record.left_by = exit;
     record.hurt_s.reset();

@@ -99,13 +99,19 @@ std::optional<double> WalkingDistance::from(const Vector2d& place) const {
 
 bool WalkingDistance::straight_path_is_free(const Vector2d& from, const Vector2d& to) const {
   return std::none_of(footprints_.begin(), footprints_.end(), [&](const auto& footprint) {
-    for (std::size_t i = 0; i < footprint.size(); ++i) {
-      const Vector2d& next = footprint[i + 1 < footprint.size() ? i + 1 : 0];
-      if (geometry::segments_cross(from, to, footprint[i], next)) return true;
-    }
+    if (crosses_outline(footprint, from, to)) return true;
     // Exactly through two corners it crosses no edge.
     return geometry::distance_to(footprint, 0.5 * (from + to)) <= 0;
   });
+}
+
+bool crosses_outline(const std::vector<Vector2d>& corners, const Vector2d& from,
+                     const Vector2d& to) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d& next = corners[i + 1 < corners.size() ? i + 1 : 0];
+    if (geometry::segments_cross(from, to, corners[i], next)) return true;
+  }
+  return false;
 }
 
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario) {

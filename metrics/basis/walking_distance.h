@@ -38,6 +38,10 @@ class WalkingDistance {
   std::vector<double> distance_m_;
 };
 
+/// Whether the segment between two points crosses an edge of the polygon.
+bool crosses_outline(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& from,
+                     const Eigen::Vector2d& to);
+
 /// The distances to each exit of the scenario, over its ground.
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario);
 

@@ -10,10 +10,12 @@
 
 namespace throng::sim {
 
+/// Records what simulate() reports.
 class TraceRecorder : public RunObserver {
  public:
   /// Pilot logs are written to `pilot_log_folder` as DRONE.csv, or not at all if it is empty.
-  TraceRecorder(std::filesystem::path trace_file, std::filesystem::path pilot_log_folder);
+  explicit TraceRecorder(std::filesystem::path trace_file,
+                         std::filesystem::path pilot_log_folder = {});
 
   void begin(const world::TraceHeader& header) override;
   void step(const world::CrowdStep& step) override;

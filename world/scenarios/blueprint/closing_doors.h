@@ -23,8 +23,7 @@ struct ClosingDoor {
 double closing_time_s(const world::Exit& exit, const std::vector<BlockedDisc>& discs);
 
 /// The exits that are closed or close. Adds a problem for those beyond the number of classes of
-/// obstacles; of doors that disasters close, those beyond it stay open for people
-/// who have noticed nothing.
+/// obstacles; doors beyond it that disasters close stay open for people without notice.
 std::vector<ClosingDoor> closing_doors(const std::vector<world::Exit>& exits,
                                        const std::vector<BlockedDisc>& discs,
                                        std::vector<Problem>& problems);
