@@ -115,7 +115,8 @@ Part read_part(const fs::path& root, std::size_t first_run) {
   Part part{root, read_manifest(root), first_run, {}, {}};
   try {
     for (const json& run : part.manifest.at("runs")) part.runs.push_back(run.at("run"));
-    const DatasetInfo info = describe_dataset(root, part.manifest, export_options(part.manifest));
+    const DatasetInfo info =
+        describe_dataset(root, part.manifest, export_options(root, part.manifest));
     check_images_have_labels(info);
     for (const std::string& run : part.runs) {
       part.splits[part.new_name(run)] = info.split_of(run);
@@ -283,7 +284,8 @@ class Merger {
 
   void add_card(const json& manifest) {
     if (!fs::exists(staging_.path() / kCocoFile)) return;
-    const DatasetInfo info = describe_dataset(staging_.path(), manifest, export_options(manifest));
+    const DatasetInfo info =
+        describe_dataset(staging_.path(), manifest, export_options(staging_.path(), manifest));
     DatasetCard card(info, manifest, Output(staging_.path()));
     export_dataset(info, {}, staging_.path() / "formats", &card);
     for (const char* path : {"dataset.json", "README.md"}) list(path);

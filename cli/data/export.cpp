@@ -1,10 +1,12 @@
 // throng export: a finished dataset in other formats.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,12 +28,12 @@ struct ExportArguments {
   std::string output;
   std::vector<std::string> formats;
   std::vector<std::string> splits;
-  double min_visibility = 0;
-  double min_height_px = 0;
+  std::optional<double> min_visibility;
+  std::optional<double> min_height_px;
   std::optional<double> max_truncation;
-  double min_contrast = 0;
-  double shard_mb = formats::WebDatasetOptions{}.shard_mb;
-  std::string classes = "none";
+  std::optional<double> min_contrast;
+  std::optional<double> shard_mb;
+  std::optional<std::string> classes;
   std::vector<std::string> class_names;
 };
 
@@ -74,17 +76,46 @@ formats::SplitOptions read_splits(const std::vector<std::string>& words) {
   return splits;
 }
 
-formats::ExportOptions read_options(const ExportArguments& arguments) {
-  formats::ExportOptions options;
-  options.splits = read_splits(arguments.splits);
-  options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation,
-                     arguments.min_contrast};
-  options.webdataset.shard_mb = arguments.shard_mb;
-  options.classes.by = arguments.classes;
+/// The options of the dataset's job, as long as the arguments do not say otherwise.
+formats::ExportOptions read_options(const ExportArguments& arguments,
+                                    const nlohmann::json& manifest) {
+  formats::ExportOptions options = formats::export_options(arguments.dataset, manifest);
+  if (!arguments.splits.empty()) options.splits = read_splits(arguments.splits);
+  formats::FilterOptions& filters = options.filters;
+  filters.min_visibility = arguments.min_visibility.value_or(filters.min_visibility);
+  filters.min_height_px = arguments.min_height_px.value_or(filters.min_height_px);
+  if (arguments.max_truncation) filters.max_truncation = arguments.max_truncation;
+  filters.min_contrast = arguments.min_contrast.value_or(filters.min_contrast);
+  options.webdataset.shard_mb = arguments.shard_mb.value_or(options.webdataset.shard_mb);
+  if (arguments.classes) options.classes = {*arguments.classes, {}};
   for (const std::string& word : arguments.class_names) {
     formats::add_class_name(word, "--class-name", options.classes);
   }
   return options;
+}
+
+void check_named_runs(const formats::DatasetInfo& info) {
+  for (const auto& [run, split] : info.options.splits.runs) {
+    if (std::find(info.runs.begin(), info.runs.end(), run) != info.runs.end()) continue;
+    throw InputError({"", fmt::format("--split {}", to_string(split)), run,
+                      fmt::format("one of: {}", fmt::join(info.runs, ", "))});
+  }
+}
+
+/// "train run000, run002; val run001"
+std::string list_splits(const formats::DatasetInfo& info) {
+  std::vector<std::string> parts;
+  for (const formats::Split split : info.splits()) {
+    std::vector<std::string> runs;
+    for (const std::string& run : info.runs) {
+      if (info.split_of(run) == split) runs.push_back(run);
+    }
+    constexpr std::size_t kMostNames = 8;
+    parts.push_back(runs.size() > kMostNames
+                        ? fmt::format("{} {} runs", to_string(split), runs.size())
+                        : fmt::format("{} {}", to_string(split), fmt::join(runs, ", ")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 /// Recordings are complete up to the time at which the disk was full: they stay in OUTPUT.partial,
@@ -102,9 +133,11 @@ void keep_recordings(const fs::path& staged, const std::string& output,
 
 void export_formats(const ExportArguments& arguments) {
   const fs::path root = arguments.dataset;
+  const nlohmann::json manifest = formats::read_manifest(root);
   const formats::DatasetInfo info =
-      formats::describe_dataset(root, formats::read_manifest(root), read_options(arguments));
-  if (arguments.min_contrast > 0 && !info.has(annotate::GroundTruth::difficulty)) {
+      formats::describe_dataset(root, manifest, read_options(arguments, manifest));
+  if (!arguments.splits.empty()) check_named_runs(info);
+  if (info.options.filters.min_contrast > 0 && !info.has(annotate::GroundTruth::difficulty)) {
     throw InputError({"", "--min-contrast", "a dataset without the annotation difficulty",
                       "one whose job has \"difficulty\" in outputs.annotations"});
   }
@@ -126,6 +159,7 @@ void export_formats(const ExportArguments& arguments) {
   for (const Problem& warning : warnings) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
+  if (info.splits().size() > 1) fmt::print(stderr, "throng: splits: {}\n", list_splits(info));
   for (const formats::Format* format : chosen) {
     fmt::print("{}\n", (fs::path(arguments.output) / format->name).string());
   }
@@ -180,15 +214,15 @@ void add_export(CLI::App& app) {
   command->add_option("--formats", arguments->formats, "Formats, separated by commas (see --list)")
       ->delimiter(',');
   command
-      ->add_option("--split", arguments->splits,
-                   "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
-                   "gets the remaining runs")
+      ->add_option(
+          "--split", arguments->splits,
+          "Instead of the dataset's splits: shares of the runs or runs, train=0.8,val=0.2 or "
+          "test=run003; without train it gets the remaining runs")
       ->delimiter(',');
   add_filter_options(*command, *arguments);
   command
       ->add_option("--shard-mb", arguments->shard_mb, "Size of WebDataset's tar files (10^6 bytes)")
-      ->check(CLI::Range(1.0, 1e5))
-      ->capture_default_str();
+      ->check(CLI::Range(1.0, 1e5));
   command->add_option("--classes", arguments->classes, "Attribute that defines the classes")
       ->check(CLI::IsMember([] {
         std::vector<std::string> names;

@@ -265,9 +265,10 @@ InputError bad_manifest(const fs::path& root, const json::exception& error) {
                      "the manifest that throng wrote"});
 }
 
-ExportOptions export_options(const json& manifest) {
+namespace {
+
+ExportOptions read_export_options(const json& outputs) {
   ExportOptions options;
-  const json& outputs = manifest.at("job").at("outputs");
   const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
@@ -291,6 +292,16 @@ ExportOptions export_options(const json& manifest) {
     add_class_name(name, "", options.classes);
   }
   return options;
+}
+
+}  // namespace
+
+ExportOptions export_options(const fs::path& root, const json& manifest) {
+  try {
+    return read_export_options(manifest.at("job").at("outputs"));
+  } catch (const json::exception& error) {
+    throw bad_manifest(root, error);
+  }
 }
 
 DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
@@ -332,12 +343,6 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
   const json drones = manifest.at("job").value("drones", json());
   info.sensor_noise = read_sensor_noise(drones);
   info.has_images = !drones.is_array() || !drones.empty();
-  for (const auto& [run, split] : options.splits.runs) {
-    if (std::find(info.runs.begin(), info.runs.end(), run) == info.runs.end()) {
-      throw InputError({"", fmt::format("split {}", to_string(split)), run,
-                        fmt::format("a run of the dataset, run000 to {}", info.runs.back())});
-    }
-  }
   for (const std::string& value : class_values(options.classes.by)) {
     const auto renamed = options.classes.names.find(value);
     info.categories.push_back(renamed == options.classes.names.end() ? value : renamed->second);

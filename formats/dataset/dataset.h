@@ -139,11 +139,12 @@ struct DatasetInfo {
 /// for those that fail the filters.
 nlohmann::json webdataset_sample(const Image& image, const DatasetInfo& info);
 
-/// The splits, filters and classes with which the dataset's exports were written.
-ExportOptions export_options(const nlohmann::json& manifest);
+/// The splits, filters and classes of the dataset's job, with which its own formats were written.
+/// Throws InputError naming `root` if the manifest is damaged.
+ExportOptions export_options(const std::filesystem::path& root, const nlohmann::json& manifest);
 
-/// Describes a dataset from its manifest. Throws InputError if the options name runs that it does
-/// not have.
+/// Describes a dataset from its manifest. Runs that the options name and it does not have (a job's
+/// runs may have failed) are ignored.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
                              const ExportOptions& options);
 

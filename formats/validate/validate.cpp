@@ -256,7 +256,7 @@ Validation validate_dataset(const fs::path& root) {
   Findings findings(validation);
   const DatasetInfo info = reading_manifest(root, [&] {
     check_manifest(root, manifest, findings);
-    return describe_dataset(root, manifest, export_options(manifest));
+    return describe_dataset(root, manifest, export_options(root, manifest));
   });
   check_images_have_labels(info);
   IdCheck ids;

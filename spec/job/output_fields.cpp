@@ -234,7 +234,7 @@ void add_output_fields(FieldTable<JobSpec>& table) {
             "Images with the annotations drawn on them per run and camera, evenly spread over the "
             "frames.");
   table.add("outputs/formats", "Formats", "",
-            raw({{"type", "array"}, {"maxItems", 40}, {"items", texts(1, 40).rules}}),
+            raw({{"type", "array"}, {"maxItems", 100}, {"items", texts(1, 40).rules}}),
             at(&JobSpec::outputs, &OutputSpec::formats),
             "Additional formats of the dataset, below formats/: names that throng "
             "export --list prints.");

@@ -129,31 +129,6 @@ class EndToEnd(unittest.TestCase):
         for folder in card["formats"].values():
             self.assertTrue((self.dataset / folder).is_dir())
 
-    def test_an_export_later_is_that_of_the_job(self):
-        out = self.base / "exported"
-        done = throng(
-            "export",
-            self.dataset,
-            "-o",
-            out,
-            "--formats",
-            "mot,yolo-pose,coco-panoptic",
-            "--split",
-            "val=run001",
-            "--min-visibility",
-            "0.1",
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("mot", "yolo-pose", "coco-panoptic"):
-            mine, theirs = files_of(out / name), files_of(self.dataset / "formats" / name)
-            self.assertEqual(sorted(mine), sorted(theirs))
-            self.assertEqual([p for p in mine if not filecmp.cmp(mine[p], theirs[p], shallow=False)], [])
-        done = throng("export", self.dataset, "-o", out, "--formats", "mot")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("exists", done.stderr)
-        done = throng("export", self.dataset, "-o", self.base / "none", "--formats", "docx")
-        self.assertIn("yolo-detect", done.stderr)
-
     def test_same_seed_gives_the_same_bytes_whatever_the_number_of_workers(self):
         again = self.base / "again"
         done = throng("run", self.job, "-o", again, "--workers", 1)
