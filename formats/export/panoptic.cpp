@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -132,6 +134,7 @@ class PanopticExporter : public Exporter {
   }
 
   void finish() override {
+    output_.write("panoptic_coco_categories.json", categories().dump());
     for (const Split split : info_.splits()) {
       OutputStream file = output_.open(annotations_path(split));
       const json head = {{"description", info_.name}, {"version", "1"}};
@@ -180,31 +183,44 @@ class PanopticExporter : public Exporter {
     fs::remove(path);
   }
 
+  /// Each has a color of its own, which COCO's converters and viewers require.
   json categories() const {
+    using world::SemanticClass;
+    using world::SemanticGroup;
     json list = json::array();
+    const auto add = [&](std::string_view name, std::string_view group, bool is_thing,
+                         std::array<int, 3> color) {
+      list.push_back({{"id", list.size() + 1},
+                      {"name", name},
+                      {"supercategory", group},
+                      {"isthing", is_thing ? 1 : 0},
+                      {"color", color}});
+    };
+    const auto color_of = [](SemanticClass value, int more_blue = 0) -> std::array<int, 3> {
+      const auto& [red, green, blue] = world::semantic_class_info(value).color;
+      return {red, green, blue + more_blue};
+    };
+    constexpr int kStep = 20;  // from one class of people to the next
     for (const std::string& name : info_.categories) {
-      list.push_back(
-          {{"id", list.size() + 1}, {"name", name}, {"supercategory", "person"}, {"isthing", 1}});
+      add(name, "person", true,
+          color_of(SemanticClass::person, kStep * static_cast<int>(list.size())));
     }
     if (has_classes_) {
       for (const world::SemanticClassInfo& known : world::semantic_classes()) {
         const char* group = supercategory(known);
         if (group == nullptr) continue;
-        const bool is_thing = known.group != world::SemanticGroup::ground;
-        list.push_back({{"id", category_of(known.value)},
-                        {"name", known.name},
-                        {"supercategory", group},
-                        {"isthing", is_thing ? 1 : 0}});
+        add(known.name, group, known.group != SemanticGroup::ground, color_of(known.value));
+        list.back()["id"] = category_of(known.value);
       }
       return list;
     }
-    for (const auto& [name, group, kind] : {std::tuple{"building", "place", 1},
-                                            {"prop", "place", 1},
-                                            {"ground", "place", 0},
-                                            {"umbrella", "accessory", 1},
-                                            {"drone", "vehicle", 1}}) {
-      list.push_back(
-          {{"id", list.size() + 1}, {"name", name}, {"supercategory", group}, {"isthing", kind}});
+    for (const auto& [name, group, is_thing, surface] :
+         {std::tuple{"building", "place", true, SemanticClass::building},
+          {"prop", "place", true, SemanticClass::object},
+          {"ground", "place", false, SemanticClass::pavement},
+          {"umbrella", "accessory", true, SemanticClass::umbrella},
+          {"drone", "vehicle", true, SemanticClass::drone}}) {
+      add(name, group, is_thing, color_of(surface));
     }
     return list;
   }

@@ -74,6 +74,12 @@ class Export(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(differing_files(out / name, self.dataset / "formats" / name), [])
 
+    def test_classes_of_people_have_colors_of_their_own_in_panoptic_files(self):
+        file = self.dataset / "formats/coco-panoptic/panoptic_coco_categories.json"
+        categories = json.loads(file.read_text())
+        self.assertEqual([category["name"] for category in categories[:2]], ["woman", "male"])
+        self.assertEqual(len({tuple(category["color"]) for category in categories}), len(categories))
+
     def test_options_replace_those_of_the_job(self):
         out, said = self.export("others", "--split", "train=1", "--min-height", "0", "--classes", "none")
         self.assertNotIn("splits:", said)

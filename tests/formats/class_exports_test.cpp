@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/files/files.h"
 #include "base/files/resources.h"
@@ -48,6 +49,34 @@ TEST_F(ClassExports, PanopticListsExactlyTheSegmentsOfTheImage) {
   }
   EXPECT_GT(umbrellas, 0U);
   EXPECT_EQ(list.at("categories").at(4).at("name"), "umbrella");
+}
+
+/// What panopticapi's converters take out of each category, and what its generator of ids asks of
+/// colors.
+void expect_categories_of_panopticapi(const fs::path& out) {
+  const json list = json::parse(read_file(out / "annotations/panoptic_train.json"));
+  EXPECT_EQ(list.at("categories"), json::parse(read_file(out / "panoptic_coco_categories.json")));
+  std::set<json> colors = {{0, 0, 0}};
+  for (const json& category : list.at("categories")) {
+    EXPECT_TRUE(category.at("isthing").is_number_integer());
+    const json& color = category.at("color");
+    ASSERT_EQ(color.size(), 3U);
+    for (const json& channel : color) {
+      EXPECT_GE(channel, 0);
+      EXPECT_LE(channel, 255);
+    }
+    EXPECT_TRUE(colors.insert(color).second) << color << " again, of " << category.at("name");
+  }
+}
+
+TEST_F(ClassExports, CategoriesOfPanopticHaveColors) {
+  expect_categories_of_panopticapi(exported("coco-panoptic"));
+}
+
+TEST_F(ClassExports, SemanticCategoriesOfPanopticHaveColors) {
+  annotations_.emplace_back("semantic");
+  write_manifest();
+  expect_categories_of_panopticapi(exported("coco-panoptic"));
 }
 
 TEST_F(ClassExports, PanopticDividesTheGroundByItsClasses) {
