@@ -9,6 +9,7 @@
 #include "camera/calibration/model_choice.h"
 #include "camera/calibration/repeated_views.h"
 #include "camera/calibration/warnings.h"
+#include "spec/calibration/camera_file.h"
 
 namespace throng::calibrate {
 
@@ -52,22 +53,6 @@ void require_enough_views(const Correspondences& all, const Rules& rules,
                    std::max(1, (unknowns + 1) / 2), unknowns)}};
   problems.insert(problems.end(), all.left_out.begin(), all.left_out.end());
   throw InputError(problems);
-}
-
-/// A lens is centered on its own image: the size of the images is wrong, or the points are.
-void require_principal_point_inside(const Calibration& result, const Rules& rules,
-                                    const std::string& source) {
-  const double cx = result.parameters[kCx];
-  const double cy = result.parameters[kCy];
-  const bool estimated = rules.free[kCx] || rules.free[kCy];
-  const bool inside =
-      cx >= 0 && cx <= result.size.width - 1 && cy >= 0 && cy <= result.size.height - 1;
-  if (inside || !estimated) return;
-  throw InputError(
-      Problem{source, "",
-              fmt::format("a principal point of ({:.1f}, {:.1f}) px, outside an image of {} x {}",
-                          cx, cy, result.size.width, result.size.height),
-              "the images' own size (--size), and points that belong to their pixels"});
 }
 
 Adjustment adjust_intrinsics(const Correspondences& all, Lens lens, const Rules& rules,
@@ -157,7 +142,7 @@ Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
   names.reserve(all.views.size());
   for (const View& view : all.views) names.push_back(view.name);
   take_results(solved.adjustment, solved.fit, names, result);
-  require_principal_point_inside(result, rules, options.source);
+  require_principal_point_inside({result.lens, result.parameters, result.size}, options.source);
   add_intrinsics_warnings(rules, solved.fit, result);
   return result;
 }

@@ -46,6 +46,19 @@ json to_json(const CameraFile& camera) {
   return value;
 }
 
+void require_principal_point_inside(const CameraFile& camera, const std::string& source) {
+  const double cx = camera.parameters[kCx];
+  const double cy = camera.parameters[kCy];
+  const auto [width, height] = camera.size;
+  if (cx > 0 && cx < width - 1 && cy > 0 && cy < height - 1) return;
+  throw InputError(Problem{
+      source, "",
+      fmt::format("a principal point of ({:.1f}, {:.1f}) px, not inside an image of {} x {}", cx,
+                  cy, width, height),
+      fmt::format("one near the middle ({:g}, {:g}), for images of this size", 0.5 * (width - 1),
+                  0.5 * (height - 1))});
+}
+
 CameraFile camera_from_json(const json& value, const std::string& source) {
   if (!value.is_object()) {
     throw InputError(Problem{source, "", value.type_name(),
@@ -77,6 +90,7 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
   std::vector<Problem> problems;
   schemas::add_schema_problems(schemas::Kind::camera, value, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
+  require_principal_point_inside(camera, source);
   return camera;
 }
 

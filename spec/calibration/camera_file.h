@@ -29,6 +29,10 @@ struct CameraFile {
 
 nlohmann::json to_json(const CameraFile& camera);
 
+/// Throws InputError naming `source` if the principal point is not inside the image: the lens of a
+/// camera is centered on its image, and files that do not state the point have zeros.
+void require_principal_point_inside(const CameraFile& camera, const std::string& source);
+
 /// Reads a camera. Throws InputError naming `source` if `value` is not a valid camera.
 CameraFile camera_from_json(const nlohmann::json& value, const std::string& source);
 

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "spec/calibration/foreign/colmap.h"
+#include "spec/calibration/foreign/named_parameters.h"
 #include "spec/calibration/foreign/pixels.h"
 #include "spec/calibration/foreign/radial_lens.h"
 
@@ -244,6 +245,13 @@ CameraFile matrix_camera(const json& document, const Member& matrix, const std::
       member(document, {"distortioncoefficients", "distcoeffs", "distortioncoeffs", "distcoef",
                         "distortion", "dist", "d", "d1"});
   if (distortion.value != nullptr) found.coefficients = numbers(distortion, source);
+  constexpr std::size_t kOfTwoModels = 4;
+  if (model.value == nullptr && fisheye.value == nullptr &&
+      found.coefficients.size() == kOfTwoModels) {
+    throw InputError(Problem{source, "/" + distortion.name, "4 coefficients without a model",
+                             "\"distortion_model\": \"equidistant\" for k1, k2, k3, k4 of "
+                             "cv::fisheye, or \"plumb_bob\" for k1, k2, p1, p2"});
+  }
   return make_camera(found, source);
 }
 
@@ -312,19 +320,24 @@ std::optional<CameraFile> foreign_camera(const json& document, const std::string
   if (!document.is_object()) return std::nullopt;
   std::vector<std::string> chain;
   for (const auto& [key, value] : document.items()) {
-    if (is_kalibr(value)) chain.push_back(key);
+    if (is_kalibr(value) || is_opensfm(value)) chain.push_back(key);
   }
   if (!chain.empty()) {
     const bool has_name = std::find(chain.begin(), chain.end(), name) != chain.end();
     if (has_name || (name.empty() && chain.size() == 1)) {
       const std::string& chosen = has_name ? name : chain.front();
-      return kalibr_camera(document.at(chosen), fmt::format("{}#{}", source, chosen));
+      const std::string its_source = fmt::format("{}#{}", source, chosen);
+      const json& camera = document.at(chosen);
+      return is_kalibr(camera) ? kalibr_camera(camera, its_source)
+                               : opensfm_camera(camera, its_source);
     }
     throw InputError(Problem{
         source, "", name.empty() ? counted(std::ssize(chain), "camera") : fmt::format("#{}", name),
         fmt::format("FILE#NAME with one of: {}", fmt::join(chain, ", "))});
   }
   if (is_kalibr(document)) return kalibr_camera(document, source);
+  if (is_opensfm(document)) return opensfm_camera(document, source);
+  if (is_camodocal(document)) return camodocal_camera(document, source);
   if (document.contains("model") && document.contains("params")) {
     return colmap_camera(document, source);
   }

@@ -149,6 +149,45 @@ TEST_F(ReadCameraFile, OpenCvAsYamlXmlAndJson) {
                 Lens::fisheye, 64, 48, {50, 51, 32, 24, 0, 0.1, 0.2, 0.3, 0.4});
 }
 
+// cv::fisheye::calibrate() and cv::calibrateCamera() with four coefficients give the same file.
+TEST_F(ReadCameraFile, FourCoefficientsNeedAModel) {
+  const std::string size = "%YAML:1.0\n---\nimage_width: 1280\nimage_height: 800\n";
+  const std::string k =
+      "K: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+      "   data: [ 330., 0., 640., 0., 330., 400., 0., 0., 1. ]\n";
+  const std::string d =
+      "D: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n"
+      "   data: [ -0.02, 0.005, -0.003, 0.0007 ]\n";
+  EXPECT_THAT(refusal_of(size + k + d),
+              HasSubstr("/D: found 4 coefficients without a model, expected \"distortion_model\""));
+  const std::vector<double> expected = {330, 330, 640, 400, 0, -0.02, 0.005, -0.003, 0.0007};
+  expect_camera(read(size + k + d + "distortion_model: equidistant\n"), Lens::fisheye, 1280, 800,
+                expected);
+  expect_camera(read(size + k + d + "distortion_model: plumb_bob\n"), Lens::brown4, 1280, 800,
+                expected);
+  EXPECT_THAT(refusal_of("image_size: [64, 48]\ncameraMatrix: [[50, 0, 32], [0, 51, 24], [0, 0, 1]]"
+                         "\ndistCoeffs: [[0.1], [0.2], [0.3], [0.4]]\n"),
+              HasSubstr("/distCoeffs: found 4 coefficients"));
+}
+
+TEST_F(ReadCameraFile, PrincipalPointsAreInsideOfTheImage) {
+  EXPECT_THAT(refusal_of("1 OPENCV 1280 720 1600.09 948.289 0 0 -0.529335 0.146421 0.1 0.018\n"),
+              HasSubstr("found a principal point of (-0.5, -0.5) px, not inside an image of 1280 x "
+                        "720, expected one near the middle (639.5, 359.5)"));
+  const auto ros = [&](const std::string& cx, const std::string& cy) {
+    return "image_width: 64\nimage_height: 48\ncamera_matrix: [50, 0, " + cx + ", 0, 51, " + cy +
+           ", 0, 0, 1]\n";
+  };
+  for (const auto& [cx, cy] :
+       {std::pair{"0", "0"}, {"0", "24"}, {"32", "47"}, {"-3", "24"}, {"640", "480"}}) {
+    EXPECT_THAT(refusal_of(ros(cx, cy)), HasSubstr("a principal point of (")) << cx << " " << cy;
+  }
+  EXPECT_EQ(read(ros("3", "45")).parameters[kCy], 45);
+  EXPECT_THAT(refusal_of(R"({"width": 64, "height": 48, "lens": "pinhole", "fx": 50, "fy": 50,
+ "cx": 0, "cy": 0})"),
+              HasSubstr("a principal point of (0.0, 0.0)"));
+}
+
 TEST_F(ReadCameraFile, CoefficientsThatThrongDoesNotHaveMustBeZero) {
   const std::string start =
       "image_width: 64\nimage_height: 48\ncamera_matrix: [50, 0, 32, 0, 51, 24, 0, 0, 1]\n"
@@ -261,6 +300,86 @@ TEST_F(ReadCameraFile, LensesThatBendByTheAngleBecomeFisheyes) {
   EXPECT_THAT(refusal_of(chain("ds", "", "none", "")), HasSubstr("found 4 numbers"));
   EXPECT_THAT(refusal_of(chain("ds", "-3, 0.5, ", "none", "")), HasSubstr("parameters of no lens"));
   EXPECT_THAT(refusal_of(chain("pinhole", "", "fov", ".nan")), Not(IsEmpty()));
+}
+
+// The references are the equations of camodocal's models, at the ray (sin a, 0, cos a).
+TEST_F(ReadCameraFile, CamodocalsModels) {
+  const auto camera = [](const std::string& model, const std::string& groups) {
+    return "%YAML:1.0\n---\nmodel_type: " + model +
+           "\ncamera_name: cam0\nimage_width: 752\nimage_height: 480\n" + groups;
+  };
+  const std::string pinhole =
+      "distortion_parameters:\n   k1: -2.1e-01\n   k2: 5.0e-02\n   p1: 1.0e-03\n   p2: -2e-03\n"
+      "projection_parameters:\n   fx: 900.5\n   fy: 901.25\n   cx: 340.2\n   cy: 239.5\n";
+  expect_camera(read(camera("PINHOLE", pinhole)), Lens::brown4, 752, 480,
+                {900.5, 901.25, 340.2, 239.5, 0, -0.21, 0.05, 0.001, -0.002});
+  expect_camera(read(camera("KANNALA_BRANDT",
+                            "projection_parameters:\n   k2: -0.02\n   k3: 0.005\n   k4: -0.003\n"
+                            "   k5: 0.0007\n   mu: 330\n   mv: 331\n   u0: 370\n   v0: 240\n")),
+                Lens::fisheye, 752, 480, {330, 331, 370, 240, 0, -0.02, 0.005, -0.003, 0.0007});
+  const auto mei = [&](const std::string& p1) {
+    return camera("MEI",
+                  "mirror_parameters:\n   xi: 1.2\ndistortion_parameters:\n   k1: -0.1\n"
+                  "   k2: 0.02\n   p1: " +
+                      p1 +
+                      "\n   p2: 0\nprojection_parameters:\n"
+                      "   gamma1: 700\n   gamma2: 701\n   u0: 370\n   v0: 240\n");
+  };
+  for (const double angle : {0.05, 0.3, 0.7, 1.0}) {
+    const double m = std::sin(angle) / (std::cos(angle) + 1.2);
+    const double radius = m * (1 - 0.1 * m * m + 0.02 * m * m * m * m);
+    EXPECT_NEAR(shown_at(read(mei("0")), angle).first, 370 + 700 * radius, 0.1) << angle;
+  }
+  EXPECT_THAT(refusal_of(mei("0.001")), HasSubstr("found p1 = 0.001 of MEI, expected 0"));
+  EXPECT_THAT(
+      refusal_of(camera("SCARAMUZZA", "")),
+      HasSubstr("/model_type: found \"SCARAMUZZA\" of camodocal, expected one of: PINHOLE"));
+  EXPECT_THAT(refusal_of(camera("PINHOLE", "projection_parameters:\n   fx: 9\n")),
+              HasSubstr("/fy: found nothing, expected the focal length of PINHOLE"));
+}
+
+// Lengths are in units of the longer side, from the middle of the image.
+TEST_F(ReadCameraFile, OpenSfmsModels) {
+  const auto camera = [](const std::string& name, const std::string& rest) {
+    return "\"" + name + "\": {\"projection_type\": " + rest + "}";
+  };
+  const std::string brown = camera(
+      "v2 acme q1 4000 3000 brown 0.85",
+      R"("brown", "width": 4000, "height": 3000, "focal_x": 0.85, "focal_y": 0.852, "c_x": 0.002,
+ "c_y": -0.001, "k1": -0.02, "k2": 0.01, "p1": 0.0003, "p2": -0.0002, "k3": 0.004)");
+  const std::vector<double> expected = {3400,  3408, 2007.5, 1495.5,  0,
+                                        -0.02, 0.01, 0.0003, -0.0002, 0.004};
+  expect_camera(read("{" + brown + "}"), Lens::brown5, 4000, 3000, expected);
+  const std::string two =
+      "{" + brown + ", " +
+      camera("b", R"("perspective", "width": 480, "height": 640, "focal": 0.9, "k1": -0.1)") + "}";
+  EXPECT_THAT(refusal_of(two), HasSubstr("FILE#NAME with one of: b, v2 acme"));
+  expect_camera(read(two, "camera#v2 acme q1 4000 3000 brown 0.85"), Lens::brown5, 4000, 3000,
+                expected);
+  expect_camera(read(two, "camera#b"), Lens::brown2, 480, 640, {576, 576, 239.5, 319.5, 0, -0.1});
+  const std::string fisheye =
+      R"("width": 400, "height": 300, "focal_x": 0.5, "focal_y": 0.5, "k1": 0.1, "k4": 0.2)";
+  expect_camera(read("{" + camera("a", "\"fisheye_opencv\", " + fisheye) + "}"), Lens::fisheye, 400,
+                300, {200, 200, 199.5, 149.5, 0, 0.1, 0, 0, 0.2});
+  EXPECT_THAT(refusal_of("{" + camera("a", "\"fisheye62\", \"p1\": 0.1, " + fisheye) + "}"),
+              HasSubstr("found p1 = 0.1 of fisheye62, expected 0"));
+  EXPECT_THAT(refusal_of("{" + camera("a", "\"equirectangular\", " + fisheye) + "}"),
+              HasSubstr("/projection_type: found \"equirectangular\" of OpenSfM"));
+}
+
+TEST_F(ReadCameraFile, OtherFormatsAreRefusedByName) {
+  EXPECT_THAT(refusal_of("# oST version 5.0 parameters\n\n[image]\n\nwidth\n640\n\nheight\n480\n\n"
+                         "[narrow_stereo]\n\ncamera matrix\n500 0 320\n0 500 240\n0 0 1\n"),
+              HasSubstr("found ROS' .ini, expected the .yaml of the same calibration"));
+  EXPECT_THAT(
+      refusal_of("<?xml version=\"1.0\"?>\n<calibration>\n  <projection>frame</projection>\n"
+                 "  <width>4000</width>\n</calibration>\n"),
+      HasSubstr("found Agisoft Metashape's XML"));
+  EXPECT_THAT(refusal_of("%YAML:1.0\nCamera.type: \"PinHole\"\nCamera.fx: 458.654\n"),
+              HasSubstr("found ORB-SLAM's settings"));
+  EXPECT_THAT(refusal_of(R"({"camera_angle_x": 0.7, "frames": []})"), HasSubstr("transforms.json"));
+  EXPECT_THAT(refusal_of("focal: 3\nsensor: big\n"),
+              HasSubstr("found no camera of a format that throng knows"));
 }
 
 template <typename Value>
