@@ -110,8 +110,8 @@ std::string list_splits(const formats::DatasetInfo& info) {
     for (const std::string& run : info.runs) {
       if (info.split_of(run) == split) runs.push_back(run);
     }
-    constexpr std::size_t kMostNames = 8;
-    parts.push_back(runs.size() > kMostNames
+    constexpr std::size_t kMaxNames = 8;
+    parts.push_back(runs.size() > kMaxNames
                         ? fmt::format("{} {} runs", to_string(split), runs.size())
                         : fmt::format("{} {}", to_string(split), fmt::join(runs, ", ")));
   }

@@ -51,8 +51,8 @@ TEST_F(ClassExports, PanopticListsExactlyTheSegmentsOfTheImage) {
   EXPECT_EQ(list.at("categories").at(4).at("name"), "umbrella");
 }
 
-/// What panopticapi's converters take out of each category, and what its generator of ids asks of
-/// colors.
+/// Checks the members that panopticapi's converters remove from each category, and that its
+/// generator of ids gets distinct colors.
 void expect_categories_of_panopticapi(const fs::path& out) {
   const json list = json::parse(read_file(out / "annotations/panoptic_train.json"));
   EXPECT_EQ(list.at("categories"), json::parse(read_file(out / "panoptic_coco_categories.json")));

@@ -44,6 +44,7 @@ constexpr std::array kOtherFormats = {
         "OpenSfM's reconstruction", {"\"reference_lla\"", "\"cameras\""}, "camera_models.json"},
     OtherFormat{"ORB-SLAM's settings", {"Camera.fx", ""}, "OpenCV's or Kalibr's file"},
     OtherFormat{"ORB-SLAM's settings", {"Camera1.fx", ""}, "OpenCV's or Kalibr's file"},
+    OtherFormat{"VINS' settings", {"cam0_calib", ""}, "the file that cam0_calib names"},
     OtherFormat{"Basalt's calibration", {"\"value0\"", "\"intrinsics\""}, "Kalibr's camchain"},
     OtherFormat{"maplab's cameras", {"cameras:", "line-delay-nanoseconds"}, "Kalibr's camchain"}};
 
