@@ -96,19 +96,22 @@ std::optional<Meaning> parse_bone_name(const std::string& name) {
   return meaning;
 }
 
-std::optional<BodyPart> sided_part(const std::string& part, bool thigh_is_named,
-                                   bool collar_is_named) {
+bool is_forearm(const std::string& part) {
+  return is_among(part, {"forearm", "lowerarm", "lowarm", "elbow", "forearmbend", "armlower"});
+}
+
+/// A shoulder that bears the elbow is the upper arm (SMPL, Synty, Daz), another one the collar bone
+/// (Mixamo).
+std::optional<BodyPart> sided_part(const std::string& part, bool thigh_is_named, bool bears_elbow) {
   if (is_among(part, {"clavicle", "collar", "collarbone", "shouldergirdle"}))
     return BodyPart::clavicle;
   if (is_among(part, {"shoulder", "shldr"})) {
-    return collar_is_named ? BodyPart::upper_arm : BodyPart::clavicle;
+    return bears_elbow ? BodyPart::upper_arm : BodyPart::clavicle;
   }
   if (is_among(part, {"arm", "upperarm", "uparm", "shoulderbend", "shldrbend", "humerus"})) {
     return BodyPart::upper_arm;
   }
-  if (is_among(part, {"forearm", "lowerarm", "lowarm", "elbow", "forearmbend", "armlower"})) {
-    return BodyPart::forearm;
-  }
+  if (is_forearm(part)) return BodyPart::forearm;
   if (is_among(part, {"hand", "wrist", "palm"})) return BodyPart::hand;
   if (is_among(part, {"upleg", "thigh", "upperleg", "hip", "thighbend", "femur", "legupper"})) {
     return BodyPart::thigh;
@@ -136,10 +139,10 @@ std::optional<BodyPart> middle_part(const std::string& part) {
   return {};
 }
 
-bool names_a(const std::vector<std::optional<Meaning>>& meanings,
-             std::initializer_list<const char*> parts) {
+bool names_thigh(const std::vector<std::optional<Meaning>>& meanings) {
   return std::any_of(meanings.begin(), meanings.end(), [&](const auto& meaning) {
-    return meaning && meaning->side != 'm' && is_among(meaning->part, parts);
+    return meaning && meaning->side != 'm' &&
+           is_among(meaning->part, {"upleg", "thigh", "upperleg", "hip", "legupper"});
   });
 }
 
@@ -252,8 +255,8 @@ class Mapper {
     for (const ModelNode& node : model_->nodes) {
       meanings.push_back(parse_bone_name(without_prefix(node.name, prefix)));
     }
-    const bool thigh = names_a(meanings, {"upleg", "thigh", "upperleg", "hip", "legupper"});
-    const bool collar = names_a(meanings, {"clavicle", "collar", "collarbone"});
+    const bool thigh = names_thigh(meanings);
+    const std::vector<bool> bears_elbow = bearers_of_elbows(meanings);
     BoneNodes best;
     best.fill(-1);
     for (std::size_t i = 0; i < meanings.size(); ++i) {
@@ -267,7 +270,7 @@ class Mapper {
                           : part == BodyPart::neck ? Bone::neck
                                                    : Bone::head;
         consider(bone, i, best);
-      } else if (const auto part = sided_part(meaning.part, thigh, collar)) {
+      } else if (const auto part = sided_part(meaning.part, thigh, bears_elbow[i])) {
         const int first = static_cast<int>(Bone::left_clavicle) + static_cast<int>(*part) -
                           static_cast<int>(BodyPart::clavicle);
         // Four bones of an arm on the left, four on the right, then the legs.
@@ -281,6 +284,20 @@ class Mapper {
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       if (best[bone] >= 0 && nodes_[bone] < 0) take(static_cast<Bone>(bone), best[bone]);
     }
+  }
+
+  /// By node: whether a forearm follows, with no more than helpers between.
+  std::vector<bool> bearers_of_elbows(const std::vector<std::optional<Meaning>>& meanings) const {
+    std::vector<bool> bears(meanings.size(), false);
+    for (std::size_t i = 0; i < meanings.size(); ++i) {
+      if (!meanings[i] || !is_forearm(meanings[i]->part)) continue;
+      int at = model_->nodes[i].parent;
+      while (at >= 0 && !meanings[static_cast<std::size_t>(at)]) {
+        at = model_->nodes[static_cast<std::size_t>(at)].parent;
+      }
+      if (at >= 0) bears[static_cast<std::size_t>(at)] = true;
+    }
+    return bears;
   }
 
   void consider(Bone bone, std::size_t node, BoneNodes& best) const {

@@ -62,6 +62,15 @@ const std::array kRigs = {
     NamedRig{"daz", {"hip",      "abdomen", "chest",   "neck",   "head",     "lCollar", "lShldr",
                      "lForeArm", "lHand",   "rCollar", "rShldr", "rForeArm", "rHand",   "lThigh",
                      "lShin",    "lFoot",   "lToe",    "rThigh", "rShin",    "rFoot",   "rToe"}},
+    NamedRig{"smpl",
+             {"Pelvis",  "Spine1",  "Spine3",   "Neck",       "Head",    "L_Collar", "L_Shoulder",
+              "L_Elbow", "L_Wrist", "R_Collar", "R_Shoulder", "R_Elbow", "R_Wrist",  "L_Hip",
+              "L_Knee",  "L_Ankle", "L_Toe",    "R_Hip",      "R_Knee",  "R_Ankle",  "R_Toe"}},
+    NamedRig{"synty",
+             {"Hips",       "Spine_01",   "Spine_03",   "Neck",       "Head",       "Clavicle_L",
+              "Shoulder_L", "Elbow_L",    "Hand_L",     "Clavicle_R", "Shoulder_R", "Elbow_R",
+              "Hand_R",     "UpperLeg_L", "LowerLeg_L", "Ankle_L",    "Ball_L",     "UpperLeg_R",
+              "LowerLeg_R", "Ankle_R",    "Ball_R"}},
     NamedRig{
         "capture",
         {"Hips",      "LowerBack",   "Spine1",      "Neck",          "Head",        "LeftShoulder",
@@ -100,6 +109,25 @@ TEST(RigNames, HandlesOfAnimatorsAreNoBones) {
   const BoneNodes nodes = map_bones(model, {}, "x.json");
   EXPECT_EQ(model.nodes[static_cast<std::size_t>(nodes[index_from(Bone::left_foot)])].name,
             "mixamorig:LeftFoot");
+}
+
+// Rigs such as SMPL's without its collars, with a spine of one bone, and Synty's.
+TEST(RigNames, WithoutCollarBonesTheShoulderIsTheUpperArm) {
+  for (const NamedRig& rig : kRigs) {
+    const std::string program = rig.program;
+    if (program != "smpl" && program != "synty" && program != "daz") continue;
+    RiggedModel model = make_model(rig);
+    for (const Bone collar : {Bone::left_clavicle, Bone::right_clavicle}) {
+      const std::size_t node = index_from(collar) + 1;
+      model.nodes[node + 1].parent = model.nodes[node].parent;
+      model.nodes[node].name = "Strap";
+    }
+    const BoneNodes nodes = map_bones(model, {}, "x.json");
+    for (const Bone bone : {Bone::left_upper_arm, Bone::right_upper_arm, Bone::left_forearm}) {
+      EXPECT_EQ(nodes[index_from(bone)], static_cast<int>(index_from(bone)) + 1) << program;
+    }
+    EXPECT_EQ(nodes[index_from(Bone::left_clavicle)], -1);
+  }
 }
 
 TEST(RigNames, TheUsersNamesComeFirst) {
