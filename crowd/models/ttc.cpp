@@ -46,6 +46,17 @@ constexpr float kWallHorizonS = 0.15F;  // how long moves stay free of walls
 constexpr PassingRoom kRoom;
 constexpr float kCreep = 0.05F;  // of the free speed, in single file without a gap
 
+/// Who walks straight into a wall (a column on the way to the goal) and stands passes along it.
+constexpr float kStandingMps = 0.1F;
+constexpr float kTouchM = 0.05F;      // from the body to the wall
+constexpr float kHeadOn = 0.9F;       // cosine between the wished direction and the wall's normal
+constexpr float kPatienceS = 0.5F;    // of standing before one passes along
+constexpr float kMaxPassingS = 5;     // then one stands: the wall is no column
+constexpr float kGivenUpS = 10;       // counts down to kMaxPassingS while one walks
+constexpr float kForgetting = 0.25F;  // how fast time counts down while one walks
+constexpr float kPassingCosine = 0.17F;  // of 80 degrees, from the wished direction to the side
+constexpr float kPassingSine = 0.985F;
+
 TtcConstants read_constants(const std::vector<float>& c) {
   return {c[strength],   c[horizon],   c[relaxation],      c[reach],      c[half_density],
           c[steepness],  c[jam_share], c[jam_decline],     c[perception], c[foresight],
@@ -87,6 +98,8 @@ class TimeToCollision : public Model {
         neighborhood_(crowd),
         solve_(TtcBatch::pick(crowd.instruction_set)),
         workspaces_(Workspace{}),
+        at_wall_s_(crowd.agents.count(), 0.0F),
+        passes_wall_(crowd.agents.count(), 0),
         perceived_(crowd.agents.count(), 0.0F),
         file_now_(crowd.agents.count(), 0.0F),
         file_before_(crowd.agents.count(), 0.0F) {}
@@ -115,7 +128,7 @@ class TimeToCollision : public Model {
     parallel_ranges(grid.size(), kIntentGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t slot = begin; slot < end; ++slot) {
         const std::size_t id = grid.id(slot);
-        intents_[slot] = {crowd.agents.preferred_direction[id],
+        intents_[slot] = {passing_direction(crowd, id),
                           crowd.agents.preferred_speed[id] > 0 ? 1.0F : 0.0F};
       }
     });
@@ -140,7 +153,49 @@ class TimeToCollision : public Model {
       perceived_[id] = work.batch.perceived_per_m2(lane);
       new_velocity[id] =
           possible_velocity(crowd, id, kept_off_walls(crowd, grid, slot, lane, work));
+      count_time_at_wall(crowd, grid, slot, new_velocity[id],
+                         std::span(work.close_walls)
+                             .subspan(work.first_close[lane],
+                                      work.first_close[lane + 1] - work.first_close[lane]));
     }
+  }
+
+  /// The wished direction, turned to the side of those who pass along a wall.
+  Eigen::Vector2f passing_direction(const Crowd& crowd, std::size_t id) const {
+    const Eigen::Vector2f& wished = crowd.agents.preferred_direction[id];
+    if (passes_wall_[id] == 0) return wished;
+    constexpr std::uint64_t kSide = ~std::uint64_t{0};  // no step of the crowd's noise
+    const float side =
+        Random(crowd.seed, Stream::crowd_model, kSide - id).uniform() < 0.5 ? -1.0F : 1.0F;
+    return kPassingCosine * wished + side * kPassingSine * Eigen::Vector2f(-wished.y(), wished.x());
+  }
+
+  /// Counts how long an agent has stood before a wall that is straight on its way.
+  void count_time_at_wall(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                          const Eigen::Vector2f& velocity, std::span<const Obstacles::Near> walls) {
+    const std::size_t id = grid.id(slot);
+    const Agents& agents = crowd.agents;
+    float& time_s = at_wall_s_[id];
+    const float touch_m = grid.radius(slot) + kTouchM;
+    const bool is_head_on =
+        agents.preferred_speed[id] > 0 &&
+        std::any_of(walls.begin(), walls.end(), [&](const Obstacles::Near& near) {
+          if (near.distance_sq > touch_m * touch_m) return false;
+          const Segment& wall = crowd.obstacles.segments()[near.segment];
+          const Eigen::Vector2f to_wall =
+              geometry::nearest_on_segment(wall.begin, wall.end, grid.position(slot)) -
+              grid.position(slot);
+          return to_wall.dot(agents.preferred_direction[id]) > kHeadOn * to_wall.norm();
+        });
+    const auto dt_s = static_cast<float>(crowd.dt_s);
+    const bool was_passing = passes_wall_[id] != 0;
+    if (!is_head_on || (!was_passing && velocity.norm() > kStandingMps)) {
+      time_s = std::max(0.0F, time_s - kForgetting * dt_s);
+    } else if (time_s < kMaxPassingS) {
+      time_s += dt_s;
+      if (time_s >= kMaxPassingS) time_s = kGivenUpS;
+    }
+    passes_wall_[id] = is_head_on && time_s >= kPatienceS && time_s < kMaxPassingS ? 1 : 0;
   }
 
   void add(const Crowd& crowd, const Grid& grid, const AgentView& around, Workspace& work) {
@@ -213,6 +268,8 @@ class TimeToCollision : public Model {
   TtcBatch::Solve* solve_;
   std::vector<Intent> intents_;  // by slot of the grid
   PerThread<Workspace> workspaces_;
+  std::vector<float> at_wall_s_;  // by agent: standing before a wall, then passing along it
+  std::vector<std::uint8_t> passes_wall_;  // by agent
   std::vector<float> perceived_;    // density of people who walk the same way, by agent, 1/m^2
   std::vector<float> file_now_;     // by agent: 1 if there is room for one only
   std::vector<float> file_before_;  // in the step before

@@ -201,6 +201,41 @@ TEST(Constants, OfModelsThatWereNotFittedAreRefused) {
   EXPECT_NO_THROW(chosen_constants(find_model("orca"), ConstantsChoice::best, 1));
 }
 
+/// A polygon of `sides` around the origin; a side, not a corner, faces the x axis if `turned`.
+std::string column(int sides, double radius_m, bool turned) {
+  std::string vertices;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * M_PI * (i + (turned ? 0.5 : 0)) / sides;
+    vertices += fmt::format(R"(<Vertex p_x="{}" p_y="{}"/>)", radius_m * std::cos(angle),
+                            radius_m * std::sin(angle));
+  }
+  return R"(<ObstacleSet type="explicit" class="1"><Obstacle closed="1">)" + vertices +
+         "</Obstacle></ObstacleSet>";
+}
+
+// The way leads through the middle of a column; which side one takes depends on the seed.
+TEST(Ttc, PeoplePassAColumnThatIsExactlyInTheirWay) {
+  std::set<bool> sides_taken;
+  for (const int sides : {4, 8, 12, 16, 32}) {
+    for (const double radius_m : {0.3, 0.6, 1.0, 2.0}) {
+      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        Simulation crowd = test::load(
+            test::model_scene(test::agent_at(-5, 0), "", column(sides, radius_m, seed % 2 == 1)),
+            test::to_point_behavior(6, 0), {.seed = seed, .model = "ttc"});
+        double y_at_column = 0;
+        for (int i = 0; i < 180; ++i) {
+          crowd.step();
+          if (crowd.positions()[0].x() < 0) y_at_column = crowd.positions()[0].y();
+        }
+        EXPECT_GT(crowd.positions()[0].x(), 5.5)
+            << sides << " sides, " << radius_m << " m, seed " << seed;
+        sides_taken.insert(y_at_column > 0);
+      }
+    }
+  }
+  EXPECT_EQ(sides_taken.size(), 2U) << "always the same side";
+}
+
 TEST(Ttc, BodiesAreKeptApartUnlessTheUserSaysOtherwise) {
   const auto mode = [](const LoadOptions& options) {
     return test::load(test::model_crowd_scene(4), test::to_point_behavior(5, 4), options)
