@@ -46,7 +46,7 @@ constexpr float kWallHorizonS = 0.15F;  // how long moves stay free of walls
 constexpr PassingRoom kRoom;
 constexpr float kCreep = 0.05F;  // of the free speed, in single file without a gap
 
-/// Who walks straight into a wall (a column on the way to the goal) and stands passes along it.
+/// People who stand before a wall that is straight on their way (a column) pass along it.
 constexpr float kStandingMps = 0.1F;
 constexpr float kTouchM = 0.05F;      // from the body to the wall
 constexpr float kHeadOn = 0.9F;       // cosine between the wished direction and the wall's normal
