@@ -150,12 +150,17 @@ void check_folders(const ServeOptions& options) {
 /// none and they are needed.
 void require_keys(const ServeOptions& options, Keys& keys) {
   const bool is_reachable = !options.insecure && !is_loopback(options.host);
-  if (is_reachable) fmt::print(stderr, "{}", make_first_key(keys, options.port));
-  if (is_reachable && !keys.are_needed()) {
+  fmt::print(stderr, "{}", make_first_key(keys, options.port, is_reachable));
+  if (keys.are_needed()) return;
+  if (is_reachable) {
     throw InputError(Problem{"--host", "", options.host,
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
+  fmt::print(stderr,
+             "throng: there are no keys: everybody who reaches {}, also through a proxy on this "
+             "machine, may do everything (`throng keys create` ends that)\n",
+             options.host);
 }
 
 /// Names folders to child processes, which read nothing of the data folder but scenarios and their

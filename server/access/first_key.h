@@ -1,4 +1,4 @@
-// Creation of the administrator's key at the first start of a service in a container.
+// The administrator's key at the start of a service: from a file, or made in a container.
 #pragma once
 
 #include <string>
@@ -14,10 +14,11 @@ inline constexpr const char* kAdminKeyFileVariable = "THRONG_ADMIN_KEY_FILE";
 /// marker file of Docker or Podman exists.
 bool is_in_container();
 
-/// Adds the administrator's key if there is no key yet: the one in $THRONG_ADMIN_KEY_FILE if that
-/// is set, otherwise, in a container, a random one. Returns a message for the operator with the
-/// random key, which is not shown again, and the service's address; "" if no random key was made.
-/// Throws InputError if the file cannot be read or holds no valid key.
-std::string make_first_key(Keys& keys, int port);
+/// Adds the administrator's key: the one in $THRONG_ADMIN_KEY_FILE if that is set, else, with
+/// `may_make_one` in a container without keys, a random one. Returns a message for the operator
+/// with the random key, which is not shown again, and the service's address; "" if no random key
+/// was made. Throws InputError if the file is missing, readable by every user or holds no valid
+/// key, or a key that was revoked.
+std::string make_first_key(Keys& keys, int port, bool may_make_one);
 
 }  // namespace throng::server

@@ -164,6 +164,14 @@ std::vector<KeyRow> Keys::list() const {
   });
 }
 
+std::optional<KeyRow> Keys::row_of(const std::string& token) const {
+  const std::string id = key_id(token, sha256_hex(token));
+  for (KeyRow& row : list()) {
+    if (row.id == id) return std::move(row);
+  }
+  return std::nullopt;
+}
+
 bool Keys::revoke(const std::string& id) {
   return file_->with([&](SQLite::Database& database) {
     SQLite::Statement update(database,

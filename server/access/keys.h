@@ -68,6 +68,8 @@ class Keys {
   /// Adds the given key, for which is_own_key() must hold.
   void add(const std::string& name, Scope scope, const std::string& token);
   std::vector<KeyRow> list() const;
+  /// The row of a key, revoked or not; nothing if the key is unknown.
+  std::optional<KeyRow> row_of(const std::string& token) const;
   /// Revokes a key. Returns false if there is no valid key with this id.
   bool revoke(const std::string& id);
 

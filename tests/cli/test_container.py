@@ -21,6 +21,8 @@ THRONG = sys.argv.pop(1)
 CONTAINER = {**os.environ, "THRONG_CONTAINER": "1"}
 OUTSIDE = {name: value for name, value in os.environ.items() if name != "THRONG_CONTAINER"}
 
+SECRET = "b1946ac92492d2347c6235b4d2611184b1946ac92492d234"
+
 
 def status(port, key=None):
     """HTTP status of the list of jobs."""
@@ -68,37 +70,79 @@ class Container(unittest.TestCase):
         self.assertEqual(status(port, key), 200)
         self.end()
 
-    def test_the_key_can_come_from_a_file(self):
-        secret = "b1946ac92492d2347c6235b4d2611184b1946ac92492d234"
+    def key_file(self, text, mode=0o400):
         file = self.folder / "key"
-        file.write_text(secret + "\n")
-        port = self.start(THRONG_ADMIN_KEY_FILE=str(file))
-        self.assertEqual((status(port), status(port, secret), status(port, secret[:-1] + "5")), (401, 200, 401))
-        self.assertNotIn(secret, self.output.read_text() + self.errors.read_text())
-        self.end()
+        file.unlink(missing_ok=True)
+        file.write_text(text)
+        file.chmod(mode)
+        return str(file)
 
-    def test_a_file_without_a_key_is_refused(self):
-        file = self.folder / "key"
-        for text in ("", "short", "x" * 200, "with spaces in it, which no header may have"):
-            file.write_text(text)
-            done = subprocess.run(
-                [THRONG, "serve", "--data", self.data, "--port", "0", "--host", "0.0.0.0"],
-                env={**CONTAINER, "THRONG_ADMIN_KEY_FILE": str(file)},
-                capture_output=True,
-                text=True,
-                timeout=60,
-            )
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(f"{file}: found a key of {len(text)} characters, expected 32 to 128 letters", done.stderr)
+    def refusal(self, file, *arguments):
+        """The message of a service that does not start because of its key file."""
         done = subprocess.run(
-            [THRONG, "serve", "--data", self.data, "--port", "0", "--host", "0.0.0.0"],
-            env={**CONTAINER, "THRONG_ADMIN_KEY_FILE": "/missing/key"},
+            [THRONG, "serve", "--data", self.data, "--port", "0", *arguments],
+            env={**OUTSIDE, "THRONG_ADMIN_KEY_FILE": file},
             capture_output=True,
             text=True,
             timeout=60,
         )
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("/missing/key", done.stderr)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        return done.stderr
+
+    def test_the_key_can_come_from_a_file(self):
+        file = self.key_file(SECRET + "\n")
+        port = self.start(THRONG_ADMIN_KEY_FILE=file)
+        self.assertEqual((status(port), status(port, SECRET), status(port, SECRET[:-1] + "5")), (401, 200, 401))
+        self.assertNotIn(SECRET, self.output.read_text() + self.errors.read_text())
+        self.end()
+
+    def test_with_a_key_file_keys_are_asked_for_on_every_address(self):
+        file = self.key_file(SECRET)
+        for environment in (CONTAINER, OUTSIDE):
+            for arguments in (["--host", "127.0.0.1"], ["--host", "localhost"], ["--host", "0.0.0.0", "--insecure"]):
+                with tempfile.TemporaryDirectory() as data:
+                    process, port = start_service(
+                        THRONG, data, *arguments, env={**environment, "THRONG_ADMIN_KEY_FILE": file}
+                    )
+                    self.addCleanup(process.kill)
+                    self.assertEqual((status(port), status(port, SECRET)), (401, 200), arguments)
+                    process.send_signal(signal.SIGTERM)
+                    self.assertEqual(process.wait(60), 0)
+
+    def test_the_key_of_the_file_is_valid_beside_others(self):
+        made = subprocess.run([THRONG, "keys", "create", "other", "--data", self.data], capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        for secret in (SECRET, SECRET[::-1], SECRET[::-1]):
+            port = self.start(THRONG_ADMIN_KEY_FILE=self.key_file(secret))
+            self.assertEqual(status(port, secret), 200)
+            self.end()
+        listed = subprocess.run([THRONG, "keys", "list", "--data", self.data], capture_output=True, text=True)
+        ids = [line.split()[0] for line in listed.stdout.splitlines() if "administrator" in line]
+        self.assertEqual(len(ids), 2, listed.stdout)
+        for key in ids:
+            subprocess.run([THRONG, "keys", "revoke", key, "--data", self.data], check=True, capture_output=True)
+        self.assertIn("which was revoked", self.refusal(self.key_file(SECRET)))
+
+    def test_wrong_key_files_are_refused_on_every_address(self):
+        for arguments in (["--host", "0.0.0.0"], ["--host", "127.0.0.1"], ["--host", "0.0.0.0", "--insecure"]):
+            for text in ("", "short", "x" * 200, "with spaces in it, which no header may have"):
+                file = self.key_file(text)
+                expected = f"{file}: found a key of {len(text)} characters, expected 32 to 128 letters"
+                self.assertIn(expected, self.refusal(file, *arguments))
+            self.assertIn("every user of this machine", self.refusal(self.key_file(SECRET, 0o644), *arguments))
+            for missing in ("/missing/key", str(self.folder)):
+                self.assertIn(f"{missing}, which is no file", self.refusal(missing, *arguments))
+            self.assertIn("an empty path", self.refusal("", *arguments))
+
+    def test_a_service_without_keys_says_who_may_use_it(self):
+        errors = self.folder / "errors"
+        with errors.open("w") as said:
+            process, port = start_service(THRONG, self.data, env=OUTSIDE, stderr=said)
+        self.addCleanup(process.kill)
+        self.assertEqual(status(port), 200)
+        self.assertIn("there are no keys: everybody who reaches", errors.read_text())
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(60), 0)
 
     def test_outside_of_containers_a_service_without_keys_stays_closed(self):
         with self.assertRaises(ServiceEnded) as refused:
