@@ -231,6 +231,7 @@ int serve(const ServeOptions& options) {
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }
+  service.reserve().started();
   announce(service_url(options.host, api.port()), logs_json && is_container);
   const SignalWatch watch([&] {
     spdlog::info("ending");

@@ -335,6 +335,10 @@ void hold_until_sent(Response& response, std::shared_ptr<void> held) {
       };
 }
 
+bool makes_room(const Route& route) {
+  return route.method == Method::remove || std::string_view(route.path).ends_with("/cancel");
+}
+
 }  // namespace
 
 Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& options)
@@ -355,6 +359,8 @@ Api::Api(Service& service, Keys& keys, WebhookSender& hooks, const HttpOptions& 
         const std::string length = request.get_header_value("Content-Length");
         const bool has_body = !length.empty() && length != "0";
         if (!has_body) held = held_request(requests_, caller);
+        // A full disk shall not keep anybody from making room.
+        const std::shared_ptr<void> room = makes_room(entry) ? service.reserve().free() : nullptr;
         const jobs::TaskSender sender(key);
         entry.handler({service.queue(), service.uploads(), service.calibrations(),
                        service.studies(), service.housekeeping(), service.datasets(),

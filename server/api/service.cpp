@@ -20,6 +20,7 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
     : executor_(executor),
       folders_(with_distrusted_folders(options.data), options.scenarios),
       publish_to_(options.publish_to),
+      reserve_(options.database.empty() ? options.data : options.database),
       store_(options.database.empty() ? options.data : options.database, options.clock,
              options.steady),
       confined_(options.confined, options.data, options.max_task_mib),
@@ -28,7 +29,7 @@ Service::Service(const ServiceOptions& options, jobs::Executor& executor)
       calibrations_(folders_, store_, state_, confined_),
       studies_(folders_, store_, state_, uploads_, confined_),
       queue_(folders_, store_, state_, uploads_, calibrations_, confined_, publish_to_),
-      housekeeping_(folders_, store_, state_, uploads_, options.housekeeping),
+      housekeeping_(folders_, store_, state_, uploads_, reserve_, options.housekeeping),
       reports_(executor),
       live_(options.data, options.live),
       runner_(

@@ -13,6 +13,7 @@
 #include "server/catalog/studies.h"
 #include "server/catalog/uploads.h"
 #include "server/jobs/datasets.h"
+#include "server/jobs/disk_reserve.h"
 #include "server/jobs/housekeeping.h"
 #include "server/jobs/job_queue.h"
 #include "server/jobs/job_runner.h"
@@ -42,7 +43,7 @@ struct ServiceOptions {
 class Service {
  public:
   /// Opens the data folder, resumes running jobs and starts queued ones. The executor must outlive
-  /// the service.
+  /// the service. The disk's reserve is free until reserve().started().
   Service(const ServiceOptions& options, jobs::Executor& executor);
 
   const ServiceFolders& folders() const { return folders_; }
@@ -52,6 +53,7 @@ class Service {
   Uploads& uploads() { return uploads_; }
   Calibrations& calibrations() { return calibrations_; }
   Studies& studies() { return studies_; }
+  DiskReserve& reserve() { return reserve_; }
   Housekeeping& housekeeping() { return housekeeping_; }
   Datasets& datasets() { return datasets_; }
   ReportMaker& reports() { return reports_; }
@@ -63,6 +65,7 @@ class Service {
   // Each member uses only members above it.
   ServiceFolders folders_;
   PublishTargets publish_to_;
+  DiskReserve reserve_;
   jobs::Store store_;
   ConfinedChecks confined_;
   QueueState state_;

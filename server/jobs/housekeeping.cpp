@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -25,11 +26,12 @@ constexpr auto kMaxMemoryOfRemoved = std::chrono::hours(24 * 30);
 }  // namespace
 
 Housekeeping::Housekeeping(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-                           Uploads& uploads, HousekeepingOptions options)
+                           Uploads& uploads, DiskReserve& reserve, HousekeepingOptions options)
     : folders_(folders),
       store_(store),
       state_(state),
       uploads_(uploads),
+      reserve_(reserve),
       options_(std::move(options)),
       disk_(
           options_.disk ? options_.disk : [data = folders.data()] { return measure_disk(data); },
@@ -39,6 +41,7 @@ Housekeeping::Housekeeping(const ServiceFolders& folders, jobs::Store& store, Qu
 }
 
 bool Housekeeping::remove(const std::string& id) {
+  const std::shared_ptr<void> room = reserve_.free();
   // The state may change between reading and cancelling; then look again.
   std::optional<JobRow> row = store_.get(id);
   while (row && is_active(row->state) && !state_.apply(*row, JobEvent::cancel))
@@ -78,6 +81,7 @@ void Housekeeping::remove_expired() {
 void Housekeeping::sweep(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     try {
+      const std::shared_ptr<void> room = reserve_.free();
       remove_expired();
     } catch (const std::exception& error) {
       spdlog::error("removal of old jobs: {}", error.what());

@@ -11,6 +11,7 @@
 #include "server/catalog/retention.h"
 #include "server/catalog/service_folders.h"
 #include "server/catalog/uploads.h"
+#include "server/jobs/disk_reserve.h"
 #include "server/jobs/disk_watch.h"
 
 namespace throng::server {
@@ -27,7 +28,7 @@ class Housekeeping {
   /// Tidies the data folder (server/catalog/data_folder.h). All references must outlive this
   /// object.
   Housekeeping(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-               Uploads& uploads, HousekeepingOptions options);
+               Uploads& uploads, DiskReserve& reserve, HousekeepingOptions options);
   Housekeeping(const Housekeeping&) = delete;
   Housekeeping& operator=(const Housekeeping&) = delete;
   ~Housekeeping() = default;
@@ -50,6 +51,7 @@ class Housekeeping {
   jobs::Store& store_;
   QueueState& state_;
   Uploads& uploads_;
+  DiskReserve& reserve_;
   HousekeepingOptions options_;
   DiskWatch disk_;
   std::jthread sweeper_;  ///< last member: joined before the others end

@@ -363,7 +363,7 @@ class Crash(unittest.TestCase):
         except urllib.error.HTTPError as error:
             return error.code
 
-    def test_a_full_disk_lets_the_queue_rest(self):
+    def use_a_small_disk(self):
         disk = self.base / "disk"
         disk.mkdir()
         mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m", "tmpfs", str(disk)], capture_output=True)
@@ -372,6 +372,30 @@ class Crash(unittest.TestCase):
         self.addCleanup(lambda: subprocess.run(["umount", "-l", str(disk)]))
         self.server.data = disk / "data"
         self.server.options = ("--min-free", "8")
+        return disk
+
+    def test_a_killed_service_starts_reads_and_deletes_on_a_disk_without_a_free_byte(self):
+        disk = self.use_a_small_disk()
+        self.server.start()
+        jobs = [self.server.request("POST", "/v1/jobs", JOB)["id"] for _ in range(2)]
+        for job in jobs:
+            self.assertEqual(self.server.wait_for_end(job)["state"], "succeeded")
+        hashes = [self.server.hash_of(job) for job in jobs]
+        for kill in range(5):
+            for block in (1 << 20, 1 << 12, 1):
+                with contextlib.suppress(OSError), open(disk / f"filler{kill}", "ab", buffering=0) as file:
+                    while file.write(bytes(block)) == block:
+                        pass
+            self.assertEqual(os.statvfs(disk).f_bavail, 0)
+            self.server.kill()
+            self.server.start()
+            self.assertIsNotNone(self.server.url, "the service did not start")
+            self.assertEqual([self.server.hash_of(job) for job in jobs], hashes)
+        self.server.request("DELETE", f"/v1/jobs/{jobs[0]}")
+        self.assertEqual([row["id"] for row in self.server.request("GET", "/v1/jobs")["jobs"]], jobs[1:])
+
+    def test_a_full_disk_lets_the_queue_rest(self):
+        disk = self.use_a_small_disk()
         self.server.start(faults="slow:*:0.2")
         job = self.server.request("POST", "/v1/jobs", JOB)["id"]
         wait_until(lambda: self.server.state(job) == "running")
