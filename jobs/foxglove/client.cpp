@@ -42,7 +42,14 @@ bool has_word(beast::string_view list, const char* word) {
 }  // namespace
 
 Client::Client(asio::ip::tcp::socket socket, Shared& shared)
-    : stream_(std::move(socket)), shared_(shared) {}
+    : stream_(std::move(socket)), shared_(shared) {
+  ++shared_.connections;
+}
+
+Client::~Client() {
+  --shared_.connections;
+  if (is_accepted_) --shared_.accepted;
+}
 
 void Client::start() {
   beast::get_lowest_layer(stream_).expires_after(kMaxHandshake);
@@ -72,6 +79,12 @@ void Client::take_request(beast::error_code error) {
                   fmt::format("found the subprotocols \"{}\", expected {}\n",
                               view(request[http::field::sec_websocket_protocol]), kSubprotocol));
   }
+  if (shared_.accepted >= kMaxClients) {
+    return refuse(http::status::service_unavailable,
+                  fmt::format("found {} clients, expected fewer\n", kMaxClients));
+  }
+  ++shared_.accepted;
+  is_accepted_ = true;
   beast::get_lowest_layer(stream_).expires_never();  // the stream has timeouts of its own
   stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
   stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {

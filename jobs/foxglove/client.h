@@ -23,6 +23,8 @@ namespace throng::foxglove {
 
 class Client;
 
+inline constexpr std::size_t kMaxClients = 16;
+
 /// A message of a channel, or none.
 struct Published {
   std::uint64_t time_ns = 0;
@@ -40,6 +42,8 @@ struct Shared {
   std::string greeting_services;
   std::vector<Published> latched;             ///< per channel
   std::set<std::shared_ptr<Client>> clients;  ///< connected
+  std::size_t connections = 0;                ///< also of those that have not begun yet
+  std::size_t accepted = 0;                   ///< those whose request was, at most kMaxClients
   std::function<void(std::size_t channel, int change)> on_subscription;
   std::function<void()> on_leave;  ///< a client has gone
 };
@@ -48,6 +52,9 @@ class Client : public std::enable_shared_from_this<Client> {
  public:
   /// `shared` outlives the client.
   Client(boost::asio::ip::tcp::socket socket, Shared& shared);
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
 
   /// Reads the request, and refuses it or begins.
   void start();
@@ -95,6 +102,7 @@ class Client : public std::enable_shared_from_this<Client> {
   std::unique_ptr<Response> response_;
   ClientQueue queue_;
   Outgoing sent_;  ///< the message that is being sent
+  bool is_accepted_ = false;
   bool is_open_ = false;
   bool is_sending_ = false;
   bool is_ending_ = false;

@@ -24,7 +24,10 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr std::size_t kMaxClients = 16;
+constexpr std::size_t kMaxConnections = 2 * kMaxClients;  // half of which may be beginning
+/// Messages that wait for the server's thread; more are dropped.
+constexpr std::int64_t kMaxWaitingBytes = 64 << 20;
+constexpr std::int64_t kBytesOfMessage = 1024;  ///< besides its content
 constexpr std::chrono::seconds kMaxFarewell(1);
 
 tcp::endpoint endpoint(const ServerOptions& options) {
@@ -69,6 +72,7 @@ struct Server::State {
   asio::steady_timer pause{context};
   std::uint16_t port = 0;
   bool is_ending = false;
+  std::atomic<std::int64_t> waiting_bytes{0};  ///< of messages, for the thread
   std::thread thread;
 
   explicit State(std::size_t channels) : subscribers(channels) {}
@@ -93,7 +97,7 @@ struct Server::State {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();  // such as no more file descriptors
       // More are not served.
-      if (shared.clients.size() < kMaxClients) {
+      if (shared.connections < kMaxConnections) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         std::make_shared<Client>(std::move(socket), shared)->start();
@@ -189,15 +193,22 @@ void Server::publish(std::size_t channel, std::uint64_t time_ns, std::string byt
   State* state = state_.get();
   const bool is_latched = state->shared.channels.at(channel).is_latched;
   if (!is_latched && !is_subscribed(channel)) return;
+  const auto size = static_cast<std::int64_t>(bytes.size()) + kBytesOfMessage;
+  if (!is_latched && state->waiting_bytes + size > kMaxWaitingBytes) return;
+  state->waiting_bytes += size;
   Published message{time_ns, std::make_shared<const std::string>(std::move(bytes))};
   asio::post(state->context, [=, message = std::move(message)] {
+    state->waiting_bytes -= size;
     if (is_latched) state->shared.latched[channel] = message;
     state->for_clients([&](Client& client) { client.publish(channel, message); });
   });
 }
 
 void Server::tell_time(std::uint64_t time_ns) {
+  if (state_->waiting_bytes > kMaxWaitingBytes) return;
+  state_->waiting_bytes += kBytesOfMessage;
   asio::post(state_->context, [state = state_.get(), time_ns] {
+    state->waiting_bytes -= kBytesOfMessage;
     state->for_clients([&](Client& client) {
       client.send({Rank::data, true, time_message(time_ns)});
     });

@@ -82,7 +82,8 @@ class Server {
   std::uint16_t port() const;
   /// Whether a client has subscribed to the channel with this index.
   bool is_subscribed(std::size_t channel) const;
-  /// Sends a message, stamped with a time from the run's start, to those who have subscribed.
+  /// Sends a message, stamped with a time from the run's start, to those who have subscribed. It is
+  /// dropped, unless it is latched, where the server's thread is too far behind.
   void publish(std::size_t channel, std::uint64_t time_ns, std::string bytes);
   /// Tells the time to all clients.
   void tell_time(std::uint64_t time_ns);

@@ -1,4 +1,5 @@
 """Live flights without the service: flown over Foxglove's WebSocket protocol by @foxglove/ws-protocol of npm."""
+import contextlib
 import hashlib
 import http.client
 import json
@@ -8,6 +9,7 @@ import pathlib
 import queue
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -149,9 +151,9 @@ class Outside(unittest.TestCase):
         self.temporary = self.base / "temporary"
         self.temporary.mkdir()
 
-    def begin(self, *options):
-        """Starts a flight that waits; returns its port."""
-        command = [THRONG, "live", self.base / "job.json", "--port", "0", "--paused", *options]
+    def begin(self, *options, start=("--paused",)):
+        """Starts a flight, which waits by default; returns its port."""
+        command = [THRONG, "live", self.base / "job.json", "--port", "0", *start, *options]
         self.flight = subprocess.Popen(
             list(map(str, command)),
             stdout=subprocess.PIPE,
@@ -190,6 +192,34 @@ class Outside(unittest.TestCase):
 
     def digest(self, file):
         return hashlib.sha256(file.read_bytes()).hexdigest()
+
+    def test_no_more_than_16_clients_are_served_whatever_they_do(self):
+        port = self.begin("--no-camera", start=("--factor", "20", "--duration", "3600"))
+        request = (
+            f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+            "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n"
+        ).encode()
+        sockets = [socket.create_connection(("127.0.0.1", port), PATIENCE_S) for _ in range(200)]
+        for each in sockets:
+            self.addCleanup(each.close)
+        for each in sockets:
+            with contextlib.suppress(OSError):
+                each.sendall(request)
+        served = []
+        for each in sockets:
+            with contextlib.suppress(OSError):  # the others are closed
+                if each.recv(12) == b"HTTP/1.1 101":
+                    served.append(each)
+        self.assertEqual(len(served), 16)
+        masked = json.dumps(
+            {"op": "subscribe", "subscriptions": [{"id": k, "channelId": k} for k in range(60)]}
+        ).encode()
+        frame = b"\x81\xfe" + len(masked).to_bytes(2, "big") + bytes(4) + masked
+        for each in served:  # they ask for all, and take nothing
+            each.sendall(frame)
+        self.flight.send_signal(signal.SIGTERM)
+        self.assertEqual(self.flight.wait(PATIENCE_S), 0)
 
     def test_commands_are_flown_and_a_job_repeats_them(self):
         client = self.connect(self.begin("--no-camera", "-o", self.base / "out"))
