@@ -25,7 +25,7 @@ void DiskReserve::end_use() {
 // Errors are ignored: the end of the next use tries again.
 void DiskReserve::keep() {
   constexpr mode_t kOwnerOnly = 0600;
-  constexpr std::int64_t kLeastBytes = 1 << 16;
+  constexpr std::int64_t kMinBytes = 1 << 16;
   constexpr std::int64_t kStepShare = 16;
   struct statvfs disk {};
   if (::statvfs(file_.parent_path().c_str(), &disk) != 0) return;
@@ -34,7 +34,7 @@ void DiskReserve::keep() {
   if (file < 0) return;
   // Some of the free space holds what the disk notes of a file.
   for (std::int64_t bytes = std::min(kBytes, free_bytes);
-       bytes >= kLeastBytes && ::posix_fallocate(file, 0, bytes) != 0;
+       bytes >= kMinBytes && ::posix_fallocate(file, 0, bytes) != 0;
        bytes -= bytes / kStepShare) {
   }
   ::close(file);
