@@ -20,9 +20,9 @@ namespace throng::metrics {
 ///   the space; fields may be in double quotes. Decimals have a point or, throughout, a comma.
 /// - Ids of persons are arbitrary words. Rows without a place are left out.
 /// - Times are seconds, also as clock times or Unix times, which are counted from the first.
-///   Positions are interpolated linearly at the frame rate (default: as stated in the file, else by
-///   the median time step); people are absent in gaps of more than 1 s, except in Vadere's files,
-///   which have footsteps.
+///   They are put on frames (put_on_frames() in timed_tracks.h) at the frame rate as stated in the
+///   file, or else at the one that the times have; people are absent in gaps of more than 1 s,
+///   except in Vadere's files, which have footsteps.
 /// Throws InputError.
 Recorded read_table(std::string_view text, const std::string& name, const TrajectoryFormat& format);
 
