@@ -189,12 +189,12 @@ std::optional<FrameTimes> find_frames(const DistinctTimes& times) {
 std::optional<FrameTimes> find_sparse_frames(const DistinctTimes& times) {
   constexpr double kLeastUnits = 4;  // less may be nothing but rounding
   const double unit_s = rounding_unit(times);
-  double least_s = median_step(times);
+  double shortest_s = median_step(times);
   for (std::size_t i = 1; i < times.size(); ++i) {
-    least_s = std::min(least_s, times[i] - times[i - 1]);
+    shortest_s = std::min(shortest_s, times[i] - times[i - 1]);
   }
-  if (least_s < kLeastUnits * unit_s) return std::nullopt;
-  return frames_by_step(times, unit_s, least_s);
+  if (shortest_s < kLeastUnits * unit_s) return std::nullopt;
+  return frames_by_step(times, unit_s, shortest_s);
 }
 
 double mean_rate(const DistinctTimes& times) {
