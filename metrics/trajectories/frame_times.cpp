@@ -19,8 +19,8 @@ constexpr std::array kNtscRates = {30000.0 / 1001, 24000.0 / 1001, 60000.0 / 100
 
 /// The greatest power of ten (s) of which all times are multiples; 0 if none above noise is one.
 double rounding_unit(const DistinctTimes& times) {
-  constexpr int kMostDigits = 4;
-  for (int digits = -1; digits <= kMostDigits; ++digits) {
+  constexpr int kMaxDigits = 4;
+  for (int digits = -1; digits <= kMaxDigits; ++digits) {
     const double per_s = std::pow(10, digits);
     const bool are_multiples = std::all_of(times.begin(), times.end(), [&](double time) {
       return std::abs(time - std::round(time * per_s) / per_s) <= kSameS;
@@ -46,11 +46,11 @@ struct SingleSteps {
 };
 
 SingleSteps single_steps(const DistinctTimes& times, double median_s, double unit_s) {
-  const double most_s = std::max(1.5 * median_s, median_s + unit_s) + kSameS;
+  const double max_step_s = std::max(1.5 * median_s, median_s + unit_s) + kSameS;
   SingleSteps steps{.min_s = median_s, .max_s = median_s};
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double step_s = times[i] - times[i - 1];
-    if (step_s > most_s) continue;
+    if (step_s > max_step_s) continue;
     steps.sum_s += step_s;
     ++steps.count;
     steps.min_s = std::min(steps.min_s, step_s);
@@ -81,8 +81,8 @@ std::vector<double> simple_rates(const Range& rates, double likely) {
   const std::vector<double> last(far, simple.end());
   simple.erase(far, simple.end());
   for (const double rate : kNtscRates) add(rate);
-  constexpr int kMostDecimals = 3;
-  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
+  constexpr int kMaxDecimals = 3;
+  for (int decimals = 0; decimals <= kMaxDecimals; ++decimals) {
     const double per_unit = std::pow(10, decimals);
     add(std::round(likely * per_unit) / per_unit);
   }
@@ -126,8 +126,8 @@ bool is_exact(const DistinctTimes& times, double unit_s, double& median_s) {
 
 std::optional<FrameTimes> frames_within(const DistinctTimes& times, double rate, double unit_s) {
   const double slack = std::max(unit_s * rate, kNoise) + kSameS * rate;
-  constexpr double kMostSlack = 1 + kNoise;  // beyond, the unit does not tell frames apart
-  if (slack > kMostSlack) return std::nullopt;
+  constexpr double kMaxSlack = 1 + kNoise;  // beyond, the unit does not tell frames apart
+  if (slack > kMaxSlack) return std::nullopt;
   std::vector<double> phases;
   phases.reserve(times.size());
   for (const double time : times) phases.push_back(time * rate - std::floor(time * rate));
@@ -187,13 +187,13 @@ std::optional<FrameTimes> find_frames(const DistinctTimes& times) {
 }
 
 std::optional<FrameTimes> find_sparse_frames(const DistinctTimes& times) {
-  constexpr double kLeastUnits = 4;  // less may be nothing but rounding
+  constexpr double kMinUnits = 4;  // less may be nothing but rounding
   const double unit_s = rounding_unit(times);
   double shortest_s = median_step(times);
   for (std::size_t i = 1; i < times.size(); ++i) {
     shortest_s = std::min(shortest_s, times[i] - times[i - 1]);
   }
-  if (shortest_s < kLeastUnits * unit_s) return std::nullopt;
+  if (shortest_s < kMinUnits * unit_s) return std::nullopt;
   return frames_by_step(times, unit_s, shortest_s);
 }
 

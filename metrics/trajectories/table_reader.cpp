@@ -12,11 +12,13 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "metrics/trajectories/column_roles.h"
+#include "metrics/trajectories/comment_units.h"
 #include "metrics/trajectories/number_in.h"
 #include "metrics/trajectories/table_fields.h"
 #include "metrics/trajectories/text_encoding.h"
 #include "metrics/trajectories/timed_tracks.h"
 #include "metrics/trajectories/trajectory_words.h"
+#include "metrics/trajectories/unit_words.h"
 
 namespace throng::metrics {
 
@@ -53,6 +55,11 @@ class TableReader {
       at = end + 1;
     }
     add_unnamed();
+    if (unit_of_y_m_ != unit_m_) {
+      for (Track& track : tracks_) {
+        for (auto& [when, place] : track) place.y() *= unit_of_y_m_ / unit_m_;
+      }
+    }
     return by_time() ? read_times() : read_frames();
   }
 
@@ -69,8 +76,9 @@ class TableReader {
     }
     if (trimmed_line.front() == '$' && read_viswalk_word(trimmed_line)) return;
     if (separator_ == 0) separator_ = detect_separator(trimmed_line);
-    const Fields fields = split_fields(separator_ == ' ' ? trimmed_line : line, separator_);
-    if (part_ == Part::names && read_names(fields)) return;
+    const std::string_view row = separator_ == ' ' ? trimmed_line : line;
+    if (part_ == Part::names && read_names(split_names(row, separator_))) return;
+    const Fields fields = split_fields(row, separator_);
     if (part_ == Part::units && read_units(fields)) return;
     part_ = Part::rows;
     read_row(fields);
@@ -78,18 +86,66 @@ class TableReader {
 
   void read_comment(std::string_view line) {
     if (line.front() == '*') {  // of Viswalk, which explains each column
-      if (lower_case(line).find("coordcentx:") != std::string::npos) state_unit(last_unit_in(line));
+      const std::string lower = lower_case(line);
+      if (lower.find("coordcentx:") != std::string::npos) state_units(last_unit_in(line), {});
+      if (const auto y = last_unit_in(line); y && lower.find("coordcenty:") != std::string::npos) {
+        state_units(Unit{Unit::Kind::length, unit_m_}, y);  // x comes before
+      }
       return;
     }
     if (const auto rate = frame_rate_in(line)) stated_rate_ = rate;
-    state_unit(unit_in(line));
     line.remove_prefix(1);
     std::string missing;
-    const Fields words = split_fields(line, detect_separator(trimmed(line, " \t\r")));
-    if (const auto roles = named_columns(words, {}, missing);
-        roles && roles->last() < words.size()) {
+    const Fields words = split_names(line, detect_separator(trimmed(line, " \t\r")));
+    auto roles = named_columns(words, {}, missing);
+    if (roles && roles->last() < words.size()) {
+      state_columns(words, *roles);
       commented_ = roles;
     }
+    if (!has_names_) state_units_of_comment(line, words);
+  }
+
+  /// Takes units from a comment that may name columns ("x/cm y/cm") or speak in sentences.
+  void state_units_of_comment(std::string_view line, const Fields& words) {
+    const auto unit_of = [&](const char* column) -> std::optional<Unit> {
+      const auto at = column_named(words, column);
+      return at ? unit_of_positions(words[*at]) : std::nullopt;
+    };
+    auto x = unit_of("x");
+    auto y = unit_of("y");
+    const bool are_alike = x && y && x->word == y->word;
+    // "x/y" is no unit unless somebody names columns.
+    if (x && !x->is_of_positions() && !are_alike) x.reset();
+    if (y && !y->is_of_positions() && !are_alike) y.reset();
+    if (!x && !y) x = unit_in_comment(line);
+    state_units(x, y);
+  }
+
+  /// Takes units from the names of columns.
+  void state_columns(const Fields& names, ColumnRoles& roles) {
+    state_units(unit_of_positions(names[roles.x]), unit_of_positions(names[roles.y]));
+    if (!roles.by_time) return;
+    time_scale_ = 1;
+    const auto unit = unit_of_times(names[roles.when]);
+    if (!unit) return;
+    if (unit->kind == Unit::Kind::unknown) {
+      reject(fmt::format("times in {}", shown(unit->word)), "s, ms, us, ns, min, h or frames");
+    }
+    roles.by_time = unit->kind == Unit::Kind::time;
+    time_scale_ = unit->factor;
+  }
+
+  /// Units of x and y; an axis without one has the other's. The user's unit overrides both.
+  void state_units(const std::optional<Unit>& x, const std::optional<Unit>& y) {
+    if ((!x && !y) || format_.unit_m) return;
+    for (const auto& unit : {x, y}) {
+      if (unit && unit->kind != Unit::Kind::length) {
+        reject(fmt::format("positions in {}", shown(unit->word)), expected_unit(*unit));
+      }
+    }
+    unit_m_ = x ? x->factor : y->factor;
+    unit_of_y_m_ = y ? y->factor : x->factor;
+    unit_is_stated_ = true;
   }
 
   /// Whether a line that begins with $ is nothing but a mark of Viswalk's.
@@ -106,18 +162,15 @@ class TableReader {
     return false;
   }
 
-  void state_unit(const std::optional<double>& unit) {
-    if (!unit) return;
-    unit_m_ = *unit;
-    unit_is_stated_ = true;
-  }
-
   /// Whether the line names the columns, which no line with numbers does.
   bool read_names(const Fields& names) {
     part_ = Part::rows;
     const bool are_names = std::none_of(names.begin(), names.end(),
                                         [](auto name) { return field_number(name).has_value(); });
-    if (are_numbered_) return are_names;
+    if (are_numbered_) {
+      if (are_names && roles_->last() < names.size()) state_columns(names, *roles_);
+      return are_names;
+    }
     if (!are_names) {
       roles_ = commented_;
       return false;
@@ -137,10 +190,9 @@ class TableReader {
     part_ = Part::units;
     field_count_ = names.size();
     has_names_ = true;
-    time_scale_ = time_unit_in(names[roles_->when]).value_or(1);
     spans_gaps_ = bare_name(names[roles_->x]) == "startx";  // footsteps of Vadere, in m
     unit_is_stated_ = unit_is_stated_ || spans_gaps_;
-    state_unit(unit_in_name(names[roles_->x]));
+    state_columns(names, *roles_);
     return true;
   }
 
@@ -152,12 +204,9 @@ class TableReader {
         field_number(fields[roles_->when])) {
       return false;
     }
-    const auto meters = unit_of_word(unit);
-    if (!meters && !format_.unit_m) {
-      reject(fmt::format("the unit {}", shown(unit)), kUnitExpected);
-    }
-    state_unit(meters);
-    if (const auto scale = time_unit_in(fields[roles_->when])) time_scale_ = *scale;
+    state_units(unit_of_word(unit), unit_of_word(fields[roles_->y]));
+    const Unit time = unit_of_word(fields[roles_->when]);
+    if (time.kind == Unit::Kind::time) time_scale_ = time.factor;
     return true;
   }
 
@@ -343,7 +392,8 @@ class TableReader {
   bool has_names_ = false;
   Part part_ = Part::names;
   std::optional<double> stated_rate_;
-  double unit_m_ = 1;
+  double unit_m_ = 1;       // of x
+  double unit_of_y_m_ = 1;  // brought to that of x in the end
   bool unit_is_stated_ = false;
   double time_scale_ = 1;
   bool spans_gaps_ = false;

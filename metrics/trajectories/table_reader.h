@@ -10,7 +10,8 @@
 namespace throng::metrics {
 
 /// Reads a table or text in UTF-8; `name` names it in messages.
-/// - Comments (# or *) may state frame rate and unit and name the columns.
+/// - Comments (# or *) may state frame rate and unit and name the columns. Units that they or the
+///   names state (unit_words.h, comment_units.h) are used, those of x and y separately, or refused.
 /// - The first other line names the columns if it has no number; default names in `format` also
 ///   match synonyms ("ped_id", "Pos_X [cm]"), and a column of times replaces a missing one of
 ///   frames. A line of units may follow, as Pathfinder writes it. Without names, columns are

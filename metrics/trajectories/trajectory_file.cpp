@@ -128,7 +128,8 @@ TrajectoryKind kind_of_bytes(const fs::path& file, std::string_view bytes) {
 std::optional<Recorded> read_binary(const fs::path& file, TrajectoryKind kind,
                                     const TrajectoryFormat& format) {
   if (kind == TrajectoryKind::sqlite) return read_database(file, format.frames_per_s);
-  if (kind == TrajectoryKind::hdf5) return read_archive_hdf5(file, format.frames_per_s);
+  if (kind == TrajectoryKind::hdf5)
+    return read_archive_hdf5(file, format.frames_per_s, format.unit_m);
   if (kind != TrajectoryKind::scb) return std::nullopt;
   Recorded recorded = read_scb(file);
   if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;
