@@ -57,7 +57,7 @@ std::optional<Unit> glued_unit(std::string_view bare, std::string_view synonym) 
   return unit.kind == Unit::Kind::unknown ? std::nullopt : std::optional(unit);
 }
 
-bool is_unit_of(const Unit& unit, const std::string& column) {
+bool suits_column(const Unit& unit, const std::string& column) {
   if (column == "time") return unit.kind == Unit::Kind::time || unit.kind == Unit::Kind::frames;
   return (column == "x" || column == "y") && unit.is_of_positions();
 }
@@ -67,7 +67,7 @@ bool means(std::string_view name, std::string_view synonym, const std::string& c
            bool also_pixels) {
   const std::string bare = bare_name(name);
   auto unit = glued_unit(bare, synonym);
-  if (bare != synonym && !(unit && is_unit_of(*unit, column))) return false;
+  if (bare != synonym && !(unit && suits_column(*unit, column))) return false;
   if (!unit) unit = unit_in_name(name);
   return also_pixels || !unit || unit->kind != Unit::Kind::pixels;
 }
@@ -81,9 +81,9 @@ std::optional<Unit> unit_of_column(std::string_view name,
     for (const std::string_view synonym : column_synonyms(column)) {
       if (unit) break;
       unit = glued_unit(bare, synonym);
-      if (unit && !is_unit_of(*unit, column)) unit.reset();
+      if (unit && !suits_column(*unit, column)) unit.reset();
     }
-    if (!unit || is_unit_of(*unit, column)) continue;
+    if (!unit || suits_column(*unit, column)) continue;
     // "x_min" is no unit, "x/min" is a wrong one.
     if (name.find_first_of("/[(") == std::string_view::npos) return std::nullopt;
     unit->kind = Unit::Kind::unknown;

@@ -23,7 +23,7 @@ enum class Subject : std::uint8_t { none, position, other };
 bool is_small_letter(char c) { return c >= 'a' && c <= 'z'; }
 
 /// Words of letters, and numbers.
-std::vector<Word> words_of(std::string_view text) {
+std::vector<Word> split_words(std::string_view text) {
   std::vector<Word> words;
   const auto is_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
   for (std::size_t at = 0; at < text.size();) {
@@ -61,7 +61,7 @@ bool is_key(std::string_view word) {
 
 class CommentUnits {
  public:
-  explicit CommentUnits(std::string_view text) : words_(words_of(text)) {
+  explicit CommentUnits(std::string_view text) : words_(split_words(text)) {
     has_key_ = std::any_of(words_.begin(), words_.end(), [](auto w) { return is_key(w.text); });
   }
 

@@ -19,6 +19,7 @@
 #include "metrics/trajectories/timed_tracks.h"
 #include "metrics/trajectories/trajectory_words.h"
 #include "metrics/trajectories/unit_words.h"
+#include "metrics/trajectories/unnamed_columns.h"
 
 namespace throng::metrics {
 
@@ -29,10 +30,6 @@ namespace {
 
 constexpr double kMaxFrame = 1e7;
 constexpr double kMaxId = 1e15;
-constexpr const char* kUnnamedExpected =
-    "id, frame (whole numbers), x and y, each person once a frame; or columns that are named "
-    "(--columns frame,id,x,y)";
-
 /// The id of a person as a number; nothing for other words.
 std::optional<std::int64_t> id_number(std::string_view word) {
   const auto number = number_in(word);
@@ -43,7 +40,11 @@ std::optional<std::int64_t> id_number(std::string_view word) {
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& name, const TrajectoryFormat& format)
-      : text_(text), name_(name), format_(format), roles_(numbered_columns(format.columns)) {
+      : text_(text),
+        name_(name),
+        format_(format),
+        roles_(numbered_columns(format.columns)),
+        unnamed_(name) {
     are_numbered_ = roles_.has_value();
   }
 
@@ -54,7 +55,10 @@ class TableReader {
       read_line(text_.substr(at, end - at));
       at = end + 1;
     }
-    add_unnamed();
+    for (const UnnamedRow& row : unnamed_.person_first(stated_rate_.has_value())) {
+      line_ = row.line;
+      add(fmt::format("{}", row.first), row.second, row.place);
+    }
     if (unit_of_y_m_ != unit_m_) {
       for (Track& track : tracks_) {
         for (auto& [when, place] : track) place.y() *= unit_of_y_m_ / unit_m_;
@@ -211,7 +215,10 @@ class TableReader {
   }
 
   void read_row(const Fields& fields) {
-    if (!roles_) return read_unnamed(fields);
+    if (!roles_) {
+      if (unnamed_.empty() && read_annotation(fields)) return;
+      return read_unnamed(fields);
+    }
     if (fields.size() <= roles_->last()) {
       reject(fmt::format("{} fields", fields.size()),
              fmt::format("at least {}", roles_->last() + 1));
@@ -245,63 +252,23 @@ class TableReader {
     return word.empty() || word == "nan" || word == "na" || word == "null";
   }
 
+  /// Whether the row is one of the Stanford Drone Dataset.
+  bool read_annotation(const Fields& fields) {
+    const auto box = read_annotated_box(fields);
+    if (!box) return false;
+    if (!format_.unit_m) {
+      const Unit pixels{.kind = Unit::Kind::pixels};
+      reject("boxes in pixels, as of the Stanford Drone Dataset", expected_unit(pixels));
+    }
+    if (!left_out_.add(*box)) add(fmt::format("{}", box->track), box->frame, box->center);
+    return true;
+  }
+
   void read_unnamed(const Fields& fields) {
-    constexpr std::size_t kObsmat = 8;
-    std::array<double, kObsmat> numbers{};
-    const std::size_t count = std::min(fields.size(), kObsmat);
-    if (count < 4) reject(fmt::format("{} values", count), kUnnamedExpected);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto value = i < 4 || fields.size() == kObsmat ? field_number(fields[i])
-                                                           : std::optional(FieldNumber{});
-      if (!value || (i < 2 && value->value != std::floor(value->value))) {
-        reject(shown(fields[i]), kUnnamedExpected);
-      }
-      note_decimal(value->decimal);
-      numbers[i] = value->value;
+    unnamed_.add(fields, line_);
+    for (std::size_t i = 0; i < UnnamedTable::kUsed; ++i) {
+      note_decimal(field_number(fields[i])->decimal);
     }
-    if (std::abs(numbers[0]) > kMaxId || std::abs(numbers[1]) > kMaxId) {
-      reject(shown(fields[std::abs(numbers[0]) > kMaxId ? 0 : 1]), kUnnamedExpected);
-    }
-    // ETH's obsmat.txt: frame, person, x, z, y and velocities, the heights being 0.
-    is_obsmat_ = is_obsmat_ && fields.size() == kObsmat && numbers[3] == 0 && numbers[6] == 0;
-    unnamed_.push_back({numbers[0], numbers[1], {numbers[2], numbers[3]}, line_});
-    if (is_obsmat_) depths_.push_back(numbers[4]);
-  }
-
-  /// Adds the rows whose columns have no names.
-  void add_unnamed() {
-    if (unnamed_.empty()) return;
-    if (is_obsmat_) {
-      for (std::size_t i = 0; i < unnamed_.size(); ++i) unnamed_[i].place.y() = depths_[i];
-    }
-    ColumnOrder order = order_of_columns(unnamed_, stated_rate_.has_value());
-    if (is_obsmat_) order = ColumnOrder::frame_first;
-    if (order == ColumnOrder::unclear) refuse_order();
-    for (const UnnamedRow& row : unnamed_) {
-      line_ = row.line;
-      const bool person_first = order == ColumnOrder::person_first;
-      add(fmt::format("{}", person_first ? row.first : row.second),
-          person_first ? row.second : row.first, row.place);
-    }
-  }
-
-  [[noreturn]] void refuse_order() const {
-    const auto count = [&](double UnnamedRow::*column) {
-      std::vector<double> numbers;
-      for (const UnnamedRow& row : unnamed_) numbers.push_back(row.*column);
-      std::sort(numbers.begin(), numbers.end());
-      return std::unique(numbers.begin(), numbers.end()) - numbers.begin();
-    };
-    const auto first = count(&UnnamedRow::first);
-    const auto second = count(&UnnamedRow::second);
-    throw InputError(
-        {name_, "",
-         fmt::format("columns without names that are either {} people in {} frames or "
-                     "{} frames with {} people",
-                     first, second, first, second),
-         "which column is the person: --columns id,frame,x,y or --columns frame,id,x,y "
-         "(of a job: \"columns\": {\"person\": \"1\", \"frame\": \"2\", \"x\": \"3\", "
-         "\"y\": \"4\"} or {\"frame\": \"1\", \"person\": \"2\", ...})"});
   }
 
   void add(std::string_view person, double when, const Vector2d& place) {
@@ -344,7 +311,8 @@ class TableReader {
   }
 
   Recorded read_frames() {
-    Recorded recorded = stated();
+    Recorded recorded;
+    state(recorded);
     recorded.frames_per_s = format_.frames_per_s.value_or(stated_rate_.value_or(0));
     if (!(recorded.frames_per_s > 0)) {
       throw InputError({name_, "", "no frame rate",
@@ -362,16 +330,21 @@ class TableReader {
     for (std::size_t i = 0; i < people.tracks.size(); ++i) people.ids.push_back(id_of(i));
     auto rate = format_.frames_per_s ? format_.frames_per_s : stated_rate_;
     Recorded recorded = put_on_frames(std::move(people), rate, name_);
-    recorded.unit_m = unit_m_;
-    recorded.unit_is_stated = unit_is_stated_;
+    state(recorded);
     return recorded;
   }
 
-  Recorded stated() const {
-    Recorded recorded;
+  /// Adds what is known beside positions.
+  void state(Recorded& recorded) const {
+    if (const std::string text = left_out_.text(); !text.empty()) {
+      if (tracks_.empty())
+        throw InputError({name_, "", "no people, " + text, "Pedestrian as label"});
+      recorded.notes.push_back({"", "", text, ""});
+    }
     recorded.unit_m = unit_m_;
     recorded.unit_is_stated = unit_is_stated_;
-    return recorded;
+    if (are_numbers_) return;
+    for (const auto& [word, person] : numbers_) recorded.names[id_of(person)] = word;
   }
 
   /// The id of a person in the trace: the number in the file, or the place in its order.
@@ -401,9 +374,8 @@ class TableReader {
   char separator_ = 0;  // 0: not known yet
   char decimal_ = 0;
   std::size_t field_count_ = 0;
-  bool is_obsmat_ = true;
-  std::vector<UnnamedRow> unnamed_;
-  std::vector<double> depths_;                            // of ETH's obsmat.txt
+  UnnamedTable unnamed_;
+  LeftOut left_out_;
   std::unordered_map<std::string, std::size_t> numbers_;  // of persons, in order of appearance
   std::vector<std::int64_t> ids_;
   bool are_numbers_ = true;

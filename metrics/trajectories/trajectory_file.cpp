@@ -18,6 +18,7 @@
 #include "metrics/trajectories/database_trajectory.h"
 #include "metrics/trajectories/other_formats.h"
 #include "metrics/trajectories/recorded.h"
+#include "metrics/trajectories/recorded_findings.h"
 #include "metrics/trajectories/scb_trajectory.h"
 #include "metrics/trajectories/table_reader.h"
 #include "metrics/trajectories/text_encoding.h"
@@ -211,8 +212,12 @@ void check_recorded(const std::string& file, const TrajectoryFormat& format, Rec
 }  // namespace
 
 world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers,
-                             const TrajectoryFormat& format) {
+                             const TrajectoryFormat& format, std::vector<Problem>* notes) {
   Recorded recorded = read_recorded(file, format);
+  if (notes != nullptr) {
+    *notes = recorded.notes;
+    note_jumps(recorded, format.unit_m.value_or(recorded.unit_m), *notes);
+  }
   count_by_steps(recorded);
   require_unit(file.string(), format, recorded);
   check_recorded(file.string(), format, recorded);

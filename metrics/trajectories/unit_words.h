@@ -33,7 +33,7 @@ std::optional<Unit> unit_in_name(std::string_view name);
 /// The word in the last square brackets of a text: "x-coordinate (meter [m])".
 std::optional<Unit> last_unit_in(std::string_view text);
 
-/// What a message expects instead of a unit that cannot be used for positions.
+/// The text that a message expects instead of a unit that cannot be used for positions.
 std::string expected_unit(const Unit& unit);
 
 }  // namespace throng::metrics
