@@ -179,6 +179,7 @@ class TableReader {
       roles_ = commented_;
       return false;
     }
+    if (are_names_of_boxes(names)) return true;
     std::string missing;
     roles_ = named_columns(names, format_.columns, missing);
     if (!roles_) {
@@ -256,7 +257,7 @@ class TableReader {
   bool read_annotation(const Fields& fields) {
     const auto box = read_annotated_box(fields);
     if (!box) return false;
-    if (!format_.unit_m) {
+    if (!format_.unit_m && !unit_is_stated_) {
       const Unit pixels{.kind = Unit::Kind::pixels};
       reject("boxes in pixels, as of the Stanford Drone Dataset", expected_unit(pixels));
     }

@@ -12,6 +12,7 @@
 #include "metrics/trajectories/number_in.h"
 #include "metrics/trajectories/table_fields.h"
 #include "metrics/trajectories/text_encoding.h"
+#include "metrics/trajectories/trajectory_words.h"
 
 namespace throng::metrics {
 
@@ -172,6 +173,14 @@ std::optional<AnnotatedBox> read_annotated_box(const std::vector<std::string_vie
                       {0.5 * (x_min + x_max), 0.5 * (y_min + y_max)},
                       lost == 1,
                       std::string(fields[kNumbers])};
+}
+
+bool are_names_of_boxes(const std::vector<std::string_view>& names) {
+  constexpr std::array kNames = {"xmin", "ymin", "xmax", "ymax", "frame", "lost"};
+  if (names.size() <= kNames.size()) return false;
+  return std::equal(
+      kNames.begin(), kNames.end(), names.begin() + 1,
+      [](std::string_view name, std::string_view found) { return bare_name(found) == name; });
 }
 
 bool LeftOut::add(const AnnotatedBox& box) {

@@ -66,6 +66,9 @@ struct AnnotatedBox {
 /// The row in these fields; nothing if they are others.
 std::optional<AnnotatedBox> read_annotated_box(const std::vector<std::string_view>& fields);
 
+/// Whether names are those of the columns of such rows.
+bool are_names_of_boxes(const std::vector<std::string_view>& names);
+
 /// Counts the rows of a dataset of boxes that are left out.
 class LeftOut {
  public:

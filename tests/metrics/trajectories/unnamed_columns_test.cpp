@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/files/files.h"
 #include "metrics/trajectories/trajectory_file.h"
@@ -64,6 +66,11 @@ TEST(UnnamedColumns, BoxesOfTheStanfordDroneDataset) {
   EXPECT_FALSE(trace.present(10, 0)) << "lost";
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_THAT(notes[0].text(), HasSubstr("left out: tracks: 2 of Biker, 1 of Cart; 4 rows"));
+  const std::string header = "track_id,xmin,ymin,xmax,ymax,frame,lost,occluded,generated,label\n";
+  std::string with_commas = boxes({"Pedestrian", "Pedestrian"});
+  std::replace(with_commas.begin(), with_commas.end(), ' ', ',');
+  EXPECT_EQ(tracks(header + with_commas, in_pixels()).agents(), 2U);
+  EXPECT_EQ(tracks("# framerate: 30\n# unit: 0.05 m\n" + with_commas, {}).steps(), 16U);
   EXPECT_THAT(reason(boxes({"Biker", "Skater"}), in_pixels()), HasSubstr("1 of Skater"));
   TrajectoryFormat without_unit;
   without_unit.frames_per_s = 30;
