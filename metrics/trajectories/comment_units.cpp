@@ -1,6 +1,7 @@
 #include "metrics/trajectories/comment_units.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files/read_only_file.h"
+#include "metrics/trajectories/comment_units.h"
 #include "metrics/trajectories/other_formats.h"
 #include "metrics/trajectories/text_encoding.h"
 #include "metrics/trajectories/unit_words.h"
@@ -140,7 +141,9 @@ Recorded read(const std::filesystem::path& file, std::optional<double> frames_pe
     throw InputError({name, "dataset trajectory", "no attribute \"fps\"", kFrameRateExpected});
   }
   const auto unit_of = [&](const char* axis) {
-    const auto unit = last_unit_in(text_attribute(dataset, axis));
+    const std::string text = text_attribute(dataset, axis);
+    auto unit = last_unit_in(text);
+    if (!unit) unit = unit_in_comment(text);
     if (unit && unit->kind != Unit::Kind::length && !unit_m) {
       throw InputError({name, fmt::format("dataset trajectory, attribute {}", axis),
                         fmt::format("positions in {}", shown(unit->word)), expected_unit(*unit)});

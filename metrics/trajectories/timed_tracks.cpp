@@ -44,9 +44,9 @@ bool is_regular(const DistinctTimes& times, double step_s) {
   return static_cast<double>(regular) >= kMinRegularShare * static_cast<double>(times.size() - 1);
 }
 
-/// Puts times on their frames if they have any, and returns the rate.
+/// Puts times on their frames if they have any, and returns the rate. Notes that there are none.
 double count_by_frames(std::vector<Track>& tracks, std::optional<double> given,
-                       const std::string& name) {
+                       const std::string& name, std::vector<Problem>& notes) {
   constexpr std::size_t kTooFewToJudge = 5;
   const DistinctTimes times = distinct_times(tracks);
   if (times.size() < 2) {
@@ -58,7 +58,14 @@ double count_by_frames(std::vector<Track>& tracks, std::optional<double> given,
   if (!frames && given) return *given;
   if (!frames) {
     if (times.size() < kTooFewToJudge || is_regular(times, median_step(times))) {
-      return mean_rate(times);
+      const double rate = mean_rate(times);
+      notes.push_back(
+          {"", "",
+           fmt::format("times that vary by more than their rounding: positions are interpolated at "
+                       "{:g} frames per second",
+                       rate),
+           ""});
+      return rate;
     }
     frames = find_sparse_frames(times);
   }
@@ -130,7 +137,7 @@ Recorded put_on_frames(TimedPeople people, std::optional<double> frames_per_s,
     }
   }
   Recorded recorded;
-  recorded.frames_per_s = count_by_frames(people.tracks, frames_per_s, name);
+  recorded.frames_per_s = count_by_frames(people.tracks, frames_per_s, name, recorded.notes);
   double frames = 0;
   for (const Track& track : people.tracks) {
     frames += (track.rbegin()->first - track.begin()->first) * recorded.frames_per_s;

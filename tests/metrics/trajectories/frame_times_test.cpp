@@ -15,12 +15,13 @@ namespace {
 
 constexpr double kStepM = 0.04;
 
-world::Trace table_of_times(const std::string& text, std::optional<double> rate = std::nullopt) {
+world::Trace table_of_times(const std::string& text, std::optional<double> rate = std::nullopt,
+                            std::vector<Problem>* notes = nullptr) {
   const testing::TemporaryFolder folder;
   write_file_atomically(folder.path() / "walk.csv", text);
   TrajectoryFormat format;
   format.frames_per_s = rate;
-  return read_trajectory(folder.path() / "walk.csv", {}, format);
+  return read_trajectory(folder.path() / "walk.csv", {}, format, notes);
 }
 
 bool every(int /*frame*/) { return true; }
@@ -111,7 +112,12 @@ TEST(FrameTimes, ClocksThatVaryHaveTheirMeanRateAndEventsNone) {
     text += fmt::format("1,{:.4f},{:.4f},2\n", k / 30.0 + late_s, kStepM * k);
     events += fmt::format("1,{:.4f},{:.4f},2\n", k / 30.0 + 0.03 * std::sin(k * k), kStepM * k);
   }
-  EXPECT_NEAR(1 / table_of_times(text).header.dt_s, 30, 1e-6);
+  std::vector<Problem> notes;
+  EXPECT_NEAR(1 / table_of_times(text, std::nullopt, &notes).header.dt_s, 30, 1e-6);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].text().find("interpolated at 30 frames"), std::string::npos);
+  table_of_times(rounded(30, 300, 2), std::nullopt, &notes);
+  EXPECT_TRUE(notes.empty());
   EXPECT_THROW(table_of_times(events), InputError);
 }
 
