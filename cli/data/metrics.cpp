@@ -19,6 +19,7 @@
 #include "jobs/queue/dataset/run_warnings.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits/exits.h"
+#include "metrics/trajectories/recorded_findings.h"
 #include "metrics/trajectories/trajectory_file.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -101,13 +102,18 @@ void measure(const MetricsArguments& arguments) {
   }
   check_ending("--csv", arguments.csv, {".csv"});
   if (recorded) refuse_as_trajectory(arguments.trajectory);
-  const world::Trace trace =
-      recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
-               : read_trace_file(arguments.trace);
+  std::vector<Problem> notes;
+  const world::Trace trace = recorded
+                                 ? metrics::read_trajectory(arguments.trajectory, arguments.walkers,
+                                                            arguments.format, &notes)
+                                 : read_trace_file(arguments.trace);
   if (!arguments.to_file.empty()) {
     write_converted(arguments, trace);
     fmt::print("{}\n", arguments.to_file);
-    if (arguments.output.empty() && arguments.csv.empty()) return;
+    if (arguments.output.empty() && arguments.csv.empty()) {
+      for (const Problem& note : notes) fmt::print(stderr, "warning: {}\n", note.text());
+      return;
+    }
   }
   if (recorded && arguments.scenario.empty()) {
     throw InputError(
@@ -120,7 +126,14 @@ void measure(const MetricsArguments& arguments) {
   const metrics::RunMetrics measured = metrics::run_metrics(trace, scenario, exits);
   nlohmann::json figures = metrics::to_json(measured);
   std::vector<std::string> warnings;
-  if (!recorded) warnings = jobs::task_warnings(arguments.trace);
+  if (recorded) {
+    for (Problem& finding : metrics::find_people_in_buildings(trace, scenario)) {
+      notes.push_back(std::move(finding));
+    }
+    for (const Problem& note : notes) warnings.push_back(note.text());
+  } else {
+    warnings = jobs::task_warnings(arguments.trace);
+  }
   for (std::string& warning : metrics::count_warnings(measured.counts)) {
     warnings.push_back(std::move(warning));
   }

@@ -41,17 +41,20 @@ void simulate(const SimulateArguments& arguments) {
   const world::Scenario scenario = jobs::load_job_scenario(
       jobs::in_scenario_of_run(job, arguments.run), world::scenarios_folder());
   std::vector<Problem> warnings;
+  std::vector<Problem> notes;
+  const sim::RunSpec spec = jobs::run_spec(job, arguments.run, &notes);
   {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
     warnings = sim::simulate(
-        scenario, jobs::run_spec(job, arguments.run), arguments.trace_file,
+        scenario, spec, arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },
         interrupt.token(), arguments.pilot_logs);
   }
-  for (const Problem& warning : jobs::with_scenario_findings(std::move(warnings), scenario)) {
+  for (const Problem& warning :
+       jobs::warnings_of_run(std::move(warnings), spec, std::move(notes), scenario)) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
   fmt::print("{}\n", arguments.trace_file);

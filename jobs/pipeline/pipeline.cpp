@@ -40,7 +40,7 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind) {
   return annotate::holds(job.outputs.annotations, kind);
 }
 
-sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
+sim::RunSpec run_spec(const JobSpec& whole_job, int run, std::vector<Problem>* notes) {
   const JobSpec job = job_of_run(whole_job, run);
   sim::RunSpec spec;
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
@@ -49,11 +49,21 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   spec.people = job.agents;
   spec.crowd = job.crowd;
   if (job.recorded) {
-    spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded));
+    spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded, notes));
   }
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
   spec.drones = make_missions(job, spec.seed);
   return spec;
+}
+
+std::vector<Problem> warnings_of_run(std::vector<Problem> warnings, const sim::RunSpec& spec,
+                                     std::vector<Problem> notes, const world::Scenario& scenario) {
+  if (spec.recorded) {
+    for (Problem& warning : recording_warnings(std::move(notes), *spec.recorded, scenario)) {
+      warnings.push_back(std::move(warning));
+    }
+  }
+  return with_scenario_findings(std::move(warnings), scenario);
 }
 
 std::vector<sim::DroneMission> make_missions(const JobSpec& run_job, std::uint64_t run_seed) {
@@ -75,8 +85,11 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const world::Scenario scenario = load_job_scenario(in_scenario_of_run(job, run), scenarios);
   std::vector<std::string> warnings;
   sim::TraceRecorder recorder(trace);
-  for (const Problem& warning : with_scenario_findings(
-           sim::simulate(scenario, run_spec(job, run), recorder, progress, stop), scenario)) {
+  std::vector<Problem> notes;
+  const sim::RunSpec spec = run_spec(job, run, &notes);
+  for (const Problem& warning :
+       warnings_of_run(sim::simulate(scenario, spec, recorder, progress, stop), spec,
+                       std::move(notes), scenario)) {
     warnings.push_back(without_folders(warning.text(), {folder.path(), scenarios}));
   }
   // Before the trace gets its name, with which the task is done: its metrics have them.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 
+#include "base/text/words.h"
 #include "metrics/trajectories/number_in.h"
 #include "metrics/trajectories/trajectory_words.h"
 
@@ -21,13 +23,13 @@ const Synonyms& column_synonyms(const std::string& name) {
         "agent", "agentid", "track", "trackid", "no", "name"}},
       {"frame", {"frame", "fr", "frameid", "framenumber", "frameno", "frames"}},
       {"time",
-       {"time", "t", "times", "timestamp", "timems", "timestampms", "unixtime", "simtime", "simsec",
-        "seconds", "datetime", "timesteptime", "zeit"}},
+       {"time", "t", "times", "timestamp", "unixtime", "simtime", "simsec", "seconds", "datetime",
+        "timesteptime", "zeit", "milliseconds", "ms"}},
       {"x",
-       {"x", "posx", "xpos", "positionx", "xm", "xcm", "locationx", "startx", "coordcentx",
+       {"x", "posx", "xpos", "positionx", "xposition", "locationx", "startx", "coordcentx",
         "centerx", "xcenter", "personx"}},
       {"y",
-       {"y", "posy", "ypos", "positiony", "ym", "ycm", "locationy", "starty", "coordcenty",
+       {"y", "posy", "ypos", "positiony", "yposition", "locationy", "starty", "coordcenty",
         "centery", "ycenter", "persony"}}};
   static const Synonyms kNone;
   const auto found = kNames.find(name);
@@ -44,19 +46,49 @@ std::optional<std::size_t> number_of_column(const std::string& name) {
   return static_cast<std::size_t>(*number) - 1;
 }
 
-// By its exact name, else by one that means the same.
-std::optional<std::size_t> column_named(const std::vector<std::string_view>& names,
-                                        const std::string& wanted) {
-  const auto at = [&](auto found) { return static_cast<std::size_t>(found - names.begin()); };
-  const auto exact = std::find(names.begin(), names.end(), wanted);
-  if (exact != names.end()) return at(exact);
-  for (const std::string_view synonym : column_synonyms(wanted)) {
-    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
-      return bare_name(name) == synonym;
-    });
-    if (found != names.end()) return at(found);
+/// The unit that ends a bare name behind the synonym of a column: "xft", "posxinfeet", "timems".
+std::optional<Unit> glued_unit(std::string_view bare, std::string_view synonym) {
+  if (!bare.starts_with(synonym) || bare.size() == synonym.size()) return std::nullopt;
+  std::string_view rest = bare.substr(synonym.size());
+  Unit unit = unit_of_word(rest);
+  if (unit.kind == Unit::Kind::unknown && rest.starts_with("in")) {
+    unit = unit_of_word(rest.substr(2));
   }
-  return std::nullopt;
+  return unit.kind == Unit::Kind::unknown ? std::nullopt : std::optional(unit);
+}
+
+bool suits_column(const Unit& unit, const std::string& column) {
+  if (column == "time") return unit.kind == Unit::Kind::time || unit.kind == Unit::Kind::frames;
+  return (column == "x" || column == "y") && unit.is_of_positions();
+}
+
+/// Whether a name means the same as a synonym, with or without a unit. Pixels are a second choice.
+bool means(std::string_view name, std::string_view synonym, const std::string& column,
+           bool also_pixels) {
+  const std::string bare = bare_name(name);
+  auto unit = glued_unit(bare, synonym);
+  if (bare != synonym && !(unit && suits_column(*unit, column))) return false;
+  if (!unit) unit = unit_in_name(name);
+  return also_pixels || !unit || unit->kind != Unit::Kind::pixels;
+}
+
+/// The unit in a name, by itself or behind a synonym of one of the columns.
+std::optional<Unit> unit_of_column(std::string_view name,
+                                   std::initializer_list<const char*> columns) {
+  auto unit = unit_in_name(name);
+  const std::string bare = bare_name(name);
+  for (const char* column : columns) {
+    for (const std::string_view synonym : column_synonyms(column)) {
+      if (unit) break;
+      unit = glued_unit(bare, synonym);
+      if (unit && !suits_column(*unit, column)) unit.reset();
+    }
+    if (!unit || suits_column(*unit, column)) continue;
+    // "x_min" is no unit, "x/min" is a wrong one.
+    if (name.find_first_of("/[(") == std::string_view::npos) return std::nullopt;
+    unit->kind = Unit::Kind::unknown;
+  }
+  return unit;
 }
 
 /// The median distance between the places of the same person in consecutive rows of the order of
@@ -95,6 +127,39 @@ std::int64_t common_factor(const std::vector<UnnamedRow>& rows) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> column_named(const std::vector<std::string_view>& names,
+                                        const std::string& wanted) {
+  const auto at = [&](auto found) { return static_cast<std::size_t>(found - names.begin()); };
+  const auto exact = std::find(names.begin(), names.end(), wanted);
+  if (exact != names.end()) return at(exact);
+  for (const bool also_pixels : {false, true}) {
+    for (const std::string_view synonym : column_synonyms(wanted)) {
+      const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
+        return means(name, synonym, wanted, also_pixels);
+      });
+      if (found != names.end()) return at(found);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Unit> unit_of_positions(std::string_view name) {
+  return unit_of_column(name, {"x", "y"});
+}
+
+std::optional<Unit> unit_of_times(std::string_view name) {
+  const auto unit = unit_of_column(name, {"time"});
+  if (!unit) {
+    const Unit whole = unit_of_word(name);
+    return whole.kind == Unit::Kind::time ? std::optional(whole) : std::nullopt;
+  }
+  const std::string word = lower_case(unit->word);
+  const bool is_of_clock = word.find(':') != std::string::npos ||
+                           word.find("utc") != std::string::npos || word == "gmt" ||
+                           word == "unix" || word == "epoch" || word == "local" || word == "iso";
+  return is_of_clock ? std::nullopt : unit;
+}
 
 std::size_t ColumnRoles::last() const { return std::max({person, when, x, y}); }
 

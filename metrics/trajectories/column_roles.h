@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "metrics/trajectories/unit_words.h"
 #include "spec/metrics/trajectory_format.h"
 
 namespace throng::metrics {
@@ -34,6 +35,20 @@ std::optional<ColumnRoles> numbered_columns(const TrajectoryColumns& columns);
 /// column that is not there. `by_time`: a missing column of frames was replaced by one of times.
 std::optional<ColumnRoles> named_columns(const std::vector<std::string_view>& names,
                                          const TrajectoryColumns& wanted, std::string& missing);
+
+/// The column with this exact name or, for the default names "id", "frame", "time", "x" and "y",
+/// one that means the same, also with a unit ("posx_cm", "timeMs"); of several, the first that is
+/// not in pixels.
+std::optional<std::size_t> column_named(const std::vector<std::string_view>& names,
+                                        const std::string& wanted);
+
+/// The unit that the name of a column of positions states; of the kind `unknown` if it cannot be
+/// one of positions.
+std::optional<Unit> unit_of_positions(std::string_view name);
+
+/// The unit that the name of a column of times states, or frames; of the kind `unknown` if it
+/// cannot be one of times. Nothing for words about clocks ("time [UTC]").
+std::optional<Unit> unit_of_times(std::string_view name);
 
 /// A row of a table without names: its first two numbers and its place.
 struct UnnamedRow {

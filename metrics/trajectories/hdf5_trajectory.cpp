@@ -7,8 +7,10 @@
 
 #include "base/error.h"
 #include "base/files/read_only_file.h"
+#include "metrics/trajectories/comment_units.h"
 #include "metrics/trajectories/other_formats.h"
-#include "metrics/trajectories/trajectory_words.h"
+#include "metrics/trajectories/text_encoding.h"
+#include "metrics/trajectories/unit_words.h"
 #include "world/hdf5_file.h"
 
 namespace throng::metrics {
@@ -122,7 +124,8 @@ std::vector<Row> read_rows(const hdf5::Handle& dataset, const std::string& name)
   return rows;
 }
 
-Recorded read(const std::filesystem::path& file, std::optional<double> frames_per_s) {
+Recorded read(const std::filesystem::path& file, std::optional<double> frames_per_s,
+              std::optional<double> unit_m) {
   const std::string name = file.string();
   const hdf5::Handle root = hdf5::open_file(name);
   if (H5Lexists(root.id(), kDataset, H5P_DEFAULT) <= 0) {
@@ -137,9 +140,25 @@ Recorded read(const std::filesystem::path& file, std::optional<double> frames_pe
   if (!(recorded.frames_per_s > 0)) {
     throw InputError({name, "dataset trajectory", "no attribute \"fps\"", kFrameRateExpected});
   }
-  if (const auto unit = last_unit_in(text_attribute(dataset, "x"))) {
-    recorded.unit_m = *unit;
+  const auto unit_of = [&](const char* axis) {
+    const std::string text = text_attribute(dataset, axis);
+    auto unit = last_unit_in(text);
+    if (!unit) unit = unit_in_comment(text);
+    if (unit && unit->kind != Unit::Kind::length && !unit_m) {
+      throw InputError({name, fmt::format("dataset trajectory, attribute {}", axis),
+                        fmt::format("positions in {}", shown(unit->word)), expected_unit(*unit)});
+    }
+    return unit;
+  };
+  auto x = unit_of("x");
+  auto y = unit_of("y");
+  if (!x) x = y;
+  if (!y) y = x;
+  double y_scale = 1;
+  if (x && !unit_m) {
+    recorded.unit_m = x->factor;
     recorded.unit_is_stated = true;
+    y_scale = y->factor / x->factor;
   }
   std::size_t number = 0;
   for (const Row& row : read_rows(dataset, name)) {
@@ -148,7 +167,7 @@ Recorded read(const std::filesystem::path& file, std::optional<double> frames_pe
                           std::abs(row.id) < kMaxRowNumber && std::abs(row.frame) < kMaxRowNumber &&
                           std::isfinite(row.x) && std::isfinite(row.y);
     if (!is_sound || !recorded.places[std::llround(row.id)]
-                          .try_emplace(std::llround(row.frame), row.x, row.y)
+                          .try_emplace(std::llround(row.frame), row.x, y_scale * row.y)
                           .second) {
       throw InputError(
           {name, fmt::format("dataset trajectory, row {}", number),
@@ -161,11 +180,12 @@ Recorded read(const std::filesystem::path& file, std::optional<double> frames_pe
 
 }  // namespace
 
-Recorded read_archive_hdf5(const std::filesystem::path& file, std::optional<double> frames_per_s) {
+Recorded read_archive_hdf5(const std::filesystem::path& file, std::optional<double> frames_per_s,
+                           std::optional<double> unit_m) {
   static_cast<void>(ReadOnlyFile(file));  // HDF5 does not say why it cannot open a file
   const hdf5::QuietErrors quiet;
   try {
-    return read(file, frames_per_s);
+    return read(file, frames_per_s, unit_m);
   } catch (const hdf5::Failure&) {
     throw InputError({file.string(), "", "HDF5 that is damaged or cut short",
                       "trajectories of the Pedestrian Dynamics Data Archive"});

@@ -19,8 +19,10 @@ Recorded read_scb(const std::filesystem::path& file);
 Recorded read_database(const std::filesystem::path& file, std::optional<double> frames_per_s);
 
 /// Reads HDF5 of the Pedestrian Dynamics Data Archive of Jülich: a dataset `trajectory` of rows
-/// with id, frame, x, y, and its attribute `fps`. Throws InputError.
-Recorded read_archive_hdf5(const std::filesystem::path& file, std::optional<double> frames_per_s);
+/// with id, frame, x, y, and its attributes `fps`, `x` and `y`, which state units. `unit_m`: the
+/// user's unit, which overrides them. Throws InputError.
+Recorded read_archive_hdf5(const std::filesystem::path& file, std::optional<double> frames_per_s,
+                           std::optional<double> unit_m);
 
 /// Reads SUMO's FCD output (XML): persons of time steps; vehicles are left out. Throws InputError,
 /// also for longitudes and latitudes.

@@ -4,6 +4,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
 
 namespace throng::metrics {
 
@@ -14,6 +18,8 @@ struct Recorded {
   bool unit_is_stated = false;  ///< by the file or by its format
   std::map<std::int64_t, std::map<std::int64_t, Eigen::Vector2d>> places;  ///< by person and frame,
                                                                            ///< in the file's unit
+  std::map<std::int64_t, std::string> names;  ///< of people whose ids in the file are words
+  std::vector<Problem> notes;                 ///< warnings, such as what was left out
 };
 
 /// Expected in messages about a missing rate or unit, with the options that give it.

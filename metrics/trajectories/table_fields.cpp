@@ -99,6 +99,30 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
   return fields;
 }
 
+std::vector<std::string_view> split_names(std::string_view line, char separator) {
+  std::vector<std::string_view> names;
+  bool is_open = false;
+  for (const std::string_view field : split_fields(line, separator)) {
+    if (field.empty()) {
+      names.push_back(field);
+      continue;
+    }
+    const bool is_unit =
+        separator == ' ' && (is_open || field.front() == '[' || field.front() == '(');
+    if (is_unit && !names.empty()) {
+      const char* start = names.back().data();
+      names.back() = {start, static_cast<std::size_t>(field.data() + field.size() - start)};
+    } else {
+      names.push_back(field);
+    }
+    const std::string_view name = names.back();
+    is_open =
+        std::count(name.begin(), name.end(), '[') + std::count(name.begin(), name.end(), '(') >
+        std::count(name.begin(), name.end(), ']') + std::count(name.begin(), name.end(), ')');
+  }
+  return names;
+}
+
 std::optional<FieldNumber> field_number(std::string_view field) {
   const std::size_t comma = field.find(',');
   if (comma == std::string_view::npos) {

@@ -15,6 +15,10 @@ char detect_separator(std::string_view line);
 /// separator.
 std::vector<std::string_view> split_fields(std::string_view line, char separator);
 
+/// Returns the names of columns in a line: fields, with words in brackets joined to the one before
+/// ("x [ft] y [ft]" has two).
+std::vector<std::string_view> split_names(std::string_view line, char separator);
+
 /// A number with the character that separates its decimals: '.', ',' or 0 for neither.
 struct FieldNumber {
   double value = 0;

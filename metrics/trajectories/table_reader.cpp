@@ -12,11 +12,14 @@
 #include "base/error.h"
 #include "base/text/words.h"
 #include "metrics/trajectories/column_roles.h"
+#include "metrics/trajectories/comment_units.h"
 #include "metrics/trajectories/number_in.h"
 #include "metrics/trajectories/table_fields.h"
 #include "metrics/trajectories/text_encoding.h"
 #include "metrics/trajectories/timed_tracks.h"
 #include "metrics/trajectories/trajectory_words.h"
+#include "metrics/trajectories/unit_words.h"
+#include "metrics/trajectories/unnamed_columns.h"
 
 namespace throng::metrics {
 
@@ -27,10 +30,6 @@ namespace {
 
 constexpr double kMaxFrame = 1e7;
 constexpr double kMaxId = 1e15;
-constexpr const char* kUnnamedExpected =
-    "id, frame (whole numbers), x and y, each person once a frame; or columns that are named "
-    "(--columns frame,id,x,y)";
-
 /// The id of a person as a number; nothing for other words.
 std::optional<std::int64_t> id_number(std::string_view word) {
   const auto number = number_in(word);
@@ -41,7 +40,11 @@ std::optional<std::int64_t> id_number(std::string_view word) {
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& name, const TrajectoryFormat& format)
-      : text_(text), name_(name), format_(format), roles_(numbered_columns(format.columns)) {
+      : text_(text),
+        name_(name),
+        format_(format),
+        roles_(numbered_columns(format.columns)),
+        unnamed_(name) {
     are_numbered_ = roles_.has_value();
   }
 
@@ -52,7 +55,15 @@ class TableReader {
       read_line(text_.substr(at, end - at));
       at = end + 1;
     }
-    add_unnamed();
+    for (const UnnamedRow& row : unnamed_.person_first(stated_rate_.has_value())) {
+      line_ = row.line;
+      add(fmt::format("{}", row.first), row.second, row.place);
+    }
+    if (unit_of_y_m_ != unit_m_) {
+      for (Track& track : tracks_) {
+        for (auto& [when, place] : track) place.y() *= unit_of_y_m_ / unit_m_;
+      }
+    }
     return by_time() ? read_times() : read_frames();
   }
 
@@ -69,8 +80,9 @@ class TableReader {
     }
     if (trimmed_line.front() == '$' && read_viswalk_word(trimmed_line)) return;
     if (separator_ == 0) separator_ = detect_separator(trimmed_line);
-    const Fields fields = split_fields(separator_ == ' ' ? trimmed_line : line, separator_);
-    if (part_ == Part::names && read_names(fields)) return;
+    const std::string_view row = separator_ == ' ' ? trimmed_line : line;
+    if (part_ == Part::names && read_names(split_names(row, separator_))) return;
+    const Fields fields = split_fields(row, separator_);
     if (part_ == Part::units && read_units(fields)) return;
     part_ = Part::rows;
     read_row(fields);
@@ -78,18 +90,66 @@ class TableReader {
 
   void read_comment(std::string_view line) {
     if (line.front() == '*') {  // of Viswalk, which explains each column
-      if (lower_case(line).find("coordcentx:") != std::string::npos) state_unit(last_unit_in(line));
+      const std::string lower = lower_case(line);
+      if (lower.find("coordcentx:") != std::string::npos) state_units(last_unit_in(line), {});
+      if (const auto y = last_unit_in(line); y && lower.find("coordcenty:") != std::string::npos) {
+        state_units(Unit{Unit::Kind::length, unit_m_}, y);  // x comes before
+      }
       return;
     }
     if (const auto rate = frame_rate_in(line)) stated_rate_ = rate;
-    state_unit(unit_in(line));
     line.remove_prefix(1);
     std::string missing;
-    const Fields words = split_fields(line, detect_separator(trimmed(line, " \t\r")));
-    if (const auto roles = named_columns(words, {}, missing);
-        roles && roles->last() < words.size()) {
+    const Fields words = split_names(line, detect_separator(trimmed(line, " \t\r")));
+    auto roles = named_columns(words, {}, missing);
+    if (roles && roles->last() < words.size()) {
+      state_columns(words, *roles);
       commented_ = roles;
     }
+    if (!has_names_) state_units_of_comment(line, words);
+  }
+
+  /// Takes units from a comment that may name columns ("x/cm y/cm") or speak in sentences.
+  void state_units_of_comment(std::string_view line, const Fields& words) {
+    const auto unit_of = [&](const char* column) -> std::optional<Unit> {
+      const auto at = column_named(words, column);
+      return at ? unit_of_positions(words[*at]) : std::nullopt;
+    };
+    auto x = unit_of("x");
+    auto y = unit_of("y");
+    const bool are_alike = x && y && x->word == y->word;
+    // "x/y" is no unit unless somebody names columns.
+    if (x && !x->is_of_positions() && !are_alike) x.reset();
+    if (y && !y->is_of_positions() && !are_alike) y.reset();
+    if (!x && !y) x = unit_in_comment(line);
+    state_units(x, y);
+  }
+
+  /// Takes units from the names of columns.
+  void state_columns(const Fields& names, ColumnRoles& roles) {
+    state_units(unit_of_positions(names[roles.x]), unit_of_positions(names[roles.y]));
+    if (!roles.by_time) return;
+    time_scale_ = 1;
+    const auto unit = unit_of_times(names[roles.when]);
+    if (!unit) return;
+    if (unit->kind == Unit::Kind::unknown) {
+      reject(fmt::format("times in {}", shown(unit->word)), "s, ms, us, ns, min, h or frames");
+    }
+    roles.by_time = unit->kind == Unit::Kind::time;
+    time_scale_ = unit->factor;
+  }
+
+  /// Units of x and y; an axis without one has the other's. The user's unit overrides both.
+  void state_units(const std::optional<Unit>& x, const std::optional<Unit>& y) {
+    if ((!x && !y) || format_.unit_m) return;
+    for (const auto& unit : {x, y}) {
+      if (unit && unit->kind != Unit::Kind::length) {
+        reject(fmt::format("positions in {}", shown(unit->word)), expected_unit(*unit));
+      }
+    }
+    unit_m_ = x ? x->factor : y->factor;
+    unit_of_y_m_ = y ? y->factor : x->factor;
+    unit_is_stated_ = true;
   }
 
   /// Whether a line that begins with $ is nothing but a mark of Viswalk's.
@@ -106,22 +166,20 @@ class TableReader {
     return false;
   }
 
-  void state_unit(const std::optional<double>& unit) {
-    if (!unit) return;
-    unit_m_ = *unit;
-    unit_is_stated_ = true;
-  }
-
   /// Whether the line names the columns, which no line with numbers does.
   bool read_names(const Fields& names) {
     part_ = Part::rows;
     const bool are_names = std::none_of(names.begin(), names.end(),
                                         [](auto name) { return field_number(name).has_value(); });
-    if (are_numbered_) return are_names;
+    if (are_numbered_) {
+      if (are_names && roles_->last() < names.size()) state_columns(names, *roles_);
+      return are_names;
+    }
     if (!are_names) {
       roles_ = commented_;
       return false;
     }
+    if (are_names_of_boxes(names)) return true;
     std::string missing;
     roles_ = named_columns(names, format_.columns, missing);
     if (!roles_) {
@@ -137,10 +195,9 @@ class TableReader {
     part_ = Part::units;
     field_count_ = names.size();
     has_names_ = true;
-    time_scale_ = time_unit_in(names[roles_->when]).value_or(1);
     spans_gaps_ = bare_name(names[roles_->x]) == "startx";  // footsteps of Vadere, in m
     unit_is_stated_ = unit_is_stated_ || spans_gaps_;
-    state_unit(unit_in_name(names[roles_->x]));
+    state_columns(names, *roles_);
     return true;
   }
 
@@ -152,17 +209,17 @@ class TableReader {
         field_number(fields[roles_->when])) {
       return false;
     }
-    const auto meters = unit_of_word(unit);
-    if (!meters && !format_.unit_m) {
-      reject(fmt::format("the unit {}", shown(unit)), kUnitExpected);
-    }
-    state_unit(meters);
-    if (const auto scale = time_unit_in(fields[roles_->when])) time_scale_ = *scale;
+    state_units(unit_of_word(unit), unit_of_word(fields[roles_->y]));
+    const Unit time = unit_of_word(fields[roles_->when]);
+    if (time.kind == Unit::Kind::time) time_scale_ = time.factor;
     return true;
   }
 
   void read_row(const Fields& fields) {
-    if (!roles_) return read_unnamed(fields);
+    if (!roles_) {
+      if (unnamed_.empty() && read_annotation(fields)) return;
+      return read_unnamed(fields);
+    }
     if (fields.size() <= roles_->last()) {
       reject(fmt::format("{} fields", fields.size()),
              fmt::format("at least {}", roles_->last() + 1));
@@ -196,63 +253,23 @@ class TableReader {
     return word.empty() || word == "nan" || word == "na" || word == "null";
   }
 
+  /// Whether the row is one of the Stanford Drone Dataset.
+  bool read_annotation(const Fields& fields) {
+    const auto box = read_annotated_box(fields);
+    if (!box) return false;
+    if (!format_.unit_m && !unit_is_stated_) {
+      const Unit pixels{.kind = Unit::Kind::pixels};
+      reject("boxes in pixels, as of the Stanford Drone Dataset", expected_unit(pixels));
+    }
+    if (!left_out_.add(*box)) add(fmt::format("{}", box->track), box->frame, box->center);
+    return true;
+  }
+
   void read_unnamed(const Fields& fields) {
-    constexpr std::size_t kObsmat = 8;
-    std::array<double, kObsmat> numbers{};
-    const std::size_t count = std::min(fields.size(), kObsmat);
-    if (count < 4) reject(fmt::format("{} values", count), kUnnamedExpected);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto value = i < 4 || fields.size() == kObsmat ? field_number(fields[i])
-                                                           : std::optional(FieldNumber{});
-      if (!value || (i < 2 && value->value != std::floor(value->value))) {
-        reject(shown(fields[i]), kUnnamedExpected);
-      }
-      note_decimal(value->decimal);
-      numbers[i] = value->value;
+    unnamed_.add(fields, line_);
+    for (std::size_t i = 0; i < UnnamedTable::kUsed; ++i) {
+      note_decimal(field_number(fields[i])->decimal);
     }
-    if (std::abs(numbers[0]) > kMaxId || std::abs(numbers[1]) > kMaxId) {
-      reject(shown(fields[std::abs(numbers[0]) > kMaxId ? 0 : 1]), kUnnamedExpected);
-    }
-    // ETH's obsmat.txt: frame, person, x, z, y and velocities, the heights being 0.
-    is_obsmat_ = is_obsmat_ && fields.size() == kObsmat && numbers[3] == 0 && numbers[6] == 0;
-    unnamed_.push_back({numbers[0], numbers[1], {numbers[2], numbers[3]}, line_});
-    if (is_obsmat_) depths_.push_back(numbers[4]);
-  }
-
-  /// Adds the rows whose columns have no names.
-  void add_unnamed() {
-    if (unnamed_.empty()) return;
-    if (is_obsmat_) {
-      for (std::size_t i = 0; i < unnamed_.size(); ++i) unnamed_[i].place.y() = depths_[i];
-    }
-    ColumnOrder order = order_of_columns(unnamed_, stated_rate_.has_value());
-    if (is_obsmat_) order = ColumnOrder::frame_first;
-    if (order == ColumnOrder::unclear) refuse_order();
-    for (const UnnamedRow& row : unnamed_) {
-      line_ = row.line;
-      const bool person_first = order == ColumnOrder::person_first;
-      add(fmt::format("{}", person_first ? row.first : row.second),
-          person_first ? row.second : row.first, row.place);
-    }
-  }
-
-  [[noreturn]] void refuse_order() const {
-    const auto count = [&](double UnnamedRow::*column) {
-      std::vector<double> numbers;
-      for (const UnnamedRow& row : unnamed_) numbers.push_back(row.*column);
-      std::sort(numbers.begin(), numbers.end());
-      return std::unique(numbers.begin(), numbers.end()) - numbers.begin();
-    };
-    const auto first = count(&UnnamedRow::first);
-    const auto second = count(&UnnamedRow::second);
-    throw InputError(
-        {name_, "",
-         fmt::format("columns without names that are either {} people in {} frames or "
-                     "{} frames with {} people",
-                     first, second, first, second),
-         "which column is the person: --columns id,frame,x,y or --columns frame,id,x,y "
-         "(of a job: \"columns\": {\"person\": \"1\", \"frame\": \"2\", \"x\": \"3\", "
-         "\"y\": \"4\"} or {\"frame\": \"1\", \"person\": \"2\", ...})"});
   }
 
   void add(std::string_view person, double when, const Vector2d& place) {
@@ -295,7 +312,8 @@ class TableReader {
   }
 
   Recorded read_frames() {
-    Recorded recorded = stated();
+    Recorded recorded;
+    state(recorded);
     recorded.frames_per_s = format_.frames_per_s.value_or(stated_rate_.value_or(0));
     if (!(recorded.frames_per_s > 0)) {
       throw InputError({name_, "", "no frame rate",
@@ -313,16 +331,21 @@ class TableReader {
     for (std::size_t i = 0; i < people.tracks.size(); ++i) people.ids.push_back(id_of(i));
     auto rate = format_.frames_per_s ? format_.frames_per_s : stated_rate_;
     Recorded recorded = put_on_frames(std::move(people), rate, name_);
-    recorded.unit_m = unit_m_;
-    recorded.unit_is_stated = unit_is_stated_;
+    state(recorded);
     return recorded;
   }
 
-  Recorded stated() const {
-    Recorded recorded;
+  /// Adds what is known beside positions.
+  void state(Recorded& recorded) const {
+    if (const std::string text = left_out_.text(); !text.empty()) {
+      if (tracks_.empty())
+        throw InputError({name_, "", "no people, " + text, "Pedestrian as label"});
+      recorded.notes.push_back({"", "", text, ""});
+    }
     recorded.unit_m = unit_m_;
     recorded.unit_is_stated = unit_is_stated_;
-    return recorded;
+    if (are_numbers_) return;
+    for (const auto& [word, person] : numbers_) recorded.names[id_of(person)] = word;
   }
 
   /// The id of a person in the trace: the number in the file, or the place in its order.
@@ -343,7 +366,8 @@ class TableReader {
   bool has_names_ = false;
   Part part_ = Part::names;
   std::optional<double> stated_rate_;
-  double unit_m_ = 1;
+  double unit_m_ = 1;       // of x
+  double unit_of_y_m_ = 1;  // brought to that of x in the end
   bool unit_is_stated_ = false;
   double time_scale_ = 1;
   bool spans_gaps_ = false;
@@ -351,9 +375,8 @@ class TableReader {
   char separator_ = 0;  // 0: not known yet
   char decimal_ = 0;
   std::size_t field_count_ = 0;
-  bool is_obsmat_ = true;
-  std::vector<UnnamedRow> unnamed_;
-  std::vector<double> depths_;                            // of ETH's obsmat.txt
+  UnnamedTable unnamed_;
+  LeftOut left_out_;
   std::unordered_map<std::string, std::size_t> numbers_;  // of persons, in order of appearance
   std::vector<std::int64_t> ids_;
   bool are_numbers_ = true;

@@ -10,7 +10,8 @@
 namespace throng::metrics {
 
 /// Reads a table or text in UTF-8; `name` names it in messages.
-/// - Comments (# or *) may state frame rate and unit and name the columns.
+/// - Comments (# or *) may state frame rate and unit and name the columns. Units that they or the
+///   names state (unit_words.h, comment_units.h) are used, those of x and y separately, or refused.
 /// - The first other line names the columns if it has no number; default names in `format` also
 ///   match synonyms ("ped_id", "Pos_X [cm]"), and a column of times replaces a missing one of
 ///   frames. A line of units may follow, as Pathfinder writes it. Without names, columns are
@@ -20,9 +21,9 @@ namespace throng::metrics {
 ///   the space; fields may be in double quotes. Decimals have a point or, throughout, a comma.
 /// - Ids of persons are arbitrary words. Rows without a place are left out.
 /// - Times are seconds, also as clock times or Unix times, which are counted from the first.
-///   Positions are interpolated linearly at the frame rate (default: as stated in the file, else by
-///   the median time step); people are absent in gaps of more than 1 s, except in Vadere's files,
-///   which have footsteps.
+///   They are put on frames (put_on_frames() in timed_tracks.h) at the frame rate as stated in the
+///   file, or else at the one that the times have; people are absent in gaps of more than 1 s,
+///   except in Vadere's files, which have footsteps.
 /// Throws InputError.
 Recorded read_table(std::string_view text, const std::string& name, const TrajectoryFormat& format);
 

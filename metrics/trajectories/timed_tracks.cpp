@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "metrics/trajectories/frame_times.h"
 
 namespace throng::metrics {
 
@@ -18,9 +19,9 @@ constexpr double kMaxGapS = 1;
 constexpr double kMaxTimeS = 1e6;
 
 /// The times of any people in order, without repetitions.
-std::vector<double> distinct_times(const std::vector<Track>& tracks) {
+DistinctTimes distinct_times(const std::vector<Track>& tracks) {
   constexpr double kSameTimeS = 1e-4;
-  std::vector<double> times;
+  DistinctTimes times;
   for (const Track& track : tracks) {
     for (const auto& [time, place] : track) times.push_back(time);
   }
@@ -31,16 +32,8 @@ std::vector<double> distinct_times(const std::vector<Track>& tracks) {
   return times;
 }
 
-double median_step(const std::vector<double>& times) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 /// Whether most steps between times are whole multiples of a step: events of a simulation are not.
-bool is_regular(const std::vector<double>& times, double step_s) {
+bool is_regular(const DistinctTimes& times, double step_s) {
   constexpr double kSlack = 0.1;  // of a step
   constexpr double kMinRegularShare = 0.6;
   std::size_t regular = 0;
@@ -51,26 +44,44 @@ bool is_regular(const std::vector<double>& times, double step_s) {
   return static_cast<double>(regular) >= kMinRegularShare * static_cast<double>(times.size() - 1);
 }
 
-/// The rate with three decimals, if it differs from that only as differences of times do.
-double without_rounding(double rate) {
-  constexpr double kSlack = 2e-6;  // of Unix times, which a double holds to 0.2 µs
-  const double rounded = std::round(rate * 1000) / 1000;
-  return std::abs(rate - rounded) <= kSlack * std::max(rate, 1.0) ? rounded : rate;
-}
-
-double find_rate(const std::vector<Track>& tracks, const std::string& name) {
+/// Puts times on their frames if they have any, and returns the rate. Notes that there are none.
+double count_by_frames(std::vector<Track>& tracks, std::optional<double> given,
+                       const std::string& name, std::vector<Problem>& notes) {
   constexpr std::size_t kTooFewToJudge = 5;
-  const std::vector<double> times = distinct_times(tracks);
+  const DistinctTimes times = distinct_times(tracks);
   if (times.size() < 2) {
+    if (given) return *given;
     throw InputError(
         {name, "", "people at one time only", "times of at least two frames, or --frame-rate"});
   }
-  const double step_s = median_step(times);
-  if (times.size() >= kTooFewToJudge && !is_regular(times, step_s)) {
+  auto frames = given ? frames_at_rate(times, *given) : find_frames(times);
+  if (!frames && given) return *given;
+  if (!frames) {
+    if (times.size() < kTooFewToJudge || is_regular(times, median_step(times))) {
+      const double rate = mean_rate(times);
+      notes.push_back(
+          {"", "",
+           fmt::format("times that vary by more than their rounding: positions are interpolated at "
+                       "{:g} frames per second",
+                       rate),
+           ""});
+      return rate;
+    }
+    frames = find_sparse_frames(times);
+  }
+  if (!frames) {
     throw InputError({name, "", "times without a regular step, as of events",
                       kFrameRateExpected + std::string(", to interpolate to")});
   }
-  return without_rounding(1 / step_s);
+  for (Track& track : tracks) {
+    Track counted;
+    for (const auto& [time, place] : track) {
+      counted[std::round(time * frames->frames_per_s - frames->phase) / frames->frames_per_s] =
+          place;
+    }
+    track = std::move(counted);
+  }
+  return frames->frames_per_s;
 }
 
 std::map<std::int64_t, Vector2d> on_frames(const Track& track, double frames_per_s,
@@ -126,7 +137,7 @@ Recorded put_on_frames(TimedPeople people, std::optional<double> frames_per_s,
     }
   }
   Recorded recorded;
-  recorded.frames_per_s = frames_per_s ? *frames_per_s : find_rate(people.tracks, name);
+  recorded.frames_per_s = count_by_frames(people.tracks, frames_per_s, name, recorded.notes);
   double frames = 0;
   for (const Track& track : people.tracks) {
     frames += (track.rbegin()->first - track.begin()->first) * recorded.frames_per_s;

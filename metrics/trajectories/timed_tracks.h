@@ -26,8 +26,10 @@ struct TimedPeople {
 /// their size tells), so that they become seconds. Times below 1e6 remain.
 void count_from_first(std::vector<Track>& tracks);
 
-/// Puts people on frames. The rate is `frames_per_s` or else that of the times' median step.
-/// Throws InputError if times have no regular step and no rate is given.
+/// Puts people on frames. The rate is `frames_per_s` or else that of find_frames() (frame_times.h).
+/// Times that lie on frames within their rounding are those of the frames; others, which vary by
+/// more, are interpolated at mean_rate(). Throws InputError if times have no regular step and no
+/// rate is given.
 Recorded put_on_frames(TimedPeople people, std::optional<double> frames_per_s,
                        const std::string& name);
 

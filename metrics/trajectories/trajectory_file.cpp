@@ -18,6 +18,7 @@
 #include "metrics/trajectories/database_trajectory.h"
 #include "metrics/trajectories/other_formats.h"
 #include "metrics/trajectories/recorded.h"
+#include "metrics/trajectories/recorded_findings.h"
 #include "metrics/trajectories/scb_trajectory.h"
 #include "metrics/trajectories/table_reader.h"
 #include "metrics/trajectories/text_encoding.h"
@@ -128,7 +129,8 @@ TrajectoryKind kind_of_bytes(const fs::path& file, std::string_view bytes) {
 std::optional<Recorded> read_binary(const fs::path& file, TrajectoryKind kind,
                                     const TrajectoryFormat& format) {
   if (kind == TrajectoryKind::sqlite) return read_database(file, format.frames_per_s);
-  if (kind == TrajectoryKind::hdf5) return read_archive_hdf5(file, format.frames_per_s);
+  if (kind == TrajectoryKind::hdf5)
+    return read_archive_hdf5(file, format.frames_per_s, format.unit_m);
   if (kind != TrajectoryKind::scb) return std::nullopt;
   Recorded recorded = read_scb(file);
   if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;
@@ -210,8 +212,12 @@ void check_recorded(const std::string& file, const TrajectoryFormat& format, Rec
 }  // namespace
 
 world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers,
-                             const TrajectoryFormat& format) {
+                             const TrajectoryFormat& format, std::vector<Problem>* notes) {
   Recorded recorded = read_recorded(file, format);
+  if (notes != nullptr) {
+    *notes = recorded.notes;
+    note_jumps(recorded, format.unit_m.value_or(recorded.unit_m), *notes);
+  }
   count_by_steps(recorded);
   require_unit(file.string(), format, recorded);
   check_recorded(file.string(), format, recorded);

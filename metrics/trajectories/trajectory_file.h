@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "base/error.h"
 #include "spec/metrics/trajectory_format.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -24,9 +26,11 @@ namespace throng::metrics {
 /// the frames that contain them. Throws InputError (file, line), also for positions more than 100
 /// km from the origin, rates below 0.01 or above 10 000 per second, more than 40 million pairs of
 /// frame and person, and speeds that tell that a unit which nobody states is not the meter; and
-/// EnvironmentError.
+/// EnvironmentError. `notes` receives warnings: speeds that no human has, with the id and frames of
+/// the file, and what was left out.
 world::Trace read_trajectory(const std::filesystem::path& file, const WalkerDefaults& walkers,
-                             const TrajectoryFormat& format = {});
+                             const TrajectoryFormat& format = {},
+                             std::vector<Problem>* notes = nullptr);
 
 /// Writes the people of a trace: SQLite for the suffix .sqlite, Menge's format for .scb, else text.
 /// Frames are the trace's steps, ids are its agents, from 1. `scenario`: its ground without its

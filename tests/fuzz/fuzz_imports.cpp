@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "base/error.h"
 #include "metrics/trajectories/trajectory_file.h"
@@ -20,7 +21,8 @@ void read_trajectory(const std::filesystem::path& file, std::string_view kind) {
   if (kind == "csv" || kind == "times") format.kind = metrics::TrajectoryKind::csv;
   if (kind == "csv") format.frames_per_s = 10;
   if (kind == "times") format.columns.time = "t";
-  metrics::read_trajectory(file, {}, format);
+  std::vector<Problem> notes;
+  metrics::read_trajectory(file, {}, format, &notes);
 }
 
 void read(std::string_view kind, const crowd::fuzz::Folder& folder, std::string_view text) {

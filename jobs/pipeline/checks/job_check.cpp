@@ -25,11 +25,28 @@ namespace {
 constexpr double kRecordedSpeedMps = 2;
 constexpr std::size_t kRecordedSteps = 200;  // that are looked at, evenly spread
 
-StartingCrowd recorded_crowd(const world::Trace& recording) {
+/// The steps of a recording that a run shows, which ends at `end_s`.
+std::size_t shown_steps(const world::Trace& recording, double end_s) {
+  const auto after = std::upper_bound(recording.time_s.begin(), recording.time_s.end(),
+                                      end_s + world::kTimeSlackS);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(after - recording.time_s.begin()));
+}
+
+double count_shown_people(const world::Trace& recording, std::size_t steps) {
+  double count = 0;
+  for (std::size_t agent = 0; agent < recording.agents(); ++agent) {
+    std::size_t step = 0;
+    while (step < steps && !recording.present(step, agent)) ++step;
+    count += step < steps ? 1 : 0;
+  }
+  return count;
+}
+
+StartingCrowd recorded_crowd(const world::Trace& recording, std::size_t steps) {
   StartingCrowd crowd{.max_speed_mps = kRecordedSpeedMps};
-  const std::size_t stride = std::max<std::size_t>(1, recording.steps() / kRecordedSteps);
+  const std::size_t stride = std::max<std::size_t>(1, steps / kRecordedSteps);
   crowd.times = 0;
-  for (std::size_t step = 0; step < recording.steps(); step += stride) {
+  for (std::size_t step = 0; step < steps; step += stride) {
     ++crowd.times;
     for (std::size_t agent = 0; agent < recording.agents(); ++agent) {
       if (!recording.present(step, agent)) continue;
@@ -77,10 +94,15 @@ double expected_arrivals(double all, double at_start, double duration_s) {
 ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario, int run) {
   ScenarioCheck checked;
   StartingCrowd crowd;
+  double shown_people = 0;  // of a recording
   if (job.recorded) {
-    const world::Trace recording = read_recording(*job.recorded);
+    std::vector<Problem> notes;
+    const world::Trace recording = read_recording(*job.recorded, &notes);
+    const std::size_t steps = shown_steps(recording, job.capture.to_s);
     checked.expected.people = static_cast<std::int64_t>(recording.agents());
-    crowd = recorded_crowd(recording);
+    shown_people = count_shown_people(recording, steps);
+    crowd = recorded_crowd(recording, steps);
+    checked.warnings = recording_warnings(std::move(notes), recording, scenario);
   } else {
     const std::set<int> hazards(scenario.disaster_agents.begin(), scenario.disaster_agents.end());
     const crowd::Simulation simulation =
@@ -102,7 +124,7 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
   // At one time there are as many recorded people as at another; the others come and leave.
   const double arrivals =
       job.recorded ? 0 : expected_arrivals(everybody, at_start, job.capture.to_s);
-  checked.taking_part = job.recorded ? everybody : at_start + arrivals;
+  checked.taking_part = job.recorded ? taking_part * shown_people : at_start + arrivals;
   // Others leave meanwhile.
   constexpr double kShareThere = 0.45;
   checked.expected.at_a_time = at_start + kShareThere * arrivals;
@@ -112,7 +134,9 @@ ScenarioCheck check_scenario(const JobSpec& job, const world::Scenario& scenario
                                             : std::nullopt);
     if (view) checked.views.push_back(std::move(*view));
   }
-  checked.warnings = scenario_warnings(job, scenario, crowd, run);
+  for (Problem& warning : scenario_warnings(job, scenario, crowd, run)) {
+    checked.warnings.push_back(std::move(warning));
+  }
   for (Problem& warning : scenario_findings(scenario))
     checked.warnings.push_back(std::move(warning));
   for (Problem& warning : rehearse(job, scenario, run, checked.expected.people)) {

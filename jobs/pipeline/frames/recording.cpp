@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/files/hash.h"
+#include "metrics/trajectories/recorded_findings.h"
 #include "metrics/trajectories/trajectory_file.h"
 
 namespace throng::jobs {
@@ -25,8 +26,17 @@ void identify_recording(RecordedSpec& recorded, std::vector<Problem>& problems) 
       {"", "/crowd/recorded/sha256", fmt::format("a file with {}", recorded.sha256), expected});
 }
 
-world::Trace read_recording(const RecordedSpec& recorded) {
-  return metrics::read_trajectory(recorded.file, recorded.walkers, recorded.format);
+world::Trace read_recording(const RecordedSpec& recorded, std::vector<Problem>* notes) {
+  return metrics::read_trajectory(recorded.file, recorded.walkers, recorded.format, notes);
+}
+
+std::vector<Problem> recording_warnings(std::vector<Problem> notes, const world::Trace& recording,
+                                        const world::Scenario& scenario) {
+  for (Problem& finding : metrics::find_people_in_buildings(recording, scenario)) {
+    notes.push_back(std::move(finding));
+  }
+  for (Problem& note : notes) note.where = "/crowd/recorded/file";
+  return notes;
 }
 
 }  // namespace throng::jobs

@@ -121,6 +121,46 @@ TEST_F(RecordedJob, ItsCheckCountsPeopleAndNotTheirPositions) {
   const CheckedJob checked =
       check_job(job().dump(), (folder.path() / "job.json").string(), folder.path());
   EXPECT_EQ(checked.people, 12);
+  // By 2 s four of them have come, one each 10 frames.
+  json shorter = job();
+  shorter["capture"]["to_s"] = 2;
+  const CheckedJob early =
+      check_job(shorter.dump(), (folder.path() / "job.json").string(), folder.path());
+  EXPECT_EQ(early.people, 4);
+  EXPECT_LT(early.cost.disk_bytes, checked.cost.disk_bytes);
+}
+
+TEST_F(RecordedJob, PeopleInBuildingsAndInhumanSpeedsAreInItsCheckItsRunAndItsMetrics) {
+  json yard = json::parse(read_file(folder.path() / "yard.json"));
+  yard["buildings"] = {
+      {{"id", "shed"}, {"height_m", 3}, {"footprint", {{6, -3}, {9, -3}, {9, 3}, {6, 3}}}}};
+  write_file_atomically(folder.path() / "yard.json", yard.dump());
+  // p0 is used again elsewhere.
+  write_file_atomically(folder.path() / "data" / "walk.csv",
+                        people_of_an_experiment() + "200;p0;-900;0\n201;p0;900;0\n");
+  const auto mentions = [](const std::vector<std::string>& texts, const std::string& what) {
+    return std::count_if(texts.begin(), texts.end(), [&](const std::string& text) {
+      return text.find("/crowd/recorded/file: found") != std::string::npos &&
+             text.find(what) != std::string::npos;
+    });
+  };
+  std::vector<std::string> of_check;
+  for (const Problem& warning :
+       check_job(job().dump(), (folder.path() / "job.json").string(), folder.path()).warnings) {
+    of_check.push_back(warning.text());
+  }
+  const ResolvedJob resolved = resolve(job());
+  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
+  simulate_run(made, resolved.spec(), folder.path(), 0);
+  measure_run(made, resolved.spec(), folder.path(), 0);
+  const json figures = json::parse(
+      read_file(made.output_of({Task::Kind::measure, 0}) / "files/metrics/run000.json"));
+  for (const std::vector<std::string>& texts :
+       {of_check, figures["warnings"].get<std::vector<std::string>>()}) {
+    EXPECT_EQ(mentions(texts, "12 of 12 recorded people inside of buildings"), 1);
+    EXPECT_EQ(mentions(texts, "\"shed\" (12)"), 1);
+    EXPECT_EQ(mentions(texts, "person p0 from frame 200 to 201"), 1);
+  }
 }
 
 TEST_F(RecordedJob, FindingsAboutItsScenarioAreInItsCheckAndInItsMetrics) {

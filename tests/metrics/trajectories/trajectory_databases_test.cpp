@@ -71,6 +71,11 @@ TEST(TrajectoryDatabases, ReadTheHdf5OfTheDataArchive) {
   EXPECT_NEAR(trace.header.dt_s, 0.04, 1e-9);
   EXPECT_NEAR(trace.position[trace.at(1, 0)].x(), 1.5, 1e-6);
   EXPECT_FALSE(trace.present(0, 1));
+  for (const char* feet : {"x-coordinate (foot [ft])", "ft", "x-coordinate in feet"}) {
+    EXPECT_NEAR(read_trajectory(write_archive(folder, "trajectory", 25, feet), {}).position[0].x(),
+                100 * 0.3048, 1e-4)
+        << feet;
+  }
 }
 
 std::string refusal(const std::filesystem::path& file) {
@@ -88,6 +93,8 @@ TEST(TrajectoryDatabases, SayWhatAnHdf5FileLacks) {
   EXPECT_THAT(refusal(write_archive(folder, "trajectory", std::nullopt, "m")),
               HasSubstr("--frame-rate"));
   EXPECT_THAT(refusal(write_archive(folder, "walks", 25, "m")), HasSubstr("\"trajectory\""));
+  EXPECT_THAT(refusal(write_archive(folder, "trajectory", 25, "column [px]")),
+              HasSubstr("length of a pixel"));
 }
 
 std::vector<std::string> geometries(const std::filesystem::path& file) {
