@@ -20,7 +20,9 @@ bool is_exhaustion(int error) {
 }  // namespace
 
 void throw_environment_error(const std::string& message, int error) {
-  const std::string text = fmt::format("{}: {}", message, std::strerror(error));
+  std::string text = fmt::format("{}: {}", message, std::strerror(error));
+  // Of a container or a service nobody knows the user by heart.
+  if (error == EACCES || error == EPERM) text += fmt::format(" (user {})", ::geteuid());
   if (is_exhaustion(error)) throw ResourcesExhausted(text);
   throw EnvironmentError(text);
 }
