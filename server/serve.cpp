@@ -148,7 +148,7 @@ void check_folders(const ServeOptions& options) {
     make_folders(folder);
     require_writable_folder(folder);
   }
-  // Of another user where a container ran as root once: found before the first job needs them.
+  // They belong to another user where a container ran as root once.
   for (const char* name :
        {"calibrations", "check", "jobs", "live", "scenarios", "studies", "uploads"}) {
     if (fs::exists(options.data / name)) require_writable_folder(options.data / name);

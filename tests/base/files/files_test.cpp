@@ -77,7 +77,7 @@ TEST(Files, AFullDiskIsSaid) {
   }
 }
 
-TEST(Files, PipesAndDevicesAreWrittenInPlace) {
+TEST(Files, PipesAndDevicesAreWrittenDirectly) {
   const TemporaryFolder folder;
   const fs::path pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -48,7 +48,7 @@ class Writable : public ::testing::Test {
     fs::remove_all(folder_);
   }
 
-  /// What is said about a path in the folder, without the folder's own; "" if nothing.
+  /// The error about a path in the folder, without the folder's own path; "" if there is none.
   std::string refusal(const std::string& name, const std::function<void(const fs::path&)>& check) {
     try {
       check(folder_ / name);

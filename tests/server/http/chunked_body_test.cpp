@@ -20,7 +20,7 @@ struct Decoded {
   bool operator==(const Decoded&) const = default;
 };
 
-/// What is decoded of bytes that arrive in pieces of this size.
+/// Decodes bytes that arrive in pieces of this size.
 Decoded decoded(std::string_view bytes, std::size_t piece = std::string_view::npos) {
   ChunkedBody body(kMaxBytes);
   Decoded result;
@@ -37,7 +37,7 @@ Decoded decoded(std::string_view bytes, std::size_t piece = std::string_view::np
   return result;
 }
 
-int status_of(std::string_view bytes) {
+int read_status(std::string_view bytes) {
   const Decoded whole = decoded(bytes);
   for (const std::size_t piece : {1, 2, 3, 5}) {
     EXPECT_EQ(decoded(bytes, piece).status, whole.status) << bytes;
@@ -77,7 +77,7 @@ TEST(ChunkedBody, UnfinishedOnesAreNotWhole) {
   }
 }
 
-TEST(ChunkedBody, WhatTwoParsersCouldReadDifferentlyIsRefused) {
+TEST(ChunkedBody, AmbiguousOnesAreRefused) {
   for (const std::string text : {"\r\n",
                                  "0x5\r\nhello",
                                  "+5\r\nhello",
@@ -113,27 +113,27 @@ TEST(ChunkedBody, WhatTwoParsersCouldReadDifferentlyIsRefused) {
                                  "0\r\nno colon\r\n",
                                  "0\r\nX: y\n\r\n",
                                  "0\r\n\n"}) {
-    EXPECT_EQ(status_of(text), 400) << text;
+    EXPECT_EQ(read_status(text), 400) << text;
   }
-  EXPECT_EQ(status_of(std::string("5\0\r\n", 4)), 400);
-  EXPECT_EQ(status_of(std::string("0\r\nX: \0\r\n", 9)), 400);
+  EXPECT_EQ(read_status(std::string("5\0\r\n", 4)), 400);
+  EXPECT_EQ(read_status(std::string("0\r\nX: \0\r\n", 9)), 400);
 }
 
 TEST(ChunkedBody, LimitsHold) {
-  EXPECT_EQ(status_of(fmt::format("{:x}\r\n", kMaxBytes)), 0);
-  EXPECT_EQ(status_of(fmt::format("{:x}\r\n", kMaxBytes + 1)), 413) << "before the chunk comes";
-  EXPECT_EQ(status_of("fffffffffffffff\r\n"), 413);
+  EXPECT_EQ(read_status(fmt::format("{:x}\r\n", kMaxBytes)), 0);
+  EXPECT_EQ(read_status(fmt::format("{:x}\r\n", kMaxBytes + 1)), 413) << "before the chunk comes";
+  EXPECT_EQ(read_status("fffffffffffffff\r\n"), 413);
   const std::string half = fmt::format("{:x}\r\n{}\r\n", kMaxBytes / 2, std::string(500, 'x'));
-  EXPECT_EQ(status_of(half + half + "0\r\n\r\n"), 0);
-  EXPECT_EQ(status_of(half + half + "1\r\nx"), 413);
-  EXPECT_EQ(status_of("1;" + std::string(9000, 'x')), 400);
+  EXPECT_EQ(read_status(half + half + "0\r\n\r\n"), 0);
+  EXPECT_EQ(read_status(half + half + "1\r\nx"), 413);
+  EXPECT_EQ(read_status("1;" + std::string(9000, 'x')), 400);
   std::string extensions;
   for (int i = 0; i < 20; ++i) extensions += "1;" + std::string(999, 'x') + "\r\ny\r\n";
-  EXPECT_EQ(status_of(extensions), 400);
-  EXPECT_EQ(status_of("0\r\nX: " + std::string(9000, 'x')), 431);
+  EXPECT_EQ(read_status(extensions), 400);
+  EXPECT_EQ(read_status("0\r\nX: " + std::string(9000, 'x')), 431);
   std::string trailers = "0\r\n";
   for (int i = 0; i < 70; ++i) trailers += "X: " + std::string(1000, 'x') + "\r\n";
-  EXPECT_EQ(status_of(trailers), 431);
+  EXPECT_EQ(read_status(trailers), 431);
 }
 
 }  // namespace
