@@ -21,7 +21,7 @@ bool is_exhaustion(int error) {
 
 void throw_environment_error(const std::string& message, int error) {
   std::string text = fmt::format("{}: {}", message, std::strerror(error));
-  // Who runs a container or a service does not know its user by heart.
+  // The number tells a container's user from the owner of a mounted folder.
   if (error == EACCES || error == EPERM) text += fmt::format(" (user {})", ::geteuid());
   if (is_exhaustion(error)) throw ResourcesExhausted(text);
   throw EnvironmentError(text);
